@@ -22,7 +22,7 @@ dotpose_dependency(fmt::fmt                  libfmt-dev                    FILE 
 dotpose_dependency(nlohmann_json::nlohmann_json nlohmann-json3-dev         PACKAGE nlohmann_json)
 dotpose_dependency(PkgConfig::YamlCpp        libyaml-cpp-dev               MODULES yaml-cpp)
 dotpose_dependency(PNG::PNG                  libpng-dev                    PACKAGE PNG)
-dotpose_dependency(TIFF::TIFF                libtiff-dev                   PACKAGE TIFF)
+dotpose_dependency(TIFF::TIFF                libtiff-dev                   FILE tiff.cmake)
 dotpose_dependency(JPEG::JPEG                libjpeg-dev                   PACKAGE JPEG)
 dotpose_dependency(PkgConfig::Exif           libexif-dev                   MODULES libexif)
 dotpose_dependency(PkgConfig::WebP           libwebp-dev                   MODULES libwebp libwebpdemux)
@@ -106,6 +106,8 @@ endmacro()
 
 dotpose_part(BASE      "sheets as values" SETUP core NEEDS fmt::fmt)
 dotpose_part(SIMULATE  "the simulated camera" SETUP core)
+dotpose_part(RSVG      "labels of PDF pages in any script, and plots as PNG" SETUP tools
+             PARTS BASE NEEDS PkgConfig::Rsvg)
 dotpose_part(PNG       "writing PNG" SETUP core PARTS BASE NEEDS PNG::PNG)
 dotpose_part(PRINT     "printing: PNG, SVG, text" SETUP core PARTS PNG)
 dotpose_part(DRAW      "pictures of what was read" SETUP core PARTS PNG)
@@ -113,12 +115,12 @@ dotpose_part(FILES     "sheet and camera files" SETUP tools
              PARTS BASE NEEDS PkgConfig::YamlCpp nlohmann_json::nlohmann_json)
 dotpose_part(TIFF      "printing: TIFF" SETUP tools PARTS PRINT NEEDS TIFF::TIFF)
 dotpose_part(PDF       "printing: PDF, and dots over PDF documents" SETUP tools
-             PARTS PRINT NEEDS PkgConfig::Qpdf PkgConfig::Rsvg nlohmann_json::nlohmann_json)
+             PARTS PRINT NEEDS PkgConfig::Qpdf nlohmann_json::nlohmann_json)
 dotpose_part(IMAGES    "image files" SETUP tools
              PARTS PNG NEEDS JPEG::JPEG TIFF::TIFF PkgConfig::Exif)
 dotpose_part(WEBP      "reading WebP" SETUP tools PARTS IMAGES NEEDS PkgConfig::WebP)
 dotpose_part(HEIF      "reading HEIC and AVIF" SETUP tools PARTS IMAGES NEEDS PkgConfig::Heif)
-dotpose_part(EVALUATE  "evaluation" SETUP tools PARTS DRAW IMAGES SIMULATE NEEDS PkgConfig::Rsvg)
+dotpose_part(EVALUATE  "evaluation" SETUP tools PARTS DRAW IMAGES SIMULATE)
 dotpose_part(CALIBRATE "calibration and the check of prints" SETUP tools
              PARTS FILES PRINT NEEDS Eigen3::Eigen Ceres::ceres)
 dotpose_part(FOLLOW    "following over sheets" SETUP tools PARTS CALIBRATE)

@@ -85,13 +85,19 @@ function(dotpose_set_up_library name)
 endfunction()
 
 # dotpose_sources(RESULT): for functions with the arguments SOURCES and EXCEPT. Sets RESULT to SOURCES or, if
-# SOURCES is not given, to all sources of the directory that are not in EXCEPT.
+# SOURCES is not given, to all sources of the directory that are not in EXCEPT and not for another operating
+# system (*_posix.cpp, *_windows.cpp).
 macro(dotpose_sources result)
     set(${result} ${arg_SOURCES})
     if(NOT ${result})
         file(GLOB_RECURSE ${result} CONFIGURE_DEPENDS *.cpp)
         list(TRANSFORM arg_EXCEPT PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
         list(REMOVE_ITEM ${result} ${arg_EXCEPT})
+        if(WIN32)
+            list(FILTER ${result} EXCLUDE REGEX "_posix[.]cpp$")
+        else()
+            list(FILTER ${result} EXCLUDE REGEX "_windows[.]cpp$")
+        endif()
     endif()
 endmacro()
 

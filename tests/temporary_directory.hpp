@@ -2,21 +2,14 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
-#include <string>
 
-#include <stdlib.h>
+#include "system/files.hpp"
 
 namespace dotpose::test {
 
 class TemporaryDirectory {
   public:
-    TemporaryDirectory() {
-        std::string name =
-            (std::filesystem::temp_directory_path() / "dotpose-test-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
-        path_ = name;
-    }
+    TemporaryDirectory() : path_(system::create_temporary_folder()) {}
     ~TemporaryDirectory() {
         std::error_code ignored;
         std::filesystem::remove_all(path_, ignored);

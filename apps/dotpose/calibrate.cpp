@@ -24,6 +24,7 @@
 #include "run_files.hpp"
 #include "sheet_text.hpp"
 #include "source_arguments.hpp"
+#include "system/path.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -121,9 +122,9 @@ auto with_progress(const CalibrateArguments& arguments, Sources& sources, const 
 std::string spin_picture_of(const CalibrateArguments& arguments) {
     const bool is_only_picture = arguments.spin.empty() || !arguments.sources.is_given();
     if (arguments.picture.empty() || is_only_picture) return arguments.picture;
-    const std::filesystem::path lens = arguments.picture;
+    const std::filesystem::path lens = system::path_of(arguments.picture);
     const std::string name = lens.stem().string() + "-spin" + lens.extension().string();
-    return (lens.parent_path() / name).string();
+    return (lens.parent_path() / system::path_of(name)).string();
 }
 
 /// Writes the camera file to the path of -o, or to standard output if the path is "-". Without -o,
@@ -190,7 +191,7 @@ std::string calibrate_camera(const CalibrateArguments& arguments, Series& series
     };
     go_on(series.spin, "calibrating the mount", calibrate_spin, [&](const SpinCalibration& spin) {
         const std::string picture = spin_picture_of(arguments);
-        if (!picture.empty()) draw_spin(picture, spin);
+        if (!picture.empty()) draw_spin(system::path_of(picture), spin);
         return spin_report(spin);
     });
     go_on(series.drive, "calibrating the heading", calibrate_drive, drive_report);
@@ -200,7 +201,8 @@ std::string calibrate_camera(const CalibrateArguments& arguments, Series& series
                                  1000 / *arguments.sources.options.fps, options);
     };
     go_on(series.rolling, "measuring the readout", readout, readout_report);
-    if (lens && !arguments.picture.empty()) draw_calibration(arguments.picture, *lens);
+    if (lens && !arguments.picture.empty())
+        draw_calibration(system::path_of(arguments.picture), *lens);
     camera->flip = arguments.sources.options.flip;
     write_result(arguments.out, *camera);
     return report;
@@ -223,14 +225,15 @@ ScaleReference parse_scale_reference(const std::string& text) {
 /// Computes the world poses and print scales of the sheets and writes them to the sheet file.
 /// Returns a report.
 std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
-    SheetFile file(arguments.sheets, {.tell = tell, .stop = interrupted});
+    SheetFile file(system::path_of(arguments.sheets), {.tell = tell, .stop = interrupted});
     const Stitching stitching = with_progress(
         arguments, sources, "stitching",
         [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {
             return stitch_sheets(frames, frame_at, file.sheets(), arguments.camera.camera, options,
                                  arguments.reference);
         });
-    if (!arguments.picture.empty()) draw_stitching(arguments.picture, file.sheets(), stitching);
+    if (!arguments.picture.empty())
+        draw_stitching(system::path_of(arguments.picture), file.sheets(), stitching);
     for (const SheetEntry& entry : stitching.sheets)
         file.replace(entry);
     file.save();
@@ -241,12 +244,12 @@ std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
 /// does not determine, such as the mount, are kept. Throws Error if the file is not a camera file.
 void keep_camera_of(const std::string& out, CameraArgument& camera) {
     std::error_code failed;
-    if (!camera.path.empty() || !std::filesystem::is_regular_file(out, failed) ||
-        std::filesystem::file_size(out, failed) == 0) {
+    if (!camera.path.empty() || !std::filesystem::is_regular_file(system::path_of(out), failed) ||
+        std::filesystem::file_size(system::path_of(out), failed) == 0) {
         return;
     }
     try {
-        camera.camera = read_camera(out);
+        camera.camera = read_camera(system::path_of(out));
     } catch (const Error& error) {
         throw Error(
             fmt::format("{}; -o replaces only a camera file: name another file", error.what()));
@@ -260,7 +263,7 @@ void keep_camera_of(const std::string& out, CameraArgument& camera) {
 void use_sheets(CalibrateArguments& arguments) {
     if (arguments.sheets.empty() || arguments.stitch) return;
     arguments.spacing = SpacingSource::sheets;
-    arguments.options.sheets = read_sheets(arguments.sheets);
+    arguments.options.sheets = read_sheets(system::path_of(arguments.sheets));
     const auto code = common_code(arguments.sheets, arguments.options.sheets);
     arguments.options.any_code = !code;
     if (code) arguments.options.pattern.code = *code;
@@ -278,7 +281,8 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
     }
     // -o may name the camera file given by --camera. Values that are not calibrated are then kept.
     const auto camera = identity_of(arguments.camera.path);
-    if (camera && camera == identity_of(arguments.out) && !is_camera_info(arguments.camera.path)) {
+    if (camera && camera == identity_of(arguments.out) &&
+        !is_camera_info(system::path_of(arguments.camera.path))) {
         files.updates("-o", arguments.out, Content::yaml);
     } else {
         files.reads("--camera", arguments.camera.path);
@@ -306,8 +310,9 @@ int run(CalibrateArguments& arguments) {
     require_apart(arguments, series);
     keep_camera_of(arguments.out, arguments.camera);
     use_sheets(arguments);
-    // Checks the output now, because the user will spend minutes moving the camera.
-    if (arguments.is_live && !arguments.out.empty()) require_writable(arguments.out);
+    // Checks the output before the user spends minutes moving the camera.
+    if (arguments.is_live && !arguments.out.empty())
+        require_writable(system::path_of(arguments.out));
     catch_interrupts();
     const std::string report =
         arguments.stitch ? stitch(arguments, *series.lens) : calibrate_camera(arguments, series);

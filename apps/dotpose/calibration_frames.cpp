@@ -13,6 +13,7 @@
 #include "live_sources.hpp"
 #include "new_places.hpp"
 #include "progress.hpp"
+#include "system/path.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -104,7 +105,7 @@ bool CalibrationFrames::are_mirrored(const CalibrateOptions& options) const {
 GreyImage CalibrationFrames::at(int index) const {
     const Frame& frame = frames_[static_cast<std::size_t>(index)];
     if (frame.file.empty()) return frame.image;
-    GreyImage image = read_frame(frame.file);
+    GreyImage image = read_frame(system::path_of(frame.file));
     capture::prepare(options_, frame.file, image);
     return image;
 }

@@ -23,6 +23,7 @@
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "sheet_text.hpp"
+#include "system/path.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -120,7 +121,7 @@ std::string offset_remark(const SheetEntry& entry) {
 /// `field.sheet` is an index into `sheets`.
 std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& sheets,
                        const PrintCheck& check) {
-    SheetFile file(path, {.tell = tell, .stop = interrupted});
+    SheetFile file(system::path_of(path), {.tell = tell, .stop = interrupted});
     std::string done;
     std::set<std::size_t> fitted;
     for (const PrintField& field : check.fields) {
@@ -162,7 +163,7 @@ CheckPrintOptions options_of(const CheckPrintArguments& arguments,
         options.resolution = Resolution{*arguments.dpi, *arguments.dpi};
         return options;
     }
-    const ImageOrigin origin = read_origin(arguments.scan, arguments.page);
+    const ImageOrigin origin = read_origin(system::path_of(arguments.scan), arguments.page);
     options.is_photo = origin.is_photo;
     options.resolution = origin.resolution;
     return options;
@@ -210,8 +211,8 @@ std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution
 GreyImage read_scan(const CheckPrintArguments& arguments, const CheckPrintOptions& options) {
     std::string note;
     try {
-        GreyImage scan =
-            read_image(arguments.scan, arguments.max_megapixels * 1'000'000, note, arguments.page);
+        GreyImage scan = read_image(system::path_of(arguments.scan),
+                                    arguments.max_megapixels * 1'000'000, note, arguments.page);
         if (!note.empty()) tell(note);
         if (arguments.flip) flip(scan);
         return scan;
@@ -225,10 +226,10 @@ int run(const CheckPrintArguments& arguments) {
     if (!arguments.picture.empty()) require_svg(arguments.picture);
     require_apart(arguments);
     std::vector<SheetEntry> sheets;
-    if (!arguments.sheets.empty()) sheets = read_sheets(arguments.sheets);
+    if (!arguments.sheets.empty()) sheets = read_sheets(system::path_of(arguments.sheets));
     CheckPrintOptions options = options_of(arguments, sheets);
     const GreyImage scan = read_scan(arguments, options);
-    const int pages = count_pages(arguments.scan);
+    const int pages = count_pages(system::path_of(arguments.scan));
     catch_interrupts();
     PrintCheck check;
     {
@@ -240,7 +241,7 @@ int run(const CheckPrintArguments& arguments) {
         check = check_print(scan.view(), options);
     }
     if (!arguments.picture.empty() && !check.fields.empty()) {
-        draw_distortion(arguments.picture, scan.view(), check);
+        draw_distortion(system::path_of(arguments.picture), scan.view(), check);
     }
     const CheckedScan checked{arguments.scan, arguments.page, pages,
                               scan.width_px,  scan.height_px, sheets};

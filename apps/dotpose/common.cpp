@@ -16,6 +16,8 @@
 #include "dotpose/files/option_names.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/image_file.hpp"
+#include "dotpose/tools/option_names.hpp"
+#include "system/path.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -166,7 +168,7 @@ Option* add_camera_option(Command& command, CameraArgument& camera, const std::s
         .add_option_function<std::string>(
             "--camera",
             [&camera](const std::string& path) {
-                camera = {path, read_camera(path)};
+                camera = {path, read_camera(system::path_of(path))};
             },
             help)
         ->type_name("FILE");
@@ -268,7 +270,7 @@ void refuse_non_finite_numbers(Command& app) {
     }
 }
 
-void remember_command_line(int argc, char** argv) {
+void remember_command_line(int argc, const char* const* argv) {
     g_arguments.assign(argv, argv + argc);
 }
 

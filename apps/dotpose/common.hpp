@@ -130,7 +130,7 @@ FrameSize parse_frame_size(const std::string& flag, const std::string& text);
 void refuse_non_finite_numbers(Command& app);
 
 /// Stores the arguments of `main` for `command_line`.
-void remember_command_line(int argc, char** argv);
+void remember_command_line(int argc, const char* const* argv);
 
 /// Returns the arguments of `main` without the name of the program.
 std::vector<std::string> given_arguments();

@@ -26,6 +26,7 @@
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "source_arguments.hpp"
+#include "system/path.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -207,9 +208,9 @@ int evaluate_on_sheets(const EvaluateArguments& arguments, const KnownFrames& kn
     FollowerOptions options;
     options.locate = arguments.options;
     options.camera = arguments.camera.camera;
-    options.sheets = read_sheets(arguments.measured.sheets);
+    options.sheets = read_sheets(system::path_of(arguments.measured.sheets));
     if (options.sheets.empty()) throw Error(arguments.measured.sheets + " has no sheets");
-    if (!arguments.measured.draw.empty()) make_folder(arguments.measured.draw);
+    if (!arguments.measured.draw.empty()) make_folder(system::path_of(arguments.measured.draw));
     return evaluate_measured(arguments.measured, options, known, arguments.report);
 }
 
@@ -256,7 +257,7 @@ int evaluate_preset(const EvaluateArguments& arguments) {
 }
 
 int evaluate_sweep(const EvaluateArguments& arguments) {
-    make_folder(arguments.report.out);
+    make_folder(system::path_of(arguments.report.out));
     const std::string kind = dotpose::name(*arguments.sweep);
     ProgressLine line("evaluating " + kind);
     SweepOptions options;
@@ -266,7 +267,7 @@ int evaluate_sweep(const EvaluateArguments& arguments) {
     options.threads = arguments.threads;
     options.progress = progress_on(line);
     const Sweep sweep = run_sweep(*arguments.sweep, options);
-    write_sweep(arguments.report.out, sweep);
+    write_sweep(system::path_of(arguments.report.out), sweep);
     fmt::print("{0}/sweep-{1}.csv, {0}/sweep-{1}.svg and .png\n", arguments.report.out, kind);
     if (!interrupted()) return 0;
     tell(fmt::format("interrupted; the sweep contains the first {} values", sweep.points.size()));
@@ -274,7 +275,7 @@ int evaluate_sweep(const EvaluateArguments& arguments) {
 }
 
 int evaluate_protocol(const EvaluateArguments& arguments) {
-    make_folder(arguments.report.out);
+    make_folder(system::path_of(arguments.report.out));
     ProgressLine line("evaluating the paper's protocol");
     ProtocolOptions options;
     options.setup = arguments.setup;
@@ -283,7 +284,7 @@ int evaluate_protocol(const EvaluateArguments& arguments) {
     options.threads = arguments.threads;
     options.progress = progress_on(line);
     const Protocol protocol = run_protocol(options);
-    write_protocol(arguments.report.out, protocol);
+    write_protocol(system::path_of(arguments.report.out), protocol);
     fmt::print(
         "{}\n{}: table-3.md, positions.csv, angles.csv, figure-13, figure-14 and figure-15, each "
         ".svg and .png\n",

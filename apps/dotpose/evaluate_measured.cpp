@@ -11,6 +11,7 @@
 #include "dotpose/files/write_file.hpp"
 #include "exit_codes.hpp"
 #include "progress.hpp"
+#include "system/path.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -133,7 +134,7 @@ void MeasuredArguments::add_to(Command& command) {
 void MeasuredArguments::add_files(RunFiles& files) const {
     files.reads("--sheets", sheets);
     files.writes("--residuals", residuals, Content::csv);
-    if (!std::filesystem::exists(draw)) files.writes("--draw", draw, Content::svg);
+    if (!std::filesystem::exists(system::path_of(draw))) files.writes("--draw", draw, Content::svg);
 }
 
 void MeasuredArguments::require_sheets() const {
@@ -175,9 +176,9 @@ int evaluate_measured(const MeasuredArguments& arguments, const FollowerOptions&
     if (!arguments.residuals.empty()) {
         std::ostringstream table;
         write_errors_csv(table, measurement);
-        write_file(arguments.residuals, table.view());
+        write_file(system::path_of(arguments.residuals), table.view());
     }
-    if (!arguments.draw.empty()) write_measurement(arguments.draw, measurement);
+    if (!arguments.draw.empty()) write_measurement(system::path_of(arguments.draw), measurement);
     known.finish();
     return exit_code;
 }

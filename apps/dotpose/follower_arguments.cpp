@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include "system/path.hpp"
+
 namespace dotpose::cli {
 namespace {
 
@@ -44,7 +46,7 @@ FollowerOptions FollowerArguments::read() const {
     FollowerOptions result = options;
     result.camera = camera.camera;
     if (sheets.empty()) return result;
-    result.sheets = read_sheets(sheets);
+    result.sheets = read_sheets(system::path_of(sheets));
     if (result.sheets.empty()) throw Error(sheets + " has no sheets");
     return result;
 }

@@ -13,6 +13,7 @@
 #include "dotpose/tools/frame_file.hpp"
 #include "live_sources.hpp"
 #include "progress.hpp"
+#include "system/path.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -35,7 +36,7 @@ class Poses {
         : given_(std::move(given)), spacing_mm_(spacing_mm) {}
 
     fs::path file_for(const fs::path& folder) const {
-        return given_.empty() ? folder / "truth.csv" : fs::path(given_);
+        return given_.empty() ? folder / "truth.csv" : system::path_of(given_);
     }
 
     const std::vector<TruthRow>& rows_for(const fs::path& folder) {
@@ -57,7 +58,7 @@ class Poses {
         const fs::path folder = image.parent_path();
         const fs::path path = image.lexically_normal();
         for (const TruthRow& row : rows_for(folder)) {
-            if (!ends_with(path, fs::path(row.file).lexically_normal())) continue;
+            if (!ends_with(path, system::path_of(row.file).lexically_normal())) continue;
             TruthRow found = row;
             found.file = image.string();
             return found;
@@ -75,15 +76,15 @@ KnownFrames known_images(const std::vector<std::string>& names,
                          const capture::SourceOptions& options, Poses& poses) {
     KnownFrames known;
     for (const std::string& name : names) {
-        if (fs::is_directory(name)) {
-            for (TruthRow row : poses.rows_for(name)) {
-                row.file = (fs::path(name) / row.file).string();
+        if (const fs::path folder = system::path_of(name); fs::is_directory(folder)) {
+            for (TruthRow row : poses.rows_for(folder)) {
+                row.file = (folder / system::path_of(row.file)).string();
                 known.rows.push_back(std::move(row));
             }
             continue;
         }
         for (const std::string& image : capture::files_of(name))
-            known.rows.push_back(poses.row_of(image));
+            known.rows.push_back(poses.row_of(system::path_of(image)));
     }
     known.frame_at = [options, rows = known.rows,
                       read = frames_of_folder("", known.rows)](int index) {
@@ -185,7 +186,7 @@ KnownFrames known_frames(const SourceArguments& arguments, const std::string& po
     options.open_live = open_live;
     const auto frames = std::make_shared<FramesInOrder>(names, options);
     KnownFrames result;
-    result.rows = known.rows_for(fs::path(names.front()).parent_path());
+    result.rows = known.rows_for(system::path_of(names.front()).parent_path());
     for (std::size_t i = 0; i < result.rows.size(); ++i)
         result.rows[i].file = fmt::format("frame {}", i);
     frames->set_poses(result.rows);

@@ -3,6 +3,9 @@
 #include <cerrno>
 #include <cstring>
 
+#include "system/files.hpp"
+#include "system/path.hpp"
+
 namespace dotpose::cli {
 
 void throw_unwritable(const std::string& output, int error_number) {
@@ -12,7 +15,7 @@ void throw_unwritable(const std::string& output, int error_number) {
 }
 
 File create_file(const std::string& path) {
-    File file(std::fopen(path.c_str(), "w"));
+    File file(system::open_file(system::path_of(path), "wb"));
     if (!file) throw Error("cannot create " + path + ": " + std::strerror(errno));
     return file;
 }

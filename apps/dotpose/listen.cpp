@@ -1,20 +1,17 @@
+#include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <system_error>
 #include <vector>
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <poll.h>
-#include <termios.h>
-#include <unistd.h>
 
+#include "byte_input.hpp"
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/files/error.hpp"
@@ -24,6 +21,8 @@
 #include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
+#include "system/files.hpp"
+#include "system/process.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -37,21 +36,14 @@ constexpr const char* kListenExamples =
     "One line per packet. Damaged packets are skipped; their number is printed on standard\n"
     "error at the end. docs/pose-packet.md describes the format.\n";
 
-struct Baud {
-    int rate = 0;
-    speed_t constant = 0;
-};
-constexpr std::array kBauds = {
-    Baud{9600, B9600},       Baud{19200, B19200},     Baud{38400, B38400},   Baud{57600, B57600},
-    Baud{115200, B115200},   Baud{230400, B230400},   Baud{460800, B460800}, Baud{921600, B921600},
-    Baud{1000000, B1000000}, Baud{2000000, B2000000},
-};
+constexpr std::array kBauds = {9600,   19200,  38400,  57600,   115200,
+                               230400, 460800, 921600, 1000000, 2000000};
 
 struct ListenArguments {
     std::string source;
     LineArguments lines;
     double spacing_mm = kDefaultSpacing_mm;
-    Baud baud{115200, B115200};
+    int baud = 115200;
 };
 
 /// Reads bytes from a file, a pipe or a serial device.
@@ -60,15 +52,12 @@ class ByteSource {
     explicit ByteSource(const ListenArguments& arguments) : name_(arguments.source) {
         if (name_ == "-") {
             name_ = "standard input";
-            return;
+        } else {
+            input_ = open_input(name_, arguments.baud);
         }
-        descriptor_ = open(name_.c_str(), O_RDONLY | O_NOCTTY | O_CLOEXEC);
-        if (descriptor_ < 0) fail();
-        is_line_ = isatty(descriptor_) == 1;
-        if (is_line_) set_up_line(arguments.baud);
     }
     ~ByteSource() {
-        if (descriptor_ != STDIN_FILENO) close(descriptor_);
+        if (input_.descriptor != kStandardInput) system::close_descriptor(input_.descriptor);
     }
     ByteSource(const ByteSource&) = delete;
     ByteSource& operator=(const ByteSource&) = delete;
@@ -76,37 +65,28 @@ class ByteSource {
     /// Returns at least one byte, or none at the end of the input or after Ctrl-C. Throws Error if
     /// reading fails.
     std::span<const std::uint8_t> next() {
-        constexpr int kPatience_ms = 100;
         while (!interrupted()) {
-            pollfd ready{descriptor_, POLLIN, 0};
-            const int count = poll(&ready, 1, kPatience_ms);
-            if (count < 0 && errno != EINTR) fail();
-            if (count <= 0) continue;
-            const ssize_t size = read(descriptor_, buffer_.data(), buffer_.size());
-            if (size < 0 && errno != EINTR) fail();
-            if (size == 0 && is_line_) throw Error("cannot read " + name_ + ": it is gone");
-            if (size >= 0) return std::span(buffer_).first(static_cast<std::size_t>(size));
+            const auto size = read();
+            if (!size) continue;
+            if (*size == 0 && input_.is_line) throw Error("cannot read " + name_ + ": it is gone");
+            return std::span(buffer_).first(*size);
         }
         return {};
     }
 
   private:
-    [[noreturn]] void fail() const {
-        throw Error("cannot read " + name_ + ": " + std::strerror(errno));
-    }
-    void set_up_line(const Baud& baud) {
-        termios line{};
-        if (tcgetattr(descriptor_, &line) != 0) fail();
-        cfmakeraw(&line);
-        line.c_cflag |= CLOCAL | CREAD;
-        cfsetispeed(&line, baud.constant);
-        cfsetospeed(&line, baud.constant);
-        if (tcsetattr(descriptor_, TCSANOW, &line) != 0) fail();
+    static constexpr int kStandardInput = 0;
+
+    std::optional<std::size_t> read() {
+        try {
+            return system::read_available(input_.descriptor, buffer_.data(), buffer_.size());
+        } catch (const std::system_error& error) {
+            throw Error("cannot read " + name_ + ": " + error.code().message());
+        }
     }
 
     std::string name_;
-    int descriptor_ = STDIN_FILENO;
-    bool is_line_ = false;  ///< true for a serial device, which has no end
+    ByteInput input_{kStandardInput, false};
     std::array<std::uint8_t, 4096> buffer_{};
 };
 
@@ -203,24 +183,21 @@ void run(const ListenArguments& arguments) {
     losses.report(reader.damaged());
 }
 
-void add_baud_option(Command& command, Baud& baud) {
+void add_baud_option(Command& command, int& baud) {
     command
         .add_option_function<int>(
             "--baud",
             [&baud](int rate) {
-                for (const Baud& known : kBauds) {
-                    if (rate == known.rate) {
-                        baud = known;
-                        return;
-                    }
+                if (std::ranges::find(kBauds, rate) == kBauds.end()) {
+                    throw ValidationError(
+                        "--baud",
+                        fmt::format("{} is not a usual rate, such as 115200 or 921600", rate));
                 }
-                throw ValidationError(
-                    "--baud",
-                    fmt::format("{} is not a usual rate, such as 115200 or 921600", rate));
+                baud = rate;
             },
             "Baud rate of a serial device")
         ->type_name("RATE")
-        ->default_str(fmt::format("{}", baud.rate));
+        ->default_str(fmt::format("{}", baud));
 }
 
 }  // namespace

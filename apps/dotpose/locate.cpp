@@ -27,6 +27,7 @@
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "source_arguments.hpp"
+#include "system/path.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -64,7 +65,7 @@ class ImageLocator {
   public:
     ImageLocator(const LocateArguments& arguments, const RunFiles& files)
         : arguments_(arguments), follower_(options_of(arguments)) {
-        if (!arguments.draw.empty()) pictures_.emplace(arguments.draw, files);
+        if (!arguments.draw.empty()) pictures_.emplace(system::path_of(arguments.draw), files);
     }
 
     bool has_sheets() const { return !follower_.sheets().empty(); }
@@ -147,7 +148,8 @@ RunFiles files_of(const LocateArguments& arguments, const Sources& sources) {
     arguments.follower.add_files(files);
     sources.add_files(files);
     files.writes_lines(arguments.lines.out, content_of(arguments.lines.format));
-    if (is_picture_name(arguments.draw) || !std::filesystem::exists(arguments.draw)) {
+    const std::filesystem::path picture = system::path_of(arguments.draw);
+    if (is_picture_name(picture) || !std::filesystem::exists(picture)) {
         files.writes("--draw", arguments.draw, Content::svg);
     }
     return files;
@@ -323,7 +325,7 @@ int run(const LocateArguments& arguments) {
         throw BadArgument("--columns is for --format csv only");
     }
     Sources sources(arguments.sources);
-    if (is_picture_name(arguments.draw) && sources.number_of_images() != 1) {
+    if (is_picture_name(system::path_of(arguments.draw)) && sources.number_of_images() != 1) {
         throw BadArgument(fmt::format(
             "--draw {} is the picture of a single image: name a folder for several images",
             arguments.draw));

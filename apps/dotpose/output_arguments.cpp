@@ -1,8 +1,5 @@
 #include "output_arguments.hpp"
 
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -12,6 +9,8 @@
 #include "choices.hpp"
 #include "dotpose/files/error.hpp"
 #include "print/lower_case.hpp"
+#include "system/files.hpp"
+#include "system/path.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -90,13 +89,15 @@ Option* add_draw_option(Command& command, std::string& path, const std::string& 
     return command.add_option("--draw", path, help)->type_name("FILE");
 }
 
-DocumentOutput::DocumentOutput(std::string out, const std::string& ending) : path_(std::move(out)) {
-    if (path_ != kStandardOutput) return;
-    folder_ = (fs::temp_directory_path() / "dotpose-XXXXXX").string();
-    if (mkdtemp(folder_.data()) == nullptr) {
-        throw Error("cannot create a temporary folder: " + std::string(std::strerror(errno)));
+DocumentOutput::DocumentOutput(const std::string& out, const std::string& ending)
+    : path_(system::path_of(out)) {
+    if (out != kStandardOutput) return;
+    try {
+        folder_ = system::create_temporary_folder();
+    } catch (const fs::filesystem_error& error) {
+        throw Error("cannot create a temporary folder: " + error.code().message());
     }
-    path_ = folder_ + "/document" + ending;
+    path_ = folder_ / system::path_of("document" + ending);
 }
 
 DocumentOutput::~DocumentOutput() {
@@ -113,7 +114,7 @@ void DocumentOutput::finish() const {
         file.read(part.data(), static_cast<std::streamsize>(part.size()));
         standard_output.write(part.substr(0, static_cast<std::size_t>(file.gcount())));
     }
-    if (!file.eof()) throw Error("cannot read " + path_);
+    if (!file.eof()) throw Error("cannot read " + path_.string());
 }
 
 }  // namespace dotpose::cli

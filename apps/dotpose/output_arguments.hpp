@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
 #include "command_line.hpp"
@@ -47,7 +48,7 @@ class DocumentOutput {
   public:
     /// `out` is the value of -o. `ending` is the file extension of the format, such as ".pdf".
     /// Throws Error if no temporary folder can be created.
-    DocumentOutput(std::string out, const std::string& ending);
+    DocumentOutput(const std::string& out, const std::string& ending);
 
     /// Removes the temporary folder.
     ~DocumentOutput();
@@ -55,7 +56,7 @@ class DocumentOutput {
     DocumentOutput& operator=(const DocumentOutput&) = delete;
 
     /// Returns the path of the file that the library must write.
-    const std::string& path() const { return path_; }
+    const std::filesystem::path& path() const { return path_; }
 
     /// Copies the document to standard output if -o is "-". Throws Error.
     void finish() const;
@@ -65,8 +66,8 @@ class DocumentOutput {
     std::FILE* report_stream() const { return folder_.empty() ? stdout : stderr; }
 
   private:
-    std::string path_;
-    std::string folder_;  ///< temporary folder; empty if there is none
+    std::filesystem::path path_;
+    std::filesystem::path folder_;  ///< temporary folder; empty if there is none
 };
 
 }  // namespace dotpose::cli

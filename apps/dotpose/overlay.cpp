@@ -15,6 +15,7 @@
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "sheet_entries.hpp"
+#include "system/path.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -57,7 +58,7 @@ SheetPrint print_of(const OverlayArguments& arguments, int document_page, int pa
     std::set<std::string> left_out = SheetEntryArguments::options_of_entering();
     left_out.insert({"--password", "--copies", "--paper"});
     SheetPrint print;
-    print.title = std::filesystem::path(arguments.out).stem().string();
+    print.title = system::path_of(arguments.out).stem().string();
     print.pages = pages;
     print.dpi = arguments.options.dpi;
     print.dots = drawing_name(arguments.options.drawing);
@@ -74,7 +75,7 @@ void run(OverlayArguments& arguments) {
     catch_interrupts();
     std::optional<SheetReservation> reservation;
     if (arguments.entries.given()) {
-        if (arguments.out != kStandardOutput) require_writable(arguments.out);
+        if (arguments.out != kStandardOutput) require_writable(system::path_of(arguments.out));
         options.place = [&](std::span<OverlaidPage> pages) {
             const auto enter_all = [&](SheetFile& file) {
                 for (auto& [number, sheet, document_page] : pages)
@@ -93,7 +94,7 @@ void run(OverlayArguments& arguments) {
             line.update(rows_done, rows);
             return !interrupted();
         };
-        report = overlay_pdf(arguments.in, output.path(), options);
+        report = overlay_pdf(system::path_of(arguments.in), output.path(), options);
     }
     output.finish();
     if (reservation) arguments.entries.confirm(*reservation, arguments.out);

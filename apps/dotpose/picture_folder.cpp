@@ -4,6 +4,7 @@
 
 #include "dotpose/files/error.hpp"
 #include "print/lower_case.hpp"
+#include "system/path.hpp"
 
 namespace dotpose::cli {
 
@@ -16,9 +17,9 @@ std::string stem_of(const std::string& name) {
     const std::size_t mark = name.rfind('#');
     if (mark == std::string::npos ||
         name.find_first_not_of("0123456789", mark + 1) != std::string::npos) {
-        return fs::path(name).stem().string();
+        return system::path_of(name).stem().string();
     }
-    return fs::path(name.substr(0, mark)).stem().string() + "-" + name.substr(mark + 1);
+    return system::path_of(name.substr(0, mark)).stem().string() + "-" + name.substr(mark + 1);
 }
 
 }  // namespace
@@ -42,7 +43,7 @@ PictureFolder::PictureFolder(fs::path path, const RunFiles& files)
 
 void PictureFolder::add(const std::string& image_name, ImageView image, const Trace& trace,
                         DrawOptions options) {
-    options.title = fs::path(image_name).filename().string();
+    options.title = system::path_of(image_name).filename().string();
     draw_frame(is_picture_name(path_) ? path_ : path_in_folder(image_name), image, trace, options);
 }
 
@@ -51,8 +52,9 @@ fs::path PictureFolder::path_in_folder(const std::string& image_name) {
     std::string file = stem + ".svg";
     for (int n = 2; !used_.insert(file).second; ++n)
         file = fmt::format("{}-{}.svg", stem, n);
-    files_.require_free("--draw", (path_ / file).string());
-    return path_ / file;
+    fs::path path = path_ / system::path_of(file);
+    files_.require_free("--draw", path.string());
+    return path;
 }
 
 }  // namespace dotpose::cli

@@ -18,6 +18,7 @@
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "sheet_entries.hpp"
+#include "system/path.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -61,7 +62,7 @@ PrintFormat format_of(const PrintArguments& arguments) {
         }
         return print_format("document" + arguments.ending);
     }
-    const PrintFormat format = print_format(arguments.out);
+    const PrintFormat format = print_format(system::path_of(arguments.out));
     if (!arguments.ending.empty() && print_format("document" + arguments.ending) != format) {
         throw BadArgument(fmt::format("--format {}: the name {} is that of another format",
                                       arguments.ending.substr(1), arguments.out));
@@ -86,7 +87,7 @@ double default_margin_mm(PrintFormat format, const Paper& paper) {
 std::string title_of(const PrintArguments& arguments) {
     if (arguments.entries.given()) return arguments.entries.name();
     if (arguments.out == kStandardOutput) return "sheet";
-    return std::filesystem::path(arguments.out).stem().string();
+    return system::path_of(arguments.out).stem().string();
 }
 
 /// Returns the print settings of a page, which are stored in its entry in the sheet file.
@@ -155,7 +156,7 @@ void run(const PrintArguments& arguments) {
     const SheetPrint print = print_of(arguments);
     std::optional<SheetReservation> reservation;
     if (arguments.entries.given()) {
-        if (arguments.out != kStandardOutput) require_writable(arguments.out);
+        if (arguments.out != kStandardOutput) require_writable(system::path_of(arguments.out));
         catch_interrupts();
         const auto enter_all = [&](SheetFile& file) {
             for (std::size_t i = 0; i < sheets.size(); ++i)

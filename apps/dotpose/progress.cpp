@@ -8,9 +8,9 @@
 #include <utility>
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include "lines.hpp"
+#include "system/process.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -47,25 +47,14 @@ void on_signal(int signal_number) {
     }
 }
 
-bool is_terminal(int descriptor) {
-    return isatty(descriptor) == 1;
-}
-
 }  // namespace
 
 void catch_interrupts() {
-    struct sigaction action {};
-    action.sa_handler = on_signal;
-    action.sa_flags = SA_RESTART;
-    for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
-        sigaction(signal_number, &action, nullptr);
-    }
+    system::on_end_signals(on_signal);
 }
 
 void ignore_broken_pipes() {
-    struct sigaction action {};
-    action.sa_handler = SIG_IGN;
-    sigaction(SIGPIPE, &action, nullptr);
+    system::ignore_broken_pipes();
 }
 
 bool interrupted() {
@@ -88,13 +77,13 @@ std::string duration_text(double seconds) {
 
 ProgressLine::ProgressLine(std::string what)
     : what_(std::move(what)),
-      on_terminal_(is_terminal(STDERR_FILENO)),
+      on_terminal_(system::is_terminal(stderr)),
       begin_(std::chrono::steady_clock::now()),
       next_(begin_ + kFirstShown) {}
 
 ProgressLine::ProgressLine(std::string what, const std::string& out)
     : ProgressLine(std::move(what)) {
-    if (is_standard_output(out) && is_terminal(STDOUT_FILENO)) on_terminal_ = false;
+    if (is_standard_output(out) && system::is_terminal(stdout)) on_terminal_ = false;
 }
 
 ProgressLine::~ProgressLine() {

@@ -15,6 +15,7 @@
 #include "robot_recording.hpp"
 #include "run_files.hpp"
 #include "run_log.hpp"
+#include "system/path.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -39,7 +40,7 @@ struct ReplayArguments {
 
 /// Returns true if the file of -o is a recording rather than a report.
 bool is_recording(const std::string& out) {
-    return print::lower_case(std::filesystem::path(out).extension().string()) == ".mcap";
+    return print::lower_case(system::path_of(out).extension().string()) == ".mcap";
 }
 
 std::string list_of(const std::map<std::string, std::int64_t>& counts) {
@@ -108,7 +109,7 @@ std::string json_report(const RunStatistics& run) {
 
 /// Writes the messages that the robot would have published.
 void record(const ReplayArguments& arguments) {
-    LogReader log(arguments.log);
+    LogReader log(system::path_of(arguments.log));
     ros::RobotMessenger messenger(arguments.robot, ros::with_prefix(arguments.frame_prefix));
     RobotRecording recording(arguments.report.out, arguments.robot);
     while (const auto update = log.next(update_of))
@@ -122,8 +123,8 @@ void run(const ReplayArguments& arguments) {
     files.writes("-o", arguments.report.out,
                  is_recording(arguments.report.out) ? Content::mcap : content_of(arguments.report));
     files.writes("--draw", arguments.picture, Content::svg);
-    if (!arguments.picture.empty()) require_writable(arguments.picture);
-    const auto rows = read_log(arguments.log);
+    if (!arguments.picture.empty()) require_writable(system::path_of(arguments.picture));
+    const auto rows = read_log(system::path_of(arguments.log));
     const RunStatistics statistics = statistics_of(rows);
     ReportArguments report = arguments.report;
     if (is_recording(report.out)) {
@@ -132,8 +133,8 @@ void run(const ReplayArguments& arguments) {
     }
     write_report(report, report.as_json ? json_report(statistics) : text_report(statistics));
     if (arguments.picture.empty()) return;
-    write_file(arguments.picture,
-               draw_run(rows, std::filesystem::path(arguments.log).filename().string()));
+    write_file(system::path_of(arguments.picture),
+               draw_run(rows, system::path_of(arguments.log).filename().string()));
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "system/path.hpp"
+
 namespace dotpose::cli {
 
 std::string ros_name(const std::string& robot) {
@@ -22,7 +24,7 @@ RobotTopics::RobotTopics(const std::string& robot)
       image('/' + ros_name(robot) + "/image/compressed") {}
 
 RobotRecording::RobotRecording(const std::string& path, const std::string& robot)
-    : file_(path), topics_(robot) {}
+    : file_(system::path_of(path)), topics_(robot) {}
 
 template <typename Message>
 void RobotRecording::write(std::optional<McapChannel>& channel, const std::string& topic,

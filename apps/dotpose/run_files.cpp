@@ -6,16 +6,21 @@
 #include <string_view>
 
 #include <fmt/core.h>
-#include <sys/stat.h>
 
 #include "dotpose/files/error.hpp"
 #include "dotpose/files/write_file.hpp"
 #include "print/lower_case.hpp"
+#include "system/files.hpp"
+#include "system/path.hpp"
 
 namespace dotpose::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Descriptors of the standard streams.
+constexpr int kInputDescriptor = 0;
+constexpr int kOutputDescriptor = 1;
 
 constexpr std::array<std::string_view, 24> kImagesAndVideos = {
     ".pgm", ".ppm",  ".pbm", ".pnm",  ".png",  ".jpg",  ".jpeg", ".bmp",
@@ -45,7 +50,7 @@ const char* name(Content content) {
 }
 
 void require_fitting_name(const std::string& label, const std::string& path, Content content) {
-    const std::string ending = print::lower_case(fs::path(path).extension().string());
+    const std::string ending = print::lower_case(system::path_of(path).extension().string());
     if (content == Content::own || (content == Content::svg && ending == ".svg")) return;
     if (std::ranges::find(kImagesAndVideos, ending) == kImagesAndVideos.end()) return;
     throw BadArgument(
@@ -58,9 +63,10 @@ std::string label_of(const std::string& option, const std::string& path) {
     return option.empty() ? path : option + " " + path;
 }
 
-/// Returns the path of an input. "-" is standard input.
-std::string input_path(const std::string& path) {
-    return path == "-" ? "/dev/stdin" : path;
+/// Returns the identity of a file that exists, or none for a device or a pipe.
+std::optional<FileIdentity> identity_of(const std::optional<system::FileNumbers>& numbers) {
+    if (!numbers || !numbers->is_regular) return std::nullopt;
+    return FileIdentity{numbers->device, numbers->file, ""};
 }
 
 [[noreturn]] void refuse(const std::string& output, const std::string& input) {
@@ -82,22 +88,26 @@ Content content_of(const ReportArguments& report) {
 
 std::optional<FileIdentity> identity_of(const std::string& path) {
     if (path.empty()) return std::nullopt;
-    struct stat found {};
-    if (stat(path.c_str(), &found) == 0) {
-        if (!S_ISREG(found.st_mode)) return std::nullopt;
-        return FileIdentity{found.st_dev, found.st_ino, ""};
-    }
-    const fs::path target = without_links(path);
-    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-    if (stat(folder.c_str(), &found) != 0) return std::nullopt;
-    return FileIdentity{found.st_dev, found.st_ino, print::lower_case(target.filename().string())};
+    if (const auto numbers = system::numbers_of(system::path_of(path))) return identity_of(numbers);
+    const fs::path target = without_links(system::path_of(path));
+    const auto folder =
+        system::numbers_of(target.has_parent_path() ? target.parent_path() : fs::path("."));
+    if (!folder) return std::nullopt;
+    return FileIdentity{folder->device, folder->file,
+                        print::lower_case(target.filename().string())};
 }
 
 void RunFiles::reads(const std::string& option, const std::string& path) {
     if (path.empty()) return;
-    const auto identity = identity_of(input_path(path));
+    if (path == "-") {
+        add_input("on standard input", identity_of(system::numbers_of(kInputDescriptor)));
+    } else {
+        add_input(label_of(option, path), identity_of(path));
+    }
+}
+
+void RunFiles::add_input(const std::string& label, const std::optional<FileIdentity>& identity) {
     if (!identity) return;
-    const std::string label = path == "-" ? "on standard input" : label_of(option, path);
     const auto output = outputs_.find(*identity);
     if (output != outputs_.end()) refuse(output->second, label);
     inputs_.emplace(*identity, label);
@@ -111,13 +121,16 @@ void RunFiles::reads(const std::string& option, const std::vector<std::string>& 
 void RunFiles::writes(const std::string& option, const std::string& path, Content content) {
     if (path.empty()) return;
     if (path == "-") {
-        if (option == "-o") return add_output("standard output", "/dev/stdout");
+        if (option == "-o") {
+            return add_output("standard output",
+                              identity_of(system::numbers_of(kOutputDescriptor)));
+        }
         throw BadArgument(fmt::format(
             "{} - needs the name of a file: only -o takes - for standard output", option));
     }
     const std::string label = label_of(option, path);
     require_fitting_name(label, path, content);
-    add_output(label, path);
+    add_output(label, identity_of(path));
 }
 
 void RunFiles::writes_lines(const std::string& path, Content content) {
@@ -126,7 +139,7 @@ void RunFiles::writes_lines(const std::string& path, Content content) {
 
 void RunFiles::updates(const std::string& option, const std::string& path, Content content) {
     std::error_code error;
-    fs::exists(path, error) ? reads(option, path) : writes(option, path, content);
+    fs::exists(system::path_of(path), error) ? reads(option, path) : writes(option, path, content);
 }
 
 void RunFiles::require_not_written(const std::string& path) const {
@@ -140,8 +153,7 @@ void RunFiles::require_free(const std::string& option, const std::string& path) 
     if (identity) require_free(label_of(option, path), *identity);
 }
 
-void RunFiles::add_output(const std::string& label, const std::string& path) {
-    const auto identity = identity_of(path);
+void RunFiles::add_output(const std::string& label, const std::optional<FileIdentity>& identity) {
     if (!identity) return;
     require_free(label, *identity);
     outputs_.emplace(*identity, label);

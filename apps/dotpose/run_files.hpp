@@ -7,12 +7,11 @@
 #pragma once
 
 #include <compare>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <sys/types.h>
 
 #include "fields.hpp"
 #include "output_arguments.hpp"
@@ -28,9 +27,9 @@ Content content_of(const ReportArguments& report);
 /// Identity of a file. Two paths have equal identities if they refer to the same file, even through
 /// links or different folders. Names of new files that differ only in case have equal identities.
 struct FileIdentity {
-    dev_t device = 0;
-    ino_t inode = 0;       ///< inode of the file, or of the folder if the file does not exist yet
-    std::string new_name;  ///< file name in lower case; empty if the file exists
+    std::uint64_t device = 0;
+    std::uint64_t file = 0;  ///< number of the file, or of its folder if the file does not exist
+    std::string new_name;    ///< file name in lower case; empty if the file exists
     auto operator<=>(const FileIdentity&) const = default;
 };
 
@@ -67,7 +66,8 @@ class RunFiles {
     void require_free(const std::string& option, const std::string& path) const;
 
   private:
-    void add_output(const std::string& label, const std::string& path);
+    void add_input(const std::string& label, const std::optional<FileIdentity>& identity);
+    void add_output(const std::string& label, const std::optional<FileIdentity>& identity);
     void require_free(const std::string& label, const FileIdentity& identity) const;
 
     std::map<FileIdentity, std::string> inputs_;  ///< names as specified by the user

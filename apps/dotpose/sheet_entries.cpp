@@ -6,6 +6,7 @@
 
 #include "common.hpp"
 #include "progress.hpp"
+#include "system/path.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -33,7 +34,8 @@ std::string SheetEntryArguments::page_name(Page page) const {
 
 void SheetEntryArguments::reserve(const std::function<void(SheetFile&)>& enter_all,
                                   std::optional<SheetReservation>& reservation) const {
-    reservation.emplace(path_, enter_all, SheetFileWait{wait_s_, tell, interrupted});
+    reservation.emplace(system::path_of(path_), enter_all,
+                        SheetFileWait{wait_s_, tell, interrupted});
 }
 
 void SheetEntryArguments::confirm(SheetReservation& reservation, const std::string& out) const {

@@ -5,6 +5,7 @@
 #include "common.hpp"
 #include "dotpose/tools/print.hpp"
 #include "progress.hpp"
+#include "system/path.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -53,7 +54,7 @@ void reprint_sheet(const SheetEntry& entry, const std::string& out) {
         line.update(done, total);
         return !interrupted();
     };
-    write_sheet(entry.sheet, out, options);
+    write_sheet(entry.sheet, system::path_of(out), options);
 }
 
 }  // namespace dotpose::cli

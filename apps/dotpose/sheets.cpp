@@ -17,6 +17,7 @@
 #include "run_files.hpp"
 #include "sheet_reprint.hpp"
 #include "sheet_text.hpp"
+#include "system/path.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -69,7 +70,7 @@ struct SheetsArguments {
 /// Throws Error if the sheet file does not exist, because a change would create a new file.
 void require_there(const SheetsArguments& arguments) {
     std::error_code error;
-    if (std::filesystem::exists(arguments.sheets, error)) return;
+    if (std::filesystem::exists(system::path_of(arguments.sheets), error)) return;
     throw Error(
         fmt::format("there is no sheet file {}: --sheets FILE names it, and 'dotpose print "
                     "--sheets FILE --name NAME' makes one",
@@ -78,7 +79,7 @@ void require_there(const SheetsArguments& arguments) {
 
 std::vector<SheetEntry> sheets_of(const SheetsArguments& arguments) {
     require_there(arguments);
-    return read_sheets(arguments.sheets);
+    return read_sheets(system::path_of(arguments.sheets));
 }
 
 /// Locks the sheet file, calls `change` with the entry of the given sheet, and saves the file.
@@ -86,7 +87,7 @@ template <typename Change>
 void change_sheet(const SheetsArguments& arguments, const Change& change) {
     require_there(arguments);
     catch_interrupts();
-    SheetFile file(arguments.sheets, arguments.wait());
+    SheetFile file(system::path_of(arguments.sheets), arguments.wait());
     change(file, SheetEntry(named_sheet(file.sheets(), arguments.name, arguments.sheets)));
     file.save();
 }

@@ -22,6 +22,7 @@
 #include "progress.hpp"
 #include "simulate_output.hpp"
 #include "simulated_drive.hpp"
+#include "system/path.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -216,7 +217,7 @@ std::vector<MadeFrame> make_frames(const SimulateArguments& arguments,
 /// imperfections of the first shot.
 std::optional<SimulatedDrive> drive_of(SimulateArguments& arguments, bool has_length) {
     if (!arguments.drives) return std::nullopt;
-    const std::vector<SheetEntry> sheets = read_sheets(arguments.sheets);
+    const std::vector<SheetEntry> sheets = read_sheets(system::path_of(arguments.sheets));
     const Setup& setup = arguments.setup;
     SimulatedDrive drive(sheets, arguments.drive, setup.camera, shot_of(arguments, 0).imperfections,
                          setup.seed);

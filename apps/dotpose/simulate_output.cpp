@@ -10,6 +10,7 @@
 #include "dotpose/files/error.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "live_sources.hpp"
+#include "system/path.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -63,10 +64,10 @@ class FrameFolder : public SimulateOutput {
 class FrameVideo : public SimulateOutput {
   public:
     FrameVideo(const std::string& path, double fps)
-        : path_(path), video_(create_video(path, fps)) {}
+        : path_(system::path_of(path)), video_(create_video(path, fps)) {}
 
     fs::path truth_path() const override {
-        return path_.parent_path() / (path_.stem().string() + "-truth.csv");
+        return path_.parent_path() / path_.stem().concat("-truth.csv");
     }
     std::string name(int index) const override {
         return fmt::format("{}#{}", path_.filename().string(), index);
@@ -82,12 +83,13 @@ class FrameVideo : public SimulateOutput {
 }  // namespace
 
 bool is_video_name(const std::string& out) {
-    return !fs::is_directory(out) && capture::kind_of(out) == capture::SourceKind::video;
+    return !fs::is_directory(system::path_of(out)) &&
+           capture::kind_of(out) == capture::SourceKind::video;
 }
 
 std::unique_ptr<SimulateOutput> open_simulate_output(const std::string& out, double fps) {
     if (is_video_name(out)) return std::make_unique<FrameVideo>(out, fps);
-    return std::make_unique<FrameFolder>(out);
+    return std::make_unique<FrameFolder>(system::path_of(out));
 }
 
 }  // namespace dotpose::cli

@@ -8,18 +8,19 @@
 
 #include "dotpose/files/error.hpp"
 #include "files/input_file.hpp"
+#include "system/path.hpp"
 
 namespace dotpose::cli {
 
 SourceNames::SourceNames(std::vector<std::string> names, const std::string& list)
     : known_(std::move(names)), list_name_(list) {
     if (list.empty()) return;
-    is_pipe_ = list == "-" || !std::filesystem::is_regular_file(list);
+    is_pipe_ = list == "-" || !std::filesystem::is_regular_file(system::path_of(list));
     if (list == "-") {
         list_ = &std::cin;
         return;
     }
-    file_.open(list);
+    file_.open(system::path_of(list));
     if (!file_) throw Error("cannot read the list " + list + ": " + std::strerror(errno));
     list_ = &file_;
     if (is_pipe_) return;

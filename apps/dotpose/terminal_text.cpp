@@ -5,9 +5,9 @@
 #include <cstdlib>
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include "progress.hpp"
+#include "system/process.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -67,7 +67,7 @@ bool wants_colour(std::FILE* stream) {
     const char* const terminal = std::getenv("TERM");
     const bool is_refused = refused != nullptr && *refused != '\0';
     const bool is_dumb = terminal == nullptr || std::string_view(terminal) == "dumb";
-    return !is_refused && !is_dumb && isatty(fileno(stream)) == 1;
+    return !is_refused && !is_dumb && system::is_terminal(stream);
 }
 
 std::string in_colour(const std::string& report) {

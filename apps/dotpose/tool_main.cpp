@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "completion.hpp"
 #include "dotpose/files/error.hpp"
 #include "exit_codes.hpp"
+#include "system/process.hpp"
 #include "terminal_text.hpp"
 #include "usage_errors.hpp"
 
@@ -31,8 +33,7 @@ constexpr const char* kFirstSteps =
 /// Returns text with the path of the documents, which are installed with the tool.
 std::string places_of_documents() {
     std::error_code failed;
-    const auto tool = std::filesystem::read_symlink("/proc/self/exe", failed);
-    const auto folder = (tool.parent_path() / DOTPOSE_DOCUMENTS_FROM_TOOL).lexically_normal();
+    const auto folder = (system::program_folder() / DOTPOSE_DOCUMENTS_FROM_TOOL).lexically_normal();
     if (!std::filesystem::is_directory(folder, failed))
         return "Documents: README.md and docs/ of the source; examples in C++: examples/";
     return fmt::format("Documents: {0}/README.md and {0}/docs\nExamples in C++: {0}/examples",
@@ -59,7 +60,7 @@ void add_help_and_version(Command& app, std::vector<std::string>& help_words) {
     });
 }
 
-int run(int argc, char** argv, const AddCommands& add) {
+int run(int argc, const char* const* argv, const AddCommands& add) {
     remember_command_line(argc, argv);
     Command app("Locates a camera on a sheet printed with a dot position code.", "dotpose");
     app.set_version_flag("--version", kVersion);
@@ -102,7 +103,11 @@ int run(int argc, char** argv, const AddCommands& add) {
 
 int tool_main(int argc, char** argv, const AddCommands& add) noexcept {
     try {
-        return run(argc, argv, add);
+        const std::vector<std::string> arguments = system::start_program(argc, argv);
+        std::vector<const char*> words;
+        for (const std::string& argument : arguments)
+            words.push_back(argument.c_str());
+        return run(static_cast<int>(words.size()), words.data(), add);
     } catch (const std::exception& error) {
         tell_failure(error.what());
         return kExitFailed;

@@ -4,14 +4,13 @@
 #include <random>
 #include <system_error>
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/system_error.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/files/write_file.hpp"
+#include "system/files.hpp"
+#include "system/path.hpp"
 
 namespace dotpose::base {
 namespace fs = std::filesystem;
@@ -28,9 +27,9 @@ OutputFile::OutputFile(const fs::path& target) : target_(without_links(target)) 
     if (fs::exists(status) && !fs::is_regular_file(status)) {
         throw Error(fmt::format("cannot write {}: it is not a regular file", target_.string()));
     }
-    // Renaming a file does not require write permission for the file that it replaces. Without this
-    // check, `commit` would replace a write-protected file.
-    if (fs::exists(status) && access(target_.c_str(), W_OK) != 0) {
+    // Renaming onto a file does not require write permission for that file, so without this check
+    // it would replace a write-protected file.
+    if (fs::exists(status) && !system::is_writable(target_)) {
         throw_system("write", target_, errno);
     }
     open_temporary();
@@ -40,29 +39,20 @@ OutputFile::OutputFile(const fs::path& target) : target_(without_links(target)) 
 OutputFile::~OutputFile() {
     if (stream_ == nullptr) return;
     std::fclose(stream_);
-    unlink(temporary_.c_str());
+    std::error_code ignored;
+    fs::remove(temporary_, ignored);
 }
 
 void OutputFile::open_temporary() {
     std::random_device random;
-    int descriptor = -1;
-    for (int attempt = 0; attempt < kNameAttempts && descriptor < 0; ++attempt) {
+    for (int attempt = 0; attempt < kNameAttempts && stream_ == nullptr; ++attempt) {
         temporary_ = target_;
-        temporary_.replace_filename(
-            fmt::format(".{:.200}.{:08x}.tmp", target_.filename().string(), random()));
-        // Uses open instead of mkstemp, because open applies the user's umask to the mode of the
-        // file.
-        descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor < 0 && errno != EEXIST) break;
+        temporary_.replace_filename(system::path_of(
+            fmt::format(".{:.200}.{:08x}.tmp", target_.filename().string(), random())));
+        stream_ = system::create_new_file(temporary_);
+        if (stream_ == nullptr && errno != EEXIST) break;
     }
-    if (descriptor < 0) throw_system("create", target_, errno);
-    stream_ = fdopen(descriptor, "wb");
-    if (stream_ == nullptr) {
-        const int error_number = errno;
-        close(descriptor);
-        unlink(temporary_.c_str());
-        throw_system("create", target_, error_number);
-    }
+    if (stream_ == nullptr) throw_system("create", target_, errno);
 }
 
 void OutputFile::fail() noexcept {
@@ -90,11 +80,16 @@ void OutputFile::commit() {
     std::FILE* stream = stream_;
     stream_ = nullptr;
     // Network file systems report a full disk only when the file is closed.
-    if (std::fclose(stream) != 0 || std::rename(temporary_.c_str(), target_.c_str()) != 0) {
-        const int error_number = errno;
-        unlink(temporary_.c_str());
-        throw_system("write", target_, error_number);
+    std::error_code error;
+    if (std::fclose(stream) != 0) {
+        error.assign(errno, std::generic_category());
+    } else {
+        fs::rename(temporary_, target_, error);
     }
+    if (!error) return;
+    std::error_code ignored;
+    fs::remove(temporary_, ignored);
+    throw_system("write", target_, error);
 }
 
 }  // namespace dotpose::base

@@ -9,12 +9,15 @@
 
 namespace dotpose::base {
 
-/// Throws Error with the text "cannot ACTION PATH: REASON". REASON is the system's message for
-/// `error_number`, a value of errno.
+/// Throws Error with the text "cannot ACTION PATH: REASON". The reason is the system's message for
+/// an error code or a value of errno.
+[[noreturn]] inline void throw_system(const std::string& action, const std::filesystem::path& path,
+                                      std::error_code error) {
+    throw Error("cannot " + action + " " + path.string() + ": " + error.message());
+}
 [[noreturn]] inline void throw_system(const std::string& action, const std::filesystem::path& path,
                                       int error_number) {
-    throw Error("cannot " + action + " " + path.string() + ": " +
-                std::generic_category().message(error_number));
+    throw_system(action, path, std::error_code(error_number, std::generic_category()));
 }
 
 }  // namespace dotpose::base

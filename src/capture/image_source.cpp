@@ -6,6 +6,7 @@
 
 #include "capture/frame_source.hpp"
 #include "dotpose/tools/image_file.hpp"
+#include "system/path.hpp"
 
 namespace dotpose::capture {
 namespace {
@@ -27,9 +28,9 @@ class ImageSource : public FrameSource {
             try {
                 options_.before_reading(*path);
                 std::string note;
-                frame.image = read_image(*path, options_.max_pixels, note);
+                frame.image = read_image(system::path_of(*path), options_.max_pixels, note);
                 if (!note.empty()) options_.tell(note);
-                tell_of_pages(*path);
+                tell_of_pages(system::path_of(*path));
                 return true;
             } catch (const Error& error) {
                 options_.on_unreadable(*path, error);
@@ -40,14 +41,14 @@ class ImageSource : public FrameSource {
     double rate() const override { return options_.fps.value_or(kDefaultFps); }
 
   private:
-    void tell_of_pages(const std::string& path) const {
-        // Only TIFF files can have several pages. Other files are skipped, to avoid reading them
-        // twice.
-        const std::string ending = std::filesystem::path(path).extension().string();
+    void tell_of_pages(const std::filesystem::path& path) const {
+        // Only TIFF has several pages. Other files are not read twice.
+        const std::string ending = path.extension().string();
         if (!ending.starts_with(".t") && !ending.starts_with(".T")) return;
         const int pages = count_pages(path);
         if (pages == 1) return;
-        options_.tell(fmt::format("{} has {} pages, of which only the first is read", path, pages));
+        options_.tell(
+            fmt::format("{} has {} pages, of which only the first is read", path.string(), pages));
     }
 
     std::function<std::optional<std::string>()> next_path_;

@@ -1,14 +1,13 @@
 // Reads contiguous raw 8-bit grey frames from standard input.
-#include <cerrno>
 #include <chrono>
 #include <cmath>
-#include <cstring>
+#include <optional>
+#include <system_error>
 
 #include <fmt/core.h>
-#include <poll.h>
-#include <unistd.h>
 
 #include "capture/frame_source.hpp"
+#include "system/process.hpp"
 
 namespace dotpose::capture {
 namespace {
@@ -42,24 +41,28 @@ class RawSource : public FrameSource {
     /// Reads one frame. Returns false if the input ends before the first byte of the frame, or when
     /// `SourceOptions::stop` returns true.
     bool fill(std::vector<std::uint8_t>& pixels) {
-        constexpr int kPatience_ms = 100;
         std::size_t filled = 0;
         while (filled < pixels.size()) {
             if (options_.stop()) return false;
-            pollfd ready{STDIN_FILENO, POLLIN, 0};
-            if (poll(&ready, 1, kPatience_ms) <= 0) continue;
-            const ssize_t size = read(STDIN_FILENO, pixels.data() + filled, pixels.size() - filled);
-            if (size < 0 && errno != EINTR) {
-                throw Error(std::string("cannot read standard input: ") + std::strerror(errno));
-            }
-            if (size == 0 && filled == 0) return false;
-            if (size == 0) {
+            const auto size = read_input(pixels.data() + filled, pixels.size() - filled);
+            if (!size) continue;
+            if (*size == 0 && filled == 0) return false;
+            if (*size == 0) {
                 throw Error(fmt::format("standard input ended inside frame {}: {} of {} bytes",
                                         frames_, filled, pixels.size()));
             }
-            if (size > 0) filled += static_cast<std::size_t>(size);
+            filled += *size;
         }
         return true;
+    }
+
+    static std::optional<std::size_t> read_input(std::uint8_t* data, std::size_t max_bytes) {
+        constexpr int kStandardInput = 0;
+        try {
+            return system::read_available(kStandardInput, data, max_bytes);
+        } catch (const std::system_error& error) {
+            throw Error("cannot read standard input: " + error.code().message());
+        }
     }
 
     SourceOptions options_;

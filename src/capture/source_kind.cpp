@@ -8,10 +8,10 @@
 #include <fstream>
 #include <string_view>
 
-#include <glob.h>
-
 #include "dotpose/files/error.hpp"
 #include "images/image_format.hpp"
+#include "system/glob.hpp"
+#include "system/path.hpp"
 
 namespace dotpose::capture {
 namespace {
@@ -39,9 +39,9 @@ bool has_ending(const fs::path& path, const Endings& endings) {
     return std::ranges::find(endings, ending_of(path)) != endings.end();
 }
 
-/// Returns true if the file has the signature of MP4, Matroska or AVI. Does not examine pipes,
-/// because reading would consume their bytes.
-bool begins_like_video(const std::string& name) {
+/// Returns true if the file has the signature of MP4, Matroska or AVI. Pipes are not examined,
+/// because this would consume bytes.
+bool begins_like_video(const fs::path& name) {
     std::error_code failed;
     if (!fs::is_regular_file(name, failed)) return false;
     std::string head(images::kMagicBytes, '\0');
@@ -59,7 +59,7 @@ std::vector<std::string> images_of_folder(const fs::path& folder) {
     std::vector<std::string> names;
     std::error_code failed;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
-        if (has_ending(entry.path(), kImageEndings)) names.push_back(entry.path().string());
+        if (has_ending(entry.path(), kImageEndings)) names.push_back(entry.path().generic_string());
     }
     if (failed) throw Error("cannot read " + folder.string() + ": " + failed.message());
     if (names.empty()) {
@@ -70,12 +70,7 @@ std::vector<std::string> images_of_folder(const fs::path& folder) {
 }
 
 std::vector<std::string> images_of_glob(const std::string& pattern) {
-    glob_t found{};
-    std::vector<std::string> names;
-    if (glob(pattern.c_str(), 0, nullptr, &found) == 0) {
-        names.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
-    }
-    globfree(&found);
+    std::vector<std::string> names = system::glob(pattern);
     if (names.empty()) throw Error("no images at " + pattern);
     return names;
 }
@@ -96,12 +91,13 @@ SourceKind kind_of(const std::string& name) {
     std::error_code failed;
     if (name == "-") return SourceKind::raw;
     if (is_camera(name)) return SourceKind::camera;
-    if (fs::is_directory(name, failed)) return SourceKind::images;
-    if (name.find_first_of("*?[") != std::string::npos && !fs::exists(name, failed)) {
+    const fs::path path = system::path_of(name);
+    if (fs::is_directory(path, failed)) return SourceKind::images;
+    if (name.find_first_of("*?[") != std::string::npos && !fs::exists(path, failed)) {
         return SourceKind::images;
     }
-    if (has_ending(name, kVideoEndings)) return SourceKind::video;
-    if (has_ending(name, kImageEndings) || !begins_like_video(name)) return SourceKind::image;
+    if (has_ending(path, kVideoEndings)) return SourceKind::video;
+    if (has_ending(path, kImageEndings) || !begins_like_video(path)) return SourceKind::image;
     return SourceKind::video;
 }
 
@@ -111,7 +107,8 @@ bool needs_video_libraries(SourceKind kind) {
 
 std::vector<std::string> images_at(const std::string& name) {
     std::error_code failed;
-    return fs::is_directory(name, failed) ? images_of_folder(name) : images_of_glob(name);
+    const fs::path path = system::path_of(name);
+    return fs::is_directory(path, failed) ? images_of_folder(path) : images_of_glob(name);
 }
 
 std::vector<std::string> files_of(const std::string& name) {

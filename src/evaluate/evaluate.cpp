@@ -10,6 +10,7 @@
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/frame_file.hpp"
+#include "system/path.hpp"
 
 namespace dotpose {
 namespace {
@@ -108,7 +109,7 @@ FrameSource frames_of_folder(const std::filesystem::path& folder, std::vector<Tr
         frame.truth = row.truth;
         frame.code = row.code;
         try {
-            frame.image = read_frame(folder / row.file);
+            frame.image = read_frame(folder / system::path_of(row.file));
         } catch (const Error& error) {
             frame.problem = error.what();
         }

@@ -9,10 +9,11 @@
 namespace dotpose::draw {
 
 /// Writes an SVG drawing as PNG, with two pixels per unit. Throws Error if the file cannot be
-/// written.
+/// written, or if dotpose was built without librsvg.
 void write_png(const std::filesystem::path& path, const std::string& svg);
 
-/// Writes NAME.svg and NAME.png into a folder. `draw` writes the SVG. Throws Error if a file cannot
+/// Writes NAME.svg and NAME.png into a folder; only NAME.svg if dotpose was built without librsvg.
+/// `draw` writes the SVG. Throws Error if a file cannot
 /// be written.
 void write_figure(const std::filesystem::path& folder, const std::string& name,
                   const std::function<void(std::ostream&)>& draw);

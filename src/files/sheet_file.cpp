@@ -1,22 +1,20 @@
 #include "dotpose/files/sheet_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
+#include <memory>
 #include <system_error>
 #include <thread>
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/system_error.hpp"
 #include "dotpose/files/write_file.hpp"
 #include "files/input_file.hpp"
 #include "files/sheet_json.hpp"
 #include "files/sheet_list.hpp"
+#include "system/file_lock.hpp"
+#include "system/path.hpp"
 
 namespace dotpose {
 namespace fs = std::filesystem;
@@ -30,43 +28,34 @@ std::optional<std::string> text_of(const fs::path& path) {
     return files::text_of(path, kMaxBytes);
 }
 
-/// Waits for locks on a file. All locks share one time limit.
-class LockWait {
-  public:
-    LockWait(const fs::path& path, const SheetFileWait& wait)
-        : path_(path),
-          wait_(wait),
-          end_(Clock::now() + std::chrono::duration<double>(wait.max_s)) {}
-
-    /// Takes a lock. Throws Error after the time limit, or if the file system does not support
-    /// locks.
-    void lock(int descriptor) {
-        constexpr auto kPause = std::chrono::milliseconds(10);
-        while (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-            if (errno != EWOULDBLOCK && errno != EINTR) throw_system("lock", path_, errno);
-            if (wait_.stop()) throw Error("stopped; nothing was written");
-            if (Clock::now() >= end_) {
-                throw Error(
-                    fmt::format("cannot lock {}: another program has been changing it for "
-                                "{:g} s",
-                                path_.string(), wait_.max_s));
-            }
-            if (!is_reported_) {
-                wait_.tell(
-                    fmt::format("waiting for another program that is changing {}", path_.string()));
-            }
-            is_reported_ = true;
-            std::this_thread::sleep_for(kPause);
-        }
-    }
-
-  private:
+/// Takes the lock of a sheet file. Throws Error after the time limit, or if the file system does
+/// not support locks.
+void take(system::FileLock& lock, const fs::path& path, const SheetFileWait& wait) {
     using Clock = std::chrono::steady_clock;
-    const fs::path& path_;
-    const SheetFileWait& wait_;
-    std::chrono::time_point<Clock, std::chrono::duration<double>> end_;
-    bool is_reported_ = false;
-};
+    constexpr auto kPause = std::chrono::milliseconds(10);
+    const auto end = Clock::now() + std::chrono::duration<double>(wait.max_s);
+    bool is_reported = false;
+    for (std::error_code error = lock.try_lock(); error; error = lock.try_lock()) {
+        if (error != std::errc::resource_unavailable_try_again) throw_system("lock", path, error);
+        if (wait.stop()) throw Error("stopped; nothing was written");
+        if (Clock::now() >= end) {
+            throw Error(
+                fmt::format("cannot lock {}: another program has been changing it for {:g} s",
+                            path.string(), wait.max_s));
+        }
+        if (!is_reported) {
+            wait.tell(
+                fmt::format("waiting for another program that is changing {}", path.string()));
+        }
+        is_reported = true;
+        std::this_thread::sleep_for(kPause);
+    }
+}
+
+fs::path lock_path_of(fs::path path) {
+    path.replace_filename(system::path_of(fmt::format(".{}.lock", path.filename().string())));
+    return path;
+}
 
 }  // namespace
 
@@ -81,38 +70,11 @@ std::vector<SheetEntry> read_sheets(const fs::path& path) {
     return files::sheets_from_json(*text, path.string());
 }
 
-SheetFile::Lock::Lock(const fs::path& path, const SheetFileWait& wait) : path_(path) {
-    path_.replace_filename(fmt::format(".{}.lock", path.filename().string()));
-    LockWait lock_wait(path, wait);
-    while (true) {
-        descriptor_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-        if (descriptor_ < 0) throw_system("lock", path, errno);
-        try {
-            lock_wait.lock(descriptor_);
-        } catch (const Error&) {
-            close(descriptor_);
-            throw;
-        }
-        // The previous owner of the lock removes the lock file when it finishes. A lock on a
-        // removed file has no effect, so the loop takes the lock again on a new file.
-        struct stat held {};
-        struct stat named {};
-        if (fstat(descriptor_, &held) == 0 && stat(path_.c_str(), &named) == 0 &&
-            held.st_ino == named.st_ino && held.st_dev == named.st_dev) {
-            return;
-        }
-        close(descriptor_);
-    }
-}
-
-SheetFile::Lock::~Lock() {
-    unlink(path_.c_str());
-    close(descriptor_);
-}
-
-// Symbolic links are resolved first, because all paths to a file must use the same lock.
+// Symbolic links are resolved first, because all names of a file must use the same lock.
 SheetFile::SheetFile(const fs::path& path, const SheetFileWait& wait)
-    : path_(without_links(path)), lock_(path_, wait), text_(text_of(path_)) {
+    : path_(without_links(path)), lock_(std::make_unique<system::FileLock>(lock_path_of(path_))) {
+    take(*lock_, path_, wait);
+    text_ = text_of(path_);
     if (text_) sheets_ = files::sheets_from_json(*text_, path_.string());
 }
 

@@ -13,6 +13,7 @@
 
 #include "images/image_format.hpp"
 #include "png/png.hpp"
+#include "system/files.hpp"
 
 namespace dotpose {
 namespace {
@@ -72,7 +73,7 @@ std::string advice_for(const Bytes& bytes) {
 }
 
 Content read_file(const std::filesystem::path& path, int max_pixels) {
-    const File file(std::fopen(path.c_str(), "rb"));
+    const File file(system::open_file(path, "rb"));
     if (!file) throw Error(system_reason());
     Bytes bytes;
     append(file.get(), images::kMagicBytes, bytes);
@@ -101,7 +102,7 @@ Content read_file(const std::filesystem::path& path, int max_pixels) {
 }
 
 void write_file(const std::filesystem::path& path, const Bytes& bytes) {
-    File file(std::fopen(path.c_str(), "wb"));
+    File file(system::open_file(path, "wb"));
     const bool written =
         file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
     // fclose flushes the buffer, which fails if the disk is full.

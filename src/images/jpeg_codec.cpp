@@ -54,7 +54,7 @@ struct Source : jpeg_source_mgr {
         next_input_byte = file.data();
         bytes_in_buffer = file.size();
         init_source = [](j_decompress_ptr) {};
-        fill_input_buffer = [](j_decompress_ptr jpeg) {
+        fill_input_buffer = [](j_decompress_ptr jpeg) -> boolean {
             static constexpr std::array<JOCTET, 2> kEnd{0xFF, JPEG_EOI};
             auto& source = *static_cast<Source*>(jpeg->src);
             source.is_short = true;

@@ -4,11 +4,9 @@
 #include <cstring>
 #include <utility>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include "dotpose/files/error.hpp"
 #include "mcap/summary.hpp"
+#include "system/files.hpp"
 
 namespace dotpose {
 
@@ -34,9 +32,7 @@ std::string offered_profiles(const McapQuality& quality) {
 class McapFile::Writer {
   public:
     Writer(const std::filesystem::path& path, const McapOptions& options)
-        : path_(path.string()),
-          options_(options),
-          descriptor_(open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+        : path_(path.string()), options_(options), descriptor_(system::create_descriptor(path)) {
         if (descriptor_ < 0) throw Error("cannot create " + path_ + ": " + std::strerror(errno));
         Bytes start;
         append_magic(start);
@@ -49,7 +45,7 @@ class McapFile::Writer {
     Writer(const Writer&) = delete;
     Writer& operator=(const Writer&) = delete;
     ~Writer() {
-        if (descriptor_ >= 0) close(descriptor_);
+        if (descriptor_ >= 0) system::close_descriptor(descriptor_);
     }
 
     McapChannel add_channel(const std::string& topic, const ros::MessageType& type,
@@ -86,8 +82,8 @@ class McapFile::Writer {
     void finish() {
         if (descriptor_ < 0) return;
         if (!chunk_.is_empty()) write_chunk();
-        const int closed = close(std::exchange(descriptor_, -1));
-        if (closed != 0) throw_unwritable();
+        const bool is_closed = system::close_descriptor(std::exchange(descriptor_, -1));
+        if (!is_closed) throw_unwritable();
     }
 
   private:
@@ -120,14 +116,7 @@ class McapFile::Writer {
         const std::size_t data_bytes = bytes.size();
         data_.add(bytes);
         append_end(bytes, size_ + data_bytes, contents_, data_);
-        std::size_t written = 0;
-        while (written < bytes.size()) {
-            const ssize_t count =
-                pwrite(descriptor_, bytes.data() + written, bytes.size() - written,
-                       static_cast<off_t>(size_ + written));
-            if (count < 0 && errno != EINTR) throw_unwritable();
-            if (count > 0) written += static_cast<std::size_t>(count);
-        }
+        if (!system::write_at(descriptor_, bytes.data(), bytes.size(), size_)) throw_unwritable();
         size_ += data_bytes;
         end_bytes_ = bytes.size() - data_bytes;
     }

@@ -24,7 +24,7 @@ using Token = QPDFTokenizer::Token;
 class CrossReferences {
   public:
     CrossReferences(const std::filesystem::path& path, UnpackedBytes& unpacked)
-        : file_(std::make_shared<FileInputSource>(path.c_str())), unpacked_(unpacked) {
+        : file_(std::make_shared<FileInputSource>(path.string().c_str())), unpacked_(unpacked) {
         file_->seek(0, SEEK_END);
         size_ = file_->tell();
         stray_.emptyPDF();

@@ -71,10 +71,12 @@ std::string beginning(const std::string& utf8, std::size_t max_characters) {
     return utf8.substr(0, end);
 }
 
-/// Returns the text in the encoding of Helvetica, or an empty optional if Helvetica lacks a letter.
+/// Returns the text in the encoding of Helvetica, or none if Helvetica lacks one of the letters. A
+/// missing letter becomes a question mark if no other font is available.
 std::optional<std::string> in_helvetica(const std::string& utf8) {
     std::string text;
-    if (QUtil::utf8_to_win_ansi(utf8, text)) return text;
+    const bool has_all_letters = QUtil::utf8_to_win_ansi(utf8, text, '?');
+    if (has_all_letters || !ScriptText::is_available()) return text;
     return std::nullopt;
 }
 

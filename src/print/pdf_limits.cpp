@@ -29,7 +29,7 @@ constexpr std::ptrdiff_t kMaxStack_bytes = 2 << 20;
 class ShallowFile : public FileInputSource {
   public:
     explicit ShallowFile(const std::filesystem::path& path)
-        : FileInputSource(path.c_str()), start_(stack_place()) {}
+        : FileInputSource(path.string().c_str()), start_(stack_place()) {}
 
     std::size_t read(char* bytes, std::size_t length) override {
         if (std::abs(stack_place() - start_) > kMaxStack_bytes) throw std::runtime_error(kTooDeep);

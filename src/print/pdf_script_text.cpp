@@ -99,6 +99,10 @@ void use_black_ink(QPDFObjectHandle form) {
 
 }  // namespace
 
+bool ScriptText::is_available() {
+    return true;
+}
+
 double ScriptText::width_pt(const std::string& utf8, double size_pt) {
     const std::string key = fmt::format("{} {}", size_pt, utf8);
     const auto known = widths_pt_.find(key);

@@ -19,6 +19,9 @@ class ScriptText {
     /// `pdf` must outlive this object, and this object must exist until `pdf` has been written.
     explicit ScriptText(QPDF& pdf) : pdf_(pdf) {}
 
+    /// Returns false if dotpose was built without librsvg, which typesets the lines.
+    static bool is_available();
+
     /// Returns the width of a line, in points. Throws Error if the line cannot be typeset.
     double width_pt(const std::string& utf8, double size_pt);
 

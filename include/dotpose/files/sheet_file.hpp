@@ -22,6 +22,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,10 @@
 #include "dotpose/files/sheet.hpp"
 
 DOTPOSE_BEGIN_EXPORT
+
+namespace dotpose::system {
+class FileLock;
+}
 
 namespace dotpose {
 
@@ -160,23 +165,9 @@ class SheetFile {
   private:
     friend class SheetReservation;
 
-    /// A lock on a hidden file beside the sheet file.
-    class Lock {
-      public:
-        Lock(const std::filesystem::path& path, const SheetFileWait& wait);
-        ~Lock();
-        Lock(const Lock&) = delete;
-        Lock& operator=(const Lock&) = delete;
-
-      private:
-        std::filesystem::path path_;
-        int descriptor_ = -1;
-    };
-
     std::filesystem::path path_;
-    Lock lock_;
-    std::optional<std::string> text_;  ///< contents of the file as read or saved; none if the file
-                                       ///< did not exist
+    std::unique_ptr<system::FileLock> lock_;  ///< on a hidden file beside the sheet file
+    std::optional<std::string> text_;  ///< the file as read or saved; none if it did not exist
     std::vector<SheetEntry> sheets_;
     /// Names of the renamed sheets in `text_`, indexed by the new name.
     std::map<std::string, std::string> names_in_text_;

@@ -7,16 +7,15 @@
 #include <stdexcept>
 
 #include <png.h>
-#include <stdlib.h>
 #include <tiffio.h>
+
+#include "system/files.hpp"
 
 namespace dotpose::print_test {
 namespace fs = std::filesystem;
 
 TemporaryDirectory::TemporaryDirectory() {
-    std::string name = (fs::temp_directory_path() / "dotpose-print-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
-    path_ = name;
+    path_ = system::create_temporary_folder();
 }
 
 TemporaryDirectory::~TemporaryDirectory() {
@@ -49,7 +48,7 @@ int Bitmap::count_ink() const {
 }
 
 Bitmap read_png(const fs::path& path) {
-    std::FILE* file = std::fopen(path.c_str(), "rb");
+    std::FILE* file = system::open_file(path, "rb");
     if (file == nullptr) throw std::runtime_error("cannot read " + path.string());
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png_create_info_struct(png);
@@ -74,7 +73,7 @@ Bitmap read_png(const fs::path& path) {
 }
 
 Bitmap read_tiff(const fs::path& path) {
-    TIFF* tiff = TIFFOpen(path.c_str(), "r");
+    TIFF* tiff = TIFFOpen(path.string().c_str(), "r");
     if (tiff == nullptr) throw std::runtime_error("cannot read " + path.string());
     std::uint32_t width = 0;
     std::uint32_t height = 0;

@@ -1,0 +1,39 @@
+/// A lock between programs, held by means of a file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <system_error>
+
+#include "dotpose/export.hpp"
+
+// Exported, because several libraries use these declarations.
+DOTPOSE_BEGIN_EXPORT
+
+namespace dotpose::system {
+
+/// A lock that one program at a time holds. The lock ends with the program that holds it, also if
+/// that program is killed.
+class FileLock {
+  public:
+    /// `path` names the file, which exists only while a program holds the lock or waits for it.
+    explicit FileLock(std::filesystem::path path) : path_(std::move(path)) {}
+    ~FileLock();
+    FileLock(const FileLock&) = delete;
+    FileLock& operator=(const FileLock&) = delete;
+
+    /// Takes the lock. Returns std::errc::resource_unavailable_try_again while another program
+    /// holds it, and another error if the file cannot be created or the file system does not
+    /// support locks.
+    std::error_code try_lock();
+
+  private:
+    static constexpr std::intptr_t kNotHeld = -1;
+
+    std::filesystem::path path_;
+    std::intptr_t handle_ = kNotHeld;  ///< descriptor or handle of the locked file
+};
+
+}  // namespace dotpose::system
+
+DOTPOSE_END_EXPORT

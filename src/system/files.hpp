@@ -1,0 +1,58 @@
+/// Operations on files that the standard library lacks. If they fail, they set errno, unless the
+/// comment states otherwise.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "dotpose/export.hpp"
+
+// Exported, because several libraries use these declarations.
+DOTPOSE_BEGIN_EXPORT
+
+namespace dotpose::system {
+
+/// Opens a file as std::fopen does. Returns nullptr if that fails.
+std::FILE* open_file(const std::filesystem::path& path, const char* mode);
+
+/// Creates a file for writing. Returns nullptr if that fails, with EEXIST if the file exists. The
+/// mode of the file follows the user's umask.
+std::FILE* create_new_file(const std::filesystem::path& path);
+
+/// Returns true if the user may write to an existing file.
+bool is_writable(const std::filesystem::path& path);
+
+/// Creates an empty file, or truncates an existing one. Returns its descriptor, or -1 if that
+/// fails. `close_descriptor` closes it.
+int create_descriptor(const std::filesystem::path& path);
+
+/// Writes all bytes at an offset from the start of the file. Returns false if that fails.
+bool write_at(int descriptor, const void* data, std::size_t size_bytes, std::uint64_t offset);
+
+/// Returns false if closing the file fails.
+bool close_descriptor(int descriptor);
+
+/// Numbers that identify a file on this computer: equal for all names of the file.
+struct FileNumbers {
+    std::uint64_t device = 0;
+    std::uint64_t file = 0;
+    bool is_regular = false;  ///< false for folders, devices and pipes
+    auto operator<=>(const FileNumbers&) const = default;
+};
+
+/// Returns the numbers of a file, or none if it does not exist.
+std::optional<FileNumbers> numbers_of(const std::filesystem::path& path);
+std::optional<FileNumbers> numbers_of(int descriptor);
+
+/// Creates a folder for temporary files, which only the user can read. Throws
+/// std::filesystem::filesystem_error if that fails.
+std::filesystem::path create_temporary_folder();
+
+}  // namespace dotpose::system
+
+DOTPOSE_END_EXPORT

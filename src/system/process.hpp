@@ -1,0 +1,41 @@
+/// The running program: its arguments, standard streams and signals.
+#pragma once
+
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dotpose/export.hpp"
+
+// Exported, because several libraries use these declarations.
+DOTPOSE_BEGIN_EXPORT
+
+namespace dotpose::system {
+
+/// Returns the arguments of `main` in UTF-8. Makes the standard streams binary, and prepares a
+/// console of Windows for UTF-8 and colours.
+std::vector<std::string> start_program(int argc, char** argv);
+
+/// Returns the folder of this program, or an empty path if it is not known.
+std::filesystem::path program_folder();
+
+/// Returns true if the stream is a terminal.
+bool is_terminal(std::FILE* stream);
+
+/// Waits at most 100 ms for bytes of a file, a pipe or a device. Returns the number of bytes read,
+/// 0 at the end, or none if there were no bytes yet. Throws std::system_error if reading fails.
+std::optional<std::size_t> read_available(int descriptor, void* data, std::size_t max_bytes);
+
+/// Calls the handler for the signals that ask the program to end: Ctrl-C, SIGTERM and a closed
+/// terminal. System calls continue after the signal.
+void on_end_signals(void (*handler)(int signal_number));
+
+/// Makes writing to a pipe without a reader fail with EPIPE instead of ending the program.
+void ignore_broken_pipes();
+
+}  // namespace dotpose::system
+
+DOTPOSE_END_EXPORT
