@@ -16,7 +16,6 @@
 #include "dotpose/files/option_names.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/image_file.hpp"
-#include "dotpose/tools/option_names.hpp"
 #include "system/path.hpp"
 
 namespace dotpose::cli {
