@@ -37,7 +37,7 @@ struct ReplayArguments {
     ReportArguments report;
 };
 
-/// Returns true if the file of -o is a recording rather than a report.
+/// Returns true if the output file (-o) is a recording rather than a report.
 bool is_recording(const std::string& out) {
     return print::lower_case(std::filesystem::path(out).extension().string()) == ".mcap";
 }
