@@ -1,6 +1,6 @@
 """Builds the package: CMake compiles its module from the sources of dotpose around this folder.
 
-DOTPOSE_BUILD names a configured build directory, to compile nothing twice.
+DOTPOSE_BUILD names a configured build directory, so that nothing is compiled twice.
 """
 
 import os
