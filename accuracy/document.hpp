@@ -22,8 +22,8 @@ std::string read_document(const std::filesystem::path& path);
 void update_document(const std::filesystem::path& path, const Blocks& blocks);
 
 /// Writes the blocks to tables.md in `folder`. If `document` is not empty, also replaces its blocks
-/// and copies all SVG pictures of `folder` to the picture folder of the document, which has the
-/// path of the document without its extension.
+/// and copies all SVG pictures of `folder` to its picture folder. The picture folder is beside the
+/// document and has its name without the extension.
 void write_tables(const std::filesystem::path& folder, const Blocks& blocks,
                   const std::filesystem::path& document);
 

@@ -57,7 +57,7 @@ struct IntegrityTally {
 
 enum class GridKind : std::uint8_t {
     any,
-    doubtful,  ///< with enough errors that p_wrong is between 1e-3 and 1e-5
+    doubtful,  ///< grids with enough errors that p_wrong is between 1e-3 and 1e-5
 };
 
 /// Draws grid `index` of a run with random bit errors, decodes it without an image and counts the

@@ -24,7 +24,7 @@ struct Done {
     double seconds = 0;
 
     bool is_complete() const { return done == wanted; }
-    /// Returns a text such as "12000 frames in 60 s, 200 frames/s", with a note if the work was
+    /// Returns text such as "12000 frames in 60 s, 200 frames/s", with a note if the work was
     /// interrupted.
     std::string speed_text(const std::string& items) const;
 };

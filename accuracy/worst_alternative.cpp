@@ -56,8 +56,8 @@ std::uint8_t section_of(int value) {
     return static_cast<std::uint8_t>((value % kSections + kSections) % kSections);
 }
 
-/// Returns the section for which the largest number of lines, starting at `position`, have the
-/// rolls `rolls`.
+/// Returns the section in which the largest number of lines has the rolls `rolls`. The lines start
+/// at `position`.
 std::uint8_t likest_section(CodeVariant code, std::uint32_t position, std::uint32_t cross,
                             const std::vector<std::uint8_t>& rolls) {
     std::vector<std::uint8_t> there(rolls.size());

@@ -13,7 +13,7 @@ namespace dotpose::bench {
 inline constexpr std::uint64_t kSeed = 606;
 
 /// Returns nominal frames that the first attempt and the attempt of DeviceLocator both locate.
-/// There are more frames of small cameras. The first call for a camera renders the frames.
+/// Small cameras get more frames. The first call for a camera renders the frames.
 const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera);
 
 /// Returns true if the fix has a pose and the pose is correct.

@@ -7,7 +7,6 @@
 // instruction at an address begins the stage with this name. A stage lasts until the next stage
 // begins. Instructions between `resume` and the first stage belong to the stage "other". The output
 // has one line with the names of the stages, and one line of counts for each marker `end_frame`.
-// line with the names of the stages, and one line of counts for each marker `end_frame`.
 #include <algorithm>
 #include <array>
 #include <cstddef>

@@ -25,7 +25,7 @@ struct CalibrationStatus {
     std::optional<double> theta_rad;  ///< direction of the newest frame, if it was located
     std::string now;                  ///< result of the newest frame
     std::string remark;               ///< advice after the newest calibration; may be empty
-    bool is_taken = false;            ///< true if the newest frame was taken
+    bool is_taken = false;            ///< true if the newest frame was accepted for calibration
 };
 
 class CalibrationDisplay {

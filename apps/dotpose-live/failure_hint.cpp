@@ -37,7 +37,7 @@ GreyImage copy_of(ImageView image) {
 }  // namespace
 
 /// Counts a failed frame by its status. Keeps a copy of the first, second, fourth, eighth (and so
-/// on) frame with each status; a new copy replaces the previous copy. At the end of the run, the
+/// on) frame with each status. A new copy replaces the previous copy. At the end of the run, the
 /// copy is therefore from the second half of the frames with this status, although few copies were
 /// made.
 void FailureHint::remember(const Record& record, ImageView image, const DeviceOptions& options,

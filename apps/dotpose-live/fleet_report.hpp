@@ -10,9 +10,9 @@
 
 namespace dotpose::cli {
 
-/// Recipients of the states: this `dotpose fleet` receives all states of its robots, or several
-/// instances share the states. If the states are shared, a gap in the sequence numbers does not
-/// mean a lost state, so missing states are not reported.
+/// Recipients of the states: this instance of `dotpose fleet` receives all states of its robots, or
+/// several instances share the states. If the states are shared, a gap in the sequence numbers does
+/// not mean a lost state, so missing states are not reported.
 enum class Delivery { all, shared };
 
 /// Returns a table of the robots as text, with a header line and a summary line.

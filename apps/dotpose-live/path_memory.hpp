@@ -15,7 +15,7 @@ namespace dotpose::cli {
 
 class PathMemory {
   public:
-    /// Takes the track after a frame. The point is added only if the robot is tracked in this
+    /// Takes the track after a frame. Adds a point to the path only if the robot is tracked in this
     /// frame.
     void add(const Track& track);
 

@@ -65,8 +65,8 @@ std::string json_of(const RobotState& state);
 std::optional<RobotState> parse_state(std::string_view json);
 
 struct RobotConnection {
-    std::string robot;            ///< sequence number of the connection message
-    std::uint64_t header_id = 0;  ///< number of the connection message, counted by the robot
+    std::string robot;            ///< name of the sender; empty in a parsed message
+    std::uint64_t header_id = 0;  ///< sequence number of the connection message
     /// Time of sending, in microseconds since 1970 on the system clock of the sender. In a last
     /// will, the time at which the robot connected.
     std::int64_t sent_us = 0;

@@ -125,7 +125,7 @@ bool WatchOutputs::take(const capture::Frame& frame, const Reading& reading, std
     return !screen_.is_on() || show(frame, reading, dropped);
 }
 
-/// Writes a line. If the reader has closed its end of a pipe, stops writing lines, and the other
+/// Writes a line. If the reader has closed the pipe, no more lines are written, but the other
 /// outputs continue.
 void WatchOutputs::write_line(const std::string& line) {
     if (!lines_) return;

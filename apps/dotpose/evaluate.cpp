@@ -147,7 +147,7 @@ std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line) 
         std::ranges::move(evaluate(run).front(), std::back_inserter(outcomes));
     }
     if (interrupted()) {
-        // Removes the frames of a video that were not read. They have a problem.
+        // Removes the frames of a video that were not read, which are marked by a problem.
         std::erase_if(outcomes, [](const Outcome& outcome) { return !outcome.problem.empty(); });
         tell(fmt::format("interrupted; the report covers the first {} of {} frames",
                          outcomes.size(), all.frames));

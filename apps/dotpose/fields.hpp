@@ -23,7 +23,8 @@ struct Field {
     /// Name of the JSON array that contains the field. Adjacent fields with the same name form one
     /// array. In CSV, each field is a column.
     std::string array = {};
-    /// True if JSON contains null if `text` is empty. Otherwise, JSON omits the field.
+    /// If `text` is empty, JSON contains null if this member is true. Otherwise, JSON omits the
+    /// field.
     bool is_null_if_empty = false;
 };
 
@@ -36,8 +37,8 @@ std::string degrees(double angle_rad);
 /// Formats an upper bound of a probability with three digits, rounded up to remain an upper bound.
 std::string p_wrong_text(double p_wrong);
 
-/// Formats fields as one line, including the line break. JSON omits fields without a value or
-/// contains null. CSV contains all columns. In JSON, invalid UTF-8 bytes are replaced.
+/// Formats fields as one line, including the line break. In JSON, fields without a value are null
+/// or omitted (`is_null_if_empty`), and invalid UTF-8 bytes are replaced. CSV contains all columns.
 std::string json_line(const std::vector<Field>& fields);
 std::string csv_header(const std::vector<Field>& fields);
 std::string csv_line(const std::vector<Field>& fields);

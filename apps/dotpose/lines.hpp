@@ -17,7 +17,7 @@ inline bool is_standard_output(const std::string& out) {
     return out.empty() || out == kStandardOutput;
 }
 
-/// Thrown if the reader of an output, such as `head`, has closed its end.
+/// Thrown if the reader of an output, such as `head`, has closed the output.
 struct ReaderLeft : Error {
     using Error::Error;
 };

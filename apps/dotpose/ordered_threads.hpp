@@ -21,8 +21,8 @@ namespace dotpose::cli {
 template <typename Result>
 class OrderedThreads {
   public:
-    /// Emits a result. Blocks while kMaxResults results of the thread are waiting. If it returns
-    /// false, no more results are needed and the thread must end.
+    /// Emits a result. Blocks while kMaxResults results of the thread are waiting. Returns
+    /// false if the thread must end, because no more results are needed.
     using Emit = std::function<bool(Result)>;
     using Work = std::function<void(std::size_t thread, const Emit& emit)>;
 

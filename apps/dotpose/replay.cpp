@@ -38,7 +38,7 @@ struct ReplayArguments {
     ReportArguments report;
 };
 
-/// Returns true if the file of -o is a recording rather than a report.
+/// Returns true if the output file (-o) is a recording rather than a report.
 bool is_recording(const std::string& out) {
     return print::lower_case(system::path_of(out).extension().string()) == ".mcap";
 }

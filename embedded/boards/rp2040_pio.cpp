@@ -170,8 +170,8 @@ Frame start_frame(std::int64_t not_before_us) {
     pio_sm_set_enabled(pio0, machine, true);
     for (int row = 0; row < kTop; ++row)
         next_row();
-    // A row arrives at about the end of its exposure. The middle of the exposure of the frame is
-    // therefore about half the frame's rows later.
+    // A row arrives at about the end of its exposure. The middle row, which defines the
+    // time of the frame, arrives half the frame height later.
     constexpr std::int64_t kRow_us = 66'667 / 510;
     return {kWidth_px, kHeight_px,
             static_cast<std::int64_t>(time_us_64()) + kRow_us * kHeight_px / 2};

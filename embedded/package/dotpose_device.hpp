@@ -4,8 +4,8 @@
 ///     static dotpose::DeviceMemory memory;
 ///     static dotpose::DeviceLocator locator(memory);
 ///
-/// `DeviceMemory` is for frames of 188 x 120 px. For other frame sizes, use DeviceMemoryFor<160,
-/// 120> or DeviceMemoryFor<320, 240>.
+/// `DeviceMemory` is for frames of 188 x 120 px. For other frame sizes, use
+/// `DeviceMemoryFor<160, 120>` or `DeviceMemoryFor<320, 240>`.
 ///
 /// Include this header before all other dotpose headers, because Arduino finds the library by the
 /// name of this header.

@@ -1,11 +1,11 @@
 /// Position code: returns the symbol at each grid intersection, and decodes the position of a
 /// window of symbols.
 ///
-/// Paper section II-A. Every column of the pattern is the cyclic *main* sequence, read downwards
-/// from an offset, its *roll*. The rolls of adjacent columns differ by 5 to 58, modulo 63. Each
-/// difference has four digits, one from each of four cyclic sequences with coprime lengths. The
-/// digits of consecutive differences determine the position of the column. Rows encode y in the
-/// same way.
+/// Paper section II-A. Every column of the pattern contains the cyclic *main* sequence, which is
+/// read downwards. The *roll* of a column is the offset at which the sequence starts. The rolls of
+/// adjacent columns differ by 5 to 58, modulo 63. Each difference has four digits, one from each of
+/// four cyclic sequences with coprime lengths. The digits of consecutive differences determine the
+/// position of the column. Rows encode y in the same way.
 ///
 /// Coordinate frame: x to the right, y DOWN, as the printed page is read. All functions are pure
 /// and thread-safe, and do not allocate.

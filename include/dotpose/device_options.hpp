@@ -41,9 +41,10 @@ struct ThresholdOptions {
     /// High threshold: minimum contrast between the paper and the darkest pixel of a blob, as a
     /// fraction of the local contrast, in 1/256. Larger values reject more noise. [1 to 256]
     int high_q8 = 155;
-    /// Contrast, in grey levels, below which an area counts as blank. If a sixth of the largest
-    /// contrast in the frame so far is larger, the sixth is used instead, up to twice this option.
-    /// On devices, `DeviceOptions::min_contrast` is used instead if it is larger. [1 to 255]
+    /// Contrast, in grey levels, below which an area counts as blank. The effective limit is a
+    /// sixth of the largest contrast in the frame so far, but at least the value of this option and
+    /// at most twice the value. On devices, `DeviceOptions::min_contrast` replaces this option if
+    /// it is larger. [1 to 255]
     int min_contrast = 8;
 };
 
@@ -75,8 +76,8 @@ struct LatticeOptions {
 
 /// Limits beyond which a position is refused as not certain.
 struct IntegrityOptions {
-    /// Maximum of the upper bound on the probability that a fix is wrong, as log2. A position with
-    /// a larger bound is refused. The default is slightly below 1e-9. [-2^20 to 0]
+    /// Maximum log2 of the upper bound on the probability that a fix is wrong. A position with a
+    /// larger bound is refused. The default is slightly below 1e-9. [-2^20 to 0]
     int max_p_wrong_log2 = -30;
     /// Maximum fraction, in 1/256, of the bits read on either axis that may contradict the
     /// position. A larger fraction indicates that the frame contains two patterns. [0 to 256]

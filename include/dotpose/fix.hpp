@@ -48,9 +48,9 @@ const char* name(Prior prior) noexcept;
 /// Result of Locator::locate or DeviceLocator::locate. Unless `status` is ok, only `status`,
 /// `dots_seen` and the counts of the stages that the frame reached are valid.
 ///
-/// The pose: the pattern point under the reference point (by default the image centre) is `cell +
-/// fraction` in units of the spacing; `theta` is the angle of the image x axis in the pattern
-/// frame, from +x towards +y (clockwise as seen on the paper, since y is down).
+/// The pattern point under the reference point (by default the image centre) is `cell + fraction`,
+/// in units of the spacing. `theta` is the angle of the image x axis in the pattern frame, from +x
+/// towards +y. As seen on the paper, this direction is clockwise, because y points down.
 struct Fix {
     Status status = Status::not_run;
     Attempt attempt = Attempt::first;

@@ -51,8 +51,8 @@ class FramePacer {
   public:
     explicit FramePacer(const PacerOptions& options = {}) : options_(options) {}
 
-    /// Takes the result of a frame, with or without a fix, and the time of the frame on any
-    /// monotonic clock. Returns the earliest time of the next frame.
+    /// Processes the result of a frame, with or without a fix. `time_us` is the time of the frame
+    /// on any monotonic clock. Returns the earliest time of the next frame.
     std::int64_t next_frame_us(const Fix& fix, std::int64_t time_us);
 
     /// Returns the state of motion of the device, initially `moving`.

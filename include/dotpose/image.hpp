@@ -19,8 +19,8 @@ inline constexpr int kMinKnownFrameSide_px = 24;
 /// Maximum width and height, in pixels, of an image.
 inline constexpr int kMaxFrameSide_px = 4096;
 
-/// A grey image with dark dots on light paper. Grey level 0 is black. Row `v` starts at `pixels + v
-/// * stride_bytes`.
+/// A grey image with dark dots on light paper. Grey level 0 is black. Row `v` starts at
+/// `pixels + v * stride_bytes`.
 struct ImageView {
     const std::uint8_t* pixels = nullptr;
     int width_px = 0;

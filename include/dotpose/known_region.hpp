@@ -29,7 +29,7 @@ struct KnownRegion {
 /// smallest views that can be certain have about 25 dots.
 inline constexpr int kMinKnownDots = 16;
 
-/// Whether sheets other than the known ones may be in view.
+/// Specifies whether sheets other than the known sheets may be in view.
 enum class OtherSheets : std::uint8_t {
     possible,    ///< other sheets are also located, but only if more dots are in view
     impossible,  ///< only places on known sheets are possible

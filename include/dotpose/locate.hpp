@@ -119,9 +119,10 @@ class Locator : public RowLocator {
 
     /// Sets the regions of the code plane that are printed on the sheets that may be in view. With
     /// known regions, views of about 30 dots suffice. `regions` must remain valid while the locator
-    /// uses it. An empty span makes all places possible again. Returns bad_argument, and keeps the
-    /// previous regions, if a region is empty or not inside the plane, or if its code or section
-    /// does not exist. Effort::device does not use the regions.
+    /// uses it. An empty span makes all places possible again. An invalid region is empty, is not
+    /// inside the plane, or has a code or section that does not exist. If any region is invalid,
+    /// returns bad_argument and keeps the previous regions. Effort::device does not use the
+    /// regions.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 
@@ -160,9 +161,11 @@ class Locator : public RowLocator {
                                    const CodeEvidence& evidence);
 
     /// Locates an image in `options().code`, with the same fix as `locate`. Sets `has_other` in
-    /// three cases: a different place in another code variant explains the image about as well as
-    /// the fix, the same place in another code variant explains the image much better, or the image
-    /// has no fix in `options().code` but a place in another code variant with few wrong bits.
+    /// three cases:
+    /// - A different place in another code variant explains the image about as well as the fix.
+    /// - The same place in another code variant explains the image much better.
+    /// - The image has no fix in `options().code`, but a place in another code variant with few
+    ///   wrong bits.
     CodeReading locate_in_code(const ImageView& image);
 
     /// Starts an image that is pushed row by row, with or without a prediction. The locator keeps

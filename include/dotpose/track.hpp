@@ -16,7 +16,8 @@
 /// Coordinate frames: all poses are in the plane of the sightings. This plane is the pattern frame,
 /// or the world of a sheet file, in which a robot may drive from sheet to sheet. Positions are
 /// integers in nanometres, which cover the whole pattern plane (2.1e14 nm). Angles are binary, from
-/// +x towards +y; 2^31 is half a turn. Velocities: mm/s along x and y, rad/s.
+/// +x towards +y; 2^31 is half a turn. Velocities are in mm/s along x and y, and angular velocities
+/// are in rad/s.
 ///
 /// No heap, no double, no globals. Different trackers may be used concurrently.
 #pragma once
@@ -102,8 +103,8 @@ struct TrackOptions {
     float min_sigma_mm = 0.0002F;
     float min_sigma_rad = 0.00002F;
 
-    /// Maximum of the upper bound on the probability, as log2, that an accepted sighting is wrong.
-    /// The bound for a weak sighting takes the prior into account.
+    /// Maximum log2 of the upper bound on the probability that an accepted sighting is wrong. The
+    /// bound for a weak sighting takes the prior into account.
     int max_p_wrong_log2 = -30;
     /// Maximum `p_wrong_log2` of an accepted weak sighting, regardless of the prior. The value must
     /// be at most -1.
@@ -221,13 +222,19 @@ class Tracker {
     /// Returns the state after the newest frame.
     const Track& track() const { return track_; }
 
-    /// Predicts the place of the pattern in the frame at `time_us`. Moves the map of `newest`, an
-    /// ok fix with the sighting `seen`, to the pose that the filter expects, and adds the
-    /// uncertainty of this pose. If `seen` is not accepted yet, the prediction uses the sightings
-    /// that agree with it. Returns Prediction::like(newest) if there is no usable pose: if the
-    /// filter has not followed `seen`, if the robot will be lost at `time_us`, if `time_us` is not
-    /// after `seen`, if the spacing is not known, or if the predicted motion is 2048 spacings or
-    /// more along x or y. `options` are the options of the Locator.
+    /// Predicts the place of the pattern in the frame at `time_us`. `newest` must be a fix with
+    /// status ok, and `seen` must be its sighting. Moves the map of `newest` to the pose predicted
+    /// by the filter, and adds the uncertainty of this pose. If `seen` is not accepted yet, the
+    /// prediction is based on the sightings that agree with `seen`.
+    ///
+    /// Returns Prediction::like(newest) if no prediction is possible:
+    /// - `seen` is not the newest sighting of a motion estimate,
+    /// - the robot will count as lost at `time_us`,
+    /// - `time_us` is not after the time of `seen`,
+    /// - the spacing is not known, or
+    /// - the predicted motion along x or y is 2048 spacings or more.
+    ///
+    /// `options` are the options of the Locator.
     Prediction predict(std::int64_t time_us, const Fix& newest, const Sighting& seen,
                        const DeviceOptions& options) const;
 

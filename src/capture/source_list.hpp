@@ -46,7 +46,8 @@ class SourceList : public FrameSource {
 
     std::function<std::optional<std::string>()> next_name_;
     SourceOptions options_;
-    std::optional<std::string> pending_name_;  ///< name of the source after a series of images
+    /// Name already read from the list: the source that follows the images.
+    std::optional<std::string> pending_name_;
     std::vector<std::string> images_;  ///< images of the newest folder or glob, or one image
     std::size_t next_image_ = 0;
     std::unique_ptr<FrameSource> source_;

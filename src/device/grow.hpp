@@ -1,5 +1,5 @@
 // Grow: extends the first estimate of the grid to all dots, without perspective or lens. Paper
-// section II-B.3. differs: the paper uses eq. 6 and then the median lengths between neighbours.
+// section II-B.3. Differs: the paper uses eq. 6 and then the median lengths between neighbours.
 // This implementation estimates all terms with a least-squares fit to the dots within reach. The
 // fit treats displacements as noise. The reach grows from fit to fit.
 #pragma once

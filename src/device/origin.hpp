@@ -1,4 +1,4 @@
-// Origin: finds the origin of the first grid. Paper section II-B.2. differs: the paper uses a dot
+// Origin: finds the origin of the first grid. Paper section II-B.2. Differs: the paper uses a dot
 // that is connected to all its eight neighbours. If dots are displaced or missing, few dots meet
 // this condition. This implementation computes the origin from the mean phase of all dots near the
 // centre, as in a Fourier transform.

@@ -50,7 +50,8 @@ CellsInView cells_in_view(const ImageView& image, const DeviceOptions& options,
 /// Moves the origin of the cells to the intersection nearest to `from_centre`.
 void count_from_centre(CodeVariant code, Hypothesis& hypothesis);
 
-/// Least-squares shift, scale and turn that move the predicted dots to the measured dots.
+/// Least-squares similarity (shift, scale and rotation) that maps the predicted dots to the
+/// measured dots.
 struct Similarity {
     FloatVec shift_px;
     float scale = 0;  ///< scale minus 1

@@ -23,9 +23,8 @@ int diameter_px(const Sheet& sheet, double dpi) {
     return std::max(1, static_cast<int>(std::lround(sheet.pattern.dot_mm * dpi / kInch_mm)));
 }
 
-/// Returns the first pixel of the dot position whose centre is nearest to `centre_mm`. Pixel k
-/// extends from k to k + 1. If rounding would move the dot beyond the edge of the page, moves the
-/// dot back by one pixel.
+/// Returns the first pixel of a dot of `dot_px` pixels whose centre is as close as possible to
+/// `centre_mm`. Pixel k extends from k to k + 1. The result is clamped to the page.
 int first_px(double centre_mm, double dpi, int dot_px, int page_px) {
     const double first = centre_mm * dpi / kInch_mm - 0.5 * dot_px;
     return std::clamp(static_cast<int>(std::floor(first + 0.5 + kTie_px)), 0, page_px - dot_px);

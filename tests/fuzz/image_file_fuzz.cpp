@@ -9,8 +9,8 @@
 
 using namespace dotpose;
 
-// A few bytes may declare an image of gigabytes. The fuzzer would report its allocation as an
-// error.
+// Limits the size of the images. A header of a few bytes can declare an image of several gigabytes,
+// and the fuzzer would report the allocation as an error.
 constexpr int kMaxPixels = 1 << 20;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

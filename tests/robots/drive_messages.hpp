@@ -1,4 +1,5 @@
-/// Compares messages, as decoded by their readers, with the lines of the same run (--units ros).
+/// Compares decoded messages with the JSON lines that `dotpose watch --units ros` writes in the
+/// same run. The messages are decoded by independent readers (npm_readers.hpp).
 #pragma once
 
 #include <array>

@@ -208,8 +208,7 @@ enum {
  *
  * The pose is the pattern position at the reference point of the image, by default the image
  * centre. Unless `status` is DOTPOSE_OK, x_mm, y_mm and theta_rad are NaN, and only `status`,
- * `dots_seen` and the counts of the completed stages are valid.
- * `dots_seen` and the counts of the stages reached are valid. */
+ * `dots_seen` and the counts of the completed stages are valid. */
 typedef struct dotpose_fix {
     /* Size of this struct; dotpose_fix_init sets it. */
     uint32_t size; /* 0 */
@@ -379,8 +378,8 @@ dotpose_status dotpose_locator_init(void* memory, size_t bytes, int32_t kind,
  * and its linker removes unused sections, it does not contain the other kinds. */
 dotpose_status dotpose_device_init(void* memory, size_t bytes, const dotpose_options* options,
                                    dotpose_locator** locator);
-/* Sets up a locator of DOTPOSE_KIND_DEVICE_160X120 or DOTPOSE_KIND_DEVICE_320X240 in the same way.
- * */
+/* Sets up a locator of DOTPOSE_KIND_DEVICE_160X120 or DOTPOSE_KIND_DEVICE_320X240 in the same
+ * way. */
 dotpose_status dotpose_device_160x120_init(void* memory, size_t bytes,
                                            const dotpose_options* options,
                                            dotpose_locator** locator);
@@ -422,8 +421,8 @@ enum {
  * 24 x 24 px, are then sufficient. The locator reads `regions` in each frame, so the array must
  * remain valid and unchanged. If `count` is 0, all places are possible again. Discards a frame that
  * was begun. Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not inside
- * the plane, or has a code or section that does not exist. Returns WRONG_KIND for device locators.
- * */
+ * the plane, or has a code or section that does not exist. Returns WRONG_KIND for device
+ * locators. */
 dotpose_status dotpose_set_known(dotpose_locator* locator, const dotpose_region* regions,
                                  size_t count, int32_t others);
 
@@ -511,8 +510,8 @@ dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* p
                                       int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                       dotpose_code_reading* reading, dotpose_fix* fix);
 
-/* Returns the most likely code, and an upper bound of the probability that another code is correct.
- * */
+/* Returns the most likely code, and an upper bound of the probability that another code is
+ * correct. */
 dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int32_t* code,
                                       float* p_wrong);
 

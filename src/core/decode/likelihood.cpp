@@ -68,8 +68,8 @@ Status assign(std::span<const DetectedDot> dots, PointOf point_of, Grid& grid) {
         const GridPoint g = point_of(dot);
         const auto i = static_cast<unsigned>(g.cell.x - here.i0);
         const auto j = static_cast<unsigned>(g.cell.y - here.j0);
-        // Eq. 7-8. differs: y points down, so the x bit is 1 for left and down, and the y bit is 1
-        // for right and down.
+        // Paper eq. 7-8. Differs: y points down, so the x bit is 1 for left and down, and the y bit
+        // is 1 for right and down.
         if (i < columns && j < rows) {
             const GridCell read{quasi_probability(g.offset_q16.y - g.offset_q16.x),
                                 quasi_probability(g.offset_q16.y + g.offset_q16.x), index};

@@ -97,7 +97,7 @@ std::int32_t best_agreement(const Voters& voters) {
 }  // namespace
 
 Orientation rank_turns(const Grid& grid, const GridRegion& region) {
-    // differs: the paper counts the lines that occur exactly in the main sequence. Here, the sum of
+    // Differs: the paper counts the lines that occur exactly in the main sequence. Here, the sum of
     // the best scores also takes lines with misread bits into account.
     const Voters x_columns(grid, region, true, &GridCell::x);
     const Voters y_rows(grid, region, false, &GridCell::y);

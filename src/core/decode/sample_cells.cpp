@@ -200,9 +200,9 @@ int CellSampler::light_q8(const CellView& view) const {
     return here * 256 / paper_at(paper_, image_.width_px / 2, image_.height_px / 2);
 }
 
-/// Returns a place with the darkness and the shade of a typical dot. Each value is a median over
-/// the darkest places of a sample of cells, and is at least 1. The sample contains only cells with
-/// all four places in the image.
+/// Returns a place with the darkness and the shade of a typical dot. Each value is the median over
+/// the darkest place of each sampled cell, and is at least 1. Only cells whose four places are all
+/// in the image are sampled.
 PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
     std::array<std::int32_t, tuned::kMedianSample> darkness;
     std::array<std::int32_t, tuned::kMedianSample> shade;

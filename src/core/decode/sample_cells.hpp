@@ -1,6 +1,6 @@
 // Sample cells: reads the bits of every cell from the grey levels at the four places of the cell.
 // Dots contribute even if blob detection missed them. In the second attempt, this stage replaces
-// the projections of eq. 7-8. differs: docs/differs-from-paper.md.
+// the projections of eq. 7-8. Differs: docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/grid.hpp"

@@ -1,4 +1,4 @@
-// Search: finds the position on one axis that agrees best with all lines in view. differs: the
+// Search: finds the position on one axis that agrees best with all lines in view. Differs: the
 // paper decodes the clearest 8 x 8 symbols, one line at a time. See docs/differs-from-paper.md.
 #pragma once
 

@@ -1,5 +1,5 @@
 // Step search: finds the position on one axis from the steps between all adjacent lines. A *step*
-// is the difference between the rolls of two adjacent lines. differs: the paper decodes each line
+// is the difference between the rolls of two adjacent lines. Differs: the paper decodes each line
 // separately. See docs/differs-from-paper.md.
 #pragma once
 

@@ -25,8 +25,8 @@ inline constexpr int kShadePart = 5;
 inline constexpr int kBeside_60th = 8;
 inline constexpr int kBesideDiagonally_60th = 5;
 /// Darkness of solid ink relative to the paper level, in 1/256. A shade above the geometric mean of
-/// this value and the shade of a typical dot counts as graphics. Frames located with half or twice
-/// the value: 1,992.
+/// this value and the shade of a typical dot counts as graphics. With half or twice the value,
+/// 1,992 frames were located.
 inline constexpr int kSolidInk_q8 = 230;
 /// Reliability of the bits of a cell, in 1/16, indexed by the number of places of the cell that are
 /// in the image. Measured on hard frames.
@@ -36,8 +36,8 @@ inline constexpr int kReliabilityCovered_q4 = 10;
 /// Shade next to a place above which the cell counts as near graphics, in fifths of the minimum
 /// shade of graphics.
 inline constexpr int kNearGraphics_5ths = 3;
-/// Reliability, in 1/16, of the bits of a cell near graphics. Frames located with 3: 1,993; with
-/// 14: 1,994.
+/// Reliability, in 1/16, of the bits of a cell near graphics. A value of 3 located 1,993 frames,
+/// and a value of 14 located 1,994.
 inline constexpr int kReliabilityNearGraphics_q4 = 7;
 /// Darkness above which the darkest place of a cell may be dirt, in tenths of the darkness of a
 /// typical dot.
@@ -50,8 +50,8 @@ inline constexpr int kTooDark_10ths = 16;
 /// Reliability, in 1/16, of the bits of a cell whose darkest place is probably dirt.
 inline constexpr int kReliabilityTooDark_q4 = 6;
 /// Weight of a bit, before clamping to 127, if the darkness of its places differs by the darkness
-/// of a typical dot. A difference of about two fifths of this darkness reaches the limit of 127.
-/// Frames located with 150: 1,994; with 600: 1,992.
+/// of a typical dot. A difference of about two fifths of this darkness reaches the limit of 127. A
+/// value of 150 located 1,994 frames, and a value of 600 located 1,992.
 inline constexpr int kGain = 300;
 /// Maximum ratio of the light at a cell to the light at the centre of the image, in 1/256. Brighter
 /// light does not increase the weights further.
@@ -69,9 +69,9 @@ inline constexpr int kMaxCrowded_8ths = 3;
 namespace search {
 /// Maximum number of rolls to try for one line.
 inline constexpr int kChoices = 8;
-/// Maximum number of runs of lines, and of readings per run, in the second attempt. Frames located
-/// with half or twice either number: 1,994. The chosen values leave a margin for frames with more
-/// misread bits.
+/// Maximum number of runs of lines, and of readings per run, in the second attempt. Halving or
+/// doubling either limit changed nothing: 1,994 frames were located. The chosen values leave a
+/// margin for frames with more misread bits.
 inline constexpr int kRuns = 24;
 inline constexpr int kReadings = 64;
 /// Maximum number of runs, and of readings per run, in the first attempt and on devices. None of

@@ -12,8 +12,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Half of a low threshold for which every pixel is dark. Stored after the last column as a
-/// sentinel that ends the search for dark pixels.
+/// Value of `half_low_levels` that makes every pixel count as dark. Stored after the last column as
+/// a sentinel to end the search for dark pixels.
 constexpr std::uint8_t kAlwaysDark = 128;
 
 constexpr int kBandsKept = 4;  // three bands are needed, but a power of two is faster

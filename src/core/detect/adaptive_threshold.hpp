@@ -1,5 +1,5 @@
 // Adaptive threshold: measures the paper level and the contrast of tiles, and sets the thresholds
-// of each column. Implements the first half of the thresholding of paper section II-B.1. differs:
+// of each column. Implements the first half of the thresholding of paper section II-B.1. Differs:
 // the paper uses one global threshold, but LEDs next to a wide-angle lens never light the sheet
 // evenly.
 #pragma once

@@ -1,5 +1,5 @@
 // Smooth: the filter of the second attempt. The filter normalises the light, averages noise over
-// about the area of a blurred dot, and removes single defective pixels. differs: the paper has no
+// about the area of a blurred dot, and removes single defective pixels. Differs: the paper has no
 // such filter. See docs/differs-from-paper.md.
 #pragma once
 

@@ -1,7 +1,7 @@
 // Posterior: estimates the distortion terms with Bayes' rule, which shrinks the fitted terms
 // towards 0. The terms are 0 for a camera that looks straight at flat paper. Fitting a tilt that is
 // not present costs accuracy, as does omitting a tilt that is present. The amount of shrinkage
-// depends on the probability that a tilt is present. differs: the paper has no such terms.
+// depends on the probability that a tilt is present. Differs: the paper has no such terms.
 #pragma once
 
 #include <array>

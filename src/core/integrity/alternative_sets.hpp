@@ -15,10 +15,15 @@ struct AlternativeSet {
     /// to the next.
     int equal_q8 = 0;
 };
-/// The sets of sequences in which the places differ, in this order: a3 and one other sequence; two
-/// sequences other than a3; a3 and two other sequences; all three sequences other than a3; all four
-/// sequences. Each entry combines all choices of sequences other than a3, because a1, a2 and a4
-/// have the same base and therefore the same probability `equal_q8`.
+/// The sets of sequences in which the places differ, in this order:
+/// - a3 and one other sequence,
+/// - two sequences other than a3,
+/// - a3 and two other sequences,
+/// - all three sequences other than a3,
+/// - all four sequences.
+///
+/// Each entry combines all choices of sequences other than a3, because a1, a2 and a4 have the same
+/// base and therefore the same probability `equal_q8`.
 inline constexpr std::array<AlternativeSet, 5> kAlternativeSets{
     {{3694, -661}, {4444, -811}, {5712, -1067}, {6057, -1217}, {7326, -1473}}};
 /// log2 of 1.03, the factor `kUnevenness` in expected_alternatives.cpp, in units of 2^-8, rounded

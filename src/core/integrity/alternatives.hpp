@@ -8,9 +8,9 @@ namespace dotpose::core {
 
 /// Returns log2 of the summed odds of all alternatives except seam alternatives, rounded up to an
 /// integer and clamped to at most 0. Far alternatives differ from the reading in several sequences
-/// and share few adjacent lines. A far alternative contributes its expected odds, unless it is
-/// counted one by one. All other odds in the sum are exact or upper bounds. The sum is only as
-/// precise as a comparison with 2^limit_log2 requires. Returns 0 if there are at most 5 lines.
+/// and share few adjacent lines. A far alternative contributes either its individual odds or its
+/// expected odds. All other odds in the sum are exact or upper bounds. The sum is only as precise
+/// as a comparison with 2^limit_log2 requires. Returns 0 if there are at most 5 lines.
 int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2 = 0);
 
 }  // namespace dotpose::core

@@ -44,11 +44,11 @@ class ScoredAxis {
     int count() const { return scores_.count; }
 
     /// Returns the number of bits that agree with the code if the first line is at `position` and
-    /// the rolls of all lines are those in section 0 plus `added`.
+    /// the roll of each line is its roll in section 0 plus `added`.
     int agreeing(CodeVariant code, std::uint32_t position, std::size_t added) const;
 
     /// Calls `use(position, sums)` for each position of the first line in `range`. sums[r] is the
-    /// number of bits that agree with the code if the rolls of all lines are those in section 0
+    /// number of bits that agree with the code if the roll of each line is its roll in section 0
     /// plus r. The section and the position on the other axis determine r.
     template <typename Use>
     void visit(CodeVariant code, const PositionRange& range, Use use) const {
@@ -119,8 +119,8 @@ class KeptTable {
 };
 
 /// Calls `use(column, column_roll, row, row_roll)` for each pair of a column class and a row class.
-/// The rolls of the columns are those in section 0 plus `column_roll`, which depends only on the
-/// section and the row class. The rolls of the rows are those in section 0 plus `row_roll`, which
+/// The roll of each column is its roll in section 0 plus `column_roll`, which depends only on the
+/// section and the row class. The roll of each row is its roll in section 0 plus `row_roll`, which
 /// depends only on the section and the column class.
 template <typename Use>
 void visit_classes(const Section& section, Use use) {

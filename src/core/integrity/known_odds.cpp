@@ -41,8 +41,7 @@ class OddsOfBits {
     int per_bit_;  ///< log2 of the odds of a bit, in units of 2^-23
 };
 
-/// Position of the first line, and the offset of the rolls of all lines from their rolls in section
-/// 0.
+/// Position of the first line, and the common offset of all rolls relative to section 0.
 struct PositionAndRoll {
     std::uint32_t position;
     std::size_t roll;
@@ -89,10 +88,11 @@ float random_agreement(int bits, int wrong) {
     return term * power_of_two_exactly(exponent) / (1 - ratio);
 }
 
-/// Returns an upper bound on the probability that a view of none of the known sheets, for example
-/// of an unknown sheet, agrees with some place on the known sheets at least as well as the bits
-/// that were read. `bits` is the number of bits of each axis, `wrong` the number of wrong bits of
-/// each axis, and `lines` the number of columns or rows, whichever is larger.
+/// Returns an upper bound on the probability that a view that contains none of the known sheets
+/// agrees with some place on the known sheets at least as well as the bits that were read. For
+/// example, the view may show an unknown sheet. `bits` is the number of bits of each axis, `wrong`
+/// the number of wrong bits of each axis, and `lines` the number of columns or rows, whichever is
+/// larger.
 float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int, 2>& wrong,
                       int lines) {
     float places = 0;

@@ -91,8 +91,8 @@ class LikelihoodRatios {
     /// summed odds of all rolls except the roll of the reading, divided by the odds of the best of
     /// these rolls. For hard bits only.
     int log2_of_nearest_q8(int line) const;
-    /// Returns the maximum gain of an alternative, summed over all lines that another roll fits
-    /// better than the roll of the reading.
+    /// Returns the maximum gain of an alternative: the sum of the maximum gains in all lines that
+    /// another roll fits better than the roll of the reading.
     int max_gain() const { return max_gain_; }
     /// Returns the maximum number of adjacent lines that an alternative can share with the reading.
     int max_shared() const { return basis[3].has_twins ? kMaxShared : code::kOrder; }
@@ -181,7 +181,7 @@ inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequenc
 /// Returns the loss of an alternative at the shift at which it shares the line `shared`. Adds the
 /// losses of the later lines first, and then those of the earlier lines. Stops as soon as the
 /// alternative is hopeless, and returns the loss so far. Returns nullopt at the first earlier line
-/// that is shared at the same shift, because the alternative is counted at that line.
+/// that is shared at the same shift, because the odds of the alternative are added for that line.
 std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOffsets& offsets,
                                    int shared);
 

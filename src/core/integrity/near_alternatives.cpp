@@ -9,9 +9,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of periods of a sequence that are added to a place before the index of a line is
-/// subtracted, to keep the difference positive. This number of periods contains more than kMaxLines
-/// places, even in the shortest sequence.
+/// Number of periods of a sequence to add to a place. The added periods keep the difference
+/// positive when the index of a line is subtracted. This number of periods contains more than
+/// kMaxLines places, even in the shortest sequence.
 constexpr std::uint32_t kPeriods = kMaxLines / code::kA3.size() + 1;
 
 /// The places in one sequence at which the digits of a run occur. The digits of a run are the
@@ -38,7 +38,8 @@ class TwinPlaces {
 
     /// A place with its roll offsets.
     struct Twin {
-        EightOffsets first = 0;  ///< offsets in the lines of ranks 0 to 7 minus `at_run`, modulo 63
+        /// Offsets of the lines of ranks 0 to 7, relative to `at_run`, modulo 63.
+        EightOffsets first = 0;
         const RankedLines::Offsets* offsets;
         int at_run;  ///< offset in the first line of the run
     };

@@ -16,7 +16,8 @@ namespace {
 /// position is accepted if a seam explains the view equally well, and refused if a seam explains
 /// the view better by two bits.
 constexpr int kSeam_q8 = -32 * 256;
-/// Minimum odds at which an alternative is counted, excluding the prior, as log2 in units of 2^-8.
+/// Minimum odds of the alternatives that are included in the sum, as log2 in units of 2^-8. The
+/// odds exclude the prior.
 constexpr int kMin_q8 = -8 * 256;
 
 /// Minimum losses of an alternative before and beyond each border, over all shifts. Ignores shifts
@@ -86,8 +87,9 @@ class SeamAlternatives {
     SeamAlternatives(const LikelihoodRatios& ratios, int loss_limit)
         : ratios_(ratios), loss_limit_(loss_limit) {}
 
-    /// For each border between two lines, adds the alternative that has `place` in `sequence` and a
-    /// seam at this border, if its odds, excluding the prior, are above kMin_q8.
+    /// For each border between two lines, considers the alternative that has `place` in `sequence`
+    /// and a seam at this border. Adds the odds of the alternative if they exceed kMin_q8 without
+    /// the prior.
     void add(std::size_t sequence, std::uint32_t place) {
         RollOffsets offsets;
         set_roll_offsets(ratios_, sequence, place, offsets);
@@ -105,14 +107,16 @@ class SeamAlternatives {
     int sum_q8_ = kNever_q8;
 };
 
-/// Returns the loss at which an alternative is too improbable to be counted.
+/// Returns the loss at which an alternative is too improbable to be included in the sum.
 int loss_limit_of(const LikelihoodRatios& ratios) {
     return ratios.loss_for(kMin_q8) + ratios.max_gain();
 }
 
-/// Returns the loss in each step. The step across the border may have no loss. The unit is
-/// therefore so large that kLimitParts units, minus the largest loss of a step, are at least the
-/// limit.
+/// Returns the loss of each step, in units of `part`, rounded down. A seam alternative does not
+/// incur the loss of the one step that crosses the border. Any step may be that step, so `part` is
+/// chosen such that kLimitParts * part >= loss_limit + (largest loss of a step). An alternative
+/// whose steps add up to kLimitParts units therefore reaches the limit even without its most
+/// expensive step.
 StepLosses losses_of_steps(const LikelihoodRatios& ratios, int loss_limit) {
     StepLosses steps;
     steps.count = ratios.count() - 1;

@@ -1,5 +1,5 @@
 // Verify: compares all dots in view with the decoded position, which may have been decoded from
-// only some of the dots. differs: the paper accepts every decoded position. See
+// only some of the dots. Differs: the paper accepts every decoded position. See
 // docs/differs-from-paper.md.
 #pragma once
 

@@ -14,8 +14,8 @@ namespace {
 
 /// Index of a4, the only sequence in which the codes differ.
 constexpr std::size_t kA4 = 3;
-/// Upper bound on the odds of a place that is not counted one by one, as log2 in units of 2^-8 and
-/// as a number. The sums contain this bound instead of the odds.
+/// Upper bound on the odds of a place that is not evaluated, as log2 in units of 2^-8 and as a
+/// number. The sums contain this bound instead of the odds of the place.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Summed odds below which no tighter bound is computed.
@@ -90,8 +90,8 @@ class OtherPlaces {
 
     /// Returns the likelihood ratio of the place of the reading in the other code.
     float here() const { return result_.here; }
-    /// Returns the summed likelihood ratios of all other places. Until these places are counted,
-    /// returns an upper bound on the sum.
+    /// Returns the summed likelihood ratios of all other places. Until the odds of these places are
+    /// added, returns an upper bound on the sum.
     float elsewhere() const { return result_.elsewhere; }
 
     /// Sets the upper bound on the summed odds of all other places, computed from a table.
@@ -99,18 +99,18 @@ class OtherPlaces {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
         const int lost = unshared.min_loss(table) - ratios_.max_gain();
-        // Each place is counted once per shift at which it shares a line, so at most `count_`
-        // times.
+        // The bound includes a place once for each shift at which the place shares a line, which is
+        // at most `count_` times.
         result_.elsewhere =
             static_cast<float>(theirs_.length * count_) * ratios_.odds(std::max(lost, 0)) +
             sharing_none();
     }
 
-    /// Resets the bound, before the places are counted one by one.
+    /// Removes the bound, before the odds of the places are added one by one.
     void begin_count() { result_.elsewhere = 0; }
 
-    /// Adds the places that the search for similar places does not find: the place of the reading
-    /// in a4 at its other shifts, and all places at shifts at which they share no line.
+    /// Adds the odds of the places that the search for similar places does not find: the place of
+    /// the reading in a4 at its other shifts, and all places at shifts at which they share no line.
     void add_unsimilar() {
         // A place with the rolls of the reading shares all lines at one shift, and no line at any
         // other shift.
@@ -118,7 +118,7 @@ class OtherPlaces {
         add_sharing_none();
     }
 
-    /// Adds another place of a4, at all shifts at which it shares a line.
+    /// Adds the odds of another place of a4 at all shifts at which the place shares a line.
     void add(std::uint32_t place) { add(place, offsets_of(place), kNoShift); }
     /// Adds kSkippedOdds for each of `places` places, at each shift at which a place may share a
     /// line.
@@ -160,8 +160,8 @@ class OtherPlaces {
         return static_cast<float>(theirs_.length * (kSections - 1)) * ratios_.odds(losses_.at_best);
     }
 
-    /// Adds all places at shifts at which they share no line. If the bound on their odds is not
-    /// negligible, counts the places one by one.
+    /// Adds the odds of every place at each shift where the place shares no line with the reading.
+    /// Adds only the upper bound if the bound is negligible. Otherwise, evaluates each place.
     void add_sharing_none() {
         const float all = sharing_none();
         if (all <= kNegligibleOdds) {
@@ -174,7 +174,8 @@ class OtherPlaces {
         }
     }
 
-    /// Adds a place at all shifts at which it shares no line, except `shift_left_out`.
+    /// Adds the odds of a place at all shifts at which the place shares no line, except
+    /// `shift_left_out`.
     void add_unshared(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios_.count()));
         for (int shift = 0; shift < kSections; ++shift) {
@@ -189,7 +190,8 @@ class OtherPlaces {
         }
     }
 
-    /// Adds a place at all shifts at which it shares a line, except `shift_left_out`.
+    /// Adds the odds of a place at all shifts at which the place shares a line, except
+    /// `shift_left_out`.
     void add(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
         // Summed losses of the lines that are shared at the same shift, in units of kUnit, indexed
         // by the roll offset of these lines.
@@ -221,8 +223,8 @@ class OtherPlaces {
         }
     }
 
-    /// Counts a place. `shift` is the roll of its first line minus the roll of the reading, modulo
-    /// 63.
+    /// Adds the odds of a place, and keeps the place if its odds are the highest so far. `shift` is
+    /// the roll of its first line minus the roll of the reading, modulo 63.
     void count(std::uint32_t place, int shift, float odds) {
         result_.elsewhere += odds;
         if (odds <= result_.best) return;
@@ -261,8 +263,9 @@ class AxisWeigher {
         return others;
     }
 
-    /// Counts all other places one by one if the bound on their odds is not negligible. `across` is
-    /// the sum of the odds of the other axis, by which the odds of this axis are multiplied.
+    /// Replaces the bound on the odds of all other places with a sum over these places, unless the
+    /// bound is negligible. `across` is the sum of the odds of the other axis, by which the odds of
+    /// this axis are multiplied.
     void look_closer(CodeVariant other, float across, OtherPlaces& others) {
         if (others.elsewhere() * across <= kNegligibleOdds) return;
         others.begin_count();

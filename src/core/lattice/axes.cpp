@@ -186,7 +186,7 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
     // nearest neighbour of another dot if it is displaced towards that dot.
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;
-    // differs: the paper keeps both medians as axes. The deviation of the medians from a square is
+    // Differs: the paper keeps both medians as axes. The deviation of the medians from a square is
     // mostly scatter, not tilt. Averaging the two medians under the assumption of a square grid
     // halves the variance.
     const FixedVec twice_u{u.x + v.y, u.y - v.x};

@@ -1,5 +1,5 @@
 // Neighbours: the four nearest dots of each dot near the image centre, and the symmetric edges
-// between these dots. Paper section II-B.2. differs: the paper connects all dots. Here, the first
+// between these dots. Paper section II-B.2. Differs: the paper connects all dots. Here, the first
 // grid is fitted only to the seeds: the dots nearest the centre, at most kMaxSeeds. The grid is
 // then extended outwards (device/grow.hpp, lattice/refine_grid.hpp). This bounds the time for any
 // image.

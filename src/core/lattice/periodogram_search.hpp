@@ -1,7 +1,7 @@
 // Periodogram search: finds the grid from the periodogram of the dots, for frames with many missing
 // or false dots. In these frames, axes estimated from edges are unreliable, because many edges
 // connect false neighbours. The periodogram is a sum over all dots near the centre, and still has
-// its maximum at the true spacing and direction. differs: the paper has no such step. Only the
+// its maximum at the true spacing and direction. Differs: the paper has no such step. Only the
 // second attempt uses the periodogram. See docs/differs-from-paper.md.
 #pragma once
 

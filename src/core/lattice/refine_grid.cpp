@@ -18,7 +18,7 @@ namespace tuned = tuning::refine_grid;
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
-/// Corrects the origin by eq. 6, with the median offset of the dots near the origin. differs: eq. 6
+/// Corrects the origin by eq. 6, with the median offset of the dots near the origin. Differs: eq. 6
 /// subtracts the median from the origin, which is a sign error, because offsets are measured from
 /// the estimated origin. Adding the median to the origin reduces the grid coordinates of all points
 /// by the median.
@@ -107,7 +107,7 @@ void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, Ta
         plane = stepped(plane, scaled, step);
 }
 
-/// Fits the plane to the intersections of the dots within reach. differs: the paper continues after
+/// Fits the plane to the intersections of the dots within reach. Differs: the paper continues after
 /// eq. 6 with median lengths between neighbours. Here, a least-squares fit determines all terms.
 /// Displacements count as noise, and the reach grows from round to round.
 void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,

@@ -34,7 +34,7 @@ inline bool is_affine(const PlaneFromImage& plane) {
 /// of a lattice. Requires u x v > 0.
 PlaneFromImage plane_from_lattice(const Lattice& lattice, FixedVec centre_q8);
 
-/// Returns the plane point of an image point by eq. 3, in units of 2^-16 spacings. differs: the
+/// Returns the plane point of an image point by eq. 3, in units of 2^-16 spacings. Differs: the
 /// paper projects the point onto u and v, which is correct only if u and v are at right angles and
 /// the camera is not tilted.
 FixedVec plane_point_q16(const PlaneFromImage& plane, FixedVec image_point_q8);

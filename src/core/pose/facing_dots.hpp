@@ -1,7 +1,7 @@
 // Facing dots: corrects the bias of adjacent dots that are displaced towards each other. If such
 // dots are large or blurred, each dot shifts the centroid of the other dot towards itself. The two
 // shifts cancel in the pose, but increase the residuals and therefore the estimated covariance.
-// differs: the paper needs no such correction, because it does not estimate the uncertainty of a
+// Differs: the paper needs no such correction, because it does not estimate the uncertainty of a
 // pose.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Observation batches: splits the observations into batches. Each round of a fit visits all
+// Observation batches: splits the observations into batches. Each iteration of a fit visits all
 // batches.
 #pragma once
 

@@ -1,5 +1,5 @@
 // Paper step: finds a line beyond which the print is displaced, because a printer fed the paper
-// badly or because two sheets adjoin at the line. differs: the method of the paper fits a single
+// badly or because two sheets adjoin at the line. Differs: the method of the paper fits a single
 // plane.
 #pragma once
 
@@ -10,10 +10,10 @@ namespace dotpose::core {
 
 /// A line in the pattern that divides the sheet.
 struct PaperStep {
-    /// Gains below kPossible can be explained by chance: the gain exceeds kPossible on 1 in 100
-    /// flat sheets. Gains above kCertain cannot be explained by chance. Both limits are high
-    /// because many lines are tried, each with three parameters for the part beyond the line, and
-    /// because steps are rare.
+    /// Chance can explain gains below kPossible: the gain exceeds kPossible on 1 in 100 flat
+    /// sheets. Chance cannot explain gains above kCertain. Both limits are high because many lines
+    /// are tried, each with three parameters for the part beyond the line, and because steps are
+    /// rare.
     static constexpr float kPossible = 12;
     static constexpr float kCertain = 23;
 

@@ -1,6 +1,6 @@
 // Pixel bias: corrects the bias of the centroids due to the sub-pixel phase of the dots. If the
 // phases of the dots are evenly distributed, the bias averages out. If all dots have the same
-// phase, the bias is computed from a model dot and subtracted. differs: the paper needs no such
+// phase, the bias is computed from a model dot and subtracted. Differs: the paper needs no such
 // correction, because its frames contain all phases.
 #pragma once
 
@@ -23,9 +23,9 @@ struct CentroidWindow {
 /// dots whose window is not completely in the image.
 void recentre_windows(const ImageView& image, const CentroidWindow& window, MeasuredDots& dots);
 
-/// Subtracts the bias from the centres of all inliers of the plane. Returns the remaining variance
-/// of the mean over all centres, along u and v, in px^2. If the bias is negligible or cannot be
-/// determined, changes no centre and returns 0.
+/// Subtracts the bias from the centres of all inliers of the plane. Returns the variance that the
+/// bias still adds to the mean of all centres, along u and v, in px^2. If the bias is negligible or
+/// cannot be determined, changes no centre and returns 0.
 FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window,
                             const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots);
 

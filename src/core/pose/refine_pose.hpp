@@ -1,6 +1,6 @@
 // Refine: fits the pose to all dots. Once the position is known, the printed place of every dot is
 // known, including its displacement. The pose is the least-squares map from the centres of the dots
-// to these places. Uses single precision. differs: the paper stops at eq. 12 and fits a grid, in
+// to these places. Uses single precision. Differs: the paper stops at eq. 12 and fits a grid, in
 // which the displacements are noise.
 #pragma once
 

@@ -24,16 +24,17 @@ class HalfPlane {
     MeasuredDots& dots_;
 };
 
-/// The likeliest line, and the plane of the dots on the side of the reference point.
+/// Result of a split fit: the most likely dividing line (`step`), and the plane fitted to the dots
+/// on the same side of this line as the reference point.
 struct SplitFit {
     FloatPlane plane;
     PoseFit fit;
     PaperStep step = {};
 };
 
-/// Finds the likeliest line and fits the plane to the dots on the side of the reference point. On
-/// entry, `split` contains the fit to all dots. Returns false if no line is likely enough, or if
-/// the dots on this side do not determine a plane.
+/// Finds the most likely dividing line and fits the plane to the dots on the side of the reference
+/// point. On entry, `split` contains the fit to all dots. Returns false if no line is likely
+/// enough, or if the dots on this side do not determine a plane.
 bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    SplitFit& split);
 

@@ -15,15 +15,15 @@ namespace measure {
 inline constexpr int kHalf_32nds = 9;
 inline constexpr int kMinHalf_q8 = 768;
 /// Standard deviation of the fitted dot, in 1/128 of the spacing, and its minimum, in 1/256 px. The
-/// value is the width of a blurred dot. With kSigma_128ths = 6: 1,994 frames, 2.19 µm and 5.36 µm.
-/// With kSigma_128ths = 24: 1,904 frames, 3.58 µm and 9.19 µm.
+/// value is the width of a blurred dot. kSigma_128ths = 6 gives 1,994 frames, 2.19 µm and 5.36 µm.
+/// kSigma_128ths = 24 gives 1,904 frames, 3.58 µm and 9.19 µm.
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
 /// Maximum squared distance of a dot from its place, in units of sigma^2. The pose fit rejects dirt
 /// as outliers, so the limit can be large. A smaller limit would also reject badly printed dots,
 /// which costs accuracy and hides print errors.
 inline constexpr int kFarthest_2 = 9;
-/// Maximum number of Gauss-Newton steps. The iteration also ends after a step that is shorter than
+/// Maximum number of Gauss-Newton iterations. The fit also ends after a step that is shorter than
 /// kSettled_q8, in 1/256 px.
 inline constexpr int kMaxIterations = 5;
 inline constexpr int kSettled_q8 = 4;
@@ -31,13 +31,13 @@ inline constexpr int kSettled_q8 = 4;
 /// darkness of a typical dot. These limits reject dirt, graphics, and bare paper where a dot is
 /// missing.
 inline constexpr int kTooDark_halves = 3;
-/// Maximum number of dots in the sample whose median is taken as the darkness of a typical dot.
+/// Maximum number of dots in the sample whose median is used as the darkness of a typical dot.
 inline constexpr int kMedianSample = 256;
 }  // namespace measure
 
 /// The pose from all dots (pose/refine_pose, pose/float_fit).
 namespace fit {
-/// Maximum number of Gauss-Newton rounds, in `refine_pose` and in `fit_plane`.
+/// Maximum number of Gauss-Newton iterations in `refine_pose` and in `fit_plane`, respectively.
 inline constexpr int kMaxRounds = 4;
 inline constexpr int kMaxRoundsOfFloats = 5;
 /// Squared step length, in units of the standard deviation of the pose, at or below which
@@ -80,7 +80,7 @@ inline constexpr float kMin_px2 = 0.005F;
 inline constexpr float kFirstDamping = 0.01F;
 inline constexpr float kMaxDamping = 1e4F;
 inline constexpr float kDampingGrows = 10;
-/// The fit ends after kMaxRounds rounds, or after a step that reduces the cost by less than
+/// The fit ends after kMaxRounds iterations, or after a step that reduces the cost by less than
 /// kSettled. The cost is the sum of the squared residuals, in units of their variances.
 inline constexpr float kSettled = 0.3F;
 inline constexpr int kMaxRounds = 30;
@@ -115,14 +115,18 @@ inline constexpr float kSlopes = 0.03F;
 
 /// Correlation of residuals (pose/uneven).
 namespace uneven {
-/// Limits of the excess of the scatter between blocks, in standard deviations. Fast attempts search
-/// for a line that divides the sheet if the excess is above kSuspect. The second attempt, whose
-/// dots are noisier than those of fast attempts, already searches above kMaybeLine, because the
-/// plane absorbs most of a step at a line. Above kShared, the common residuals increase the
-/// covariance. For 1 in 20 flat sheets, the excess is above kShared. One side of a line counts as
-/// even up to kSuspect. A sheet without a line counts as uneven above kUneven. For at most about 1
-/// in 1,000 flat sheets, the excess is above kUneven. `dotpose_tables slips` measures these
-/// fractions.
+/// Limits of the excess by which the scatter between blocks exceeds chance, in standard deviations:
+/// - kMaybeLine: above this limit, the second attempt searches for a line that divides the sheet.
+///   The limit is low because the plane absorbs most of a step at a line. The dots of the second
+///   attempt are noisier than the dots of fast attempts.
+/// - kShared: above this limit, the common residuals increase the covariance. For 1 in 20 flat
+///   sheets, the excess is above this limit.
+/// - kSuspect: above this limit, fast attempts search for a line. Up to this limit, one side of a
+///   line counts as even.
+/// - kUneven: above this limit, a sheet without a line counts as uneven. For at most about 1 in
+///   1,000 flat sheets, the excess is above this limit.
+///
+/// `dotpose_tables slips` measures these fractions.
 inline constexpr float kMaybeLine = 0.9F;
 /// Number of dots up to which kMaybeLine applies. With more dots, the limit increases with the
 /// square root of their number, because the common residuals of any sheet are more significant.
@@ -165,8 +169,8 @@ inline constexpr float kTogether = 36;
 inline constexpr float kBehind = 0.5F;
 /// Minimum number of dots beyond the line.
 inline constexpr float kMinBeyond = 12;
-/// Outlier limit, in spacings^2, in the first round of a fit to one side. This round starts from a
-/// plane fitted to both sides.
+/// Outlier limit, in spacings^2, in the first iteration of a fit to one side. This iteration starts
+/// from a plane fitted to both sides.
 inline constexpr float kFarOff = 0.04F;
 /// Distance from the line, in spacings, within which dots belong to neither side. The distance is
 /// the uncertainty of the line.
@@ -177,8 +181,8 @@ inline constexpr float kMargin = 0.8F;
 inline constexpr float kReach = 10;
 inline constexpr int kMinAgreeing = 8;
 inline constexpr float kAgreement = 0.08F * 0.08F;
-/// Number of rounds. Each round fits a plane to the dots on the side of the reference point. Each
-/// round except the last then searches for the line again.
+/// Number of iterations. Each iteration fits a plane to the dots on the side of the reference
+/// point. Each iteration except the last then searches for the line again.
 inline constexpr int kRounds = 3;
 }  // namespace paper_step
 

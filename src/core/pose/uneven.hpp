@@ -1,6 +1,6 @@
 // Uneven: tests the residuals of neighbouring dots for correlation. A single plane explains a flat
 // sheet. If neighbouring dots have common residuals, the sheet is not flat, and the fix is less
-// accurate than independent residuals suggest. differs: the method of the paper fits a single
+// accurate than independent residuals suggest. Differs: the method of the paper fits a single
 // plane.
 #pragma once
 

@@ -109,7 +109,7 @@ TEST_P(PhoneFormatTest, IsLaidOnWhitePaper) {
     for (int i = 0; i < 16 * 16; ++i)
         blue.samples.insert(blue.samples.end(), {0, 0, 255, 204});
     const GreyImage image = read_image(converted(GetParam().lossless, encode_png(blue)));
-    // Blue has the luma 0.114 x 255. With an opacity of 0.8, a fifth of white is added.
+    // The luma of blue is 0.114 x 255. At an opacity of 0.8, the result is 0.8 x luma + 0.2 x 255.
     EXPECT_THAT(image.pixels, testing::Each(AnyOf(73, 74, 75)));
 }
 

@@ -11,8 +11,8 @@ int host_read(void* bytes, size_t size);
 /* Prints to standard output. */
 void host_print(const char* text);
 
-/* Main function of the program. Locates the frames in the file at `path`. Returns the exit status.
- * */
+/* Main function of the program. Locates the frames in the file at `path` and returns the exit
+ * status. */
 int locate_frames(const char* path);
 
 #endif

@@ -89,8 +89,8 @@ static int32_t read_number(void) {
     return number;
 }
 
-/* Reads a frame row by row. Locates it if `locator` is not null. Returns 0 at the end of the file.
- * */
+/* Reads a frame row by row, and locates it if `locator` is not null. Returns 0 at the end of the
+ * file. */
 static int read_frame(dotpose_locator* locator) {
     char magic[3];
     int32_t width_px = 0;

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Prints the pose of the camera, from the messages and from the frames of a pipeline.
+"""Prints the pose of the camera from the messages and from the frames of a pipeline.
 
     read_poses.py 'v4l2src ! videoconvert'
 """
@@ -12,12 +12,12 @@ from gi.repository import Gst  # noqa: E402
 
 
 def say(line):
-    """Writes a whole line in one call, because frames and messages arrive in different threads."""
+    """Writes a line in a single call, because frames and messages arrive in different threads."""
     sys.stdout.write(line + "\n")
 
 
 def print_frame(pad, info):
-    """Prints the meta of a frame that passes the pad."""
+    """Prints the meta of a frame that passes through the pad."""
     frame = info.get_buffer()
     meta = frame.get_custom_meta("dotpose")
     if meta:

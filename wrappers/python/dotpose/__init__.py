@@ -11,8 +11,8 @@ A first program::
         print(fix.message)
 
 Most programs need only Locator and Fix. Tracker follows a robot from frame to frame, and
-Follower over the sheets of a sheet file. print_sheet, overlay, check_print and calibrate are
-equivalent to the commands of the tool. simulate renders frames with known poses.
+Follower follows a robot over the sheets of a sheet file. print_sheet, overlay, check_print and
+calibrate are equivalent to the commands of the tool. simulate renders frames with known poses.
 
 Names have units as suffixes: _mm, _rad, _px, _us. In the pattern frame, x points to the right
 and y DOWN on the page as it is read. Angles are clockwise as seen on the paper. The centre of

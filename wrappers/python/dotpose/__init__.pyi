@@ -1,4 +1,4 @@
-"""Types of the package dotpose. Its docstrings are in the compiled module."""
+"""Types of the package dotpose. The docstrings are in the compiled module."""
 
 import os
 from collections.abc import Iterable, Sequence

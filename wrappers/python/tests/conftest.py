@@ -25,8 +25,8 @@ def golden():
 
 
 def bits_of(fix):
-    """Returns the part of a line of a golden file that describes the fix. C numbers are
-    little-endian here."""
+    """Returns the part of a line of a golden file that describes the fix. The bytes of C numbers
+    are little-endian."""
     return ",".join(n[::-1].hex() if isinstance(n, bytes) else str(n) for n in fix._bits)
 
 

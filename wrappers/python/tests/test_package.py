@@ -47,7 +47,7 @@ def run(*command, **environment):
 @pytest.fixture(scope="module")
 def copy_of_sources(tmp_path_factory):
     """Returns a copy of the folder, because setuptools writes beside the sources. DOTPOSE_BUILD is
-    the build that this test belongs to, to compile nothing twice."""
+    the build directory of this test, so that nothing is compiled twice."""
     if not os.environ.get("DOTPOSE_BUILD"):
         pytest.skip("without DOTPOSE_BUILD, a build directory")
     root = tmp_path_factory.mktemp("checkout")

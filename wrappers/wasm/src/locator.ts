@@ -128,7 +128,7 @@ export class Locator {
     }
 
     /**
-     * Returns the fix of an image. Throws RangeError if the image has fewer data than its size
+     * Returns the fix of an image. Throws RangeError if the image has less data than its size
      * requires.
      */
     locate(image: Image, options: FrameOptions = {}): Fix {

@@ -43,8 +43,7 @@ const kInch_mm = 25.4;
  *
  *     const tools = await Tools.create();
  *     const png = await tools.png({ width_mm: 100, height_mm: 100 }, 600);
- *     const image = tools.render({ pose: { x_mm: 50, y_mm: 60 }, imperfections: { noise_sigma: 3 }
- *     });
+ *     const image = tools.render({ pose: { x_mm: 50, y_mm: 60 }, imperfections: { noise_sigma: 3 } });
  *
  * Invalid requests throw RangeError with a message that names the invalid value.
  */
@@ -85,16 +84,16 @@ export class Tools {
     }
 
     /**
-     * Returns the sheet as SVG. The bytes are the same as in the output of `dotpose print -o
-     * sheet.svg`.
+     * Returns the sheet as SVG. The bytes are the same as in the output of
+     * `dotpose print -o sheet.svg`.
      */
     svg(sheet: SheetOptions = {}): string {
         return new TextDecoder().decode(this.#bytes("dotpose_tools_svg", sheetFields(sheet)));
     }
 
     /**
-     * Returns the pixels of the sheet. They are the same as in the output of `dotpose print -o
-     * sheet.png`.
+     * Returns the pixels of the sheet. They are the same as in the output of
+     * `dotpose print -o sheet.png`.
      */
     raster(sheet: SheetOptions = {}, dpi = 600): Raster {
         const bits = this.#bytes("dotpose_tools_raster", sheetFields(sheet), dpi);

@@ -15,7 +15,8 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 33;
 
-/// The pose fitted to all dots, starting from the pose of the grid, and the fix at one pixel.
+/// The pose fitted to all dots, and the fix computed from this pose for one pixel. The fit starts
+/// from the pose of the grid.
 struct Fitted {
     bool ok = false;
     PlaneFromImage pose;

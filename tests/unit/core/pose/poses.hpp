@@ -25,7 +25,7 @@ inline void expect_pose(const Reading& reading, const PlaneFromImage& found, Vec
     const Vec2 error = error_at(reading, found, pixel);
     EXPECT_NEAR(error.x, 0, tolerance);
     EXPECT_NEAR(error.y, 0, tolerance);
-    // Over half the image height, a slope error may add up to the position tolerance.
+    // Allows a slope error that amounts to the position tolerance over half the image height.
     const View& view = reading.view;
     const double slope = 2 * tolerance / view.image_px.y;
     const PlaneFromImage flat = core::tangent(found, fixed(pixel, 8));

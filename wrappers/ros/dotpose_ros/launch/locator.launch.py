@@ -1,6 +1,6 @@
 """Starts the node: ros2 launch dotpose_ros locator.launch.py sheets:=table.json camera:=camera.yaml
 
-For each of several robots, set namespace:=anna frame_prefix:=anna/ with another name.
+If there are several robots, set namespace:=anna frame_prefix:=anna/ with a different name for each.
 """
 
 from launch import LaunchDescription
