@@ -102,7 +102,14 @@ AnchorBytes opposite(int one, const RankedLines::Offsets& offsets) {
 /// Set of anchors. The bytes of the anchors in the set are 1, all other bytes are 0.
 class Marks {
   public:
-    explicit Marks(AnchorBytes marks) { std::memcpy(halves_.data(), &marks, sizeof marks); }
+    explicit Marks(AnchorBytes marks) {
+        std::memcpy(halves_.data(), &marks, sizeof marks);
+        // The first byte must be the lowest byte of a word.
+        if constexpr (std::endian::native == std::endian::big) {
+            for (std::uint64_t& half : halves_)
+                half = __builtin_bswap64(half);
+        }
+    }
 
     int count() const { return static_cast<int>((halves_[0] + halves_[1]) * kInEach >> 56); }
     Anchors anchors() const { return bits_of(halves_[0]) | bits_of(halves_[1]) << 8; }
