@@ -84,7 +84,7 @@ TEST_F(SimulateCommand, WrongUsageIsNamed) {
     EXPECT_EQ(run("-o frames --size 188"), 2);
     EXPECT_THAT(errors_, HasSubstr("188x120"));
     EXPECT_EQ(run("-o frames --preset nice"), 2);
-    EXPECT_THAT(errors_, HasSubstr("clean, nominal or hard"));
+    EXPECT_THAT(errors_, HasSubstr("clean, nominal, hard or mouse"));
     EXPECT_EQ(run("-o frames --at 500000000,1"), 2);
     EXPECT_EQ(run("-o frames --missing 2"), 2);
     EXPECT_EQ(run("-o /proc/nowhere"), 1);
