@@ -28,8 +28,8 @@ std::vector<Vec2> sample_points(const Shot& shot) {
 }
 
 double share_in(const PageArea& area, const std::vector<Vec2>& points) {
-    const auto inside =
-        std::ranges::count_if(points, [&](Vec2 p) { return area.distance(p.x, p.y) <= 0; });
+    const auto inside = std::count_if(points.begin(), points.end(),
+                                      [&](Vec2 p) { return area.distance(p.x, p.y) <= 0; });
     return static_cast<double>(inside) / static_cast<double>(points.size());
 }
 
@@ -117,8 +117,9 @@ bool draw_islands(const Shot& shot, int count, Rng& rng, std::vector<PageArea>& 
         const double share = share_in(island, sample_points(shot));
         const bool is_whole =
             share * intersections(shot) >= 0.97 * 4 * island.half_width * island.half_height;
-        if (is_whole && std::ranges::all_of(
-                            areas, [&](const PageArea& other) { return are_apart(island, other); }))
+        if (is_whole && std::all_of(areas.begin(), areas.end(), [&](const PageArea& other) {
+                return are_apart(island, other);
+            }))
             areas.push_back(island);
     }
     return static_cast<int>(areas.size()) == count;

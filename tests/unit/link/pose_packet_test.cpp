@@ -139,7 +139,8 @@ TEST(PosePacket, ComesBackAsItWasSent) {
     for (int i = 0; i < 2000; ++i)
         sent.push_back(random_packet(rng));
     const Bytes stream = stream_of(sent);
-    EXPECT_EQ(std::ranges::count(stream, 0), static_cast<std::ptrdiff_t>(sent.size()));
+    EXPECT_EQ(std::count(stream.begin(), stream.end(), 0),
+              static_cast<std::ptrdiff_t>(sent.size()));
     EXPECT_EQ(received(stream), sent);
 }
 

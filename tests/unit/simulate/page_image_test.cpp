@@ -82,7 +82,7 @@ TEST(PageImage, ShowsWhatThePatternShows) {
         // For comparison: dots are about 60 grey levels darker than the paper, and the levels at
         // their edges change by about 30 per pixel.
         EXPECT_LE(largest, 2);
-        EXPECT_LT(*std::ranges::min_element(expected.pixels), 130);
+        EXPECT_LT(*std::min_element(expected.pixels.begin(), expected.pixels.end()), 130);
     }
 }
 

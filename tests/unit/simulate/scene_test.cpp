@@ -43,9 +43,9 @@ TEST(Scene, EachIsAFrameOfItsOwn) {
 
 TEST(Scene, BlackAndWhiteAreEmpty) {
     const GreyImage black = render_scene(Scene::black, straight_shot());
-    EXPECT_EQ(std::ranges::max(black.pixels), 0);
+    EXPECT_EQ(*std::max_element(black.pixels.begin(), black.pixels.end()), 0);
     const GreyImage white = render_scene(Scene::white, straight_shot());
-    EXPECT_EQ(std::ranges::min(white.pixels), 200);
+    EXPECT_EQ(*std::min_element(white.pixels.begin(), white.pixels.end()), 200);
 }
 
 TEST(Scene, NoiseHasItsDensity) {

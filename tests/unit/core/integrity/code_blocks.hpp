@@ -1,6 +1,7 @@
 // Cuts blocks of the code with known damage, and sums exactly over their alternatives.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -107,7 +108,8 @@ inline double exact_log2(const Block& block) {
     for (const bool is_x : {true, false}) {
         const int wrong = contradictions(block, is_x, rolls_of(block, is_x, 0, 0, 0));
         errors[is_x ? 0 : 1] = wrong;
-        read = static_cast<int>(std::ranges::count_if(block.x, [](int bit) { return bit >= 0; }));
+        read = static_cast<int>(
+            std::count_if(block.x.begin(), block.x.end(), [](int bit) { return bit >= 0; }));
         both.add(127, true, wrong);
         both.add(127, false, read - wrong);
     }

@@ -1,4 +1,6 @@
 // Tests p_wrong of error-free bits against sums over all alternatives in double precision.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "code_blocks.hpp"
@@ -28,7 +30,8 @@ Verdict judge_plainly(const Block& block, const Place& claimed,
         const auto own = rolls_of(there, is_x, 0, 0, 0);
         rolls[axis].assign(own.begin(), own.end());
         const int wrong = contradictions(block, is_x, own);
-        const auto read = std::ranges::count_if(block.x, [](int bit) { return bit >= 0; });
+        const auto read =
+            std::count_if(block.x.begin(), block.x.end(), [](int bit) { return bit >= 0; });
         confidences[axis].add(127, true, wrong);
         confidences[axis].add(127, false, static_cast<int>(read) - wrong);
     }

@@ -92,7 +92,7 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
                 const auto is_of_it = [&](const auto& alternative) {
                     return alternative[0] == static_cast<int>(k);
                 };
-                ASSERT_TRUE(std::ranges::none_of(found, is_of_it)) << k;
+                ASSERT_TRUE(std::none_of(found.begin(), found.end(), is_of_it)) << k;
                 continue;
             }
             for (std::uint32_t place = 0; place < places.basis[k].length; ++place) {
@@ -125,7 +125,7 @@ TEST(KernelsAlternatives, LeastLossesAreThoseOfSortedLosses) {
             losses.push_back(static_cast<std::int16_t>(whole(rng, -most / 2, most)));
         SmallestSums sums;
         kernels.sum_smallest_losses(losses, sums);
-        std::ranges::sort(losses);
+        std::sort(losses.begin(), losses.end());
         int expected = 0;
         ASSERT_EQ(sums[0], 0);
         for (std::size_t n = 1; n < sums.size(); ++n) {

@@ -96,11 +96,11 @@ TEST(KernelsPlain, MinimaAreDarkerThanTheirNeighbours) {
                     u + off(level(u - 1, v), level(u + 1, v)) - (patch->width_px - 1) / 2.0;
                 const double y =
                     v + off(level(u, v - 1), level(u, v + 1)) - (patch->height_px - 1) / 2.0;
-                EXPECT_EQ(std::ranges::count_if(found,
-                                                [&](const auto& dot) {
-                                                    return std::abs(dot.first - x) < 1e-4 &&
-                                                           std::abs(dot.second - y) < 1e-4;
-                                                }),
+                EXPECT_EQ(std::count_if(found.begin(), found.end(),
+                                        [&](const auto& dot) {
+                                            return std::abs(dot.first - x) < 1e-4 &&
+                                                   std::abs(dot.second - y) < 1e-4;
+                                        }),
                           1)
                     << u << ", " << v;
             }
