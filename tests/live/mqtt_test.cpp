@@ -241,11 +241,22 @@ MqttOptions with_presence(MqttOptions options) {
 /// A subscriber that concatenates the payloads it receives, each followed by a space.
 class Heard {
   public:
+    /// Returns after the broker has accepted the subscription.
     explicit Heard(const MqttOptions& options)
-        : subscriber_(options, {"presence"}, [this](std::string_view, std::string_view payload) {
-              const std::lock_guard lock(mutex_);
-              words_ += std::string(payload) + " ";
-          }) {}
+        : subscriber_(options, {"presence", "probe"},
+                      [this](std::string_view topic, std::string_view payload) {
+                          const std::lock_guard lock(mutex_);
+                          is_subscribed_ |= topic == "probe";
+                          if (topic == "presence") words_ += std::string(payload) + " ";
+                      }) {
+        MqttPublisher prober(options);
+        wait_until([&] {
+            prober.publish("probe", "");
+            prober.flush(1s);
+            const std::lock_guard lock(mutex_);
+            return is_subscribed_;
+        });
+    }
     std::string words() const {
         const std::lock_guard lock(mutex_);
         return words_;
@@ -254,6 +265,7 @@ class Heard {
   private:
     mutable std::mutex mutex_;
     std::string words_;
+    bool is_subscribed_ = false;
     MqttSubscriber subscriber_;
 };
 
