@@ -23,6 +23,7 @@ void define_errors(py::module_& module);
 void define_options(py::module_& module);
 void define_fix(py::module_& module);
 void define_camera(py::module_& module);
+void define_measured_motion(py::module_& module);
 void define_locator(py::module_& module);
 void define_tracker(py::module_& module);
 void define_simulate(py::module_& module);

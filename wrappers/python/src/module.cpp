@@ -14,6 +14,7 @@ PYBIND11_MODULE(_dotpose, module) {
     define_options(module);
     define_fix(module);
     define_camera(module);
+    define_measured_motion(module);
     define_locator(module);
     define_tracker(module);
     define_simulate(module);

@@ -198,7 +198,7 @@ TrackOptions track_options_of(const py::dict& given) {
     return options;
 }
 
-void define_tracker(py::module_& module) {
+void define_measured_motion(py::module_& module) {
     py::class_<MeasuredMotion>(module, "MeasuredMotion",
                                "Motion of the camera between two frames, from odometry. The "
                                "displacement is along the axes of the previous image.")
@@ -219,6 +219,9 @@ void define_tracker(py::module_& module) {
                        "Standard deviation of each displacement, in mm.")
         .def_readwrite("sigma_rad", &MeasuredMotion::sigma_rad,
                        "Standard deviation of the rotation, in rad.");
+}
+
+void define_tracker(py::module_& module) {
     define_track(module);
     py::class_<TrackerOfPython>(module, "Tracker",
                                 "Tracks one robot from the fixes of its frames.\n\n"
