@@ -3,6 +3,8 @@
 /// library.
 #pragma once
 
+#include "dotpose/language.hpp"
+
 #if defined(__GNUC__) && !defined(_WIN32)
 #define DOTPOSE_BEGIN_EXPORT _Pragma("GCC visibility push(default)")
 #define DOTPOSE_END_EXPORT _Pragma("GCC visibility pop")

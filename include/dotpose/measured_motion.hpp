@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dotpose/export.hpp"
+#include "dotpose/language.hpp"
 
 DOTPOSE_BEGIN_EXPORT
 
