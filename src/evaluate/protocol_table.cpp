@@ -54,7 +54,7 @@ std::string table_3(const Protocol& protocol) {
                         const std::string& perfect, const std::string& printed) {
         return fmt::format("| {} | {} | {} | {} |\n", what, paper, perfect, printed);
     };
-    std::string table = row("TabledCoordinate", "Paper: accuracy | precision",
+    std::string table = row("Coordinate", "Paper: accuracy | precision",
                             "Simulated, perfect page: accuracy | precision",
                             "Simulated, printer model: accuracy | precision") +
                         "|:---|---:|---:|---:|---:|---:|---:|\n";

@@ -16,7 +16,8 @@ LargeMemory::LargeMemory() : workspace_(core::make_workspace<core::LargeWorkspac
 
 Locator::Locator(core::DesktopWorkspace* workspace, const DeviceOptions& options)
     : RowLocator(workspace, options) {
-    // Another locator may have used the memory before, with known sheets.
+    // Another locator may have used the memory before, with known sheets and a series of images.
+    workspace->earlier.clear();
     workspace->set_known({});
 }
 

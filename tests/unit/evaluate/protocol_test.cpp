@@ -98,6 +98,7 @@ TEST(ProtocolTest, MeasuresTheModelledPrinter) {
     draw_figure_13(figures, protocol);
     EXPECT_EQ(test::XmlCheck(figures.str()).problem(), "");
     EXPECT_THAT(table_3(protocol), testing::HasSubstr("0.155 mm"));
+    EXPECT_THAT(table_3(protocol), testing::HasSubstr("| Coordinate "));
 }
 
 TEST(SweepTest, CoversTheShareAskedFor) {

@@ -190,6 +190,20 @@ TEST_F(FramesReadTogether, FramesWithoutAPatternAreSkipped) {
     EXPECT_GE(located, 16);
 }
 
+TEST_F(FramesReadTogether, ALocatorDoesNotContinueTheSeriesOfAnEarlierOne) {
+    const Shot shot = shot_of({.width_px = 80, .height_px = 80}, kSeed, 0);
+    const MeasuredMotion motion{
+        .right_mm = 1.5F, .down_mm = 1.5F, .sigma_mm = 0.02F, .sigma_rad = 0.005F};
+    Shot next = shot;
+    for (int k = 0; k < 6; ++k) {
+        static_cast<void>(locator_.locate(render(next).view(), motion));
+        next = moved_shot(next, motion);
+    }
+    ASSERT_GT(locator_.locate(render(next).view(), motion).frames, 1);
+    Locator other{*memory_, DeviceOptions{}};
+    EXPECT_FALSE(other.locate(render(moved_shot(next, motion)).view(), motion));
+}
+
 // A motion predicts the next frame after a fix, so the tracked attempt reads it.
 TEST_F(FramesReadTogether, AMotionPredictsTheNextFrame) {
     Shot shot = shot_of({}, kSeed, 3);
