@@ -196,7 +196,6 @@ class Locator : public RowLocator {
     /// Adds a motion to the series of images. Returns the prediction for the next image, if the
     /// previous image was located.
     std::optional<Prediction> begin_motion(const MeasuredMotion& since_last);
-    void end_motion();
     CodeReading finished(CodeReading reading);
     using RowLocator::finished;
 

@@ -191,14 +191,6 @@ inline constexpr auto kMainRepeated = [] {
     return bits;
 }();
 
-/// Returns the 64 bits of the main sequence that begin at `index`. The first bit is the lowest bit.
-constexpr std::uint64_t main_bits(std::size_t index) {
-    std::uint64_t bits = 0;
-    for (std::size_t bit = 0; bit < 64; ++bit)
-        bits |= std::uint64_t{kMain[(index + bit) % kSections]} << bit;
-    return bits;
-}
-
 /// The 32 bits of the main sequence that begin at each index. The first bit is the lowest bit.
 inline constexpr auto kMainWords = [] {
     std::array<std::uint32_t, kSections> words{};
@@ -208,6 +200,13 @@ inline constexpr auto kMainWords = [] {
     }
     return words;
 }();
+
+/// Returns the 64 bits of the main sequence that begin at `index`. The first bit is the lowest bit.
+constexpr std::uint64_t main_bits(std::size_t index) {
+    const std::size_t next = index + 32;
+    return kMainWords[index] | std::uint64_t{kMainWords[next < kSections ? next : next - kSections]}
+                                   << 32;
+}
 
 /// Number of consecutive bits that determine a place in the main sequence.
 inline constexpr int kMainOrder = 6;

@@ -1,6 +1,5 @@
 #include "dotpose/measured_motion.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace dotpose {

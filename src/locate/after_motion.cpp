@@ -1,12 +1,9 @@
 #include "locate/after_motion.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-namespace dotpose {
-
-namespace core {
+namespace dotpose::core {
 namespace {
 
 /// Maximum displacement of a prediction, in spacings. Its limit prevents overflow of integers.
@@ -40,5 +37,4 @@ Prediction after(const MeasuredMotion& motion, const Fix& last, const DeviceOpti
     return next;
 }
 
-}  // namespace core
-}  // namespace dotpose
+}  // namespace dotpose::core

@@ -89,8 +89,7 @@ bool is_certain_together(const Kernels& kernels, const DeviceOptions& options, c
     // A wrong match of the frames and a wrong place each have half of the permitted probability.
     DeviceOptions half = options;
     --half.integrity.max_p_wrong_log2;
-    const int limit_log2 = half.integrity.max_p_wrong_log2;
-    const auto joined = w.earlier.join(block, grid_from_image, limit_log2);
+    const auto joined = w.earlier.join(block, grid_from_image);
     if (!joined) return false;
     const bool is_on_sheet =
         w.known.any() && is_certain_on_sheets(kernels, half, place, joined->block, w.known, w.fix);
@@ -114,13 +113,15 @@ Confirmation confirm_place(const Kernels& kernels, const DeviceOptions& options,
                            const Hypothesis& hypothesis, const CellsInView& view,
                            const BitBlock& block, const BitsRead& bits, DesktopWorkspace& w) {
     w.decoding.bits = 2 * bits.read;
-    const FloatVec from = hypothesis.from_centre;
-    const FloatPlane grid = recentred(hypothesis.pattern_from_image, {-from.x, -from.y});
-    const bool is_certain =
-        is_certain_alone(kernels, options, hypothesis, view, block, bits, w) ||
-        (w.earlier.is_joining &&
-         is_certain_together(kernels, options, hypothesis.place, grid, block, w));
-    w.earlier.note(block, grid, is_certain);
+    bool is_certain = is_certain_alone(kernels, options, hypothesis, view, block, bits, w);
+    if (w.earlier.is_in_series()) {
+        const FloatVec from = hypothesis.from_centre;
+        const FloatPlane grid = recentred(hypothesis.pattern_from_image, {-from.x, -from.y});
+        is_certain =
+            is_certain || (w.earlier.is_joining &&
+                           is_certain_together(kernels, options, hypothesis.place, grid, block, w));
+        w.earlier.note(block, grid, is_certain);
+    }
     return is_certain ? Confirmation::ok : Confirmation::uncertain;
 }
 

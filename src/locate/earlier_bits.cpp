@@ -9,6 +9,7 @@
 
 #include "core/integrity/known_lines.hpp"
 #include "core/math/exponential.hpp"
+#include "locate/after_motion.hpp"
 #include "locate/tuning.hpp"
 
 namespace dotpose::core {
@@ -102,6 +103,10 @@ float angle_of(const FloatPlane& grid_from_image) {
     return std::atan2(grid_from_image.du_y, grid_from_image.du_x);
 }
 
+float power_of_two(float exponent) {
+    return natural_exp(std::numbers::ln2_v<float> * exponent);
+}
+
 /// The likeliest match of two grids, and the summed weights of all possible matches.
 struct Match {
     int quarters = 0;
@@ -110,12 +115,11 @@ struct Match {
     float sum = 0;  ///< sum of all weights, relative to the best weight
 
     void add(float weight_log2, int at_quarters, FixedVec at_shift) {
-        constexpr float kLn2 = std::numbers::ln2_v<float>;
         if (weight_log2 <= best_log2) {
-            sum += natural_exp(kLn2 * (weight_log2 - best_log2));
+            sum += power_of_two(weight_log2 - best_log2);
             return;
         }
-        sum = 1 + sum * natural_exp(std::max(kLn2 * (best_log2 - weight_log2), -87.0F));
+        sum = 1 + sum * power_of_two(best_log2 - weight_log2);
         best_log2 = weight_log2;
         quarters = at_quarters;
         shift = at_shift;
@@ -123,9 +127,7 @@ struct Match {
     /// Returns the probability that another match than the best one is right. `blunder_log2` is
     /// the weight of the hypothesis that the motion was measured wrongly.
     float p_wrong(float blunder_log2) const {
-        constexpr float kLn2 = std::numbers::ln2_v<float>;
-        return std::max(sum - 1, 0.0F) +
-               natural_exp(std::clamp(kLn2 * (blunder_log2 - best_log2), -87.0F, 60.0F));
+        return std::max(sum - 1, 0.0F) + power_of_two(std::min(blunder_log2 - best_log2, 99.0F));
     }
 };
 
@@ -169,19 +171,20 @@ void EarlierBits::clear() {
     motion_ = {};
 }
 
-void EarlierBits::begin_frame(const MeasuredMotion& motion, float spacing_mm,
-                              FloatVec reference_px) {
+void EarlierBits::begin_frame(const MeasuredMotion& motion, const DeviceOptions& options) {
     is_in_frame_ = true;
     is_joining = is_confirmed_ = false;
     current_.frames = current_.bits = 0;
-    spacing_mm_ = spacing_mm;
-    reference_px_ = reference_px;
+    spacing_mm_ = spacing_mm(options);
+    reference_px_ = {static_cast<float>(options.reference_dx_q8) / 256,
+                     static_cast<float>(options.reference_dy_q8) / 256};
+    max_p_mismatch_log2_ = options.integrity.max_p_wrong_log2 - 1;
     motion_ = followed_by(motion_, motion);
 }
 
-void EarlierBits::end_frame(int max_p_mismatch_log2) {
+void EarlierBits::end_frame() {
     if (current_.frames > 0) {
-        const auto joined = join(current_.block, current_.grid_from_image, max_p_mismatch_log2);
+        const auto joined = join(current_.block, current_.grid_from_image);
         if (joined) {
             current_.block = joined->block;
             current_.frames = joined->frames;
@@ -194,7 +197,6 @@ void EarlierBits::end_frame(int max_p_mismatch_log2) {
 
 void EarlierBits::note(const BitBlock& block, const FloatPlane& grid_from_image,
                        bool is_confirmed) {
-    if (!is_in_frame_) return;
     const int bits = number_of_bits(block.columns) + number_of_bits(block.rows);
     if (!is_confirmed && (is_confirmed_ || bits <= current_.bits)) return;
     current_ = {block, grid_from_image, bits, 1};
@@ -202,8 +204,7 @@ void EarlierBits::note(const BitBlock& block, const FloatPlane& grid_from_image,
 }
 
 std::optional<JoinedBits> EarlierBits::join(const BitBlock& block,
-                                            const FloatPlane& grid_from_image,
-                                            int max_p_mismatch_log2) const {
+                                            const FloatPlane& grid_from_image) const {
     if (!has_earlier()) return {};
     const float variance_rad2 =
         motion_.sigma_rad * motion_.sigma_rad + tuned::kGridAngle_rad * tuned::kGridAngle_rad;
@@ -229,7 +230,7 @@ std::optional<JoinedBits> EarlierBits::join(const BitBlock& block,
     const float p_wrong = match.p_wrong(tuned::kBlunder_log2);
     int p_mismatch_log2 = 0;
     std::frexp(p_wrong, &p_mismatch_log2);  // p_wrong < 2^p_mismatch_log2
-    if (match.sum < 1 || p_mismatch_log2 > max_p_mismatch_log2) return {};
+    if (p_mismatch_log2 > max_p_mismatch_log2_) return {};
     JoinedBits joined{block, earlier_.frames + 1, p_mismatch_log2};
     add_cells(shifted(turned(match.quarters, earlier_.block), match.shift), joined.block);
     return joined;

@@ -7,6 +7,7 @@
 
 #include "core/decode/bit_lines.hpp"
 #include "core/math/float_plane.hpp"
+#include "dotpose/device_options.hpp"
 #include "dotpose/measured_motion.hpp"
 
 namespace dotpose::core {
@@ -31,13 +32,13 @@ class EarlierBits {
   public:
     /// Forgets all frames.
     void clear();
-    /// Begins a frame. `motion` is the motion since the previous frame. `reference_px` is the
-    /// reference point, relative to the image centre.
-    void begin_frame(const MeasuredMotion& motion, float spacing_mm, FloatVec reference_px);
+    /// Begins a frame. `motion` is the motion since the previous frame. The spacing in the options
+    /// must be known.
+    void begin_frame(const MeasuredMotion& motion, const DeviceOptions& options);
     /// Ends the frame. Keeps its bits, joined with the earlier bits if the grids match.
-    void end_frame(int max_p_mismatch_log2);
+    void end_frame();
 
-    /// Stores bits of the current frame. Ignores all calls before `begin_frame`. Of several
+    /// Stores bits of the current frame, between `begin_frame` and `end_frame`. Of several
     /// blocks, keeps the last one that a fix confirmed or, if there is none, the largest one.
     void note(const BitBlock& block, const FloatPlane& grid_from_image, bool is_confirmed);
 
@@ -48,15 +49,15 @@ class EarlierBits {
     bool has_earlier() const { return is_in_frame_ && earlier_.frames > 0; }
     /// Returns the bits of a block of the current frame together with the earlier bits. Drops cells
     /// in which the frames contradict each other. Returns nullopt if the match of the grids is
-    /// wrong with a probability above 2^max_p_mismatch_log2.
-    std::optional<JoinedBits> join(const BitBlock& block, const FloatPlane& grid_from_image,
-                                   int max_p_mismatch_log2) const;
+    /// wrong with a probability above half of the maximum of the options.
+    std::optional<JoinedBits> join(const BitBlock& block, const FloatPlane& grid_from_image) const;
 
   private:
     bool is_in_frame_ = false;
     bool is_confirmed_ = false;
-    FloatVec reference_px_;
+    FloatVec reference_px_;  ///< reference point, relative to the image centre
     float spacing_mm_ = 0;
+    int max_p_mismatch_log2_ = 0;
     MeasuredMotion motion_;  ///< from the frame of `earlier_` to the current frame
     FrameBits earlier_;
     FrameBits current_;

@@ -83,16 +83,19 @@ bool find_turn_and_place(const Kernels& kernels, const DeviceOptions& options,
            find_place(options.code, score_block(kernels, upright, w.line_scores), place);
 }
 
-/// Replaces the bits of the current frame by the bits of all frames, if the frames are read
-/// together. Returns false if their grids do not match.
-bool join_earlier(const DeviceOptions& options, const FloatPlane& grid_from_image,
-                  DesktopWorkspace& w, BitBlock& block) {
-    if (!w.earlier.is_joining) {
-        w.earlier.note(block, grid_from_image, false);
+/// In a series of frames, stores the bits of the current frame. If the frames are read together,
+/// replaces the bits by those of all frames, and returns false if their grids do not match. The
+/// plane is relative to `from_centre`.
+bool join_earlier(const FloatPlane& grid_from_image, FloatVec from_centre, DesktopWorkspace& w,
+                  BitBlock& block) {
+    EarlierBits& earlier = w.earlier;
+    if (!earlier.is_in_series()) return true;
+    const FloatPlane grid = recentred(grid_from_image, {-from_centre.x, -from_centre.y});
+    if (!earlier.is_joining) {
+        earlier.note(block, grid, false);
         return true;
     }
-    const auto joined =
-        w.earlier.join(block, grid_from_image, options.integrity.max_p_wrong_log2 - 1);
+    const auto joined = earlier.join(block, grid);
     if (joined) block = joined->block;
     return joined.has_value();
 }
@@ -107,10 +110,7 @@ bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const
     BitBlock block;
     kernels.read_cells(patch.dots, grid.grid_from_image, grid.displacement, block.columns,
                        block.rows);
-    if (!join_earlier(options, recentred(grid.grid_from_image, {-from_centre.x, -from_centre.y}), w,
-                      block)) {
-        return false;
-    }
+    if (!join_earlier(grid.grid_from_image, from_centre, w, block)) return false;
     int quarters = 0;
     if (!find_turn_and_place(kernels, options, block, w, quarters, hypothesis.place)) return false;
     hypothesis.pattern_from_image = turned(quarters, grid.grid_from_image);

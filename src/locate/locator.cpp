@@ -67,16 +67,10 @@ std::optional<Prediction> Locator::begin_motion(const MeasuredMotion& since_last
         earlier.clear();
         return {};
     }
-    earlier.begin_frame(since_last, core::spacing_mm(options_),
-                        {static_cast<float>(options_.reference_dx_q8) / 256,
-                         static_cast<float>(options_.reference_dy_q8) / 256});
+    earlier.begin_frame(since_last, options_);
     const Fix& last = workspace().fix;
     if (last.status != Status::ok) return {};
     return core::after(since_last, last, options_);
-}
-
-void Locator::end_motion() {
-    workspace().earlier.end_frame(options_.integrity.max_p_wrong_log2 - 1);
 }
 
 Fix Locator::locate(const ImageView& image) {
@@ -92,7 +86,7 @@ Fix Locator::locate(const ImageView& image, const Prediction& prediction) {
 Fix Locator::locate(const ImageView& image, const MeasuredMotion& since_last) {
     const auto prediction = begin_motion(since_last);
     const Fix fix = locate_one(image, prediction ? &*prediction : nullptr);
-    end_motion();
+    workspace().earlier.end_frame();
     return fix;
 }
 
@@ -118,7 +112,7 @@ CodeReading Locator::locate_in_any_code(const ImageView& image, const MeasuredMo
                                         const CodeEvidence& evidence) {
     const auto prediction = begin_motion(since_last);
     const CodeReading reading = read_one(image, prediction ? &*prediction : nullptr, evidence);
-    end_motion();
+    workspace().earlier.end_frame();
     return reading;
 }
 

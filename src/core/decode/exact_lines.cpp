@@ -23,13 +23,6 @@ int below_sections(int roll) {
     return roll < kSections ? roll : roll - kSections;
 }
 
-/// Returns 64 bits of the main sequence, starting at `index`.
-std::uint64_t main_word(int index) {
-    const auto next = static_cast<std::size_t>(below_sections(index + 32));
-    return code::kMainWords[static_cast<std::size_t>(index)] | std::uint64_t{code::kMainWords[next]}
-                                                                   << 32;
-}
-
 /// Finds the position of the first line of a range, and its roll at `first_cell`. Returns false if
 /// the axis fails one of the conditions that `find_place_exactly` lists.
 bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange& range,
@@ -65,7 +58,8 @@ bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange&
         const int here = below_sections(reading.roll + rolls[i]);
         // Counts wrong bits one by one. Most lines have no wrong bits, and many processors lack a
         // popcount instruction.
-        std::uint64_t differ = (bits(i) ^ main_word(here)) & valid(i);
+        std::uint64_t differ =
+            (bits(i) ^ code::main_bits(static_cast<std::size_t>(here))) & valid(i);
         for (; differ != 0; differ &= differ - 1)
             ++wrong;
     }
@@ -82,8 +76,9 @@ std::uint8_t exact_roll(std::uint64_t bits, std::uint64_t valid) {
     const std::uint8_t there = kIndexOfBits[bits >> cell & 63];
     if (there == code::kAbsent) return code::kAbsent;
     const int roll = below_sections(there + kSections - cell);
-    return ((bits ^ main_word(roll)) & valid) == 0 ? static_cast<std::uint8_t>(roll)
-                                                   : code::kAbsent;
+    return ((bits ^ code::main_bits(static_cast<std::size_t>(roll))) & valid) == 0
+               ? static_cast<std::uint8_t>(roll)
+               : code::kAbsent;
 }
 
 bool find_place_exactly(CodeVariant code, const BitBlock& block, Place& place) {
