@@ -4,8 +4,8 @@
 /// Paper section II-A. Every column of the pattern contains the cyclic *main* sequence, which is
 /// read downwards. The *roll* of a column is the offset at which the sequence starts. The rolls of
 /// adjacent columns differ by 5 to 58, modulo 63. Each difference has four digits, one from each of
-/// four cyclic sequences with coprime lengths. The digits of consecutive differences determine the
-/// position of the column. Rows encode y in the same way.
+/// the cyclic sequences a1 to a4, whose lengths are coprime. The digits of consecutive differences
+/// determine the position of the column. Rows encode y in the same way.
 ///
 /// Coordinate frame: x to the right, y DOWN, as the printed page is read. All functions are pure
 /// and thread-safe, and do not allocate.
@@ -24,15 +24,16 @@ namespace dotpose {
 /// Number of positions per axis: 236 * 233 * 31 * 241, the common period of the four digit
 /// sequences.
 inline constexpr std::uint32_t kPositionsPerAxis = 410'815'348;
-/// Length of the main sequence, which is the number of sections per axis.
+/// Length of the main sequence, and number of sections per axis.
 inline constexpr int kSections = 63;
 
 /// Variant of the position code. Variants differ only in the sequence a4.
 enum class CodeVariant : std::uint8_t {
-    /// a4 as restored in the paper. Unambiguous on the whole plane. The default for printing.
+    /// The a4 restored from the misprint in the patent (docs/position-code.md). Unambiguous on the
+    /// whole plane. The default for printing.
     anoto,
-    /// a4 as misprinted in the patent, used by libdots and other open tools. Windows smaller than
-    /// 8 x 8 symbols may be ambiguous.
+    /// The a4 as misprinted in the patent, used by libdots and other open tools. Windows smaller
+    /// than 8 x 8 symbols may be ambiguous.
     libdots,
     /// Another a4, used by py-microdots and its ports.
     microdots,
@@ -127,14 +128,15 @@ Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noe
 /// may occur at several places).
 Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexcept;
 
-/// Finds the position of the first column (or row) from the rolls of 6 to 32 consecutive columns
+/// Computes the position of the first column (or row) from the rolls of 6 to 32 consecutive columns
 /// (rows), each in [0, 63) and all read from the same row (column). Returns the same errors as
 /// `decode`.
 Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 
-/// Returns the section, in [0, 63), in which column (row) `position` has the roll `roll_seen` if
-/// its first bit is in row (column) `cross_position`.
+/// Returns the section, in [0, 63), from the roll of column (row) `position`. `roll_seen` is the
+/// roll counted from row (column) `cross_position`: the offset in the main sequence of the bit in
+/// that row (column).
 int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
                std::uint32_t cross_position) noexcept;
 

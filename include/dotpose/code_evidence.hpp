@@ -1,6 +1,6 @@
 /// Code evidence: the probability of each code variant of a sheet, given frames of the sheet. The
 /// code variants agree on most of the plane. A frame can therefore often be read in several code
-/// variants, usually at the same place, sometimes at distant places. If one frame is ambiguous,
+/// variants, usually at the same place, but sometimes at distant places. If one frame is ambiguous,
 /// further frames of the sheet resolve the ambiguity:
 ///
 ///     CodeEvidence evidence;
@@ -26,20 +26,21 @@ DOTPOSE_BEGIN_EXPORT
 namespace dotpose {
 
 /// The odds of each code variant of one sheet, given all frames so far. Consecutive frames at one
-/// place show the same dots with the same defects, so together they count as a single frame: they
-/// reduce the odds of a code variant by the mean of their individual factors. Frames are at the
-/// same place if, along both axes, they are less than 64 cells from the first frame at this place.
+/// place contain the same dots with the same defects, so they count as a single frame: together
+/// they reduce the odds of a code variant by the mean of their individual factors. Frames are at
+/// the same place if, along both axes, they are less than 64 cells from the first frame at this
+/// place.
 class CodeEvidence {
   public:
     /// log2 of the likelihood or the odds of each code variant, in units of 2^-8.
     using LogOdds = std::array<std::int32_t, kCodeVariantCount>;
 
-    /// Maximum ratio, as log2, between the odds of the likeliest and of any other code variant, for
-    /// one frame and for all frames together. Because of this limit, later frames can still show
-    /// that the sheet was replaced.
+    /// log2 of the maximum ratio between the odds of the likeliest and of any other code variant.
+    /// Applies to each frame and to all frames together. Because of this limit, later frames can
+    /// still reveal that the sheet was replaced.
     static constexpr std::int32_t kMax_log2 = 40;
-    /// Maximum factor, as log2, by which consecutive frames at one place together reduce the odds
-    /// of a code variant. These frames show the same dots with the same defects, so they are not
+    /// log2 of the maximum factor by which consecutive frames at one place together reduce the odds
+    /// of a code variant. These frames contain the same dots with the same defects, so they are not
     /// independent.
     static constexpr std::int32_t kMaxOfPlace_log2 = 32;
 
@@ -62,9 +63,9 @@ class CodeEvidence {
     LogOdds sum() const;
 
     LogOdds before_log2_q8_{};  ///< log2 of the odds from all places except the newest
-    /// Sum, for each code variant over the frames at the newest place, of the factor by which a
-    /// frame reduces the odds of the variant relative to the likeliest variant. `sum()` uses the
-    /// mean of these factors.
+    /// For each code variant, the sum over the frames at the newest place of the factor by which a
+    /// frame reduces the odds of the variant, relative to the likeliest variant. `sum()` uses the
+    /// mean, factors_here_ / frames_here_.
     std::array<float, kCodeVariantCount> factors_here_{};
     Cell here_;
     std::uint32_t frames_here_ = 0;
@@ -75,11 +76,11 @@ struct CodeReading {
     /// If the status is ambiguous_code, the pose and the counts are those of one of the two places.
     Fix fix;
     CodeVariant code = CodeVariant::anoto;  ///< code variant of `fix`
-    CodeEvidence evidence;                  ///< evidence with this frame added
-    /// True if a place in another code variant explains the frame about equally well.
-    /// `Locator::locate_in_any_code` sets this member only if the status is ambiguous_code. See
-    /// `Locator::locate_in_code` for the cases in which it sets this member. If the fix is ok,
-    /// `p_wrong_log2` does not include the odds of the other place.
+    CodeEvidence evidence;                  ///< evidence that includes this frame
+    /// True if the place in the following members also explains the frame, in another code variant.
+    /// Set by `Locator::locate_in_any_code` only if the status is ambiguous_code, and by
+    /// `Locator::locate_in_code` in the cases listed there. If the fix is ok, its `p_wrong_log2`
+    /// does not include the odds of this place.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;
     Cell other_cell{};  ///< cell of the other place, as in Fix; fractions and angle are the same as

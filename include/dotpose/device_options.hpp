@@ -13,7 +13,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Radial distortion, paper eq. 1-2: p_u = m + r_d / (1 + k |r_d|^2), with the distortion centre m.
+/// Radial distortion, paper eq. 1-2: p_u = m + r_d / (1 + k |r_d|^2). p_u is the undistorted point,
+/// m is the distortion centre, and r_d is the vector from m to the image point.
 struct FixedLens {
     /// k in units of 2^-40 / px^2; negative for barrel distortion. Default 0: no distortion. [any]
     std::int32_t k_q40 = 0;
@@ -41,10 +42,10 @@ struct ThresholdOptions {
     /// High threshold: minimum contrast between the paper and the darkest pixel of a blob, as a
     /// fraction of the local contrast, in 1/256. Larger values reject more noise. [1 to 256]
     int high_q8 = 155;
-    /// Contrast, in grey levels, below which an area counts as blank. The effective limit is a
-    /// sixth of the largest contrast in the frame so far, but at least the value of this option and
-    /// at most twice the value. On devices, `DeviceOptions::min_contrast` replaces this option if
-    /// it is larger. [1 to 255]
+    /// Contrast, in grey levels, below which a tile of the image counts as blank. The effective
+    /// limit is clamp(c / 6, min_contrast, 2 * min_contrast), where c is the largest contrast in
+    /// the frame so far. On devices, min_contrast is the larger of this option and
+    /// `DeviceOptions::min_contrast`. [1 to 255]
     int min_contrast = 8;
 };
 
@@ -87,9 +88,9 @@ struct IntegrityOptions {
 /// The attempts that `locate` makes.
 enum class Effort : std::uint8_t {
     device,  ///< one attempt in integer arithmetic, as on a DeviceLocator
-    once,    ///< like `twice`, but without the second attempt
-    twice,  ///< a frame that the first attempt does not locate, or locates with large residuals, is
-            ///< filtered and read again
+    once,    ///< the tracked attempt, if there is a prediction, and the first attempt
+    twice,   ///< also the second attempt, on the filtered image, if the first attempt fails or its
+             ///< residuals are large
 };
 
 /// Dots from which the position is read.
@@ -127,8 +128,8 @@ struct DeviceOptions {
     std::int32_t spacing_nm = 508'000;
 
     /// True if the first and the tracked attempt store dots, grid and bits in the trace, for
-    /// drawing and calibration. A frame then takes longer. The other attempts always store dots,
-    /// grid and bits.
+    /// drawing and calibration. Storing them takes time. The other attempts always store dots, grid
+    /// and bits.
     bool show_stages = false;
 
     /// Reference point: the image point whose pose is reported, relative to the image centre, in px

@@ -64,8 +64,9 @@ class FramePacer {
     PacerOptions options_;
     Motion motion_ = Motion::moving;
     bool has_begun_ = false;
-    /// Fix of the newest frame that counted as movement. The first frame always counts as movement.
-    /// Later movement is measured from this fix. The status is not ok if the frame had no fix.
+    /// Fix of the newest frame that counted as movement, relative to which later movement is
+    /// measured. The first frame always counts as movement. The status is not ok if the frame had
+    /// no fix.
     Fix rest_;
     std::int64_t rest_since_us_ = 0;  ///< time of the frame of `rest_`
 };

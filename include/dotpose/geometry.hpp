@@ -22,10 +22,9 @@ struct FixedVec {
 
 /// Maps image points to the plane of the paper, in spacings. With (x, y) in px from `centre`,
 ///
-///     plane = at_centre + (du x + dv y) / (1 + perspective . (x, y) + lens (x^2 + y^2)),
+///     plane = at_centre + (du x + dv y) / (1 + perspective . (x, y) + lens (x^2 + y^2)).
 ///
-/// This map is exact for a tilted camera, for the lens distortion of eq. 2, and for a tilted camera
-/// with this lens distortion.
+/// The map is exact for a tilted camera with the lens distortion of eq. 2.
 struct PlaneFromImage {
     FixedVec centre_q8;         ///< image point of (x, y) = (0, 0), in 2^-8 px
     FixedVec at_centre_q16;     ///< plane point at `centre`, in 2^-16 spacings

@@ -25,13 +25,14 @@ struct KnownRegion {
     std::uint32_t rows = 0;
 };
 
-/// Minimum number of dots with known regions, unless `min_dots` in the options is smaller. The
-/// smallest views that can be certain have about 25 dots.
+/// Minimum number of dots required to search for a grid if regions are known. The limit is
+/// min(kMinKnownDots, `min_dots` of the options). The smallest views that can be certain have about
+/// 25 dots.
 inline constexpr int kMinKnownDots = 16;
 
 /// Specifies whether sheets other than the known sheets may be in view.
 enum class OtherSheets : std::uint8_t {
-    possible,    ///< other sheets are also located, but only if more dots are in view
+    possible,    ///< other sheets are also located, but need more dots in view
     impossible,  ///< only places on known sheets are possible
 };
 

@@ -1,4 +1,4 @@
-/// Locator: finds the pose of a camera from an image of the pattern.
+/// Locator: computes the pose of a camera from an image of the pattern.
 ///
 ///     dotpose::Locator locator;
 ///     if (const dotpose::Fix fix = locator.locate(image)) use(fix.x_mm(), fix.y_mm());
@@ -80,7 +80,7 @@ class RowLocator {
     int rows_left_ = 0;  ///< number of rows that may still be pushed
 };
 
-/// Finds the pose of an image relative to the pattern.
+/// Computes the pose of the camera relative to the pattern.
 class Locator : public RowLocator {
   public:
     /// Allocates a LargeMemory on the heap. If any option is outside its range, every frame gets
@@ -119,16 +119,15 @@ class Locator : public RowLocator {
 
     /// Sets the regions of the code plane that are printed on the sheets that may be in view. With
     /// known regions, views of about 30 dots suffice. `regions` must remain valid while the locator
-    /// uses it. An empty span makes all places possible again. An invalid region is empty, is not
-    /// inside the plane, or has a code or section that does not exist. If any region is invalid,
-    /// returns bad_argument and keeps the previous regions. Effort::device does not use the
-    /// regions.
+    /// uses it. An empty span makes all places possible again. Returns bad_argument, and keeps the
+    /// previous regions, if a region is empty, extends beyond the plane, or has a code or section
+    /// that does not exist. Effort::device does not use the regions.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 
-    /// Returns the pose of an image; see Fix. If the options do not set the code, the code is
-    /// detected from all images so far, and `options().code` is the code that was read. The result
-    /// is bit-identical on every processor, except for the covariance and the residual.
+    /// Locates the pattern in an image. If the options do not set the code, the code is detected
+    /// from all images so far, and `options().code` becomes the code of the fix. The fix is
+    /// bit-identical on every processor, except for the covariance and the residual.
     Fix locate(const ImageView& image);
 
     /// Locates the pattern near the predicted place. A frame that does not confirm the prediction
@@ -138,11 +137,12 @@ class Locator : public RowLocator {
 
     /// Locates an image of a camera that has moved by `since_last` since the previous image. If the
     /// previous image was located, first searches near the place that the motion predicts. If the
-    /// image is not certain alone, reads it together with the previous images, so views that are
-    /// too small or too dirty become certain as the camera moves; `Fix::frames` is their number.
-    /// Images without a pattern may be between them. A call of another function that locates an
-    /// image ends the series. Without the spacing of the printed grid in the options, or if the
-    /// motion is not usable, the image is located alone.
+    /// position from this image alone is not certain, reads the image together with the previous
+    /// images of the series. Views that are too small or too dirty therefore become certain as the
+    /// camera moves. `Fix::frames` is the number of images read together. The series may include
+    /// images without a pattern, and ends if another function locates an image. If the options do
+    /// not contain the spacing of the printed grid, or if the motion is not usable, locates the
+    /// image alone.
     Fix locate(const ImageView& image, const MeasuredMotion& since_last);
 
     /// Locates an image whose code variant is not known. Considers places in all code variants,
@@ -156,7 +156,8 @@ class Locator : public RowLocator {
     CodeReading locate_in_any_code(const ImageView& image, const Prediction& prediction,
                                    const CodeEvidence& evidence);
 
-    /// Locates an image of a moved camera, as `locate` does, whose code variant is not known.
+    /// Locates an image whose code variant is not known, after the camera has moved by
+    /// `since_last`. Uses the motion as `locate` does.
     CodeReading locate_in_any_code(const ImageView& image, const MeasuredMotion& since_last,
                                    const CodeEvidence& evidence);
 
@@ -164,8 +165,8 @@ class Locator : public RowLocator {
     /// three cases:
     /// - A different place in another code variant explains the image about as well as the fix.
     /// - The same place in another code variant explains the image much better.
-    /// - The image has no fix in `options().code`, but a place in another code variant with few
-    ///   wrong bits.
+    /// - The image has no fix in `options().code`, but a place in another code variant explains it
+    ///   with few wrong bits.
     CodeReading locate_in_code(const ImageView& image);
 
     /// Starts an image that is pushed row by row, with or without a prediction. The locator keeps
@@ -174,7 +175,7 @@ class Locator : public RowLocator {
     /// 188 x 188 for a SmallMemory, 1280 x 1024 for a LargeMemory.
     Status begin(int width_px, int height_px);
     Status begin(int width_px, int height_px, const Prediction& prediction);
-    /// Takes the next row of `width_px` pixels. Ignores rows beyond the height of the image, and
+    /// Appends the next row of `width_px` pixels. Ignores rows beyond the height of the image, and
     /// all rows if no image was begun.
     void push_row(const std::uint8_t* pixels);
     /// Locates the image whose rows were pushed, as `locate` does. Missing rows count as white
@@ -205,16 +206,16 @@ class Locator : public RowLocator {
 };
 
 /// A locator for microcontrollers with a camera that looks straight at the paper. Uses only integer
-/// arithmetic and takes a short, bounded time. The options `effort` and `decoder` have no effect.
-/// Provides neither covariance nor residual. Computes only a fast upper bound on the probability
-/// that a position is wrong, and refuses the position as not_certain if this bound exceeds the
-/// limit. A program that uses only this class does not link the desktop attempts.
+/// arithmetic, and the time per frame is short and bounded. The options `effort` and `decoder` have
+/// no effect. Computes neither covariance nor residual. Computes only a fast upper bound on the
+/// probability that a position is wrong, and refuses the position as not_certain if this bound
+/// exceeds the limit. A program that uses only this class does not link the desktop attempts.
 class DeviceLocator : public RowLocator {
   public:
     /// The rules for memory and options are the same as for Locator.
     explicit DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options = {});
 
-    /// Returns the pose of an image, in the code of the options.
+    /// Locates the pattern in an image, in the code of the options.
     Fix locate(const ImageView& image);
     /// Measures the dots of an image at their predicted places. A frame that does not confirm the
     /// prediction is located without the prediction.
@@ -230,7 +231,7 @@ class DeviceLocator : public RowLocator {
     /// can then push them again without a prediction.
     Status begin(int width_px, int height_px, const Prediction& prediction);
 
-    /// Takes the next row of `width_px` pixels. The pixels need not remain valid afterwards.
+    /// Processes the next row of `width_px` pixels. The pixels need not remain valid afterwards.
     /// Ignores rows beyond the height of the frame, and all rows if no frame was begun.
     void push_row(const std::uint8_t* pixels);
 

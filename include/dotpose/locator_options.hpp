@@ -53,7 +53,7 @@ struct LocatorOptions {
     Effort effort = Effort::twice;
     Decoder decoder = Decoder::all;
     /// True if every attempt stores dots, grid and bits in the trace, for drawing and calibration.
-    /// A frame then takes longer.
+    /// Storing them takes time.
     bool show_stages = false;
 
     /// Returns the same options in fixed point. If any option is outside its range, one of the
@@ -91,7 +91,7 @@ inline const char* bad_option(const LocatorOptions& options) {
     return nullptr;
 }
 
-// Double precision is used only in headers, because they are not part of the core's object code.
+// Double precision is used only in headers, so the core's object code contains none.
 inline LocatorOptions::operator DeviceOptions() const {
     DeviceOptions fixed;
     if (bad_option(*this) != nullptr) {

@@ -1,6 +1,6 @@
 /// Measured motion: the displacement and rotation of the camera between two frames, as measured by
-/// wheel odometry or an inertial unit. A Locator uses motions to read frames together that are not
-/// certain alone, a Tracker to follow a robot across places without a pattern.
+/// wheel odometry or an inertial unit. A Locator uses motions to combine frames that are not
+/// certain alone. A Tracker uses motions to follow a robot across places without a pattern.
 #pragma once
 
 #include "dotpose/export.hpp"
@@ -17,12 +17,13 @@ struct MeasuredMotion {
     float down_mm = 0;   ///< displacement along the image y axis
     float turn_rad = 0;  ///< change of the angle of a fix, clockwise as seen on the paper
     /// Standard deviations of the displacement along each axis, and of the rotation. The errors are
-    /// assumed to be normally distributed and independent. Too small values lead to wrong fixes.
+    /// assumed to be normally distributed and independent. Values that are too small lead to wrong
+    /// fixes.
     float sigma_mm = 0;
     float sigma_rad = 0;
 
-    /// Returns true if all values are finite and below 1e6, and the standard deviations are not
-    /// negative. Motions with other values are ignored.
+    /// Returns true if all values are finite and less than 1e6 in magnitude, and the standard
+    /// deviations are not negative. A Locator or Tracker ignores any other motion.
     bool is_usable() const;
 };
 

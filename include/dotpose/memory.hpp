@@ -1,6 +1,6 @@
-/// Memory of a Locator or DeviceLocator. The memory has a fixed size. It belongs to the caller,
-/// unless a Locator allocates it. It is reused for each frame. The memory may be static, on the
-/// heap or, if small enough, on the stack. Its content is private to the core.
+/// Memory of fixed size for a Locator or DeviceLocator, which reuses it for each frame. The memory
+/// belongs to the caller, unless a Locator allocates it. It may be static, on the heap or, if small
+/// enough, on the stack. Its content is private to the core.
 #pragma once
 
 #include <array>
@@ -86,8 +86,8 @@ class LargeMemory {
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 
-extern template class DeviceMemoryFor<160, 120>;  ///< 10 KB with 32-bit pointers
-extern template class DeviceMemoryFor<188, 120>;  ///< 12 KB with 32-bit pointers
+extern template class DeviceMemoryFor<160, 120>;  ///< 11 KB with 32-bit pointers
+extern template class DeviceMemoryFor<188, 120>;  ///< 13 KB with 32-bit pointers
 extern template class DeviceMemoryFor<320, 240>;  ///< 23 KB with 32-bit pointers
 /// Memory for frames of the paper's sensor, 188 x 120 px.
 using DeviceMemory = DeviceMemoryFor<188, 120>;

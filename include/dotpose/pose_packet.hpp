@@ -69,10 +69,10 @@ using PacketBytes = std::array<std::uint8_t, 32>;
 /// Returns the bytes of a packet for sending.
 PacketBytes encode(const PosePacket& packet);
 
-/// Finds packets in any stream of bytes.
+/// Extracts packets from a stream of bytes that may contain other data.
 class PacketReader {
   public:
-    /// Takes the next byte. Returns true if the byte completes a valid packet.
+    /// Processes the next byte. Returns true if the byte completes a valid packet.
     bool push(std::uint8_t byte);
 
     /// Returns the newest packet. Not valid before the first packet.

@@ -1,6 +1,6 @@
 /// Prediction: the expected place of the pattern in the next frame. With a prediction, a Locator
-/// finds the next fix in a fraction of the time. It measures the dots at their expected places and
-/// compares their bits with the code. A prediction never makes a fix less certain. A frame that
+/// computes the next fix in a fraction of the time. It measures the dots at their expected places
+/// and compares their bits with the code. A prediction never makes a fix less certain. A frame that
 /// does not confirm the prediction is located without the prediction.
 ///
 ///     Fix fix = locator.locate(image);
@@ -27,11 +27,11 @@ struct Prediction {
     /// Typical distance of a dot from its intersection in the last frame, in units of 2^-16
     /// spacings.
     std::int32_t displacement_q16 = 65536 / 6;
-    /// Standard deviation of x and y, in units of 2^-16 spacings. The search covers three standard
-    /// deviations (a Locator adds a tenth of a spacing), but at most 0.6 spacing.
+    /// Standard deviation of x and y, in units of 2^-16 spacings. The search radius, in spacings,
+    /// is min(3 sigma, 0.6) on a DeviceLocator, and min(3 sigma + 0.1, 0.6) on a Locator.
     std::int32_t sigma_q16 = 65536 / 5;
     /// Standard deviation of the angle, as a binary angle: 2^31 is half a turn. Default: 1.4
-    /// degrees. The search does not use this value. The search covers rotations of up to 4 degrees.
+    /// degrees. The search does not use this value; it always covers rotations of up to 4 degrees.
     std::int32_t sigma_theta_bam = 1 << 24;
 
     /// Returns the prediction for a camera that does not move after the frame of `fix`. The fix

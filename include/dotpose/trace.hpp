@@ -36,7 +36,8 @@ struct DetectedDot {
     std::uint16_t area_px = 0;
 };
 
-/// A connection between two seeds, each of which is among the four nearest seeds of the other.
+/// A connection between two seeds, which are the dots from which the lattice is found. Each seed is
+/// among the four nearest seeds of the other.
 struct SeedEdge {
     std::int16_t from = 0;  ///< index of a seed
     std::int16_t to = 0;
@@ -102,8 +103,8 @@ struct GridRegion {
 struct Decoding {
     GridRegion window;  ///< the clearest window of 8 x 8 cells
     GridRegion region;  ///< all decoded cells: at most kMaxLines x kMaxLines
-    /// Agreement, at the likeliest turn, between the main sequence and the lines that vote on the
-    /// turn.
+    /// Agreement, at the likeliest quarter turn, between the main sequence and the lines that vote
+    /// on the turn.
     std::int32_t agreement = 0;
     QuarterTurn pattern_from_grid;
     Place place;  ///< place in the code of grid cell (0, 0); the cell may be out of view
@@ -116,7 +117,7 @@ struct Decoding {
     std::array<int, 2> p_wrong_log2_q8{};
 };
 
-/// The matrices P^(x), P^(y) of Fig. 8 of the paper, over a rectangle of the grid.
+/// The matrices P^(x) and P^(y) of Fig. 8 of the paper, for a rectangle of grid cells.
 struct GridView {
     std::span<const GridCell> cells;  ///< row by row
     GridRegion region;                ///< the region of the grid that `cells` covers

@@ -78,8 +78,8 @@ struct TrackOptions {
     /// Maximum speed. Limits the distance that the robot can have moved since its last sighting.
     float max_speed_mm_s = 1000;
     float max_turn_rad_s = 20;
-    /// Number of standard deviations of the innovation by which a sighting may exceed the limits of
-    /// motion.
+    /// Margin of the limits of motion, in standard deviations of the innovation. A sighting is
+    /// inside the gate if it exceeds the limits by at most this margin.
     float gate_sigmas = 5;
     /// Number of consecutive consistent sightings required to accept a jump. A larger number delays
     /// the acceptance. A smaller number may accept a single wrong fix.
@@ -87,8 +87,8 @@ struct TrackOptions {
 
     /// Time without an accepted sighting and without a motion after which the robot is lost.
     std::int64_t lost_after_us = 70'000;
-    /// Standard deviation of the position, along either axis, above which the robot is lost if only
-    /// motions are known.
+    /// Maximum standard deviation of the position, along either axis, while the pose is computed
+    /// only from motions. If it is exceeded, the robot is lost.
     float max_sigma_mm = 5;
 
     /// A robot whose pose changes by at most these limits, along each axis, for
@@ -156,11 +156,11 @@ const char* name(Verdict verdict) noexcept;
 
 /// The events of a frame. Several events may occur together.
 struct TrackEvents {
-    bool fix = false;  ///< the robot was lost, which is also the initial state, and has been found
+    bool fix = false;  ///< the robot has been found after it was lost, or for the first time
     /// The robot is now lost: no sighting was accepted for TrackOptions::lost_after_us.
     bool lost = false;
-    /// Confirmed sightings are at a place that the robot cannot have reached by driving from its
-    /// last accepted sighting.
+    /// Confirmed sightings are at a place that the robot cannot have reached by driving from the
+    /// place of its last accepted sighting.
     bool kidnapped = false;
     bool stationary = false;  ///< the robot came to rest
     bool moving = false;      ///< the robot was stationary and moves again
@@ -193,7 +193,8 @@ struct MotionEstimate {
     TrackedPose pose;
     Vector3 acceleration{};    ///< mm/s^2, rad/s^2
     Covariance9 covariance{};  ///< covariance of (x, y, theta), their velocities and accelerations
-    /// Variance of new acceleration along each axis, divided by the variance from TrackOptions.
+    /// Variance of the process noise (new acceleration) along each axis, divided by the variance
+    /// from TrackOptions.
     Vector3 agility{1, 1, 1};
     Vector3 innovation{};  ///< difference between the newest sighting and its prediction
     Matrix3 noise{};       ///< covariance of the newest sighting, including printing errors
@@ -214,8 +215,9 @@ class Tracker {
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
     /// Updates the state with a frame and with the motion since the previous update, from odometry.
-    /// Its displacement is along the axes to which theta of the sightings refers. Without
-    /// sightings, the motions carry the pose on, and its covariance grows by theirs.
+    /// `right_mm` is along the direction theta of the sightings: the image x axis or, with a camera
+    /// file, the heading of the robot. Without a sighting, the motion updates the pose, and the
+    /// uncertainty of the motion increases the covariance of the pose.
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion& motion);
 
@@ -243,14 +245,16 @@ class Tracker {
     bool has_prior() const { return !track_.is_lost; }
 
   private:
-    /// Returns the motion with `seen` as its newest sighting, or null if there is no such motion.
+    /// Returns the motion estimate whose newest sighting is `seen`, or null if there is none.
     const track::MotionEstimate* following(const Sighting& seen) const;
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion* motion);
-    /// Judges a sighting, `dt_s` after the time of `last_` before this frame.
+    /// Returns the verdict on a sighting. `dt_s` is the time in seconds since `last_`, as `last_`
+    /// was before this frame.
     Verdict judge(const track::MotionEstimate& prediction, const Sighting& sighting, float dt_s);
     bool is_confirmed(const Sighting& sighting);
-    /// Returns true if neither sightings nor motions determine the pose any longer.
+    /// Returns true if the last accepted sighting or motion is too old, or if the position is too
+    /// uncertain.
     bool is_stale() const;
     void restart(const track::MotionEstimate& motion);
     void watch_motion();
@@ -259,7 +263,7 @@ class Tracker {
     Track track_;
     bool was_seen_ = false;       ///< true if any sighting has been accepted
     bool has_frame_ = false;      ///< true if there has been a frame
-    bool is_y_up_ = false;        ///< direction of the y axis in the newest sighting
+    bool is_y_up_ = false;        ///< true if the y axis of the newest sighting points up
     std::int64_t newest_us_ = 0;  ///< time of the newest frame
     /// State at the last accepted sighting, or at the last motion after this sighting.
     track::MotionEstimate last_;

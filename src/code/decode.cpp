@@ -15,15 +15,16 @@ constexpr int kMinWindow = code::kMainOrder;
 using Rolls = std::array<std::uint8_t, kMaxWindow>;
 using Deltas = std::array<std::uint8_t, kMaxWindow - 1>;
 
-/// The places in one secondary sequence at which its digits match the corresponding digits of all
-/// differences of a window. Only the first place and the number of places are stored.
+/// Result of a search in one secondary sequence: the first place where the digits of a window
+/// occur, and the number of such places. The digits are one digit of each difference between
+/// adjacent rolls.
 struct Places {
     std::uint32_t first = 0;
     int count = 0;
 };
 
-/// Returns true if the digits of the cyclic sequence `a`, from `place` on, equal digit `digit` of
-/// each of `deltas`.
+/// Returns true if a.digits[place + i], with the index modulo the length, is digit `digit` of
+/// deltas[i] for all i.
 bool matches_at(const code::Secondary& a, std::size_t digit, std::span<const std::uint8_t> deltas,
                 std::uint32_t place) {
     for (const std::uint8_t d : deltas) {

@@ -13,10 +13,10 @@ int delta(CodeVariant code, std::uint32_t p) noexcept {
 }
 
 int roll(CodeVariant code, std::uint32_t p) noexcept {
-    // The sum of p differences is 5 p plus one contribution from each sequence: the sum over the
-    // full periods of the sequence, plus the sum over the digits of its last, incomplete period.
-    // The number of full periods is the number of lines in them divided by the length of the
-    // sequence. Modulo 63, this division is a multiplication by the inverse of the length.
+    // The roll is the sum of the p differences before line p. Modulo 63:
+    //     5 p + sum over the sequences of ((p - place) / length * rolls[length] + rolls[place])
+    // (p - place) / length is the number of full periods. `period_roll` is rolls[length] times the
+    // inverse of the length modulo 63. Adding 4 * 63 keeps `lines - place` positive.
     const std::uint32_t lines = code::modulo_sections(p) + 4 * kSections;
     std::uint32_t sum = code::kMinDelta * lines;
     for (const code::Secondary& a : code::basis(code)) {
@@ -62,8 +62,9 @@ struct AxisPlace {
         place.position = static_cast<std::uint32_t>(target);
         return place;
     }
-    // A full period along x adds the roll of the period to the rolls of the columns. The position
-    // then wraps around to 0, so the length of the period is added to the section of the rows.
+    // Along x, with L = kPositionsPerAxis: the rolls of the columns p and p + L differ by roll(L),
+    // so the section of the columns changes by roll(L). The rows are read L cells farther along, so
+    // the section of the rows changes by L modulo 63.
     const auto shifted = [&](int section, int by) {
         const int sum = section + (is_before ? kSections - by : by);
         return static_cast<std::uint8_t>(sum % kSections);

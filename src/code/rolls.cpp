@@ -13,10 +13,9 @@ int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32
 }
 
 int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, std::uint32_t place) {
-    // The contribution of a4 to a roll is the sum over the full periods of a4, plus the sum over
-    // the digits before the place in the last, incomplete period. The contribution is less than
-    // kPeriods, a multiple of 63. Adding kPeriods keeps the difference of two contributions
-    // positive.
+    // Computes the contribution of a4 to the roll as `roll` does. The contribution is less than
+    // kPeriods, which is a multiple of 63. Adding kPeriods keeps the difference of two
+    // contributions positive.
     constexpr std::uint32_t kPeriods = 512 * kSections;
     const std::uint32_t lines = modulo_sections(position) + 4 * kSections;
     const auto by_a4 = [&](CodeVariant code) {

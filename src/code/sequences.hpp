@@ -1,6 +1,6 @@
 // Sequences: the main sequence and the secondary sequences of the code, as published, with proofs
-// of the properties that decoding needs. Paper section II-A; patent US 6,667,695; a4:
-// docs/position-code.md.
+// of the properties that decoding needs. Paper section II-A, US patent 6,667,695.
+// docs/position-code.md describes the variants of a4.
 #pragma once
 
 #include <array>

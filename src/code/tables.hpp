@@ -18,9 +18,9 @@ inline constexpr std::uint8_t kAbsent = 255;
 /// length occur twice (`Secondary::has_twins`).
 inline constexpr int kOrder = 5;
 
-/// Numbers of entries by which the tables of a sequence extend beyond its end. kLinesAhead entries
-/// are for the lines that follow a first line at the last place. kVectorAhead entries are for the
-/// lanes of a vector that begins at the last of these lines.
+/// The tables of a sequence extend beyond its end, so loops over adjacent lines need not wrap
+/// around. kLinesAhead entries cover the lines of a view whose first line is at the last place.
+/// kVectorAhead further entries cover a vector load that begins at the last of these lines.
 inline constexpr std::size_t kLinesAhead = 64;
 inline constexpr std::size_t kVectorAhead = 32;
 
@@ -45,12 +45,12 @@ struct Secondary {
     /// contribution of the sequence to the roll. The table extends beyond the end of the sequence
     /// by kLinesAhead + kVectorAhead entries.
     const std::uint8_t* rolls;
-    /// First place of each string of 5 digits, indexed by its key, or kAbsent if the string does
-    /// not occur.
+    /// First place of each string of 5 digits, or kAbsent if the string does not occur. Indexed by
+    /// the key of the string (see `key`).
     const std::uint8_t* first_place_of;
-    /// A bit set for each digit: bit i is set if the digit occurs at place i. The sequence is
-    /// repeated cyclically up to 256 + kLinesAhead bits. Bit 0 is the least significant bit of the
-    /// first word.
+    /// One bit set per digit: bit i is 1 if place i contains the digit. The sequence is repeated
+    /// cyclically up to 256 + kLinesAhead bits. Bit 0 is the least significant bit of the first
+    /// word.
     const std::uint32_t* const* places_of;
     std::uint32_t reciprocal;     ///< 2^20 / length
     std::uint16_t rest_of_65536;  ///< 65536 modulo length
@@ -70,9 +70,9 @@ struct Secondary {
             rest -= length;
         return rest;
     }
-    /// Returns the places at which the next `count` digits equal the next `count` digits at
-    /// `place`. The result is a bit set of the places 32 * word to 32 * word + 31, and includes
-    /// `place` itself. Bits beyond the end of the sequence are 0.
+    /// Returns the places p for which digits[p + i] equals digits[place + i] for all i < `count`,
+    /// with cyclic indices. The result is a bit set of the places 32 * word to 32 * word + 31, and
+    /// includes `place` itself. Bits beyond the end of the sequence are 0.
     constexpr std::uint32_t equal_places(std::uint32_t place, int count, std::uint32_t word) const {
         const std::uint32_t rest = length - 32 * word;
         std::uint32_t places = rest < 32 ? ~(~std::uint32_t{0} << rest) : ~std::uint32_t{0};

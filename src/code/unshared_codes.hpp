@@ -1,5 +1,5 @@
-// Table of the minimum number of lines that a position in one code variant does not share with any
-// position in another variant; see unshared_lines.hpp. Generated;
+// Table of the minimum number of unshared lines between a position in one code variant and all
+// positions in another variant. unshared_lines.hpp explains the term. Generated;
 // tests/unit/code/unshared_codes_test.cpp recomputes the table.
 #pragma once
 
@@ -12,11 +12,11 @@
 
 namespace dotpose::code {
 
-/// Minimum numbers of unshared lines, indexed by the code variant read, the other variant, and the
-/// number of lines (`kUnsharedOf`). Each string contains the minimum, as one digit, for each place
-/// of the first line in a4. The minimum is over all places in the a4 of the other variant and all
+/// Minimum numbers of unshared lines, indexed by the code variant that was read, the other variant,
+/// and the index of the number of lines in `kUnsharedOf`. Digit p of a string is the minimum for
+/// lines that begin at place p of a4, over all places in the a4 of the other variant and all
 /// shifts. Most of a4 is the same in anoto and libdots, so the same place at shift 0 is excluded
-/// for these two variants.
+/// between these two variants.
 inline constexpr std::array<std::array<std::array<std::string_view, 3>, kCodeVariantCount>,
                             kCodeVariantCount>
     kUnsharedInOther{{

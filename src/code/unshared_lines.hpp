@@ -1,6 +1,6 @@
-// Tables of the number of lines that a position does not share with positions at a different place
-// in one sequence. Two positions share a line at a *shift* if their rolls in this line differ by
-// the shift. The shift is the same for all lines, as between sections. Generated;
+// Tables of the number of unshared lines of two positions that differ in the place in one sequence.
+// The positions share a line at a *shift* if their rolls in this line differ by the shift. As
+// between two sections, the shift is the same for all lines. Generated;
 // tests/unit/code/unshared_lines_test.cpp recomputes the tables.
 #pragma once
 
@@ -88,9 +88,9 @@ inline constexpr std::array<std::uint16_t, 741> kUnshared{
 inline constexpr std::size_t kMaxCounted = 7;
 
 /// Upper bounds on the number of positions with exactly n unshared lines, indexed by row, sequence
-/// and n - 1. Counts the positions that differ from the decoded position only in this sequence. A
-/// position counts once for each shift at which it shares a line. The bounds hold at all places and
-/// for the a4 of every code variant.
+/// and n - 1. The positions differ from the decoded position only in the place in this sequence. A
+/// position counts once for each shift where it shares at least one line. The bounds hold at all
+/// places and for the a4 of every code variant.
 inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>, 3>
     kMaxPositionsWith{{
         {{{1, 4, 15, 34, 64, 120, 227},

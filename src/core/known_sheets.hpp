@@ -8,9 +8,9 @@
 
 namespace dotpose::core {
 
-/// Range of positions along one axis. Contains the positions of the first of `lines` adjacent lines
-/// for which at least one of these lines is on a region. `region_first` and `region_size` are the
-/// first position and the number of positions of the region along the axis.
+/// Range of positions along one axis. If the first of `lines` adjacent lines is in this range, at
+/// least one of these lines is on the region. `region_first` and `region_size` are the first
+/// position and the number of positions of the region along the axis.
 struct PositionRange {
     std::uint32_t first;
     std::uint32_t count;

@@ -17,7 +17,7 @@ struct OtherAxis {
     float elsewhere = 0;
     float best = 0;              ///< largest likelihood ratio among the other places examined
     std::uint32_t position = 0;  ///< position of the first line at the place of `best`
-    std::uint8_t roll = 0;       ///< roll offset of the first line at that place
+    std::uint8_t roll = 0;       ///< roll of the first line at that place minus the roll read
 };
 
 /// Likelihood ratios of one other code variant along both axes.

@@ -47,7 +47,8 @@ bool is_near(FixedVec rounding_q16, const Square& offsets) {
 constexpr int kFarthest_cells = 500;
 
 /// Calls `use(dot, c, is_within_reach)` for each dot. c is `rounding_plane_point_q16` of the dot,
-/// whose integer part is the nearest cell. Does not set `near_intersections` of the result.
+/// and its integer part is the nearest cell. Returns the statistics of the dots, without
+/// `near_intersections`.
 template <typename Use>
 Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const Cells& cells,
                        Use use) {

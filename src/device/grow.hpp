@@ -1,7 +1,7 @@
-// Grow: extends the first estimate of the grid to all dots, without perspective or lens. Paper
-// section II-B.3. Differs: the paper uses eq. 6 and then the median lengths between neighbours.
-// This implementation estimates all terms with a least-squares fit to the dots within reach. The
-// fit treats displacements as noise. The reach grows from fit to fit.
+// Grow: extends the first estimate of the grid to all dots, without perspective or lens distortion.
+// Paper section II-B.3. Differs: the paper uses eq. 6 and then the median lengths between
+// neighbours. This implementation estimates all terms with a least-squares fit to the dots within
+// reach. The fit treats displacements as noise. The reach grows from fit to fit.
 #pragma once
 
 #include "dotpose/device_options.hpp"

@@ -6,7 +6,7 @@ namespace dotpose::core {
 
 bool lay_dot_pixels(Tracking& tracking) {
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-        // Centre of the quarter of the pixel.
+        // Centre of the quarter, relative to the upper left corner of the pixel.
         const FixedVec in_pixel_q16{quarter % 2 == 0 ? 16384 : 49152, quarter < 2 ? 16384 : 49152};
         for (std::size_t s = 0; s < 4; ++s) {
             const FixedVec displaced_q16 = tracking.displaced_q16[s];

@@ -15,7 +15,7 @@
 namespace dotpose::core {
 
 /// Distance, in px, from the middle of a square to its outermost pixels. kHalf_px is for the square
-/// around an intersection, which contains the dot in all four displacements. kDotHalf_px is for the
+/// around an intersection, which contains the dot at any of its four places. kDotHalf_px is for the
 /// square around the centre of a dot. Valid for spacings of 7 to 13 px.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kDotHalf_px = 2;

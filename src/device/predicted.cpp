@@ -101,8 +101,8 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
 }
 
-/// Returns the maximum error of the prediction, in px in the middle of the image, that the search
-/// covers: three standard deviations, but at most 3/5 of the spacing.
+/// Returns the maximum error of the prediction that the search covers, in px at the image centre:
+/// three standard deviations, but at most 3/5 of the spacing.
 int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     const std::int64_t wanted_q16 = 3 * std::int64_t{prediction.sigma_q16};
     const auto shift_q16 =

@@ -14,9 +14,11 @@ inline constexpr int kRowsAtOnce = 12;
 
 /// Sets the corner, the cells, and the members of `tracking` that depend on the spacing. The memory
 /// and the size of the image, at most 4096 px per side, must already be set in `tracking`. The
-/// prediction may have any values. Error: not_tracked, if a value of the prediction is out of
-/// range, if the spacing is not 7 to 13 px, if the cells are not nearly square, or if the memory,
-/// or the part of the image whose cells fit in the memory, is too small.
+/// prediction may have any values. Returns not_tracked if
+/// - a value of the prediction is out of range,
+/// - the spacing is not 7 to 13 px,
+/// - the cells are not nearly square, or
+/// - the memory, or the part of the image whose cells fit in the memory, is too small.
 Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, Tracking& tracking);
 
 /// Index of the cell near the middle of the image, along both axes.

@@ -25,8 +25,8 @@ TrackedView view_of(const Tracking& tracking) {
     std::int32_t displaced_q16 = 0;
     for (const FixedVec displaced : tracking.displaced_q16)
         displaced_q16 = std::max(displaced_q16, larger_component(displaced));
-    // The place of a dot is rounded to a pixel, so kDotHalf_px pixels on each side of this pixel
-    // must be in the image.
+    // The place of a dot is rounded to a pixel. kDotHalf_px pixels on each side of this pixel must
+    // be in the image.
     const std::int32_t of_dot_q16 = kDotHalf_px * 65536 - 32768 + displaced_q16;
     // The square around the pixel of an intersection must also be in the image.
     const std::int32_t min_q16 = std::max<std::int32_t>(kHalf_px * 65536, of_dot_q16);

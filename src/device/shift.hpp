@@ -8,16 +8,17 @@
 namespace dotpose::core {
 
 /// Mean darkness of the pixels at the predicted dots near the middle column of the image, for each
-/// possible shift. At the correct shift, all displaced dots are at their predicted places, so this
-/// shift is the darkest. If few dots are in view, shifts that differ from the correct shift by one
-/// spacing may be nearly as dark.
+/// possible shift. At the correct shift, all displaced dots are at their predicted places, so the
+/// mean darkness is largest. If few dots are in view, it may be nearly as large at shifts that
+/// differ from the correct shift by one spacing.
 class Shifts {
   public:
     /// Measures the darkness in the first rows of the frame, which must be stored in `tracking`.
     explicit Shifts(const Tracking& tracking);
 
-    /// Sets `shift_q8` to the darkest shift that is more than two steps away, along at least one
-    /// axis, from each previously returned shift. Returns false if there is no such shift.
+    /// Sets `shift_q8` to the shift with the largest mean darkness among the shifts that are more
+    /// than two steps away, along at least one axis, from each previously returned shift. Returns
+    /// false if there is no such shift.
     bool next(FixedVec& shift_q8);
 
     int paper_level() const { return paper_; }

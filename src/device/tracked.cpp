@@ -89,8 +89,8 @@ Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& op
     // Frames with lens distortion are not tracked. They are located without the prediction.
     t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.code, t)
                                        : Status::not_tracked;
-    // Locators with memory for every stage have time to locate the whole frame without the
-    // prediction. Tracking only the middle would be less accurate.
+    // A locator with memory for every stage runs on a processor that is fast enough to locate the
+    // whole frame without the prediction. Tracking only the middle would be less accurate.
     if (w.keeps_every_stage && t.left_out_px > 0) t.status = Status::not_tracked;
     t.rows_taken = -t.rows_above;
     if (t.status == Status::ok) lay_tracked_lines(options.code, t);

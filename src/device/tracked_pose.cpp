@@ -20,8 +20,8 @@ int excess_bits(const Tracking& tracking) {
     return std::max(static_cast<int>(std::bit_width(mass)) - 16, 0);
 }
 
-/// Returns the sums for the fit of a plane over the cells to the offsets of the dots. The weight of
-/// a dot is its mass.
+/// Returns the sums for a least-squares fit of the offsets of the dots as an affine function of
+/// their cells. The weight of a dot is its mass.
 AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
     std::int32_t mass = 0;
     FixedVec cells;
@@ -50,8 +50,8 @@ AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
 
 /// Returns the cells, corrected by the fitted offsets.
 CellMap corrected(const CellMap& cells, const PlaneFromImage& offsets) {
-    // The fit interprets coordinates of points in units of 1/8 px. These coordinates are whole
-    // cells, so the slopes are divided by 8.
+    // `AffineFitInt32` interprets the coordinates of points as multiples of 1/8 px. Here, the
+    // coordinates are whole cells, so the slopes are divided by 8.
     constexpr int kShift = 24 + 3 - 16;
     const FixedVec du_q16{offsets.du_q24.x >> kShift, offsets.du_q24.y >> kShift};
     const FixedVec dv_q16{offsets.dv_q24.x >> kShift, offsets.dv_q24.y >> kShift};

@@ -39,8 +39,8 @@ struct TrackedRow {
     FixedVec offset_i_q8;
 };
 
-/// Rectangle of the intersections for which all pixels that are read are in the image, in units of
-/// 2^-16 px.
+/// Rectangle in the image, in units of 2^-16 px. If an intersection is in this rectangle, all
+/// pixels that are read for its dot are in the image.
 struct TrackedView {
     FixedVec min_q16;
     std::uint32_t width_q16 = 0;
@@ -74,7 +74,7 @@ struct Tracking {
     std::span<ComparedLine> lines;  ///< first half: columns; second half: rows
     /// Displacement of a dot from its intersection, in 2^-16 px, indexed by Symbol.
     std::array<FixedVec, 4> displaced_q16{};
-    /// Sum of the offsets over all rows, multiplied by the masses, indexed by Symbol.
+    /// Sum of the offsets of all dots, weighted by their masses, indexed by Symbol.
     std::array<FixedVec, 4> offset_q8{};
     /// Offset of the first of the four pixels around a dot, in bytes, relative to the pixel of the
     /// intersection. Indexed by the quarter of the pixel that contains the intersection, and by
@@ -92,7 +92,7 @@ struct Tracking {
                            ///< less than half of rows_kept
     int first_rows = 0;    ///< number of rows that determine the error of the prediction
     int next_reading = 0;  ///< value of rows_taken at which dots are read next
-    int reach_px = 0;      ///< maximum error of the prediction at the image centre, in px
+    int reach_px = 0;      ///< maximum error at the image centre that the search covers, in px
     Place corner;          ///< place of cell (0, 0) in the code
     int first_cell = 0;    ///< first cell, along each axis, that may be in view
     int last_cell = 0;

@@ -165,8 +165,9 @@ void visit_round(const Tracking& tracking, FixedVec middle, int round, Use use) 
     }
 }
 
-/// Applies a small rotation and stretch of the cells to the slopes of the plane. For each
-/// coordinate, the pair (dv, du) is scaled and rotated like a vector.
+/// Adapts the slopes of the plane, which is the inverse of the map of the cells, to a small stretch
+/// s and rotation t of the cells. For each pattern coordinate, subtracts s du + t dv from du, and s
+/// dv - t du from dv.
 void turn_back(const SimilarityFit::Similarity& s, Tracking& tracking) {
     FixedVec& du = tracking.du_q20;
     FixedVec& dv = tracking.dv_q20;

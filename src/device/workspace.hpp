@@ -26,8 +26,8 @@ struct DeviceCapacity {
     int height_px = kMaxFrameSide_px;
     int dots = 0;
     int grid_side = 0;
-    // Maximum numbers of runs and blobs of one row. Both far exceed the number of dots in a row.
-    // Any further runs and blobs are noise or graphics.
+    // Maximum numbers of runs and blobs of one row. These numbers far exceed the number of dots in
+    // a row, so further runs and blobs are noise or graphics.
     int runs = 0;
     int blobs = 0;
     // Maximum number of runs of a whole frame, which bounds the time. The dots of a frame of 188 x

@@ -8,8 +8,8 @@
 namespace dotpose {
 namespace {
 
-/// Two frames may contain some of the same dots if their positions are less than this distance
-/// apart along both axes.
+/// Two frames are at the same place if their positions differ by less than this number of cells
+/// along both axes. Frames at the same place may contain the same dots.
 constexpr std::uint32_t kSamePlace_cells = 64;
 /// Maximum number of frames counted at one place. A float represents all integers up to this
 /// number.

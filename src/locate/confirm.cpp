@@ -29,10 +29,10 @@ float half_side_px(const ImageView& image) {
     return std::max(static_cast<float>(image.width_px), static_cast<float>(image.height_px)) / 2;
 }
 
-/// Returns true if all of these conditions hold: at least `min_dots` dots and at least half of the
-/// dots seen were read; dots were seen in at least a quarter of the listed cells (not required in a
-/// partial view); along each axis, the fraction of the bits that contradict the code is at most
-/// `max_bit_error_q8`.
+/// Returns true if all of these conditions hold:
+/// - At least `min_dots` dots, and at least half of the dots seen, were read.
+/// - Dots were seen in at least a quarter of the listed cells, or the view is partial.
+/// - On each axis, at most the fraction `max_bit_error_q8` / 256 of the bits contradicts the code.
 bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOptions& options,
                   int min_dots, bool is_partial_view) {
     const bool is_full = 4 * bits.seen >= dots.count || is_partial_view;
@@ -44,8 +44,7 @@ bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOp
 }
 
 /// Returns true if the bits need no second reading: at least kClear_percent of the dots seen are
-/// clear, and at most kMaxWrong bits or one bit per kDotsPerWrong dots read, whichever is more, are
-/// wrong.
+/// clear, and of n dots read, at most max(kMaxWrong, n / kDotsPerWrong) bits are wrong.
 bool is_clean(const BitsRead& bits) {
     return 100 * bits.read >= tuned::kClear_percent * bits.seen &&
            bits.wrong_x + bits.wrong_y <=
@@ -57,8 +56,8 @@ std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
             Confidence::of_hard_bits(bits.read, bits.wrong_y)};
 }
 
-/// Returns true if the bits in `block`, all bits of the frame, make the place of the hypothesis
-/// certain.
+/// Returns true if the bits in `block`, which are all from the current frame, make the place of the
+/// hypothesis certain.
 bool is_certain_alone(const Kernels& kernels, const DeviceOptions& options,
                       const Hypothesis& hypothesis, const CellsInView& view, const BitBlock& block,
                       const BitsRead& bits, DesktopWorkspace& w) {
@@ -86,7 +85,8 @@ bool is_certain_alone(const Kernels& kernels, const DeviceOptions& options,
 bool is_certain_together(const Kernels& kernels, const DeviceOptions& options, const Place& place,
                          const FloatPlane& grid_from_image, const BitBlock& block,
                          DesktopWorkspace& w) {
-    // A wrong match of the frames and a wrong place each have half of the permitted probability.
+    // The permitted probability is divided equally between a wrong match of the grids and a wrong
+    // place.
     DeviceOptions half = options;
     --half.integrity.max_p_wrong_log2;
     const auto joined = w.earlier.join(block, grid_from_image);
@@ -192,8 +192,8 @@ bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRea
 }
 
 /// Corrects pixel bias and neighbour bias where they matter, and then fits the plane again. Returns
-/// the remaining variance of the pixel bias along u and v, in px^2, or 0 if nothing was corrected
-/// or the new fit failed.
+/// the variance of the mean of the centres that is due to the remaining pixel bias, along u and v,
+/// in px^2. Returns 0 if nothing was corrected or the new fit failed.
 FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const CellsInView& view,
                           const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
     FloatVec remaining_px2;
@@ -212,7 +212,8 @@ FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const
     return remaining_px2;
 }
 
-/// Adds a variance of the image point, along u and v, to the covariance of the pose.
+/// Converts a variance of the image point, along u and v, to spacings^2, and adds it to the
+/// covariance of the pose.
 void add_variance(FloatVec px2, const FloatPlane& plane, PoseFit& fit) {
     const std::array<float, 2> by_u{plane.du_x, plane.du_y};
     const std::array<float, 2> by_v{plane.dv_x, plane.dv_y};
@@ -247,7 +248,7 @@ void write_fix(const ImageView& image, const DeviceOptions& options, const Hypot
 
 /// Returns true if the fitted plane differs from the plane before the fit by more than kFar
 /// spacings along either axis, at a corner of the part of the image within `reach_px` of the image
-/// centre. In this case, the small centroid windows did not capture the full offsets.
+/// centre. If so, the small centroid windows did not capture the full offsets.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);

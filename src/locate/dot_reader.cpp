@@ -36,7 +36,7 @@ void fetch_pixels(const ImageView& image, const CellsInView& view) {
 }
 
 /// Drops windows that are much darker than paper. These windows are on the table beyond the sheet,
-/// where noise is as dark as dots. `paper` is the mean level around dots. The first call, with
+/// where noise can resemble dots. `paper` is the mean level around dots. The first call, with
 /// `paper` = 0, sets this level and drops no windows.
 void drop_table(MeasuredDots& dots, float& paper) {
     float sum = 0;
@@ -68,8 +68,8 @@ float window_radius_px(const Hypothesis& hypothesis) {
 }
 
 /// Returns true if all dots of a row, or all dots of a column, have nearly the same sub-pixel
-/// phase: the step from dot to dot differs from a whole number of pixels by less than `max_off_px`,
-/// both along u and along v.
+/// phase: the step from cell to cell differs from a whole number of pixels by less than
+/// `max_off_px`, both along u and along v.
 bool has_common_phase(const FloatPlane& p, float max_off_px) {
     const float by = 1 / (p.du_x * p.dv_y - p.dv_x * p.du_y);
     const auto is_whole = [&](float px) {
@@ -130,8 +130,9 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
         FloatPlane& plane = hypothesis.pattern_from_image;
         const auto points = static_cast<float>(found.points);
         bits.right = found.points;
-        // Converts the offsets from px to spacings with the plane, and adds them to the
-        // displacement.
+        // Sum, over the dots, of the offset from the intersection along the direction of the
+        // displacement: the predicted displacement plus the measured offset, which the plane
+        // converts from px to spacings.
         bits.projected = points * hypothesis.displacement + plane.du_x * found.of_x[0] +
                          plane.dv_x * found.of_x[1] + plane.du_y * found.of_y[0] +
                          plane.dv_y * found.of_y[1];

@@ -32,16 +32,17 @@ class DotReader {
     /// Reads the bits of the measured dots again, with the new plane of the hypothesis. Overwrites
     /// the block.
     BitsRead read_again(const Hypothesis& hypothesis, BitBlock& block) const;
-    /// Measures the centres of the dots in centroid windows. If the hypothesis is exact, moves its
-    /// plane to the centres and updates the displacement and the residuals in `bits`. Also sets
-    /// `bits.right` to the number of dots found, or to 0 if fewer than kMinFound dots are found. If
-    /// the hypothesis is not exact, measures the centres only if `is_last` is true.
+    /// Measures the centres of the dots in centroid windows. If the hypothesis is not exact, does
+    /// so only if `is_last` is true. If the hypothesis is exact, also fits the plane of the
+    /// hypothesis to the centres, and sets `projected`, `squares` and `right` of `bits`. `right` is
+    /// then the number of dots found. If fewer than kMinFound dots are found, sets only `right`, to
+    /// 0.
     void find_centres(const CellsInView& view, Hypothesis& hypothesis, bool is_last,
                       BitsRead& bits) const;
     /// If the pixel bias matters (see `may_be_biased`), measures the centres again and subtracts
     /// the bias. The plane must have been fitted to the current centres, and must be fitted again
-    /// afterwards. Sets the remaining variance of the mean of the centres, in px^2. Returns false
-    /// without any change if the bias does not matter.
+    /// afterwards. Sets `remaining_px2` to the variance of the mean of the centres that is due to
+    /// the remaining bias. Returns false without any change if the bias does not matter.
     bool correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                             const PoseFit& fit, FloatVec& remaining_px2) const;
     /// Corrects the bias of facing dots if the centroid windows reach the neighbouring dot. The

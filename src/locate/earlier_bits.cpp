@@ -19,7 +19,7 @@ namespace tuned = tuning::joined;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// Returns the word of a line after a shift of its cells by `by`, which may be negative.
+/// Returns the word of a line, shifted by `by` cells. `by` may be negative.
 std::uint64_t shifted(std::uint64_t word, int by) {
     if (std::abs(by) >= BitBlock::kSide) return 0;
     return by >= 0 ? word << by : word >> -by;
@@ -41,7 +41,7 @@ BitBlock shifted(const BitBlock& block, FixedVec by) {
     return {shifted(block.columns, by.x, by.y), shifted(block.rows, by.y, by.x)};
 }
 
-/// Numbers of bits that two blocks share, and of the shared bits that differ.
+/// Number of bits that two blocks have in common, and number of these bits that differ.
 struct Overlap {
     int shared = 0;
     int different = 0;
@@ -57,14 +57,15 @@ void count_overlap(const BitLines& a, const BitLines& b, int across, int along, 
     }
 }
 
-/// Returns the log2 of the likelihood ratio of an overlap: the blocks match, against the blocks
-/// show unrelated parts of the pattern.
+/// Returns log2 of the likelihood ratio of an overlap: the likelihood if the blocks match, divided
+/// by the likelihood if the blocks show unrelated parts of the pattern.
 float log2_ratio(const Overlap& overlap) {
     return tuned::kEqualBit_log2 * static_cast<float>(overlap.shared - overlap.different) +
            tuned::kDifferentBit_log2 * static_cast<float>(overlap.different);
 }
 
-/// Adds the cells of `more` to a block. Drops cells in which a bit of one axis differs.
+/// Adds the cells of `more` to a block. Drops the cells whose x bits or y bits contradict each
+/// other.
 void add_cells(const BitBlock& more, BitBlock& block) {
     std::array<std::uint64_t, BitBlock::kSide> contradicted{};  // by column
     for (std::size_t i = 0; i < BitBlock::kSide; ++i) {
@@ -110,7 +111,7 @@ float power_of_two(float exponent) {
 /// The likeliest match of two grids, and the summed weights of all possible matches.
 struct Match {
     int quarters = 0;
-    FixedVec shift;  ///< from the cells of the earlier grid, after the turn, to the current grid
+    FixedVec shift;  ///< from the cells of the turned earlier grid to those of the current grid
     float best_log2 = -1e9F;
     float sum = 0;  ///< sum of all weights, relative to the best weight
 
@@ -124,8 +125,8 @@ struct Match {
         quarters = at_quarters;
         shift = at_shift;
     }
-    /// Returns the probability that another match than the best one is right. `blunder_log2` is
-    /// the weight of the hypothesis that the motion was measured wrongly.
+    /// Returns an upper bound on the probability that the best match is wrong. `blunder_log2` is
+    /// log2 of the weight of the hypothesis that the motion was measured wrongly.
     float p_wrong(float blunder_log2) const {
         return std::max(sum - 1, 0.0F) + power_of_two(std::min(blunder_log2 - best_log2, 99.0F));
     }
@@ -142,7 +143,8 @@ struct ExpectedShift {
     float variance = 0;
 };
 
-/// Adds the possible matches with one quarter turn, whose weight is `turn_log2`.
+/// Adds the possible matches at one number of quarter turns. `turn_log2` is log2 of the weight of
+/// this rotation.
 void add_matches(const BitBlock& now, const BitBlock& earlier, const ExpectedShift& expected,
                  int quarters, float turn_log2, Match& match) {
     const float reach =
@@ -216,7 +218,7 @@ std::optional<JoinedBits> EarlierBits::join(const BitBlock& block,
         const float off_rad = std::remainder(
             angle_of(grid_from_image) - angle_of(before) - motion_.turn_rad, 2 * kPi);
         if (std::abs(off_rad) > tuned::kReach_sigmas * std::sqrt(variance_rad2)) continue;
-        // The displacement in px, seen by the camera before the motion.
+        // Image point, in the earlier frame, of the paper that is now at the reference point.
         const float scale = spacing_px(before) / spacing_mm_;
         const FloatVec reached{reference_px_.x + scale * motion_.right_mm,
                                reference_px_.y + scale * motion_.down_mm};

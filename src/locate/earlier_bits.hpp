@@ -1,6 +1,7 @@
-// Earlier bits: the bits of earlier frames, in the grid of one of them. A motion between the frames
-// relates this grid to the grid of the current frame, so frames that are not certain alone can be
-// certain together. docs/integrity.md, "Frames read together", derives the bound.
+// Earlier bits: the bits of earlier frames, in the grid of the newest of these frames. A motion
+// between the frames relates this grid to the grid of the current frame, so frames that are not
+// certain alone can be certain together. docs/integrity.md, "Frames read together", derives the
+// bound.
 #pragma once
 
 #include <optional>
@@ -38,8 +39,9 @@ class EarlierBits {
     /// Ends the frame. Keeps its bits, joined with the earlier bits if the grids match.
     void end_frame();
 
-    /// Stores bits of the current frame, between `begin_frame` and `end_frame`. Of several
-    /// blocks, keeps the last one that a fix confirmed or, if there is none, the largest one.
+    /// Stores bits of the current frame, between `begin_frame` and `end_frame`. If several blocks
+    /// are stored, keeps the last block whose place is confirmed or, if there is none, the largest
+    /// block.
     void note(const BitBlock& block, const FloatPlane& grid_from_image, bool is_confirmed);
 
     /// True while an attempt reads the current frame together with the earlier frames.
@@ -48,8 +50,9 @@ class EarlierBits {
     bool is_in_series() const { return is_in_frame_; }
     bool has_earlier() const { return is_in_frame_ && earlier_.frames > 0; }
     /// Returns the bits of a block of the current frame together with the earlier bits. Drops cells
-    /// in which the frames contradict each other. Returns nullopt if the match of the grids is
-    /// wrong with a probability above half of the maximum of the options.
+    /// in which the frames contradict each other. Returns nullopt if there are no earlier bits, or
+    /// if the bound on the probability of a wrong match of the grids exceeds half of the maximum in
+    /// the options.
     std::optional<JoinedBits> join(const BitBlock& block, const FloatPlane& grid_from_image) const;
 
   private:

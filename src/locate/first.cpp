@@ -48,8 +48,8 @@ bool place_patch(const ImageView& image, FixedVec around_px, int scale, DesktopW
                        kPatchHeight_px * scale, scale, *w.patch);
 }
 
-/// Finds the dots of the patch, and sets the status of the fix for the case that no patch contains
-/// a grid. Returns false, without setting the status, if the patch has no contrast.
+/// Finds the dots of the patch. Sets the status of the fix, which is the result if no patch
+/// contains a grid. Returns false, without setting the status, if the patch has no contrast.
 bool find_patch_dots(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -83,9 +83,9 @@ bool find_turn_and_place(const Kernels& kernels, const DeviceOptions& options,
            find_place(options.code, score_block(kernels, upright, w.line_scores), place);
 }
 
-/// In a series of frames, stores the bits of the current frame. If the frames are read together,
-/// replaces the bits by those of all frames, and returns false if their grids do not match. The
-/// plane is relative to `from_centre`.
+/// In a series of frames, stores the bits of the current frame or, if the frames are read together,
+/// replaces `block` with the bits of all frames. Returns false if the grids of the frames do not
+/// match. The plane is relative to `from_centre`.
 bool join_earlier(const FloatPlane& grid_from_image, FloatVec from_centre, DesktopWorkspace& w,
                   BitBlock& block) {
     EarlierBits& earlier = w.earlier;
@@ -121,8 +121,8 @@ bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const
 }
 
 /// Sets `is_mirrored` of the workspace if the dots of a patch around the image centre show the
-/// mirrored code. The code counts as mirrored only if adjacent lines have no wrong bits. Mirrors
-/// the dots of the patch and does not restore them.
+/// mirrored code. A grid counts as mirrored only if adjacent lines without wrong bits determine a
+/// place (`find_place_exactly`). Mirrors the dots of the patch and does not restore them.
 void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, DesktopWorkspace& w) {
     if (w.is_mirrored) return;
     Patch& patch = *w.patch;
@@ -138,16 +138,17 @@ void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, Des
         find_place_exactly(options.code, turned(likeliest_turn(kernels, block), block), place);
 }
 
-/// Returns true if the grid of the patch predicts all dots of the image to within a fraction of a
-/// pixel. The patch must be the whole image, so the grid was fitted to all dots, and the spacing
-/// must be at least kMinSpacingForPrediction_px.
+/// Returns true if the grid of the patch is precise enough to predict all dots of the image to
+/// within a fraction of a pixel: the patch covers the whole image, so the grid was fitted to all
+/// dots, and the spacing is at least kMinSpacingForPrediction_px.
 bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane& plane) {
     return patch.width_px == image.width_px && patch.height_px == image.height_px &&
            spacing_px(plane) >= tuned::kMinSpacingForPrediction_px;
 }
 
-/// Finds the grid of the dots of the patch at the image centre, and confirms its hypothesis. The
-/// cells may be any parallelograms if `is_skewed` is true, and must be about square otherwise.
+/// Finds the grid of the dots of the patch at the image centre, and tests the hypothesis of this
+/// grid. If `is_skewed` is true, the cells may be any parallelograms. Otherwise, the cells must be
+/// about square.
 Confirmation locate_grid(const Kernels& kernels, const ImageView& image,
                          const DeviceOptions& options, bool is_skewed, DesktopWorkspace& w) {
     Patch& patch = *w.patch;

@@ -1,5 +1,5 @@
-// First: the first attempt. Locates an image without a prediction. Begins with one patch of the
-// image.
+// First: the first attempt. Locates an image without a prediction. Begins with a patch around the
+// image centre.
 #pragma once
 
 #include "core/kernels/select.hpp"

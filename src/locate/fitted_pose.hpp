@@ -9,16 +9,18 @@
 namespace dotpose::core {
 
 /// Returns true if the position does not explain the frame well: the displacement is not positive,
-/// or the sum of two terms is too large. The terms are the standard deviation of the residuals,
-/// relative to the displacement, and the fraction of contradicting bits. Two overlapping patterns
-/// that are nearly aligned can look like a third pattern, with the columns of the first and the
-/// rows of the second pattern. In this case, a quarter of the cells have no dot at the expected
-/// place, half of the dots are next to their places, and the typical displacement is too small. For
-/// the numbers, see docs/integrity.md.
+/// or
+///
+///     sqrt(variance) / displacement + bit_errors / bits > kMaxImplausible.
+///
+/// Two overlapping patterns that are nearly aligned can look like a third pattern, with the columns
+/// of the first and the rows of the second pattern. In such a frame, a quarter of the cells have no
+/// dot at the expected place, half of the dots are next to their places, and the typical
+/// displacement is too small. For the numbers, see docs/integrity.md.
 bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
-/// Measures the dots of the position and fits the map from the image to the pattern. Returns false
-/// if the dots do not determine the map.
+/// Measures the dots that the code predicts at the decoded position, and fits the map from the
+/// image to the pattern. Returns false if the dots do not determine the map.
 bool fit_pattern(const DeviceOptions& options, const ImageView& image, DesktopWorkspace& w,
                  PoseFit& fit);
 

@@ -45,7 +45,7 @@ bool leaves_code_open(Status status) {
            status == Status::not_certain;
 }
 
-/// Locates one frame in one of the possible codes.
+/// Makes the attempts for one frame, in the codes that are possible.
 class Cascade {
   public:
     Cascade(const ImageView& image, const DeviceOptions& options, const PossibleCodes& codes,
@@ -129,8 +129,8 @@ class Cascade {
         options_.code = code;
         OtherCodes& others = w_.other_codes;
         others.of = {};
-        // Every code has the same number of hypotheses that do not depend on the decoded place. If
-        // several codes are possible, these hypotheses are counted once for each code.
+        // The bounds for chance and for alternatives are those of one code. If several codes are
+        // possible, the bounds are multiplied by the number of codes, each weighted by its odds.
         if (!codes_.is_known()) others.log2_in_question_q8 = log2_of_odds_q8(codes_.number(code));
         switch (step) {
             case Step::tracked:

@@ -31,7 +31,7 @@ BitBlock bits_of(const Grid& grid, const GridRegion& region, FixedVec middle) {
     return block;
 }
 
-/// Returns the cell to which a turn of a block moves cell (0, 0).
+/// Returns the cell to which `turned(quarters, block)` moves cell (0, 0) of the block.
 FixedVec origin_after(int quarters) {
     return {quarters == 1 || quarters == 2 ? -1 : 0, quarters >= 2 ? -1 : 0};
 }

@@ -14,12 +14,12 @@ namespace dotpose::core {
 /// sheet, or other sheets may be in view.
 bool is_possible(CodeVariant code, const DesktopWorkspace& w);
 
-/// Returns the place of a block on the known sheets. Returns nullopt if the best place is not in
-/// the code of the options, or does not explain the bits.
+/// Returns the likeliest place of a block on the known sheets. Returns nullopt if this place is not
+/// in the code of the options, or if too many bits contradict it.
 std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const DeviceOptions& options,
                                                const BitBlock& block, const KnownSheets& known);
 
-/// Returns true if the place of an upright block is certain on the known sheets. Sets
+/// Returns true if `place`, the place of an upright block, is certain given the known sheets. Sets
 /// `p_wrong_log2` of the fix, and `prior` if the place is certain.
 bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Place& place,
                           const BitBlock& block, const KnownSheets& known, Fix& fix);

@@ -98,8 +98,8 @@ Status resample(const ImageView& image, const DeviceOptions& options, DesktopWor
     return shows_one_pattern(image, options, w) ? read_position(options, w) : Status::not_certain;
 }
 
-/// If the pixel bias matters, measures the dots again as the first attempt does, which corrects the
-/// bias.
+/// If the pixel bias matters, measures the dots again as the tracked attempt does, which corrects
+/// the bias.
 void measure_again_if_biased(const ImageView& image, const DeviceOptions& options,
                              DesktopWorkspace& w) {
     const float variance_px2 =
@@ -123,8 +123,8 @@ Status read_filtered_with(const DeviceOptions& filtered, const ImageView& image,
     return shows_one_pattern(image, filtered, w) ? Status::ok : Status::not_certain;
 }
 
-/// Finds dots and grid, and reads the bits. If there is no contrast or there are too few dots, and
-/// the largest contrast is that of pale dots, repeats the detection with a lower threshold.
+/// Finds dots and grid, and reads the bits. If there is no contrast or there are too few dots, but
+/// the largest contrast is high enough for pale dots, repeats the detection with a lower threshold.
 Status read_filtered(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
     DeviceOptions filtered = for_filtered(options);
     filtered.lattice.min_dots = min_dots(options, w);

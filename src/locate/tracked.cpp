@@ -16,8 +16,9 @@ namespace {
 
 namespace tuned = tuning::tracked;
 
-/// Fits position, scale and turn by least squares. Keeps the predicted perspective and shear.
-/// Returns false if fewer than kMinNear dots are within `max_off` spacings of their places.
+/// Fits the position, scale and rotation of the plane to the dots by least squares. Keeps the
+/// predicted perspective and shear. Returns false if fewer than kMinNear dots are within `max_off`
+/// spacings of their places.
 bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reach_px,
                     float displacement, float max_off, FloatPlane& plane) {
     const ScaledPlane scaled(plane, reach_px);
@@ -39,8 +40,8 @@ bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reac
     return true;
 }
 
-/// Returns the search radius in px, rounded up: three standard deviations of the prediction plus a
-/// tenth of a spacing, at most kMaxOff spacings.
+/// Returns the search radius in px, rounded up: min(3 sigma + 0.1, kMaxOff) spacings, where sigma
+/// is the standard deviation of the prediction.
 int max_shift_px(const Prediction& prediction, float spacing_px) {
     const float off = std::clamp(3 * static_cast<float>(prediction.sigma_q16) / 65536 + 0.1F, 0.1F,
                                  tuned::kMaxOff);

@@ -36,7 +36,7 @@ namespace tracked {
 /// dots within this reach determine the error of the prediction at this point. The reach is small
 /// enough that an angular error of the prediction does not match a dot to the wrong intersection.
 inline constexpr float kNear = 2.6F;
-/// Minimum number of dots that determine a correction of the prediction.
+/// Minimum number of dots from which a correction of the prediction is computed.
 inline constexpr int kMinNear = 10;
 /// Maximum error of a prediction that the search covers, in spacings. A larger maximum would be
 /// useless, because beyond half a spacing a neighbouring dot is closer than the correct dot.
@@ -55,8 +55,8 @@ inline constexpr float kSecondOff = 0.15F;
 inline constexpr float kMaxOffset_px = 1.5F;
 /// Offset that corresponds to a moment-to-weight ratio of 1 for a typical dot, within 20 %.
 inline constexpr float kWeight_px = 0.84F;
-/// Shift at the image border, due to scale and turn of a correction, above which the dots are
-/// measured again.
+/// Shift at the image border, due to the scale or the rotation of a correction, above which the
+/// dots are measured again.
 inline constexpr float kTurned_px = 2;
 /// Maximum number of measurements of the dots in one correction of the prediction.
 inline constexpr int kMaxLooks = 3;
@@ -82,9 +82,9 @@ inline constexpr float kDecidingOfPart = 32;
 /// Maximum factor by which the reach grows from round to round. The plane fitted to the dots of one
 /// round predicts the dots of the next round.
 inline constexpr float kFarther = 3.5F;
-/// Limits of clean bits, which need no second reading: minimum percentage of clear dots, and
-/// maximum number of wrong bits. The maximum is kMaxWrong (one dot) or one per kDotsPerWrong dots,
-/// whichever is larger.
+/// Limits of clean bits, which need no second reading. The percentage of clear dots is at least
+/// kClear_percent. Of n dots read, at most max(kMaxWrong, n / kDotsPerWrong) bits are wrong.
+/// kMaxWrong is the number of bits of one dot.
 inline constexpr int kClear_percent = 97;
 inline constexpr int kMaxWrong = 2;
 inline constexpr int kDotsPerWrong = 200;
@@ -100,15 +100,15 @@ inline constexpr float kFar = 0.055F;
 /// lists the remaining errors.
 inline constexpr int kMaxLooks = 3;
 /// Fraction of the paper level below which windows are dropped. These windows are on the table
-/// beyond the sheet, where noise is as dark as dots.
+/// beyond the sheet, where noise can resemble dots.
 inline constexpr float kTable = 0.4F;
 /// Range of spacings for direct sampling. Below kMaxSpacingForSmallWindow_px, a dot fits in a small
 /// centroid window at any blur. Below kMinSpacingForDirectSampling_px, one sample per place cannot
 /// separate the four places of a cell.
 inline constexpr float kMaxSpacingForSmallWindow_px = 13;
 inline constexpr float kMinSpacingForDirectSampling_px = 8;
-/// Radius of a centroid window, in dot radii. The window includes the edge of the dot, and its size
-/// makes the result independent of the sub-pixel phase (`dotpose_tables alike`).
+/// Radius of a centroid window, in dot radii. At this size, the window includes the edge of the
+/// dot, and the result is nearly independent of the sub-pixel phase (`dotpose_tables alike`).
 inline constexpr float kWindowRadii = 2.4F;
 /// Minimum radius of a centroid window.
 inline constexpr float kMinWindowRadius_px = 3.3F;
@@ -128,13 +128,12 @@ inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
 /// Larger parts would evict their own first rows.
 inline constexpr int kMinFetched_bytes = 32 << 10;
 inline constexpr int kMaxFetched_bytes = 1 << 20;
-/// Minimum number of predicted dots that must be found.
+/// Minimum number of dots that `DotReader::find_centres` must find.
 inline constexpr int kMinFound = 8;
 /// Maximum distance of a predicted dot from its place, in px.
 inline constexpr float kMaxOff_px = 1;
-/// Maximum of the sum of two terms: the scatter of the dots relative to their displacement, and the
-/// fraction of contradicting bits. A position with a larger sum does not explain the frame well.
-/// For the numbers, see docs/integrity.md.
+/// Maximum of sqrt(variance) / displacement + bit_errors / bits (`is_implausible`). A position with
+/// a larger sum does not explain the frame well. For the numbers, see docs/integrity.md.
 inline constexpr float kMaxImplausible = 0.57F;
 /// Minimum residual at which a second attempt may be better: the larger of kRough_px and kRough
 /// spacings. Residuals due to noise are constant in px. Residuals due to bad printing are constant
@@ -161,13 +160,14 @@ namespace joined {
 /// if one bit of 16 is wrong: log2(2 * 15 / 16) and log2(2 * 1 / 16).
 inline constexpr float kEqualBit_log2 = 0.907F;
 inline constexpr float kDifferentBit_log2 = -3;
-/// Weight of the hypothesis that a motion was measured wrongly, beyond its standard deviation.
+/// log2 of the weight of the hypothesis that the measured motion is wrong by far more than its
+/// standard deviation.
 inline constexpr float kBlunder_log2 = -36;
-/// Standard deviations of the grid in a frame: of its angle, which a tilt of the camera changes,
-/// and of its place, in spacings.
+/// Standard deviations of the errors of the grid of a frame: of its angle, which also depends on
+/// the tilt of the camera, and of its place, in spacings.
 inline constexpr float kGridAngle_rad = 0.035F;
 inline constexpr float kGridPhase = 0.06F;
-/// Number of standard deviations, and maximum distance in spacings, of the matches that count.
+/// Maximum deviation of a match from the predicted match: in standard deviations, and in spacings.
 inline constexpr float kReach_sigmas = 8;
 inline constexpr float kMaxReach = 24;
 }  // namespace joined

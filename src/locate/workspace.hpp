@@ -169,8 +169,8 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<std::array<std::uint8_t, kRolls>, 2> rolls_;
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
-    // The side of a block is a tenth of the shorter side of the image, and at least 6 px. There are
-    // at most 11 x 683 blocks.
+    // The side of a block of the paper map is a tenth of the shorter side of the image, and at
+    // least 6 px. There are at most 11 x 683 blocks.
     std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint8_t, 11 * 683> brightest_papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};

@@ -10,8 +10,8 @@ namespace {
 constexpr float kHold_s = 0.5F;
 
 /// Factor by which the agility (the variance of new acceleration) changes per sighting. Increases
-/// and decreases use the same factor. In equilibrium, consecutive innovations therefore have equal
-/// and opposite signs equally often, as in a matched filter.
+/// and decreases use the same factor. In equilibrium, consecutive innovations therefore have the
+/// same sign as often as opposite signs, as in a matched filter.
 constexpr float kAgility_step = 1.5F;
 constexpr float kMinAgility = 1e-6F;
 /// Number of standard deviations above which an innovation is not considered noise.
@@ -57,7 +57,7 @@ void move(MotionEstimate& motion, const Vector9& step) {
         motion.acceleration[i] += step[i + 6];
 }
 
-/// Returns the fraction of the acceleration that remains after `dt_s`.
+/// Returns the fraction of the acceleration that remains after `dt_s` seconds.
 float kept(float dt_s) {
     return kHold_s / (kHold_s + dt_s);
 }
@@ -221,7 +221,7 @@ namespace {
 struct PlaneMotion {
     Vector3 step{};       ///< mm, mm, rad
     Vector3 by_theta{};   ///< derivative of `step` with respect to theta
-    Vector3 variances{};  ///< of the measurement, per axis
+    Vector3 variances{};  ///< variances of the measurement, per axis
 };
 
 PlaneMotion in_plane(const MeasuredMotion& measured, std::int32_t theta_bam, bool is_y_up) {
@@ -248,9 +248,10 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
     later.agility = {1, 1, 1};
     later = predicted(later, time_us, options);
     later.agility = motion.agility;
-    // The measurement is the new pose minus the old pose. Its error is that of the odometry, plus
-    // g = e_new - e_old - by_theta * (error of the old theta), because the displacement was
-    // measured along axes that are turned by this error.
+    // The measurement is the new pose minus the old pose. The innovation has the error of the
+    // odometry plus g = e_new - e_old - by_theta * e_old[2], where e_old and e_new are the errors
+    // of the old and of the new pose. The last term is due to the error of the old theta, by which
+    // the axes of the measured displacement are rotated.
     std::array<Vector9, 3> with_old{};  // covariance of the old pose with the new state
     for (std::size_t k = 0; k < 3; ++k) {
         with_old[k] = motion.covariance[k];
@@ -263,7 +264,7 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
                 later.covariance[k][i] - with_old[k][i] - seen.by_theta[k] * with_old[2][i];
         }
     }
-    Matrix3 s{};  // covariance of the innovation: that of g, plus that of the odometry
+    Matrix3 s{};  // covariance of the innovation: cov(g) plus the variances of the odometry
     for (std::size_t k = 0; k < 3; ++k) {
         Vector3 g_with_old{};  // covariance of g[k] with the old pose
         for (std::size_t i = 0; i < 3; ++i) {
@@ -291,7 +292,8 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
         }
         later.covariance[i][i] += kRounding * before[i][i];
     }
-    // Errors of the odometry have nothing in common with those of the sightings.
+    // A scatter below 1 does not apply, because the errors of the odometry are independent of the
+    // errors of the sightings.
     const float scatter = later.scatter;
     later.scatter = std::max(scatter, 1.0F);
     set_pose_covariance(later);

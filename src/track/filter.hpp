@@ -15,7 +15,8 @@ inline constexpr float kRad_per_bam = 1.46291808e-9F;  // pi / 2^31
 /// Returns the pose of a sighting. The velocities and the covariance are zero.
 TrackedPose pose_of(const Sighting& sighting);
 
-/// Returns the state after the first sighting. Its velocities are not known.
+/// Returns the state after the first sighting. The velocities are 0, with a standard deviation of
+/// half the maximum speed or turn rate.
 MotionEstimate started_at(const Sighting& sighting, const TrackOptions& options);
 
 /// Returns the state predicted for a later time.

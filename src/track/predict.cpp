@@ -9,9 +9,9 @@ namespace {
 
 using namespace dotpose::track;
 
-/// Minimum standard deviations of a prediction. The search for dots covers three standard
-/// deviations, at least a tenth of a spacing and half a degree. The minimum is needed because the
-/// covariance of the filter is too small after a long rest of the robot.
+/// Minimum standard deviations of a prediction. The search for dots extends over three standard
+/// deviations, which are at least 3/32 of a spacing and 0.53 degrees. The minimum is needed because
+/// the covariance of the filter is too small after a long rest of the robot.
 constexpr std::int32_t kMinSigma_q16 = 65536 / 32;
 constexpr std::int32_t kMinSigma_theta_bam = 1 << 21;
 constexpr float kDeviations = 3;
@@ -41,9 +41,9 @@ std::int32_t bounded(float sigma, float unit, std::int32_t min, std::int32_t max
     return std::max(static_cast<std::int32_t>(value), min);
 }
 
-/// Returns the standard deviation of the predicted pose. Combines the standard deviations of the
-/// filter and of the fix, and adds a third of `unforeseen`, a motion that the filter cannot
-/// predict. Three standard deviations then cover this motion.
+/// Returns the standard deviation of the predicted pose along an axis. Combines the standard
+/// deviations of the filter and of the fix, and adds a third of `unforeseen`, a motion that the
+/// filter cannot predict. Three standard deviations then cover this motion.
 float sigma(const Covariance6& predicted, const Sighting& seen, std::size_t axis,
             float unforeseen) {
     return std::sqrt(predicted[axis][axis] + seen.covariance[axis][axis]) +

@@ -25,7 +25,7 @@ dotpose_plane to_c(const PlaneFromImage& p) {
             p.perspective_q30.x, p.perspective_q30.y, p.lens_q40};
 }
 
-/// Writes the covariance with x and y in another unit. `unit` is the length of a spacing in this
+/// Writes the covariance with x and y in a given unit. `unit` is the length of a spacing in this
 /// unit.
 void set_covariance(const Fix& fix, double unit, float (&result)[9]) {
     const std::array<double, 3> factors{unit, unit, 1};
@@ -37,7 +37,7 @@ void set_covariance(const Fix& fix, double unit, float (&result)[9]) {
     }
 }
 
-/// Assigns a member of one struct to the corresponding member of another struct.
+/// Converts and assigns a member of one struct to the corresponding member of another struct.
 template <typename From, typename To>
 void assign(const From& from, To& to) {
     to = static_cast<To>(from);

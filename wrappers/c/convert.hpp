@@ -35,7 +35,7 @@ dotpose_status read_sized(const DeviceOptions* given, std::size_t first_bytes,
     return DOTPOSE_OK;
 }
 
-/// Writes the default options. Only writes members that exist in the caller's version of the
+/// Writes the default options, but only the members that exist in the caller's version of the
 /// struct.
 template <typename DeviceOptions>
 dotpose_status write_sized(DeviceOptions defaults, std::size_t first_bytes, DeviceOptions* options,

@@ -21,7 +21,7 @@
  * used concurrently.
  *
  * Coordinates: in the pattern frame, x points to the right and y DOWN on the printed page as it
- * is read. In images, u points to the right and v down. The origin is the centre of the first
+ * is read. In images, u points to the right and v down, and the origin is the centre of the first
  * pixel. Fixed point: the suffix _qN marks a value in units of 2^-N, and _bam a binary angle, in
  * which 2^31 is half a turn.
  *
@@ -295,8 +295,8 @@ typedef struct dotpose_prediction {
 dotpose_status dotpose_prediction_like(const dotpose_fix* fix, dotpose_prediction* prediction);
 
 /* Moves a prediction by `by_x_q16` and `by_y_q16` spacings in the pattern frame, and turns it by
- * `turn_bam` about the image point `pivot_u_q8`, `pivot_v_q8`. Each movement must be at most 4096
- * spacings. */
+ * `turn_bam` about the image point (`pivot_u_q8`, `pivot_v_q8`). The movement along each axis must
+ * be at most 4096 spacings. */
 dotpose_status dotpose_prediction_move(dotpose_prediction* prediction, int32_t code,
                                        int32_t by_x_q16, int32_t by_y_q16, int32_t turn_bam,
                                        int32_t pivot_u_q8, int32_t pivot_v_q8);
@@ -306,8 +306,8 @@ dotpose_status dotpose_prediction_move(dotpose_prediction* prediction, int32_t c
 /* Kinds of locators, with the memory that they need. */
 enum {
     DOTPOSE_KIND_DEVICE = 0, /* microcontrollers: integers only, images up to 188 px wide, 13 KB */
-    DOTPOSE_KIND_SMALL = 1,  /* images up to 188 px wide, 250 KB */
-    DOTPOSE_KIND_LARGE = 2,  /* images up to 4096 x 4096 px, 1.7 MB */
+    DOTPOSE_KIND_SMALL = 1,  /* images up to 188 px wide, 290 KB */
+    DOTPOSE_KIND_LARGE = 2,  /* images up to 4096 x 4096 px, 3 MB */
     DOTPOSE_KIND_DEVICE_160X120 = 3, /* like DEVICE, for images up to 160 px wide, 11 KB */
     DOTPOSE_KIND_DEVICE_320X240 = 4  /* like DEVICE, for images up to 320 x 240 px, 23 KB */
 };
@@ -315,8 +315,8 @@ enum {
 /* Attempts that a locator makes. A device locator always makes the device attempt. */
 enum {
     DOTPOSE_EFFORT_DEVICE = 0, /* one attempt, in integers, as on a device */
-    DOTPOSE_EFFORT_ONCE = 1,   /* one attempt */
-    DOTPOSE_EFFORT_TWICE = 2   /* a second attempt on the filtered frame if the first fails */
+    DOTPOSE_EFFORT_ONCE = 1,   /* without the second attempt */
+    DOTPOSE_EFFORT_TWICE = 2   /* if the first attempt fails, a second one on the filtered frame */
 };
 
 /* Dots from which the position is decoded. */
@@ -329,9 +329,8 @@ enum {
  * each option and when to change it. */
 typedef struct dotpose_options {
     uint32_t size; /* 0: set by dotpose_options_init */
-    /* Code of the sheet: DOTPOSE_CODE_. The default, DETECT, detects the code from all whole images
-     * so far. Device locators, and frames that are pushed row by row, use the code of the last
-     * image, or anoto if there is none. */
+    /* Code of the sheet: DOTPOSE_CODE_. The default, DETECT, detects the code from all images so
+     * far. Device locators cannot detect the code, and use anoto instead. */
     int32_t code;             /*  4 */
     int32_t effort;           /*  8: DOTPOSE_EFFORT_; default twice */
     int32_t decoder;          /* 12: DOTPOSE_DECODER_; default all */
@@ -434,18 +433,19 @@ dotpose_status dotpose_locate(dotpose_locator* locator, const uint8_t* pixels, i
 
 /* Motion of the camera since the previous image, from odometry: 20 bytes. */
 typedef struct dotpose_measured_motion {
-    float right_mm;  /*  0: displacement of the reference point along the x axis of that image */
-    float down_mm;   /*  4: along its y axis */
+    float right_mm;  /*  0: displacement of the reference point along x of the previous image */
+    float down_mm;   /*  4: displacement along y of the previous image */
     float turn_rad;  /*  8: change of theta */
-    float sigma_mm;  /* 12: standard deviation of each displacement; too small values lead to wrong
-                            fixes */
+    float sigma_mm;  /* 12: standard deviation of each displacement; values that are too small lead
+                            to wrong fixes */
     float sigma_rad; /* 16: standard deviation of the rotation */
 } dotpose_measured_motion;
 
-/* Locates an image of a camera that has moved by `since_last` since the previous image. Images that
- * are not certain alone are read together with the previous images; `frames` of the fix is their
- * number. Any other function that locates an image ends the series. The spacing must be set in the
- * options. Not for devices: WRONG_KIND. */
+/* Locates an image of a camera that has moved by `since_last` since the previous image. If the
+ * position from this image alone is not certain, reads the image together with the previous images
+ * of the series. `frames` of the fix is the number of images read together. Any other function that
+ * locates an image ends the series. The spacing must be set in the options. Returns WRONG_KIND for
+ * device locators. */
 dotpose_status dotpose_locate_moved(dotpose_locator* locator, const uint8_t* pixels,
                                     int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                     const dotpose_measured_motion* since_last, dotpose_fix* fix);
@@ -456,8 +456,9 @@ dotpose_status dotpose_locate_moved(dotpose_locator* locator, const uint8_t* pix
 dotpose_status dotpose_code_of(const dotpose_locator* locator, int32_t* code);
 
 /* Locates an image row by row: dotpose_begin, then dotpose_push_row for each row from the top, then
- * dotpose_finish. A row need not remain valid after the call. `prediction` may be null. A frame
- * that does not confirm its prediction gets the status not_tracked. */
+ * dotpose_finish. A row need not remain valid after the call. `prediction` may be null. If a frame
+ * does not confirm its prediction, a device locator returns the status not_tracked. Other locators
+ * locate the frame without the prediction. */
 dotpose_status dotpose_begin(dotpose_locator* locator, int32_t width_px, int32_t height_px,
                              const dotpose_prediction* prediction);
 dotpose_status dotpose_push_row(dotpose_locator* locator, const uint8_t* pixels);
@@ -490,7 +491,7 @@ typedef struct dotpose_code_reading {
     int32_t code;        /*  0: DOTPOSE_CODE_ in which the frame was read */
     int32_t has_other;   /*  4: 1 if a place in another code also explains the frame, else 0 */
     int32_t other_code;  /*  8: DOTPOSE_CODE_ of the alternative */
-    dotpose_place other; /* 12: place of the fix's cell in the alternative */
+    dotpose_place other; /* 12: place in the other code that corresponds to the cell of the fix */
 } dotpose_code_reading;
 
 /* Locates an image whose code is not known, and adds the image to the evidence. A frame that two
@@ -549,14 +550,14 @@ typedef struct dotpose_track_options {
     int32_t confirmations;                 /* 32: sightings that confirm a jump; 3 */
     float still_mm;                        /* 36: maximum movement of a stationary robot; 0.1 */
     float still_rad;                       /* 40: 0.02 */
-    float min_sigma_mm;                    /* 44: minimum, for printing errors; 0.0002 */
+    float min_sigma_mm;                    /* 44: standard deviation of print errors; 0.0002 */
     float min_sigma_rad;                   /* 48: 0.00002 */
     int32_t max_p_wrong_log2;              /* 52: limit above which a sighting is weak; -30 */
     int32_t max_weak_p_wrong_log2;         /* 56: limit of weak sightings; -10, at most -1 */
     float spacing_mm;                      /* 60: spacing of the pattern; 0.508 */
     int64_t lost_after_us;                 /* 64: 70000 */
     int64_t stationary_after_us;           /* 72: 500000 */
-    float max_sigma_mm;                    /* 80: limit of a pose carried on by odometry; 5 */
+    float max_sigma_mm;                    /* 80: limit for a pose known from odometry; 5 */
     float reserved;                        /* 84: 0 */
 } dotpose_track_options;
 
@@ -578,14 +579,14 @@ enum {
     DOTPOSE_VERDICT_NONE = 0, /* there was no sighting */
     DOTPOSE_VERDICT_BELIEVED = 1,
     DOTPOSE_VERDICT_WITH_PRIOR = 2, /* weak, but certain enough given the previous position */
-    DOTPOSE_VERDICT_GATED = 3,      /* physically impossible, and not yet confirmed */
+    DOTPOSE_VERDICT_GATED = 3,      /* at an impossible position, and not confirmed yet */
     DOTPOSE_VERDICT_TOO_WEAK = 4
 };
 
 /* Bits of `events`: changes caused by a frame. */
 enum {
-    DOTPOSE_EVENT_FIX = 1,        /* the robot was lost and was found */
-    DOTPOSE_EVENT_LOST = 2,       /* the robot was not seen for too long */
+    DOTPOSE_EVENT_FIX = 1,        /* the robot has been found, for the first time or again */
+    DOTPOSE_EVENT_LOST = 2,       /* no sighting was accepted for too long */
     DOTPOSE_EVENT_KIDNAPPED = 4,  /* the robot is at a position that it cannot have driven to */
     DOTPOSE_EVENT_STATIONARY = 8, /* the robot came to rest */
     DOTPOSE_EVENT_MOVING = 16     /* the robot moves again */
@@ -605,7 +606,7 @@ typedef struct dotpose_track {
     float vx_mm_s;         /* 56 */
     float vy_mm_s;         /* 60 */
     float turn_rad_s;      /* 64 */
-    int32_t p_wrong_log2;  /* 68: upper bound of p_wrong, given the previous track */
+    int32_t p_wrong_log2;  /* 68: log2 of an upper bound of p_wrong, including the prior */
     int32_t verdict;       /* 72: DOTPOSE_VERDICT_ */
     int32_t is_lost;       /* 76: 1 or 0 */
     int32_t is_stationary; /* 80: 1 or 0 */
@@ -629,9 +630,9 @@ dotpose_status dotpose_sighting_of(const dotpose_fix* fix, int64_t time_us,
 dotpose_status dotpose_tracker_update(dotpose_tracker* tracker, int64_t time_us,
                                       const dotpose_sighting* sighting, dotpose_track* track);
 
-/* Updates the tracker as dotpose_tracker_update does, with the motion since the previous update,
- * along the axes to which theta of the sightings refers. Without sightings, the motions carry the
- * pose on. */
+/* Updates the tracker as dotpose_tracker_update does, with the motion since the previous update.
+ * `right_mm` of the motion is along the direction theta of the sightings. Without a sighting, the
+ * motion updates the pose. */
 dotpose_status dotpose_tracker_update_moved(dotpose_tracker* tracker, int64_t time_us,
                                             const dotpose_sighting* sighting,
                                             const dotpose_measured_motion* motion,
@@ -673,7 +674,7 @@ dotpose_status dotpose_packet_of(const dotpose_fix* fix, int32_t code, uint32_t 
 /* Encodes a packet. `bytes` must have room for DOTPOSE_PACKET_BYTES. */
 dotpose_status dotpose_packet_encode(const dotpose_packet* packet, uint8_t* bytes, size_t capacity);
 
-/* Finds packets in a byte stream that may contain other data. The contents of the struct are
+/* Extracts packets from a byte stream that may contain other data. The contents of the struct are
  * private. */
 typedef struct dotpose_packet_reader {
     uint64_t state[14];

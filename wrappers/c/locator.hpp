@@ -13,7 +13,7 @@
 
 namespace dotpose::c {
 
-/// Functions that differ between kinds of locators. They are function pointers, so that a program
+/// Functions that differ between kinds of locators. They are called through pointers, so a program
 /// contains only the kinds that it creates. The last four are null for device locators.
 struct Actions {
     void (*set_options)(RowLocator& locator, const LocatorOptions& options);
@@ -75,7 +75,7 @@ constexpr Actions actions_of() {
 template <typename Kind>
 inline constexpr Actions kActionsOf = actions_of<Kind>();
 
-/// Marks an object that was set up.
+/// Value of `mark` in an object that was set up.
 inline constexpr std::uint32_t kLocatorMark = 0xD07C0001;
 
 }  // namespace dotpose::c

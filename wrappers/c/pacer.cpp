@@ -9,7 +9,8 @@ using namespace dotpose;
 using Pacer = c::Object<FramePacer, 0xD07C0002>;
 
 constexpr std::size_t kFirstBytes = 40;
-/// Limit of times and periods, as a power of two in µs. The sum of two values must not overflow.
+/// Times and periods are at most 2^kLatest_us µs in magnitude, so the sum of two values does not
+/// overflow.
 constexpr int kLatest_us = 61;
 
 dotpose_pacer_options options_of(const PacerOptions& o) {

@@ -13,8 +13,8 @@ using namespace dotpose;
 using TrackerObject = c::Object<Tracker, 0xD07C0004>;
 
 constexpr std::size_t kFirstBytes = 88;
-/// Limits of times and coordinates, as powers of two. The difference of two values must not
-/// overflow.
+/// Times and coordinates are at most 2^kLatest_us µs and 2^kFarthest_nm nm in magnitude, so the
+/// difference of two values does not overflow.
 constexpr int kLatest_us = 62;
 constexpr int kFarthest_nm = 60;
 

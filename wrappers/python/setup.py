@@ -1,7 +1,7 @@
 """Builds the package: CMake compiles its modules from the sources of dotpose around this folder.
 
 Environment variables:
-    DOTPOSE_BUILD   a configured build directory, to compile nothing twice
+    DOTPOSE_BUILD   a configured build directory, so that nothing is compiled again
     DOTPOSE_WHEEL   "core": only the module that locates, tracks and simulates. It needs no library of
                     the system, so its wheel runs on other systems.
 """
@@ -44,7 +44,7 @@ class BuildWithCMake(build_ext):
 
             options += [f"pybind11_DIR={pybind11.get_cmake_dir()}"]
         except ModuleNotFoundError:
-            pass  # The package of the system is found without help.
+            pass  # CMake finds the system's pybind11 by default.
         configure = ["cmake", "-S", str(ROOT), "-B", str(build), *generator]
         subprocess.run(configure + [f"-D{option}" for option in options], check=True)
         return build

@@ -89,7 +89,7 @@ void validate(const Camera& camera);
 /// Returns the undistorted pixel of `pixel` (paper eq. 1-2).
 PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
 /// Returns the distorted pixel of an undistorted pixel. For a point that the camera cannot see,
-/// returns the pixel at twice the distance from the distortion centre.
+/// returns the pixel at twice the distance of `undistorted` from the distortion centre.
 PixelPoint distorted(const Camera& camera, PixelPoint undistorted);
 
 /// A point in the camera frame.
@@ -107,8 +107,8 @@ double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 
 /// Returns the position on the paper of an undistorted pixel, in mm from the point under the image
 /// centre, with x along the image x axis at this point. `camera.paper` must be known. In this
-/// frame, two calibrations of the same camera agree to within microns. The pixel coordinates of
-/// points far outside the image differ by more.
+/// frame, the positions from two calibrations of the same camera agree to within microns, even for
+/// points far outside the image, whose pixel coordinates differ by more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 /// Returns the undistorted pixel of a point returned by `from_image_centre`.
 PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);

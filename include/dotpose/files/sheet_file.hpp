@@ -3,7 +3,7 @@
 ///
 ///     const std::vector<SheetEntry> sheets = read_sheets("sheets.json");
 ///
-/// sheet_place.hpp finds the place of a fix on the sheets.
+/// `find_sheet` (sheet_place.hpp) returns the place of a fix on the sheets.
 ///
 /// To print sheets, reserve their regions first, because every page must have an entry:
 ///
@@ -43,9 +43,9 @@ namespace dotpose {
 /// Version of the format that is written and read.
 inline constexpr int kSheetFileVersion = 1;
 
-/// Number of free cells around every allocated region. It exceeds the diagonal of the largest frame
-/// (4096 x 4096 px, 6 px per spacing: 966 cells). A frame that shows two sheets and is located by
-/// the dots of one sheet is therefore never placed on the other sheet.
+/// Number of free cells around every allocated region. It exceeds the diagonal of the largest
+/// frame: 4096 x 4096 px at 6 px per spacing, 966 cells. If a frame shows two sheets and is located
+/// by the dots of one sheet, its pose is therefore never on the other sheet.
 inline constexpr std::uint32_t kSheetGap_cells = 1024;
 
 /// Place and direction of a page in the world.

@@ -41,8 +41,8 @@ struct SheetPlace {
 };
 
 /// Returns the place of `fix`, which was read in the given code variant. The place is on the sheet
-/// whose region contains the fix or, if there is none, on a sheet whose margins contain the fix.
-/// Returns none if the fix is not ok or is not on any sheet.
+/// whose region contains the fix. If there is no such sheet, the place is on a sheet whose margins
+/// contain the fix. Returns none if the fix is not ok or is not on any sheet.
 std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, CodeVariant code,
                                      const Fix& fix);
 

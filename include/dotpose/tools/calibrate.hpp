@@ -5,8 +5,8 @@
 ///     const LensCalibration lens = calibrate_lens(20, frame_at, {});
 ///     write_camera("camera.yaml", lens.camera);
 ///
-/// `calibrate_lens` finds the lens and the scale, `calibrate_spin` and `calibrate_drive` the mount
-/// of the camera on a robot, `calibrate_readout` the readout time of its rolling shutter, and
+/// `calibrate_lens` determines the lens and the scale, `calibrate_spin` and `calibrate_drive` the
+/// mount of the camera on a robot, `calibrate_readout` the readout time of a rolling shutter, and
 /// `stitch_sheets` the relative poses of adjacent sheets. If the frames do not determine a result,
 /// the functions throw Error with advice. Standard deviations are computed from the residuals of
 /// the fit.
@@ -87,7 +87,7 @@ struct LensCalibration {
     double spacing_mm = 0;                  ///< given spacing, or spacing of the sheet
     int frames = 0;                         ///< number of frames given
     int located = 0;                        ///< number of different frames with a fix
-    int duplicates = 0;  ///< number of frames that repeat an earlier image; they are not used
+    int duplicates = 0;  ///< number of frames that repeat an earlier image, and are not used
     int dots = 0;        ///< number of dots used
     int outliers = 0;    ///< number of dots not used
     double residual_before_px = 0;  ///< rms per axis for a camera without distortion, skew and tilt
@@ -100,9 +100,9 @@ struct LensCalibration {
     std::vector<CalibrationDot> seen;
 };
 
-/// Finds lens and scale and, if the frames determine them, tilt and focal length. Throws Error if
-/// there is only one frame, no frame shows a pattern, the frames differ in size, or all frames are
-/// the same image.
+/// Computes lens and scale and, if the frames determine them, tilt and focal length. Throws Error
+/// if there is only one frame, no frame shows a pattern, the frames differ in size, or all frames
+/// are the same image.
 LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
                                const CalibrateOptions& options);
 
@@ -146,13 +146,13 @@ struct SpinCalibration {
     std::vector<SpinStation> stations;
 };
 
-/// Finds the position of the camera on the robot from at least 3 frames that cover more than 30
+/// Computes the position of the camera on the robot from at least 3 frames that cover more than 30
 /// degrees. A full turn in 12 frames is recommended. `camera` contains the lens and the view of the
 /// paper. Without `camera`, the lens is assumed to have no distortion. Throws Error if too few
 /// frames have a fix, the turn is too small, a frame differs in size from the camera file or from
 /// the first frame, the spacing contradicts the view of the camera, the reference point is beyond
 /// the range of a camera file, or the centre of rotation varies by more than one spacing (rms per
-/// axis) or is uncertain by more than half a spacing.
+/// axis) or has an uncertainty of more than half a spacing.
 SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
                                const std::optional<Camera>& camera,
                                const CalibrateOptions& options);
@@ -168,11 +168,11 @@ struct DriveCalibration {
     double length_mm = 0;    ///< length of the drive
 };
 
-/// Finds the direction of the camera from at least 2 frames that cover more than 5 mm. Throws Error
-/// if too few frames have a fix, a frame differs in size from the camera file or from the first
-/// frame, the spacing contradicts the view of the camera, the drive is too short, or the robot
-/// turned by more than 5 degrees from its mean direction, deviated from the straight line by more
-/// than this angle, or drove backwards.
+/// Computes the direction of the camera from at least 2 frames that cover more than 5 mm. Throws
+/// Error if too few frames have a fix, a frame differs in size from the camera file or from the
+/// first frame, the spacing contradicts the view of the camera, the drive is too short, or the
+/// robot turned by more than 5 degrees from its mean direction, deviated from the straight line by
+/// more than this angle, or drove backwards.
 DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
                                  const std::optional<Camera>& camera,
                                  const CalibrateOptions& options);
@@ -186,11 +186,11 @@ struct ReadoutCalibration {
     double motion = 0;    ///< rms motion during the readout, in spacings
 };
 
-/// Finds the readout time of a camera that moves over a sheet, from at least 7 consecutive frames
-/// taken every `interval_ms`. Compares the motion during the readout of each frame with the motion
-/// from the previous to the next frame. Throws Error if the camera file has no view of the paper,
-/// if fewer than 5 frames have a fix and are adjacent to frames with a fix, or if the motion does
-/// not determine the readout time to 10 %.
+/// Computes the readout time of a camera that moves over a sheet, from at least 7 consecutive
+/// frames taken every `interval_ms`. Compares the motion during the readout of each frame with the
+/// motion from the previous to the next frame. Throws Error if the camera file has no view of the
+/// paper, if there are fewer than 5 located frames with a located frame before and after them, or
+/// if the motion does not determine the readout time to 10 %.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);
 
@@ -260,14 +260,13 @@ struct Stitching {
     ScaleReference reference;  ///< reference of the print scales
 };
 
-/// Finds the world poses and print scales of sheets from frames that show parts of two sheets. The
-/// first stitched sheet that has a world pose keeps this pose. If no sheet has a world pose, the
-/// first sheet defines the world: its corner is the origin, and its upper edge is the x axis.
+/// Computes the world poses and print scales of sheets from frames that show parts of two sheets.
+/// The first stitched sheet that has a world pose keeps this pose. If no sheet has a world pose,
+/// the first sheet defines the world: its corner is the origin, and its upper edge is the x axis.
 ///
 /// `camera` contains the lens and, for mounted cameras, the view of the paper. Without a view, the
-/// view is fitted to each part of a frame. In this case, the poses are less accurate than with a
-/// known view. They are correct only if the fixed sheet really has the print scales in the sheet
-/// file.
+/// view is fitted to each part of a frame. In this case, the poses are less accurate, and they are
+/// correct only if the fixed sheet was printed with the print scales in the sheet file.
 ///
 /// Throws Error if there are fewer than two sheets, no frame shows two sheets, no frame shows a
 /// sheet with a world pose although such sheets exist, the sheet of the reference is not stitched,

@@ -1,6 +1,6 @@
-/// Coverage: what the frames taken so far cover for a lens calibration, and which requirements are
-/// not met yet. Intended for programs that take frames while the camera moves, like `dotpose
-/// calibrate --live`.
+/// Coverage: the parts of the image, the places and the directions that the frames so far cover for
+/// a lens calibration, and the requirements that are not met yet. Intended for programs that take
+/// frames while the camera moves, like `dotpose calibrate --live`.
 ///
 ///     CalibrationCoverage coverage(640, 480);
 ///     coverage.add(view);  // for each frame taken
@@ -44,8 +44,8 @@ PixelPoint farthest_corner(const Camera& camera);
 
 /// Returns the standard deviation, in px, of the undistorted position of the farthest corner
 /// relative to the middle of the image. Computed from the standard deviations of `k_per_px2` and of
-/// the distortion centre, which `camera.sigma` must contain. Their errors are assumed to be
-/// independent.
+/// the distortion centre, which `camera.sigma` must contain. The errors of k and of the centre are
+/// assumed to be independent.
 double corner_sigma_px(const Camera& camera);
 
 /// The parts of the image in which dots have been seen.
@@ -76,7 +76,7 @@ class ImageCoverage {
 /// One located frame.
 struct CalibrationView {
     std::vector<PixelPoint> dots;  ///< image positions at which dots were read
-    double x_grid = 0;             ///< position under the image centre, in spacings
+    double x_grid = 0;             ///< pattern position under the image centre, in spacings
     double y_grid = 0;
     Section section;
     double theta_rad = 0;  ///< angle of the image x axis in the pattern frame

@@ -156,7 +156,7 @@ enum class FindingKind {
     bits_wrong,     ///< dots are displaced so much that they are read incorrectly
     too_coarse,     ///< the scan has too few pixels per dot
     pale,           ///< the contrast of the dots is low
-    no_resolution,  ///< the scale could not be checked
+    no_resolution,  ///< the scale could not be checked, because the resolution is not known
     contradiction,  ///< resolution and spacing contradict each other
     repeated,       ///< the same cells are on the page more than once
     unknown_sheet,  ///< the cells are on none of the given sheets
@@ -183,10 +183,10 @@ struct RepeatedCells {
     int cells = 0;  ///< number of cells with a dot in both fields
 };
 
-/// Evidence in the image that a camera took it.
+/// Evidence that the image is a photo instead of a scan.
 struct CameraSigns {
     double perspective = 0;  ///< relative change of lengths across the page
-    double lens = 0;         ///< relative displacement of the outermost dots by the lens
+    double lens = 0;         ///< relative displacement of the outermost dots by lens distortion
 };
 
 /// Result of a print check.

@@ -38,8 +38,8 @@ struct DrawOptions {
     /// Spacing of the printed grid in mm, for the pose in mm. If it is NaN, the pose is in
     /// spacings.
     double spacing_mm = kDefaultSpacing_mm;
-    /// The fix to show: corrected by a camera file, or refused after `locate`. Default: the fix of
-    /// the trace.
+    /// The fix to show, for example a fix that was corrected by a camera file, or refused after
+    /// `locate`. Default: the fix of the trace.
     std::optional<Fix> fix{};
     std::string title{};  ///< for example the name of the file; default: none
     /// Place of the fix on a sheet. If it is given, the large numbers of the caption are the pose
@@ -53,16 +53,16 @@ struct DrawOptions {
 /// Draws the last frame of a Locator, with the stages that the frame reached. `image` must be the
 /// located image, and `DeviceOptions::show_stages` must be set.
 ///
-/// The left panel shows, over the image (paper Fig. 2 and 3), a ring around each dot, the symmetric
-/// connections of the neighbour search, and the centre of the intact neighbourhood. Below the
-/// panel, the same connections are drawn from one origin, with the grid vectors (Fig. 4). The right
-/// panel (Fig. 9) shows the grid, the symbol of each dot, as seen on the pattern and coloured by
-/// its likelihood, the decoded window and its corner, the reference point and the angle theta.
-/// Below the panel is the pose, or the reason why there is none.
+/// The left panel shows the image with a ring around each dot, the symmetric connections of the
+/// neighbour search, and the origin of the grid (paper Fig. 2 and 3). Below the panel, the same
+/// connections are drawn from one origin, with the grid vectors (Fig. 4). The right panel (Fig. 9)
+/// shows the grid, the symbol of each dot as seen on the pattern, coloured by its likelihood, the
+/// decoded window and its corner, the reference point and the angle theta. Below the panel is the
+/// pose, or the reason why there is none.
 ///
 /// With lens distortion, everything is drawn at its place in the image, so grid lines are curved.
 /// Large images are embedded at a lower resolution, and dots too close together for letters are
-/// drawn as points. The picture of a photo is therefore below 1 MB.
+/// drawn as points. The picture of a photo is therefore smaller than 1 MB.
 void draw_frame(std::ostream& out, ImageView image, const Trace& trace,
                 const DrawOptions& draw_options = {});
 void draw_frame(const std::filesystem::path& path, ImageView image, const Trace& trace,
@@ -95,8 +95,8 @@ void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibra
 void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
                     const Stitching& stitching);
 
-/// Draws the sheets in the world, from above with x to the right and y up, and beside them the
-/// sheets without a known pose. Throws Error if the sheets are too far apart to be drawn.
+/// Draws the sheets in the world, seen from above with x to the right and y up. Sheets without a
+/// known pose are drawn beside them. Throws Error if the sheets are too far apart to be drawn.
 void draw_sheets(const std::filesystem::path& path, std::span<const SheetEntry> sheets);
 
 /// Draws the deviations of all fields of a printed page, enlarged, over the outline of its scan.

@@ -58,8 +58,8 @@ struct Located {
     /// The pose of the reference point, corrected by the camera file if there is one.
     Fix fix;
     std::optional<SheetPlace> place;  ///< place of the fix; none if the fix is not on any sheet
-    /// The code variant of the fix, and the place in another code variant that explains the image,
-    /// if there is one. After `locate`, `reading.fix` does not include the correction by the camera
+    /// The code variant of the fix and, if a place in another code variant also explains the image,
+    /// this place. After `locate`, `reading.fix` does not include the correction by the camera
     /// file.
     CodeReading reading;
     /// Spacing of the sheet, or the common spacing of all sheets, in mm. NaN if spacings differ and
@@ -71,7 +71,7 @@ struct Located {
     /// Velocity of the camera during the readout. None without a fix, or if the camera file does
     /// not contain the readout time of a rolling shutter.
     std::optional<ReadoutVelocity> velocity;
-    bool code_is_given = false;  ///< true if options or sheets gave the code variant
+    bool code_is_given = false;  ///< true if options or sheets determine the code variant
     int reduced_by = 1;          ///< factor by which the image was reduced
 };
 

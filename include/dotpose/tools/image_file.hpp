@@ -47,11 +47,11 @@ struct ImageTooLarge : Error {
 };
 
 /// Reads one image. Reading needs up to 15 bytes of memory per pixel in addition to the file. Files
-/// larger than 8 bytes per pixel of `max_pixels`, plus 1 MiB, are refused. `page` is the number of
-/// a page of a TIFF file, from 1. Throws Error with the name of the file and the reason: no such
-/// page, no such file, a directory, no permission, empty, unknown image format, truncated, damaged,
-/// too large, not enough memory. Throws ImageTooLarge if the image has more than `max_pixels` or
-/// kMaxImagePixels. Thread-safe.
+/// larger than 8 * max_pixels bytes + 1 MiB are refused. `page` is the number of a page of a TIFF
+/// file, from 1. Throws Error with the name of the file and the reason: no such page, no such file,
+/// a directory, no permission, empty, unknown image format, truncated, damaged, too large, not
+/// enough memory. Throws ImageTooLarge if the image has more than `max_pixels` or kMaxImagePixels.
+/// Thread-safe.
 GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels,
                      int page = 1);
 

@@ -7,8 +7,8 @@
 ///     file.finish();
 ///
 /// Messages are collected in chunks. Each chunk is written together with the index and the end of
-/// the file, which the next chunk overwrites. If the program is killed, the file is therefore
-/// complete except for the messages of the last chunk.
+/// the file. The next chunk overwrites this index and end. If the program is killed, the file is
+/// therefore complete except for the messages that were not written yet.
 #pragma once
 
 #include <cstdint>

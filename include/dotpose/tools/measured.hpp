@@ -54,8 +54,8 @@ struct Similarity {
     double shift_y_mm = 0;
     double turn_rad = 0;  ///< positive in the direction of positive angles
     double scale = 1;
-    /// Mean of true minus found angles after the turn. This offset is the direction, in the image,
-    /// of the independently measured heading.
+    /// Mean of true minus found angles after the rotation by `turn_rad`. This offset is the
+    /// direction, in the image, of the independently measured heading.
     double angle_offset_rad = 0;
 };
 
@@ -69,8 +69,9 @@ struct MeasuredError {
     double x_mm = 0;
     double y_mm = 0;
     std::optional<double> angle_rad;  ///< none if the true angle is not known
-    /// True if the fix is wrong: it is on another sheet, there is no true place, or its error
-    /// exceeds half a spacing or 2 degrees and also exceeds ten times the median.
+    /// True if the fix is wrong: it is on another sheet, there is no true place, or the error of
+    /// its position or angle exceeds both a fixed limit (half a spacing, 2 degrees) and ten times
+    /// the median error.
     bool is_wrong = false;
 };
 

@@ -36,8 +36,8 @@ struct ReadoutVelocity {
     std::array<std::array<double, 2>, 2> covariance{};
 };
 
-/// A fix refined by `with_camera`, and the velocity during the readout, which is fitted to the dots
-/// together with the pose. The rotation during the readout is not fitted. The velocity is empty
+/// A fix refined by `with_camera`, and the velocity during the readout. Pose and velocity are
+/// fitted together to the dots. Rotation during the readout is not fitted. There is no velocity
 /// without a fix, or if the camera file has no `readout_ms` or no view.
 struct MovingFix {
     Fix fix;
@@ -51,8 +51,8 @@ MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const T
 double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print = {});
 
 /// Maximum relative difference between the nominal and the measured spacing of a sheet. The limit
-/// is larger than the change of scale within the depth of field of a camera close to the paper, and
-/// smaller than the 3 % by which a page shrinks if a printer driver scales it to 97 %.
+/// is larger than the change of scale within the depth of field of a camera close to the paper. It
+/// is smaller than 3 %, the change of scale if a printer driver shrinks the page to 97 %.
 inline constexpr double kMaxSpacingDifference = 0.025;
 
 /// Returns true if a measured spacing contradicts the spacing of the sheet. Returns false if either

@@ -68,14 +68,14 @@ struct OpticsReport {
     double block_diagonal_mm = 0;
     /// True if the shorter side of the field is at least `block_diagonal_mm` (paper III-A.3).
     bool block_fits = false;
-    /// Side of a square field that contains 8 x 8 dots at any position of the grid. At 45 degrees,
-    /// the nearest block may be half a diagonal step from the middle.
+    /// Side of a square field that contains 8 x 8 dots at any position of the grid, for a grid at
+    /// 45 degrees: block_diagonal_mm + spacing / sqrt(2).
     double block_anywhere_mm = 0;
     bool block_fits_anywhere = false;
 
     double fastest_mm_s = 0;  ///< maximum speed at the given exposure, without a turn
-    /// Maximum turn rate on the spot at the given exposure. The limit is the motion of the middle
-    /// of the edge that is farthest from the image centre.
+    /// Maximum turn rate on the spot at the given exposure. The blur is evaluated at the middle of
+    /// the image edge that is farthest from the image centre.
     double fastest_turn_rpm = 0;
     double longest_exposure_s = 0;  ///< maximum exposure at the given speed and turn rate
     double blur_px = 0;             ///< blur at the given speed, turn rate and exposure

@@ -116,8 +116,8 @@ struct PrintOptions {
     std::string command;  ///< PDF only: label with the command that reprints the sheet
     /// PDF only: separate commands for each page. If there are any, they replace `command`.
     std::vector<std::string> page_commands;
-    int first_page = 1;  ///< PDF only: number of the first sheet in the labels
-    /// PDF only: number of pages in the labels; 0 for the number of sheets.
+    int first_page = 1;  ///< PDF only: page number of the first sheet, for the labels
+    /// PDF only: total number of pages, for the labels. 0 stands for the number of sheets.
     int page_count = 0;
     /// Called often, so it must be fast. Default: none.
     Progress progress;

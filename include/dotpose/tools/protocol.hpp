@@ -21,8 +21,8 @@ namespace dotpose {
 struct ProtocolOptions {
     int samples = 20;  ///< number of samples at each position and angle
     /// Light, blur and noise of the device. Their levels are drawn once for all frames. The device
-    /// is at rest and not tilted, and the page has no dirt or graphics. The positions of the dots
-    /// come from the page of the experiment.
+    /// is at rest and not tilted, and the page has no dirt or graphics. The poses, and the errors
+    /// of the printer over the page, are those of the experiment.
     Setup setup;
     DeviceOptions locate;
     int threads = 0;
@@ -63,7 +63,8 @@ struct Protocol {
     ProtocolResult printed;  ///< page with the errors of `PrintModel`
 };
 
-/// Simulates the experiment. Throws Error if interrupted, and BadArgument without samples.
+/// Simulates the experiment. Throws Error if `progress` returned false, and BadArgument if there
+/// are no samples.
 Protocol run_protocol(const ProtocolOptions& options);
 
 /// Returns Table III in Markdown, with the numbers of the paper and the simulated numbers.

@@ -15,7 +15,8 @@
 ///
 /// Coordinate frames: *pixel* (centre of the first pixel (0, 0), v down), *pattern* (x right, y
 /// DOWN as the page is read, mm). Offsets named `offset_mm` are in the pattern frame, relative to
-/// the pose point, and therefore exact anywhere on the plane of 2.1e8 mm.
+/// the pose point, which is the pattern point under the image centre. Offsets are therefore exact
+/// anywhere on the plane, which is 2.1e8 mm wide.
 #pragma once
 
 #include <array>
@@ -46,7 +47,7 @@ struct Vec2 {
 struct CameraModel {
     int width_px = 188;   ///< 1 to 16384
     int height_px = 120;  ///< 1 to 16384
-    /// Size of a pixel at the image centre on the reference plane. Above 0.
+    /// Size on the paper of the pixel at the image centre, without tilt. Above 0.
     double mm_per_px = 0.046;
     /// Radial distortion k of eq. 1-2, p_u = m + r_d / (1 + k |r_d|^2), in 1 / px^2, where m is the
     /// image centre. Negative for barrel distortion. 1 + k |r|^2 must stay in (0, 2) over the whole
@@ -110,8 +111,8 @@ struct Imperfections {
     static constexpr double kGrain_px = 3;  ///< size of the texture's grains
     double tilt_x_rad = 0;  ///< tilt that `draw_shot` adds to the pose; `render` ignores it
     double tilt_y_rad = 0;
-    /// Number of sub-pixels per pixel along each axis, at most 8. 0 selects a number at which no
-    /// dot has an error above 0.003 px. Larger numbers take longer.
+    /// Number of sub-pixels per pixel along each axis, at most 8. 0 selects a number for which the
+    /// position error of every dot is at most 0.003 px. Larger numbers take longer.
     int sub_pixels = 0;
 };
 
@@ -155,8 +156,8 @@ struct Page {
     Cell origin;
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
-    /// Printed length over nominal length, above 0. Pose and `displacement_mm` are nominal. Offsets
-    /// and theta are on the paper.
+    /// Printed length over nominal length, above 0. The position of the pose and `displacement_mm`
+    /// are in nominal units. Offsets and theta are on the paper.
     AxisScale print_scale;
     /// Areas with printed dots: a dot is printed if its intersection is in one of the areas. If
     /// empty, all dots are printed.
@@ -165,8 +166,9 @@ struct Page {
     /// to paper.
     std::optional<PageArea> paper;
     double table_reflectance = 0.2;
-    /// Returns the shift of the dot at an intended place (in grid units) from this place, due to
-    /// printing errors or bent paper. Empty for no shift. Called from several threads.
+    /// Returns the offset in mm of a dot from its intended place, due to printing errors or bent
+    /// paper. The argument is the intersection of the dot, in grid units. Empty if no dots are
+    /// shifted. Called from several threads.
     std::function<Vec2(Vec2 place_grid)> shift_mm;
 };
 
@@ -241,8 +243,8 @@ struct Shot {
     std::uint64_t seed = 0;
 };
 
-/// Draws the random parameters of frame `index` of a run: a uniform angle, a position anywhere on
-/// the plane with the whole frame on it, and imperfections from the preset.
+/// Draws the random parameters of frame `index` of a run: a uniform angle, a random position such
+/// that the whole frame is on the plane, and imperfections from the preset.
 Shot draw_shot(const Setup& setup, std::uint64_t index);
 
 /// A view that is only partly covered by the pattern.
@@ -268,8 +270,8 @@ void cover_partly(Shot& shot, const PartialView& view);
 /// Renders a shot.
 GreyImage render(const Shot& shot);
 
-/// Frames without a single valid position, which a locator must refuse. At a seam, the position and
-/// section of either side are correct.
+/// Frames without a unique valid position, which a locator must refuse. At a seam, however, the
+/// position and section of either side count as correct.
 enum class Scene : std::uint8_t {
     black,
     white,
@@ -279,7 +281,7 @@ enum class Scene : std::uint8_t {
     random_symbols,   ///< a perfect grid with random symbols
     scattered_dots,   ///< dots at random places, `density` per grid cell
     checkerboard,     ///< squares of two grid spacings
-    seam_vertical,    ///< two sections side by side, the border through the image centre
+    seam_vertical,    ///< two sections side by side, with the border through the image centre
     seam_horizontal,  ///< two sections, one above the other
     mirrored,         ///< the pattern seen from behind
 };

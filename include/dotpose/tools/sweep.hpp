@@ -50,8 +50,8 @@ struct SweepOptions {
 /// The scores at one value of the condition.
 struct SweepPoint {
     double value = 0;  ///< value of the condition, in the unit of its kind
-    Score window;      ///< score with Decoder::window; `all` with Decoder::all
-    Score all;
+    Score window;      ///< score with Decoder::window
+    Score all;         ///< score with Decoder::all
 };
 
 /// Scores as a function of one condition.

@@ -47,9 +47,9 @@ struct TestPageOptions {
 /// 80, and if there are no spacings or no dot diameters.
 PrintPage make_test_page(const TestPageOptions& options);
 
-/// Returns the settings of the patch whose first cell is nearest to `cell` on both axes. This
-/// includes cells slightly outside the patch. Returns none if the cell is outside the region of the
-/// test pages, or if the dots of such a patch would touch.
+/// Returns the settings of the patch whose first cell is nearest to `cell` on both axes, even if
+/// `cell` is slightly outside the patch. Returns none if the cell is outside the region of the test
+/// pages, or if the dots of such a patch would touch.
 std::optional<Pattern> test_patch_at(CodeVariant code, Cell cell);
 
 }  // namespace dotpose

@@ -58,10 +58,10 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
 }
 
 /// Returns the score of a line read backwards minus its score read forwards. If all bits of the
-/// line agree with the main sequence in exactly one direction, the result is 127 (backwards) or
-/// -127 (forwards) for each bit beyond the first six. The first six bits do not count, because the
-/// main sequence contains every string of six bits except one. Six bits therefore almost always
-/// agree in the wrong direction, too. Each further bit halves the probability of a chance
+/// line agree with the main sequence in exactly one direction, the result is 127 (n - 6)
+/// (backwards) or -127 (n - 6) (forwards), where n is the number of bits. Six bits do not count,
+/// because the main sequence contains every string of six bits except one, so six bits almost
+/// always agree in the wrong direction, too. Each further bit halves the probability of a chance
 /// agreement.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);

@@ -8,8 +8,8 @@ namespace dotpose::core {
 namespace {
 
 /// Number of consecutive weights in a group. The signed sums of the weights of a group are
-/// tabulated for all combinations of signs. One pass over the rolls adds the tables of up to
-/// kGroups groups.
+/// tabulated for all combinations of signs. One pass over the rolls adds the sums of up to kGroups
+/// groups to the scores.
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;

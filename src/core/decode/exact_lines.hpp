@@ -7,9 +7,9 @@
 
 namespace dotpose::core {
 
-/// Returns the roll, at cell 0, of a line of up to 64 cells. All valid bits of the line must agree
-/// with the main sequence at this roll. Returns code::kAbsent if there is no such roll, or if the
-/// line does not have six adjacent valid bits.
+/// Returns the roll, at cell 0, at which all valid bits of a line of up to 64 cells agree with the
+/// main sequence. Returns code::kAbsent if there is no such roll, or if the line does not have six
+/// adjacent valid bits.
 std::uint8_t exact_roll(std::uint64_t bits, std::uint64_t valid);
 
 /// Finds the place of cell (0, 0) of an upright block from its exact lines. A line is exact if

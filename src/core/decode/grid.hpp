@@ -8,7 +8,7 @@
 
 namespace dotpose::core {
 
-/// Maximum number of cells along each axis of a grid, for any workspace.
+/// Maximum number of cells along each axis of a grid, in workspaces of any size.
 inline constexpr int kMaxGridSide = 256;
 
 /// The matrices P^(x), P^(y) over the cells [i0, i0 + columns) x [j0, j0 + rows).

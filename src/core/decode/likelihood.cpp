@@ -31,7 +31,7 @@ void lay_out(FixedVec min, FixedVec max, Grid& grid) {
 }
 
 std::int8_t quasi_probability(std::int32_t projection_q16) {
-    // The nominal offset r0 is the displacement, which is a sixth of the spacing.
+    // r0 of the paper is the nominal displacement of a dot: a sixth of the spacing.
     const int r_q8 = (projection_q16 * 6 + 128) >> 8;  // r / r0
     const int square_q16 = r_q8 * r_q8;
     if (square_q16 >= 3 * 65536) return 0;

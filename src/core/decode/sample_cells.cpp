@@ -125,8 +125,7 @@ int CellSampler::shade_q8(FixedVec centre_q8, int half_px) const {
 
 template <typename Use>
 void CellSampler::visit(const Grid& grid, Use use) const {
-    // Computes each row of intersections only once, although two adjacent rows of cells use the
-    // row.
+    // Two adjacent rows of cells use the same row of intersections, which is computed only once.
     std::array<FixedVec, kMaxGridSide + 1> here;
     std::array<FixedVec, kMaxGridSide + 1> below;
     const auto find_row = [&](int j, std::array<FixedVec, kMaxGridSide + 1>& row) {
@@ -223,8 +222,8 @@ PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
             std::max<std::int32_t>(median(std::span(shade).first(count)), 1)};
 }
 
-/// The typical darkness of dots and of graphics in an image. Computes the weights of bits from the
-/// darkness at the places of a cell.
+/// Computes the weights of the bits of a cell from the darkness at its four places. Contains the
+/// darkness of a typical dot and the minimum shade of graphics in the image.
 class Ink {
   public:
     Ink(const CellSampler& sampler, const Grid& grid) : sampler_(sampler) {
@@ -237,7 +236,7 @@ class Ink {
     }
 
     /// Darkness at the places of a cell, the reliability of its bits in 1/16, and the light at the
-    /// cell relative to the centre of the image, in 1/256.
+    /// cell relative to the light at the centre of the image, in 1/256.
     struct Sample {
         std::array<int, 4> darkness_q8;  ///< indexed by Symbol
         int reliability_q4 = 16;
@@ -289,9 +288,9 @@ class Ink {
                4 * sorted[2] > tuned::kSecondDot_4ths * sorted[3];
     }
 
-    /// Returns the weight of a bit, in [-127, 127]. `one_q8` is the larger darkness of the two
-    /// places at which the bit is 1. `zero_q8` is the larger darkness of the two places at which
-    /// the bit is 0.
+    /// Returns the weight of a bit, in [-127, 127]. `one_q8` is the darkness of the darker of the
+    /// two places where the bit is 1. `zero_q8` is the darkness of the darker of the two places
+    /// where the bit is 0.
     std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
         // The weight is proportional to the log-likelihood ratio of the bit. At constant sensor
         // noise, this ratio is proportional to the difference in grey levels times the contrast in

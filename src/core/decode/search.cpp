@@ -96,9 +96,9 @@ std::array<int, kMaxRunLength> widen(Run& run, int length, int max_readings) {
     }
 }
 
-/// Reads the position from the rolls of the lines that start at `first`. Replaces `best` if this
-/// reading has a higher score over all lines. Returns true if `best` was replaced by a clear
-/// reading.
+/// Decodes the position from `rolls`, the rolls of adjacent lines beginning with line `first`.
+/// Replaces `best` if the score of this reading, summed over all lines, is higher. Returns true if
+/// `best` was replaced by a clear reading.
 bool improve(CodeVariant code, const Lines& lines, int first, std::span<const std::uint8_t> rolls,
              AxisReading& best) {
     std::uint32_t position = 0;
@@ -137,8 +137,8 @@ void try_run(CodeVariant code, const Lines& lines, int first, int length, int ma
     }
 }
 
-/// Among the runs that are not taken yet, finds the run with the largest sum of margins. Returns
-/// the first line of this run, or -1 if all runs are taken.
+/// Returns the first line of the clearest run: the run with the largest sum of margins, among the
+/// runs of `length` lines that are not marked in `taken`. Returns -1 if all runs are marked.
 int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLines>& taken) {
     int clearest = -1;
     int largest = INT32_MIN;

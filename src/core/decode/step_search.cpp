@@ -14,8 +14,8 @@ constexpr std::size_t kSequences = 4;
 constexpr std::size_t kDigits = 3;
 constexpr std::size_t kStepSizes = code::kMaxDelta - code::kMinDelta + 1;
 
-/// The losses of one step, indexed by secondary sequence and digit. Each element is the minimum
-/// loss of score if the step has this digit in this sequence.
+/// The losses of one step, indexed by secondary sequence and digit. Each element is the maximum of
+/// `best_agreement` over all step sizes, minus the maximum over the step sizes with this digit.
 using StepLosses = std::array<std::array<std::int32_t, kDigits>, kSequences>;
 
 /// Returns the maximum, over all rolls, of the sum of the scores of two adjacent lines whose rolls
@@ -46,7 +46,8 @@ StepLosses losses_of(const LineScores& line, const LineScores& next) {
     return losses;
 }
 
-/// Number of most likely places of the first line to keep in each secondary sequence.
+/// Number of places of the first line to keep in each secondary sequence: the places with the
+/// smallest losses.
 constexpr std::size_t kChoices = tuning::step_search::kChoices;
 using Choices = std::array<std::uint32_t, kChoices>;
 

@@ -7,11 +7,11 @@
 
 namespace dotpose::core {
 
-/// Computes the loss of score for each possible digit of each step. From these losses, finds the
-/// places in each secondary sequence that agree best with all steps. Then evaluates all
-/// combinations of these places, and replaces `best` if a combination has a higher score. Also
-/// finds positions that the search by runs of lines misses, for example if graphics hide every
-/// sixth line or if no line has a clear roll.
+/// Computes the loss of score for each possible digit of each step. In each secondary sequence,
+/// selects the places with the smallest summed loss over all steps. Then evaluates all combinations
+/// of these places, and replaces `best` if a combination has a higher score. Also finds positions
+/// that the search by runs of lines misses, for example if graphics hide every sixth line or if no
+/// line has a clear roll.
 void search_by_steps(CodeVariant code, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

@@ -7,7 +7,7 @@
 namespace dotpose::core {
 
 /// Returns the square of `side` x `side` cells with the highest sum of qualities. If the grid has
-/// fewer columns or rows, the result contains all of them.
+/// fewer than `side` columns (or rows), the result contains all its columns (or rows).
 GridRegion choose_window(const Grid& grid, int side);
 
 /// Returns the mean quality of the cells of a region, in 1/256. The mean is 256 if every dot is

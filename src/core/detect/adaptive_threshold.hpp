@@ -69,7 +69,7 @@ void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold
 
 /// Returns the contrast, in grey levels, below which a tile of the next band counts as blank. The
 /// result increases with the largest contrast so far, from `options.min_contrast` to twice this
-/// value. This rejects noise in blank tiles as soon as tiles with dots have been measured.
+/// value. The increase rejects noise in blank tiles once tiles with dots have been measured.
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold);
 
 /// Returns the number of bands in the image.

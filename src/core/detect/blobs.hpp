@@ -31,7 +31,7 @@ struct OpenBlob {
     bool passes_high = false;  ///< true if a pixel is darker than the high threshold
 };
 
-/// Blobs that have pixels in the newest thresholded row.
+/// The blobs that have pixels in the newest thresholded row, and the runs of this row.
 struct OpenBlobs {
     /// Runs of the newest row and of the row above it. Each half of the span contains the runs of
     /// one row, followed by a sentinel run.

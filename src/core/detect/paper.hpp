@@ -21,10 +21,10 @@ struct PaperMap {
     std::span<std::uint8_t> brightest;
 };
 
-/// Measures the paper level of each block. The paper level is the grey level that a third of the
-/// sampled pixels of the block reach or exceed. A block that is much darker than the brightest of
-/// the blocks around it is assumed to be covered by graphics. Its level is replaced with the
-/// brightest level. The side of a block is a tenth of the shorter side of the image.
+/// Measures the paper level of each block. The paper level is the highest grey level that at least
+/// a third of the sampled pixels of the block reach. A block that is much darker than the brightest
+/// of its eight neighbours is assumed to be covered by graphics. The level of this neighbour
+/// replaces its level. The side of a block is a tenth of the shorter side of the image.
 void measure_paper(const ImageView& image, PaperMap& map);
 
 /// Returns the index of the block that contains a pixel. Pixels outside the image belong to the

@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::patch;
 
-/// Returns 2^24 / (n + 1), rounded up. The values are tabulated, because a division for each tile
-/// would take a microsecond in total.
+/// Returns 2^24 / (n + 1), rounded up. The values are tabulated, because the divisions for all
+/// tiles of a patch would take a microsecond.
 constexpr std::uint32_t reciprocal_q24(std::uint32_t n) {
     return ((1U << 24) + n) / (n + 1);
 }

@@ -21,8 +21,8 @@ bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int w
 bool measure_contrast(Patch& patch);
 
 /// Removes minima that are not dots: minima on plateaus, minima in tiles without contrast, and
-/// minima whose surroundings are dark in more than two of eight directions. An example is a dark
-/// table beyond the edge of a sheet.
+/// minima whose surroundings are dark in more than two of eight directions, such as minima on a
+/// dark table beyond the edge of the sheet.
 void keep_isolated(Patch& patch);
 
 /// Return the coordinates of the middle of the patch, in px of the image.

@@ -27,8 +27,8 @@ bool is_group_light(const std::uint8_t* pixels, const std::uint8_t* half_low_lev
 }
 
 /// Returns the first dark pixel of a row at or after `begin`, or the end of the row. The search
-/// never continues beyond the end of the row, because the threshold after the end is a sentinel for
-/// which every pixel is dark.
+/// never continues beyond the end of the row, because the thresholds after the end are a sentinel
+/// that makes every pixel count as dark.
 const std::uint8_t* find_dark(const std::uint8_t* begin, const std::uint8_t* row,
                               const std::uint8_t* half_low_levels) {
     const auto before = static_cast<std::size_t>(begin - row) % kWord_px;

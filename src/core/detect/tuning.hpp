@@ -1,7 +1,7 @@
 // Tuning: empirical constants of dot detection. The constants of the second attempt were determined
 // on the hard frames listed in decode/tuning.hpp. Comments state the number of frames that `dotpose
 // evaluate --preset hard --frames 2000 --seed 404` locates with other values. With the values in
-// this file, the command locates 1,994.
+// this file, the command locates 1,994 of 2,000 frames.
 #pragma once
 
 namespace dotpose::core::tuning {
@@ -25,23 +25,23 @@ inline constexpr int kCovered_4ths = 3;
 
 /// Normalisation of the light in the second attempt (detect/smooth).
 namespace smooth {
-/// Minimum half side of the surroundings, in px: about half the width of a dot. The minimum applies
-/// near the border of the image.
+/// Minimum half side of the window over which the light level is averaged, in px: about half the
+/// width of a dot. The window shrinks to this size at the border of the image.
 inline constexpr int kMinHalf_px = 4;
 /// Maximum level of a stroke, in tenths of the brightest paper level nearby. Pixels below this
 /// level count as paper in the mean of the surroundings, because a stroke of graphics is not a
-/// shadow. Frames located with 4: 1,995; with 9: 1,995.
+/// shadow. The value is not critical: with 4 or with 9, the command locates 1,995 frames.
 inline constexpr int kStroke_10ths = 7;
 /// Minimum level of the normalised image, in fifths of kNormalLevel. This limit makes graphics at
 /// most as dark as a weak dot. Near darker graphics, the required contrast would exceed the
-/// contrast of dots. Frames located with 2: 1,937.
+/// contrast of dots. With 2, the command locates only 1,937 frames.
 inline constexpr int kMinLevel_5ths = 4;
 }  // namespace smooth
 
 /// Detection of dots in a patch of the image (detect/patch).
 namespace patch {
-/// Minimum side, in px, of a patch to which `kMinTiles` applies. Smaller patches have too few
-/// tiles.
+/// Minimum length of the shorter side, in px, of a patch to which `kMinTiles` applies. Smaller
+/// patches have too few tiles.
 inline constexpr int kSmall_px = 48;
 /// Minimum darkness, in grey levels below the paper level, of the darkest smoothed pixel of a tile.
 /// Tiles with less darkness count as blank. At least kMinTiles tiles of a patch, or half of the

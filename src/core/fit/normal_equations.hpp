@@ -20,8 +20,8 @@ class NormalEquations {
     void set(std::size_t row, std::size_t column, float number) {
         columns_[column].set(row, number);
     }
-    /// Adds an equation with a residual, the derivatives of the equation with respect to the
-    /// parameters, and a weight.
+    /// Adds an equation, given by its derivatives with respect to the parameters, its residual and
+    /// its weight.
     void add(const Vector& derivatives, float residual, float weight) {
         const Column all(derivatives);
         for (std::size_t i = 0; i < N; ++i) {

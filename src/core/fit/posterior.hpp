@@ -30,9 +30,9 @@ struct Posterior {
     std::array<std::array<float, 2>, 2> covariance;
 };
 
-/// Computes the posterior with Bayes' rule. `whitened` contains the fitted terms, as returned by
-/// normal.times_transposed. `variance` is the noise variance of each element of `whitened`. `unit`
-/// is the unit of the standard deviations of the prior.
+/// Computes the posterior with Bayes' rule. `whitened` contains the fitted terms times L^T, where L
+/// is the Cholesky factor of `normal`. `variance` is the noise variance of each element of
+/// `whitened`. `unit` is the unit of the standard deviations of the prior.
 Posterior posterior_of(const DistortionPrior& terms, const PlaneNormal& normal,
                        const Parameters& whitened, float variance, float unit);
 

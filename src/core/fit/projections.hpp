@@ -27,8 +27,8 @@ struct FourVecs {
 };
 
 /// Returns the derivatives of x and of y with respect to all parameters, at one of four places. In
-/// pattern coordinates, the derivatives are polynomials in the place: (place . (1, 0)) place and
-/// (place . (0, 1)) place for perspective, and (place . place) place for lens distortion.
+/// pattern coordinates, the derivatives are polynomials in the place (u, v): u (u, v) and v (u, v)
+/// for perspective, and (u^2 + v^2) (u, v) for lens distortion.
 std::array<Parameters, 2> jacobian(const FourVecs& places, std::size_t point);
 
 /// A plane with parameters that act on the pattern instead of the image. Changes of scale,

@@ -10,7 +10,8 @@ namespace {
 /// Priors of perspective, shear and lens distortion. Their standard deviations are relative to the
 /// scale. A perspective term is the relative change of scale from the centre to the outermost dot:
 /// about 0.01 for a tilt of 2 degrees. The lens term is the displacement of the outermost dot
-/// relative to its distance from the centre. Its prior accepts only significant lens distortion.
+/// relative to its distance from the centre. Its prior probability of distortion is only 1 %, so
+/// insignificant distortion is shrunk almost to 0.
 constexpr std::array<DistortionPrior, 3> kTerms{{
     {kTilt, 2, {{{0.1F, 0}, {0.8F, 0.01F}, {0.1F, 0.1F}}}},
     {kShear, 2, {{{0.5F, 0}, {0.4F, 0.002F}, {0.1F, 0.03F}}}},
@@ -60,8 +61,8 @@ bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& 
     const int freedom = std::max(2 * fit.dots - static_cast<int>(kPoseParameters), 1);
     constexpr float kExact = 1e-12F;
     fit.variance = std::max(residual_squares / static_cast<float>(freedom), kExact);
-    // Adds the step to the terms of the current plane. Both are whitened, so the errors of all
-    // terms are independent and have the variance `fit.variance`.
+    // Adds the step to the terms of the current plane. The step and the terms are whitened, so the
+    // errors of all elements are independent and have the variance `fit.variance`.
     Parameters whole = normal.times_transposed(distortions);
     for (std::size_t i = 0; i < kPoseParameters; ++i)
         whole[i] += step[i];

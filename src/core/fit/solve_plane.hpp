@@ -13,7 +13,7 @@ namespace dotpose::core {
 struct PoseFit {
     int reach_px = 1;        ///< unit of length in the image, in px
     int dots = 0;            ///< number of inliers
-    float variance = 0;      ///< variance of one coordinate of one dot, in spacings^2
+    float variance = 0;      ///< noise variance of a dot along one axis, in spacings^2
     float squares = 0;       ///< sum of the squared residuals of all inliers after the last step
     float displacement = 0;  ///< distance of a typical dot from its intersection, in spacings
     PlaneNormal normal;      ///< normal equations of the parameters of `jacobian`, decomposed

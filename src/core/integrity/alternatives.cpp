@@ -18,9 +18,8 @@ namespace {
 /// and five digits determine the place in a sequence. In `libdots`, some positions share more
 /// lines. The sum of the near alternatives includes these positions.
 constexpr int kMaxSharedInARow = code::kOrder;
-/// Maximum expected odds of the far alternatives at which more alternatives are counted one by one:
-/// the double alternatives, and the near alternatives that share one line fewer. With larger odds,
-/// the fix cannot become certain.
+/// Maximum expected odds of the far alternatives for which more alternatives are evaluated one by
+/// one (see `alternatives_log2`). With larger expected odds, the fix cannot become certain.
 constexpr float kBeyondHelp = 1e-4F;
 
 /// Returns the expected sum of the odds of the alternatives that differ in at least `min_different`
@@ -57,16 +56,16 @@ int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2) {
     float sum = known + expected;
     const float limit = std::ldexp(1.0F, limit_log2);
     const float far_below_doubt = std::ldexp(1.0F, std::min(limit_log2, -30) - 10);
-    // Counts more alternatives one by one: the double alternatives, and the near alternatives that
-    // share one line fewer. This reduces the part of the sum that is only an expectation.
+    // Evaluates more alternatives one by one: the double alternatives, and the near alternatives
+    // that share one line fewer. This reduces the part of the sum that is only an expectation.
     if (sum > far_below_doubt && expected > known && expected < kBeyondHelp) {
         sum = known + sum_of_far_alternatives(lines, kMaxSharedInARow - 1, 3);
         // Skips the slowest sums if the other sums already exceed the limit.
         if (sum < limit) sum += sum_of_near_alternatives(lines, kMaxSharedInARow - 1);
         if (sum < limit) {
-            // Maximum expected odds of the alternatives that are not counted one by one: an eighth
-            // of the sum, but at most an eighth of the margin to the limit. An expectation alone
-            // must not cause a refusal.
+            // Maximum expected odds of the double alternatives that are not evaluated one by one:
+            // an eighth of max(sum, far_below_doubt), but at most an eighth of the margin to the
+            // limit. An expectation alone must not cause a refusal.
             const float negligible = std::min(std::max(sum, far_below_doubt), limit - sum) / 8;
             sum += sum_of_double_alternatives(lines, negligible, limit - sum);
         }

@@ -19,10 +19,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of shifts at which an alternative does not share a given line.
+/// Number of shifts, out of 63, where an alternative does not share a given line.
 constexpr float kShifts = kSections - 1;
-/// Upper bound on the odds of a single alternative that is not counted one by one, as log2 in units
-/// of 2^-8 and as a number. The sums contain this bound instead of the odds.
+/// Upper bound on the odds of a single alternative that is not evaluated line by line, as log2 in
+/// units of 2^-8 and as a number. The sums contain this bound instead of the odds.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Total number of places in the four sequences.
@@ -72,7 +72,7 @@ float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
 }
 
 /// Returns an upper bound on the summed odds of the alternatives that share no line: the same
-/// position in the other sections, and the single alternatives at the shifts at which they share no
+/// position in the other sections, and each single alternative at all shifts where it shares no
 /// line.
 float sharing_none(const LikelihoodRatios& ratios) {
     int lost = 0;
@@ -109,9 +109,9 @@ std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> loss
     return count;
 }
 
-/// Returns the loss of the single alternative with the place `place` in `sequence`, at the shift at
-/// which it shares the line `shared`. Stops as soon as the odds are at most kSkippedOdds,
-/// regardless of gains in the remaining lines. The result is then a partial sum.
+/// Returns the loss of the single alternative with the place `place` in `sequence`, at the shift
+/// where it shares the line `shared`. Stops as soon as no gain in the remaining lines can raise the
+/// odds above kSkippedOdds, and returns the loss so far.
 int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place, int shared) {
     const std::uint8_t* own = ratios.basis[sequence].rolls + ratios.places[sequence];
     const std::uint8_t* alternative = ratios.basis[sequence].rolls + place;
@@ -128,9 +128,9 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
 }
 
 /// Returns an upper bound on the summed odds of the single alternatives that share a line. For most
-/// sequences, the bound comes from a table. For the other sequences, the alternatives that may
-/// matter are counted one by one. Returns 1 if these alternatives cannot be listed (see
-/// `Kernels::list_similar_places`).
+/// sequences, the bound comes from a table. For the remaining sequences, the alternatives that may
+/// lose less than the limit are evaluated one by one. Returns 1 if these alternatives cannot be
+/// listed (see `Kernels::list_similar_places`).
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;

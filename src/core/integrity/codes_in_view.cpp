@@ -5,8 +5,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds of another code below which no further bits are needed: odds of the place of the reading in
-/// that code, and summed odds of all other places in that code.
+/// Odds below which another code needs no further bits: kMaxOddsHere for the place of the reading
+/// in that code, and kMaxOddsElsewhere for the summed odds of all other places in that code.
 constexpr float kMaxOddsHere = 1e-12F;
 constexpr float kMaxOddsElsewhere = 1e-10F;
 

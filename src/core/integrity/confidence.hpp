@@ -68,10 +68,10 @@ int odds_per_bit_q8(const Confidence& confidence);
 
 /// Returns log2 of an upper bound on the probability that random bits of these weights agree with
 /// the code at least as well as the bits that were read, at any position, in any section, and in
-/// any of the four orientations. There are L * 63 * 4 such hypotheses for one axis, where L =
-/// 410,815,348 is the number of positions. Chernoff's bound, with weights scaled to log odds,
-/// applies to each hypothesis. The result is an upper bound for any value of `odds_per_bit_q8`, and
-/// is smallest near the true odds.
+/// any of the four orientations. An axis has L * 63 * 4 hypotheses (position, section and
+/// orientation), where L = 410,815,348 is the number of positions. Chernoff's bound, with weights
+/// scaled to log odds, applies to each hypothesis. The result is an upper bound for any value of
+/// `odds_per_bit_q8`, and is smallest near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
 /// Returns the same bound as `chance_log2`, but in units of 2^-8 and for 2^(log2_times_q8 / 256)

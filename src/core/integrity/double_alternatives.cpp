@@ -52,7 +52,7 @@ class Groups {
 
     /// Returns true if (`one`, `other`) is the first pair, in the order of `visit_pairs`, of
     /// anchors that are both in `shared`. An alternative that shares several pairs of anchors is
-    /// counted only at the first of these pairs.
+    /// added only for the first of these pairs.
     bool is_first_pair(Anchors shared, int one, int other) const {
         for (const Anchors group : groups_) {
             const Anchors both = shared & group;
@@ -76,8 +76,8 @@ int at(const RankedLines::Offsets& offsets, int rank) {
     return offsets.all[static_cast<std::size_t>(rank)];
 }
 
-/// Returns differences of offsets modulo 63. The differences are in [-62, 62]. Negative differences
-/// are represented modulo 256.
+/// Reduces differences of offsets to [0, 62], modulo 63. The given differences are in [-62, 62].
+/// Negative differences are represented modulo 256.
 AnchorBytes modulo_sections(AnchorBytes offsets) {
     return offsets + (static_cast<AnchorBytes>(offsets >= kSections) & kSections);
 }
@@ -193,7 +193,7 @@ class Finder {
 
   private:
     /// Returns the summed odds of the alternatives that differ in `sequence` and in one of
-    /// `others`, and are counted at the pair of anchors (`one`, `other`).
+    /// `others`, and whose first shared pair of anchors is (`one`, `other`).
     float sum_of_bucketed(std::size_t sequence, std::initializer_list<std::size_t> others, int one,
                           int other) const {
         const Buckets buckets(lines_, sequence, one, other);
@@ -215,7 +215,7 @@ class Finder {
         return sum;
     }
 
-    /// Returns the odds of a pair of places at the shift at which the pair shares a given line.
+    /// Returns the odds of a pair of places at the shift where the pair shares a given line.
     /// `shared` is the sum of the offsets of both places in that line.
     float odds(const RankedLines::Offsets& a, const RankedLines::Offsets& b, int shared) const {
         // Adding 126, a multiple of 63, does not change the shift and keeps the index of the loss

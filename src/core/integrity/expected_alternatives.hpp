@@ -1,7 +1,6 @@
 // Expected alternatives: the expected odds of the positions that differ from the reading in the
-// places in several secondary sequences. There are 4e8 such positions. These are too many to
-// evaluate one by one, so the odds are averaged over all places. docs/integrity.md derives the
-// expectation.
+// places in several secondary sequences. There are 4e8 such positions, too many to evaluate one by
+// one. The odds are therefore averaged over all places. docs/integrity.md derives the expectation.
 #pragma once
 
 #include <array>

@@ -72,9 +72,9 @@ class OddsByClass {
 };
 
 /// Returns an upper bound on the probability that at most `wrong` of `bits` random bits contradict
-/// a given place. The bound is the sum of a geometric series. From the last term to the first, the
-/// terms of the binomial sum decrease at least as fast as the terms of this series. Returns 1 if at
-/// least a third of the bits are wrong.
+/// a given place. With n = `bits` and e = `wrong`:
+///     sum over k <= e of C(n, k) 2^-n <= C(n, e) 2^-n / (1 - e / (n - e + 1))
+/// Returns 1 if at least a third of the bits are wrong.
 float random_agreement(int bits, int wrong) {
     if (3 * wrong >= bits) return 1;
     float term = 1;  // probability of exactly k wrong bits, divided by 2^exponent
@@ -88,11 +88,10 @@ float random_agreement(int bits, int wrong) {
     return term * power_of_two_exactly(exponent) / (1 - ratio);
 }
 
-/// Returns an upper bound on the probability that a view that contains none of the known sheets
-/// agrees with some place on the known sheets at least as well as the bits that were read. For
-/// example, the view may show an unknown sheet. `bits` is the number of bits of each axis, `wrong`
-/// the number of wrong bits of each axis, and `lines` the number of columns or rows, whichever is
-/// larger.
+/// Returns an upper bound on the probability that a view of none of the known sheets, such as a
+/// view of an unknown sheet, agrees with some place on the known sheets at least as well as the
+/// bits that were read. `bits` is the number of bits of each axis, `wrong` the number of wrong bits
+/// of each axis, and `lines` the number of columns or rows, whichever is larger.
 float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int, 2>& wrong,
                       int lines) {
     float places = 0;
@@ -109,9 +108,9 @@ float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int,
     const float trials = std::max(kTurns * places, 1024.0F);
     const float anywhere = trials * random_agreement(2 * bits, wrong[0] + wrong[1]);
     if (sheets.are_all()) return anywhere;
-    // An unknown sheet may have the same columns or rows as a known sheet. In that case, all bits
-    // of that axis agree, and determine the turn, the roll and the position of that axis. On the
-    // other axis, only the positions of one class modulo 63 remain.
+    // An unknown sheet may have the same rows as a known sheet. In that case, all y bits agree, and
+    // determine the turn, and the roll and the position of the rows. Only the columns of one class
+    // modulo 63 remain possible. The same applies if columns and rows are exchanged.
     return anywhere + columns * random_agreement(bits, wrong[0]) +
            rows * random_agreement(bits, wrong[1]);
 }

@@ -178,10 +178,11 @@ inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequenc
         offsets[static_cast<std::size_t>(line)] = roll_offset(own[line], alternative[line]);
 }
 
-/// Returns the loss of an alternative at the shift at which it shares the line `shared`. Adds the
-/// losses of the later lines first, and then those of the earlier lines. Stops as soon as the
-/// alternative is hopeless, and returns the loss so far. Returns nullopt at the first earlier line
-/// that is shared at the same shift, because the odds of the alternative are added for that line.
+/// Returns the loss of an alternative at the shift where it shares the line `shared`. Adds the
+/// losses of the later lines first, and then the losses of the earlier lines. Stops as soon as the
+/// alternative is hopeless, and returns the loss so far. Returns nullopt on reaching an earlier
+/// line that is shared at the same shift. The caller adds the odds of the alternative for that line
+/// instead.
 std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOffsets& offsets,
                                    int shared);
 

@@ -9,14 +9,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of periods of a sequence to add to a place. The added periods keep the difference
-/// positive when the index of a line is subtracted. This number of periods contains more than
-/// kMaxLines places, even in the shortest sequence.
+/// Number of periods of a sequence that are added to a place before the index of a line is
+/// subtracted. The difference is positive even for the shortest sequence, because kPeriods periods
+/// contain more than kMaxLines places.
 constexpr std::uint32_t kPeriods = kMaxLines / code::kA3.size() + 1;
 
-/// The places in one sequence at which the digits of a run occur. The digits of a run are the
-/// digits of the reading in the steps between the lines of the run. Includes the place of the
-/// reading itself.
+/// The places in one sequence that have the same digits as the reading in the steps between the
+/// lines of a run. Includes the place of the reading itself.
 class TwinPlaces {
   public:
     /// The run begins at line `run` and has `digits` + 1 lines.

@@ -12,8 +12,8 @@ namespace {
 /// Summed odds of other places in other codes above which the fix is ambiguous. Smaller odds do not
 /// make the fix ambiguous, because a second attempt may reduce them.
 constexpr float kAmbiguousOdds = 1e-3F;
-/// Odds of a code relative to the likeliest code, given the earlier frames. No attempt is made in
-/// codes whose odds do not exceed this limit.
+/// Maximum odds, relative to the likeliest code, of a code that counts as ruled out by earlier
+/// frames. No attempt is made in such a code.
 constexpr float kRuledOutOdds = 1e-9F;
 /// Factors up to this value are treated as rounding errors.
 constexpr float kRoundings = 1.01F;

@@ -57,8 +57,8 @@ class PossibleCodes {
     std::array<CodeVariant, kCodeVariantCount> order_{};
 };
 
-/// Returns log2 of the likelihood of the bits in each code relative to the code `read`, in units of
-/// 2^-8. Likelihoods that differ by at most 1 % count as equal.
+/// Returns log2 of the likelihood of the bits in each code, relative to their likelihood in the
+/// code `read`, in units of 2^-8. Likelihoods that differ by at most 1 % count as equal.
 CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others);
 
 }  // namespace dotpose::core

@@ -20,8 +20,8 @@ constexpr int kSmallOdds_q8 = -36 * 256;
 /// Default limit, as log2 in units of 2^-8. Bounds are as tight as this limit requires, even if the
 /// caller permits larger odds.
 constexpr int kUsualLimit_q8 = -30 * 256;
-/// Upper bound on the odds of a single alternative that is not counted one by one, as log2 in units
-/// of 2^-8. The sums contain this bound instead of the odds.
+/// Upper bound on the odds of a single alternative that is not evaluated line by line, as log2 in
+/// units of 2^-8. The sums contain this bound instead of the odds.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 
 /// Odds of an alternative in a line that it does not share, as log2 in units of 2^-8.
@@ -57,19 +57,19 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
 }
 
 /// Returns log2 of an upper bound on the sum that `ExpectedAlternatives` computes for one set, in
-/// units of 2^-8. The computation merges all shifts at which a line is not shared into one state.
-/// For each of these shifts, the probability that a step leads to the shift is at most the
-/// probability p that all digits of the step are equal. A line that is not shared therefore
-/// multiplies the odds by at most p times the summed odds of all other rolls, and by at most the
-/// odds of the best of these rolls.
+/// units of 2^-8. The computation merges all nonzero roll offsets into one state. The probability
+/// that a step leads to a given roll offset is at most the probability p that all digits of the
+/// step are equal. A line that is not shared therefore multiplies the odds by at most p times the
+/// summed odds of all other rolls, and by at most the odds of the best of these rolls.
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
     const auto max_shared = static_cast<std::size_t>(ratios.max_shared());
     const int equal = set.equal_q8 + kUnevenness_q8;
-    // One element per line: the sum of the alternatives whose run of shared lines begins at this
-    // line and includes the newest line. All sums in this function are divided by the probability
-    // that the digits of all steps so far are equal, so each element remains constant.
+    // One element per line: the summed odds of the alternatives whose run of shared lines begins at
+    // this line and includes the newest line. All sums in this function are divided by the
+    // probability that the digits of all steps so far are equal, so the elements remain constant
+    // while the run continues.
     std::array<int, kMaxShared + kMaxLines> sharing;
     // Element n is the sum of the elements n and n - 1 of `sharing`. Adding pairs halves the number
     // of additions.
@@ -149,8 +149,8 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     return sum;
 }
 
-/// Adds up the odds of single alternatives, at every shift at which an alternative shares enough
-/// lines to matter.
+/// Adds up the odds of single alternatives, at every shift where an alternative may lose less than
+/// the limit.
 class ByShift {
   public:
     ByShift(const LikelihoodRatios& ratios, int loss_limit);
@@ -187,8 +187,9 @@ class ByShift {
     std::size_t count_ = 0;               ///< number of lines with a positive minimum loss
     std::array<Loss, kMaxLines> losses_;  ///< sorted by decreasing loss
     std::uint32_t in_all_ = 0;            ///< sum of all losses
-    /// Number and sum of the largest losses for which the limit is not checked. An alternative that
-    /// shares the line with the largest loss cannot reach the limit in these lines alone.
+    /// Number of lines, in the order of `losses_`, that `may_matter` adds before it first checks
+    /// the limit, and the sum of their losses. In these lines alone, an alternative cannot reach
+    /// the limit at the shift where it shares the line with the largest loss.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
     /// For each shift, `none_` plus the losses that the current alternative avoids because it
@@ -236,8 +237,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     const Loss* loss = losses_.data();
     for (const Loss* const end = loss + first_count_; loss != end; ++loss)
         keep(*loss);
-    // Maximum of `largest` at which the alternative loses at least the limit in the lines visited
-    // so far.
+    // If `largest` is at most this value, the alternative loses at least the limit at every shift,
+    // in the lines visited so far.
     std::uint32_t max_to_keep = none - loss_limit_ + first_losses_;
     for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
         keep(*loss);
@@ -273,7 +274,7 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
 
 /// Returns log2 of an upper bound on the odds of the single alternatives of one sequence that share
 /// a line, in units of 2^-8. The bound uses only the minimum loss of these alternatives. An
-/// alternative is counted once per shift at which it shares a line, so at most `ratios.count()`
+/// alternative is included once per shift where it shares a line, so at most `ratios.count()`
 /// times.
 int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
                      std::size_t sequence) {
@@ -308,7 +309,7 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
 
 /// Returns log2 of an upper bound on the odds of the single alternatives of the given sequences
 /// that share a line, in units of 2^-8. Adds kSkippedOdds_q8 for every alternative and every line.
-/// Counts the few alternatives that may lose less than the limit one by one.
+/// Evaluates one by one the few alternatives that may lose less than the limit.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();
@@ -352,7 +353,8 @@ int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
     Sequences sequences = kAllSequences;
     int singles = kNever_q8;
     if (is_last) {
-        // The bounds from tables are larger than the counted odds, but avoid most of the work.
+        // The bounds from tables exceed the odds that an enumeration yields, but avoid most of the
+        // work.
         constexpr int kLittle_q8 = -5 * 256;
         const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
         sequences = add_by_tables(ratios, little_q8, sequences, singles);

@@ -1,6 +1,6 @@
 // Ranked lines: the lines of a view, sorted by decreasing information, and the roll offsets of all
-// places of the secondary sequences in these lines. A sum over the lines in this order excludes
-// most alternatives after a few lines.
+// places of the secondary sequences in these lines. If losses are added in this order, most
+// alternatives become hopeless after a few lines.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"

@@ -20,8 +20,8 @@ constexpr int kSeam_q8 = -32 * 256;
 /// odds exclude the prior.
 constexpr int kMin_q8 = -8 * 256;
 
-/// Minimum losses of an alternative before and beyond each border, over all shifts. Ignores shifts
-/// at which the loss on one side alone reaches the limit.
+/// Minimum losses of an alternative before and beyond each border, over all shifts. Ignores the
+/// shift of a side if the loss on this side alone reaches the limit.
 class LossesByBorder {
   public:
     LossesByBorder(const LikelihoodRatios& ratios, const RollOffsets& offsets, int loss_limit)
@@ -60,9 +60,8 @@ class LossesByBorder {
         const auto loss_in = [&](int line) {
             return ratios_.loss(line, offsets[static_cast<std::size_t>(line)] - shift);
         };
-        // Each loop stops when the loss on its side of the border reaches the limit. With a border
-        // farther along the loop, the alternative cannot matter at this shift, regardless of its
-        // loss on the other side.
+        // Each loop stops when the loss on its side of the border reaches the limit. If the border
+        // is farther along, this loss alone excludes the alternative at this shift.
         int lost = 0;
         for (int line = 0; line < count && lost < loss_limit_; ++line) {
             update_min(before_[static_cast<std::size_t>(line)], lost);

@@ -19,8 +19,8 @@ class Losses {
         add_digit(eights_, has_bit(parts, 3), alternatives, carry);
         excluded_ |= carry;
     }
-    /// Returns the alternatives that have reached the limit, and those that were excluded from the
-    /// start.
+    /// Returns the alternatives whose loss has reached the limit, and the alternatives that were
+    /// excluded from the start.
     std::uint32_t excluded() const { return excluded_; }
 
   private:

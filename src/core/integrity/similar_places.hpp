@@ -32,8 +32,8 @@ struct Steps {
     bool can_exclude = false;
 };
 
-/// The places of a sequence that may lose less than the limit. A place is identified by the index
-/// of its digit in the first step.
+/// The places of a sequence that may lose less than the limit. A place is the index, in the
+/// sequence, of the digit in the first step.
 class SimilarPlaces {
   public:
     /// `own` is the place of the reading at the first step of `steps`.

@@ -3,9 +3,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the odds of a single alternative at the shift at which it shares the line of rank
-/// `shared`. Returns 0 if the alternative also shares a line of lower rank at this shift, because
-/// the alternative is counted at that line.
+/// Returns the odds of a single alternative at the shift where it shares the line of rank `shared`.
+/// Returns 0 if the alternative also shares a line of lower rank at this shift, because its odds
+/// are added for that line.
 float odds_of_single(const RankedLines& lines, const RankedLines::Offsets& alternative,
                      int shared) {
     // `base` makes the offset in the shared line 126, which is 0 modulo 63. All other offsets

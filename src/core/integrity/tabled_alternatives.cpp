@@ -24,7 +24,7 @@ class Bounds {
         const LikelihoodRatios& ratios = unshared_.ratios();
         const auto& max_with = code::kMaxPositionsWith[unshared_.tables() - 1][sequence];
         // Bound for the alternatives with more than kMaxCounted unshared table lines. An
-        // alternative is counted once per shift at which it shares a line, so at most
+        // alternative is included once per shift where it shares a line, so at most
         // `ratios.count()` times.
         float sum =
             static_cast<float>(ratios.count() * ratios.basis[sequence].length) * odds_.back();

@@ -12,7 +12,7 @@
 
 namespace dotpose::core {
 
-/// Shift or shifts at which an alternative shares lines with the reading.
+/// How an alternative shares lines with the reading: at one shift in all lines, or at two.
 enum class Sharing : std::uint8_t {
     at_one_shift,
     on_two_sides,  ///< one shift before a border between two lines, another shift beyond the border
@@ -33,8 +33,8 @@ class UnsharedLines {
                   int max_lines = kMaxTableLines);
 
     const LikelihoodRatios& ratios() const { return ratios_; }
-    /// Returns the number of tables whose number of lines is within both limits of the constructor.
-    /// The last of these tables is used.
+    /// Returns the number of tables whose number of lines exceeds neither `max_lines` nor the
+    /// number of lines in view. The last of these tables is used.
     std::size_t tables() const { return row_ + 1; }
     /// Returns true if all single alternatives of a sequence lose at least `loss_limit`.
     bool all_lose(std::size_t sequence, Sharing sharing, int loss_limit) const {
@@ -48,7 +48,7 @@ class UnsharedLines {
     /// Returns the minimum loss of the single alternatives of a sequence, or 0 if there is no table
     /// for the sequence.
     int min_loss(std::size_t sequence, Sharing sharing) const;
-    /// Returns the minimum loss of all places in a4 of another code, or 0 if there are too few
+    /// Returns the minimum loss over all places in a4 of another code, or 0 if there are too few
     /// lines for any table. `unshared_in_other` is the element of `code::kUnsharedInOther` for the
     /// code that was read and the other code.
     int min_loss(const std::array<std::string_view, 3>& unshared_in_other) const;

@@ -54,7 +54,7 @@ Place corner_place(CodeVariant code, const Decoding& decoding, const Upright& up
     return moved(code, decoding.place, corner.x, corner.y);
 }
 
-/// Result of the comparison of all bits in view with the code, before alternatives are counted.
+/// Result of the comparison of all bits in view with the code, before alternatives are evaluated.
 struct Doubt {
     int odds_per_bit_q8 = 0;  ///< 0 if the bits carry no information or too many bits are wrong
     /// For each axis, log2 of an upper bound on the probability that random bits agree with the

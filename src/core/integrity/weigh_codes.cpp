@@ -60,8 +60,8 @@ struct Losses {
     static constexpr int kUnit = 8;
     int loss_limit;  ///< loss above which a place is skipped, in units of the score
     int all = 0;     ///< loss of a place that shares no line, in units of kUnit
-    /// Minimum loss of a place at a shift at which it shares no line, in units of the score: the
-    /// sum of the minimum losses of all lines, including negative losses (gains).
+    /// Minimum loss of a place at a shift where it shares no line, in units of the score: the sum
+    /// of the minimum losses of all lines, including negative losses (gains).
     int at_best = 0;
     std::array<std::uint16_t, kMaxLines> of;  ///< loss of each line, in units of kUnit
 };
@@ -77,7 +77,7 @@ class OtherPlaces {
           theirs_(code::basis(other)[kA4]),
           shift_here_(code::roll_further(read, other, ratios.position, ratios.places[kA4])),
           here_(offsets_of(ratios.places[kA4])) {
-        // A line has no loss if the roll of the place equals the roll of the reading.
+        // A line where the place and the reading have the same roll has no loss.
         const int shared = modulo(here_[0] - shift_here_);
         int lost = 0;
         for (std::size_t line = 0; line < count_ && !ratios_.is_hopeless(lost); ++line) {
@@ -99,8 +99,8 @@ class OtherPlaces {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
         const int lost = unshared.min_loss(table) - ratios_.max_gain();
-        // The bound includes a place once for each shift at which the place shares a line, which is
-        // at most `count_` times.
+        // The bound includes a place once for each shift where the place shares a line, so at most
+        // `count_` times.
         result_.elsewhere =
             static_cast<float>(theirs_.length * count_) * ratios_.odds(std::max(lost, 0)) +
             sharing_none();
@@ -110,7 +110,8 @@ class OtherPlaces {
     void begin_count() { result_.elsewhere = 0; }
 
     /// Adds the odds of the places that the search for similar places does not find: the place of
-    /// the reading in a4 at its other shifts, and all places at shifts at which they share no line.
+    /// the reading in a4, at all shifts except `shift_here_`, and every place at each shift where
+    /// it shares no line.
     void add_unsimilar() {
         // A place with the rolls of the reading shares all lines at one shift, and no line at any
         // other shift.
@@ -118,10 +119,10 @@ class OtherPlaces {
         add_sharing_none();
     }
 
-    /// Adds the odds of another place of a4 at all shifts at which the place shares a line.
+    /// Adds the odds of another place of a4 at all shifts where the place shares a line.
     void add(std::uint32_t place) { add(place, offsets_of(place), kNoShift); }
-    /// Adds kSkippedOdds for each of `places` places, at each shift at which a place may share a
-    /// line.
+    /// Adds kSkippedOdds for each of `places` places and each line, because a place shares lines at
+    /// no more shifts than there are lines.
     void add_skipped(int places) {
         result_.elsewhere += static_cast<float>(places * ratios_.count()) * kSkippedOdds;
     }
@@ -154,8 +155,8 @@ class OtherPlaces {
         return offsets;
     }
 
-    /// Returns an upper bound on the odds of all places at shifts at which they share no line.
-    /// Assumes the maximum odds of such a place for every place and every shift.
+    /// Returns an upper bound on the summed odds of every place at each shift where it shares no
+    /// line. Assumes the maximum odds for every place and every shift.
     float sharing_none() const {
         return static_cast<float>(theirs_.length * (kSections - 1)) * ratios_.odds(losses_.at_best);
     }
@@ -174,7 +175,7 @@ class OtherPlaces {
         }
     }
 
-    /// Adds the odds of a place at all shifts at which the place shares no line, except
+    /// Adds the odds of a place at all shifts where the place shares no line, except
     /// `shift_left_out`.
     void add_unshared(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios_.count()));
@@ -190,7 +191,7 @@ class OtherPlaces {
         }
     }
 
-    /// Adds the odds of a place at all shifts at which the place shares a line, except
+    /// Adds the odds of a place at all shifts where the place shares a line, except
     /// `shift_left_out`.
     void add(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
         // Summed losses of the lines that are shared at the same shift, in units of kUnit, indexed

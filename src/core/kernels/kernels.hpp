@@ -16,14 +16,15 @@
 
 namespace dotpose::core {
 
-/// Two plane waves: cos(2 pi (kx x + ky y) - phase). The cross product of their frequencies is
-/// positive.
+/// Two plane waves cos(2 pi (kx x + ky y) - phase). The wave vectors (kx, ky) have a positive cross
+/// product.
 struct Waves {
-    /// Frequencies of the first and of the second wave, in cycles per px.
+    /// Components of the wave vectors of the first and of the second wave, in cycles per px.
     std::array<float, 2> kx{};
     std::array<float, 2> ky{};
-    float power = 0;  ///< sum of the powers of both waves; at most 2 n^2 for n dots
-    /// Phases of both waves, as sums of the cosine and of the sine over all dots.
+    float power = 0;  ///< sum of the powers of both waves; about 2 n^2 for n dots on intersections
+    /// Sums of the cosine and of the sine of 2 pi (kx x + ky y) over all dots. The phase is
+    /// atan2(phase_sin, phase_cos).
     std::array<float, 2> phase_cos{};
     std::array<float, 2> phase_sin{};
 };
@@ -31,10 +32,11 @@ struct Waves {
 /// Options of `sum_cells`, which assigns dots to cells in one pass.
 struct CellPass {
     float reach_px = 0;  ///< maximum distance of a dot from the origin along each axis
-    /// Maximum distance of a used dot from the nearest place of its cell, in spacings.
+    /// Maximum distance of a dot from the nearest place of its cell, in spacings. Dots at a larger
+    /// distance are not used.
     float max_off = 0;
-    /// Distance of the four places of a cell from its centre, in spacings, or 0 for one place at
-    /// the centre.
+    /// Distance of the four places of a cell from its intersection, in spacings. If it is 0, the
+    /// intersection is the only place.
     float displacement = 0;
     bool with_perspective = false;
 };
@@ -45,7 +47,7 @@ struct CellPass {
 /// of `i` and `j` are set, and `square` is 0.
 struct CellSums {
     float seen = 0;  ///< number of dots within reach
-    float used = 0;  ///< number of dots within reach that are near a place
+    float used = 0;  ///< number of `seen` dots within `max_off` of a place
     /// Sum of the squared distances of the used dots from their places, in spacings^2.
     float squares = 0;
     std::array<float, 6> one{};     ///< sums of 1, x, y, xx, xy, yy
@@ -71,8 +73,8 @@ struct CellsInView {
     float width_px = 0;
     float height_px = 0;
     float margin_px = 0;  ///< minimum distance of a dot from the border of the image
-    /// Maximum distance of a dot, without lens distortion, from (centre_x, centre_y) along each
-    /// axis.
+    /// Maximum distance of the undistorted image point of a dot from (centre_x, centre_y), along
+    /// each axis.
     float reach_px = 0;
     float displacement = 0;  ///< distance of dots from their intersections, in spacings
     Windows windows = Windows::on_intersections;
@@ -90,8 +92,8 @@ struct CellsInView {
 /// Options of `measure_windows`.
 struct WindowOptions {
     float spacing_px = 11;  ///< spacing at the centre of the view
-    /// Half the side of a window, in spacings. The half side in px is clamped to 2 to
-    /// kMaxHalfWindow_px.
+    /// Half the side of a window, in spacings. The half side in px is limited to the range from 2
+    /// to kMaxHalfWindow_px.
     float reach = 0.36F;
     /// Minimum contrast of a pixel of a dot, in 1/256 of the paper level.
     int cut_q8 = 128;
@@ -110,14 +112,16 @@ inline constexpr float kSmallCentroidRadius_px = 4;
 inline constexpr float kPredictedCentroidRadius_px = 3.65F;
 
 /// Sums over the inliers for the fit of nine parameters; see PlaneNormal. (u, v) is the place of a
-/// dot on the pattern, relative to `at` of the plane, in units of `scale`. (x, y) is the residual
-/// of the dot, in spacings.
+/// dot on the pattern, relative to `at` of the plane, in units of the `scale` of `sum_fit`. (x, y)
+/// is the residual of the dot, in spacings.
 struct FitSums {
-    int points = 0;       ///< number of inliers
-    int outliers = 0;     ///< number of outliers
-    float farthest = 0;   ///< largest squared residual of an inlier
-    float projected = 0;  ///< sum of the offsets along the direction of the displacement
-    float squares = 0;    ///< sum of the squared residuals
+    int points = 0;      ///< number of inliers
+    int outliers = 0;    ///< number of measured dots that are not inliers
+    float farthest = 0;  ///< largest squared residual of an inlier
+    /// Sum of the offsets from the intersections, each projected onto the direction of the
+    /// displacement in the code.
+    float projected = 0;
+    float squares = 0;  ///< sum of the squared residuals
     /// Sums of 1, u, v, uu, uv, vv, uuu, uuv, uvv, vvv, quu, quv, qvv, qqu, qqv and qqq, with q =
     /// uu + vv.
     std::array<float, 16> places{};
@@ -138,8 +142,8 @@ struct DotOffsets {
     /// Sum of the inner products of place and offset. `across` is the sum of their cross products.
     float along = 0;
     float across = 0;
-    /// Sums of u and v offsets times the x component of the direction of the displacement. `of_y`
-    /// contains the sums for the y component.
+    /// Sums of the offsets along u and along v, each times the x component of the displacement
+    /// direction of its dot. `of_y` contains the sums for the y component.
     std::array<float, 2> of_x{};
     std::array<float, 2> of_y{};
 };
@@ -154,7 +158,7 @@ struct BlockSums {
     };
     std::array<Block, kMaxAlong * kMaxAlong> all;
     float dots = 0;      ///< number of inliers
-    float outliers = 0;  ///< number of outliers
+    float outliers = 0;  ///< number of measured dots that are not inliers
     float squares = 0;   ///< sum of the squared residuals of the inliers, in spacings^2
 };
 
@@ -172,7 +176,8 @@ struct BitsRead {
     float squares = 0;
 };
 
-/// Minimum loss, in bits, of an alternative that does not share the line.
+/// A line, and the minimum loss, in bits, of an alternative that does not share this line with the
+/// reading.
 struct LineLoss {
     std::uint8_t line = 0;
     std::uint8_t loss = 0;
@@ -194,10 +199,9 @@ struct SimilarPlaceList {
 /// Set of places in a sequence, one bit per place. Bit 0 of the first word is the first place.
 using PlaceBits = std::array<std::uint32_t, 8>;
 
-/// Lower bound on the loss of an alternative in each step in which its digit differs from the digit
-/// of the reading. A step is the pair of a line and the next line. If the digits of a step differ,
-/// the alternative does not share at least one of the two lines. The unit is 1/kLimitParts of the
-/// loss limit.
+/// For each step, which is a pair of adjacent lines, a lower bound on the loss of an alternative
+/// whose digit in this step differs from the digit of the reading. Such an alternative does not
+/// share at least one of the two lines. The unit is 1/kLimitParts of the loss limit.
 struct StepLosses {
     static constexpr int kLimitParts = 8;
     int count = 0;
@@ -205,14 +209,15 @@ struct StepLosses {
 };
 
 /// Groups of alternatives. The alternatives of a group differ from the reading in the same set of
-/// sequences. Contains, for each group, the number of alternatives, and the probability that all
-/// digits of an alternative in one step equal the digits of the reading.
+/// sequences. For each group, contains the probability that, in one step, all digits of an
+/// alternative equal the digits of the reading (`equal`), and the number of alternatives
+/// (`number`).
 struct FarAlternatives {
     std::array<float, 8> equal{1, 1, 1, 1, 1, 1, 1, 1};
     std::array<float, 8> number{};
 };
 
-/// Sums of the n smallest losses, indexed by n, from 0 to 8.
+/// Sums of the n smallest losses, indexed by n = 0 to 8.
 using SmallestSums = std::array<std::int32_t, 9>;
 
 /// Bits of 64 lines of 64 cells, one word per line. In `valid`, the bit of a cell is 1 if the cell
@@ -228,21 +233,22 @@ struct Kernels {
     /// Copies the part of the image that the patch covers, reduced by the scale of the patch, and
     /// adds a white margin.
     void (*fill_patch)(const ImageView& image, Patch& patch);
-    /// Smooths the patch with a 1-2-1 filter along both axes, and finds the brightest and the
-    /// darkest smoothed pixel of each tile. The outermost pixels of the patch do not count as
-    /// brightest, because the margin brightens them.
+    /// Smooths the patch with a 1-2-1 filter along both axes, and determines the brightest and the
+    /// darkest smoothed pixel of each tile. Excludes the outermost pixels of the patch from the
+    /// brightest pixels, because the white margin brightens them.
     void (*smooth_patch)(Patch& patch);
-    /// Lists the dots, which are minima of the smoothed patch that are not brighter than the
-    /// threshold of their tile. The place of a dot is the vertex of the parabolas through the
-    /// minimum and its neighbouring pixels, in px of the image relative to the middle of the patch.
-    /// Ignores minima in the two outermost rows and columns of the patch.
+    /// Lists the dots: the minima of the smoothed patch that are not brighter than the threshold of
+    /// their tile. The place of a dot is the vertex of the parabolas through the minimum and its
+    /// neighbouring pixels, in px of the image relative to the middle of the patch. Ignores minima
+    /// in the two outermost rows or columns on each side of the patch.
     void (*find_minima)(Patch& patch);
-    /// Evaluates a pair of perpendicular waves with a frequency of `per_px` cycles per px in 12
-    /// directions (steps of 7.5 degrees). Returns the pair with the highest power.
+    /// Evaluates a pair of perpendicular waves with a frequency of `per_px` cycles per px in each
+    /// of 12 directions (steps of 7.5 degrees). Returns the pair with the highest power.
     Waves (*strongest_waves)(const float* x, const float* y, int count, float per_px);
-    /// Evaluates single waves in all directions, with frequencies from 0.6 to 1.63 times `per_px`.
-    /// Returns the strongest wave, paired with the strongest wave that forms cells of about the
-    /// area 1 / per_px^2 with the first wave. If there is no such pair, the power is 0.
+    /// Evaluates single waves in 40 directions (steps of 4.5 degrees), with frequencies from 0.6 to
+    /// 1.63 times `per_px`. Returns the strongest wave, paired with the strongest wave that forms
+    /// cells of about the area 1 / per_px^2 with the first wave. If there is no such pair, the
+    /// power is 0.
     Waves (*strongest_skewed_waves)(const float* x, const float* y, int count, float per_px);
     /// Assigns the dots to cells. Returns the sums over the dots that are near a place of their
     /// cell.
@@ -259,15 +265,16 @@ struct Kernels {
     /// position.
     void (*sum_rolls)(const RollScores& scores, const std::uint8_t* rolls, int positions,
                       RollSums* sums);
-    /// Lists the cells in view, with the centres of their windows and the symbols of the code. Sets
-    /// `x` and `y` to the expected image points of the dots, including lens distortion. Stops when
-    /// `dots` is full.
+    /// Lists the cells in view, with the centres of their windows and their symbols in the code.
+    /// Sets `x` and `y` to the expected image points of the dots, including lens distortion. Stops
+    /// when `dots` is full.
     void (*list_cells)(const CellsInView& view, MeasuredDots& dots);
-    /// Finds the common shift of the dots at which the sum of their images is darkest, from the
-    /// first 16 dots whose surroundings are completely in the image. Tests the shifts along each
-    /// axis up to `max_px`, in steps of `step_px`, but at most 6 steps in each direction. Sets
+    /// Adds the images around the first 16 dots whose surroundings are completely in the image, and
+    /// finds the shift from the window centre to the darkest point of the sum. Tests shifts along
+    /// each axis up to `max_px`, in steps of `step_px`, but at most 6 steps in each direction. Sets
     /// `cut_q8` to the contrast at this shift relative to the paper level, in 1/256. Returns false
-    /// if there are fewer than 8 such dots, or if their surroundings are black.
+    /// if there are fewer than 8 dots with complete surroundings, or if these surroundings are
+    /// black.
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int max_px, int step_px,
                        FixedVec& shift_px, int& cut_q8);
     /// Sets `x` and `y` to the centroids of the dark pixels in the windows of the dots. Drops dots
@@ -275,10 +282,10 @@ struct Kernels {
     /// the mass of a typical dot relative to the paper level.
     float (*measure_windows)(const ImageView& image, const CellsInView& view,
                              const WindowOptions& options, MeasuredDots& dots);
-    /// Replaces the centres with weighted centroids in centroid windows. These centroids need no
-    /// threshold, which would bias the centres. `radius_px` is at most kMaxCentroidRadius_px.
-    /// Windows at the border of the image are smaller. Ignores corrections of 1 px or more. Does
-    /// nothing if the windows do not fit in the image.
+    /// Replaces the centres with weighted centroids, computed in centroid windows. Applies no
+    /// threshold, because a threshold would bias the centres. `radius_px` is at most
+    /// kMaxCentroidRadius_px. Windows at the border of the image are smaller. Ignores corrections
+    /// of 1 px or more. Does nothing if the windows do not fit in the image.
     void (*refine_centres)(const ImageView& image, const CellsInView& view, float radius_px,
                            MeasuredDots& dots);
     /// Reads the bits of cells whose dots are predicted to within a fraction of their displacement.
@@ -308,8 +315,8 @@ struct Kernels {
     /// from the centre of the plane along both axes. Dots outside belong to the nearest block.
     void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float limit, float reach_px, int side, BlockSums& sums);
-    /// Returns the places of a sequence, other than the place `own` of the reading, at which an
-    /// alternative may lose less than the loss limit, according to `steps`.
+    /// Returns the places of a sequence where the lower bound on the loss, computed from `steps`,
+    /// is below the loss limit. Excludes the place `own` of the reading.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);
     /// Returns the expected odds of the far alternatives. `best` contains, for each line, the odds
@@ -317,8 +324,8 @@ struct Kernels {
     /// `max_shared` adjacent lines with the reading.
     float (*sum_far_alternatives)(std::span<const float> best, int max_shared,
                                   const FarAlternatives& sets);
-    /// Lists the places, other than those of the reading (`own`), at which an alternative may lose
-    /// less than `loss_limit` over the given lines. Searches the sequences whose bit is set in
+    /// Lists the places where an alternative may lose less than `loss_limit` over the given lines.
+    /// Excludes the places of the reading (`own`). Searches the sequences whose bit is set in
     /// `sequences`. The lines must be sorted by decreasing loss. Returns false if there are too
     /// many places, if there are fewer than two lines, if the limit exceeds 200, or if an
     /// alternative that shares none of the first four lines may lose less than the limit.

@@ -33,13 +33,13 @@ inline constexpr std::size_t kRollEntries = 64;
 
 /// Scores of up to kMaxLines adjacent lines at each roll. The score is the number of cells that
 /// agree with the main sequence. The scores of a line are stored twice in succession, so
-/// kRollEntries scores can be read from any roll.
+/// kRollEntries scores can be loaded starting at any roll.
 struct RollScores {
     int count = 0;  ///< number of lines
     std::array<std::array<std::uint16_t, 2 * kRollEntries>, kMaxLines> lines;
 };
 
-/// Sums of the scores of all lines, indexed by the roll that is added to the rolls of all lines.
+/// Sums of the scores of all lines, indexed by the common offset that is added to their rolls.
 using RollSums = std::array<std::uint16_t, kRollEntries>;
 
 }  // namespace dotpose::core

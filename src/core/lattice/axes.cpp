@@ -119,8 +119,8 @@ class Clusters {
         const FixedVec e{edge_q8.x >> 2, edge_q8.y >> 2};
         const std::int32_t along_0 = e.x * means_q6_[0].x + e.y * means_q6_[0].y;
         const std::int32_t along_1 = e.x * means_q6_[1].x + e.y * means_q6_[1].y;
-        // Compares the clusters by the smaller of |edge - mean|^2 / 2 and |edge + mean|^2 / 2,
-        // without the term |edge|^2 / 2, which all distances have in common.
+        // Compares, for both means, min(|edge - mean|^2, |edge + mean|^2) / 2 without the common
+        // term |edge|^2 / 2: |mean|^2 / 2 - |edge . mean|.
         if (magnitude(along_1) - magnitude(along_0) > farther_)
             return along_1 < 0 ? Side::opposite_second : Side::second;
         return along_0 < 0 ? Side::opposite_first : Side::first;
@@ -206,8 +206,7 @@ bool is_nearly_square(FixedVec u, FixedVec v) {
     const std::int32_t uu = u.x * u.x + u.y * u.y;
     const std::int32_t vv = v.x * v.x + v.y * v.y;
     const std::int32_t area = u.x * v.y - u.y * v.x;
-    // The sine of the angle is at least 0.9 if its square, squared_area / (uu * vv), is at least 81
-    // / 100.
+    // sin^2 = squared_area / (uu * vv) must be at least 0.9^2 = 81 / 100.
     const std::int64_t squared_area = std::int64_t{area} * area;
     return area > 0 && std::int64_t{4} * uu <= std::int64_t{9} * vv &&
            std::int64_t{4} * vv <= std::int64_t{9} * uu &&

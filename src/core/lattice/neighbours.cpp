@@ -24,7 +24,7 @@ class Buckets {
     int row(FixedVec at_q8) const { return at_q8.y >> shift_; }
     std::span<const BucketedSeed> all() const { return memory_.first(count_); }
     /// Returns the first seed in the bucket at this row and column. If the bucket is empty, returns
-    /// the first seed of the buckets after it.
+    /// the first seed after it in the array of seeds.
     const BucketedSeed* in_row(int row, int column) const {
         return &memory_[memory_[static_cast<std::size_t>(row * columns_ + column)].begin];
     }

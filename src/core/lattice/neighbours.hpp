@@ -25,7 +25,7 @@ struct BucketedSeed {
 };
 
 /// Chooses at most `seeds.size()` dots in a square around `centre_q8`. Uses the largest square that
-/// does not contain more dots. The size of the square is limited to multiples of the width of a
+/// does not contain more dots. The half side of the square is a multiple of the width of a
 /// histogram bin. Writes the indices of the dots to `seeds` and returns their number.
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds);

@@ -38,7 +38,7 @@ void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
 
 /// Agreement of the dots within reach with the grid.
 struct Judged : Regularity {
-    std::int64_t squared_offsets_q20 = 0;  ///< sum over the dots, in spacings^2
+    std::int64_t squared_offsets_q20 = 0;  ///< sum of the squared offsets of the dots
 };
 
 Judged judge(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,

@@ -39,8 +39,8 @@ PlaneFromImage plane_from_lattice(const Lattice& lattice, FixedVec centre_q8);
 /// the camera is not tilted.
 FixedVec plane_point_q16(const PlaneFromImage& plane, FixedVec image_point_q8);
 
-/// Returns the nearest intersection of an image point and the offset from this intersection, by eq.
-/// 3-5.
+/// Returns the intersection nearest to an image point, and the offset of the point from this
+/// intersection, by eq. 3-5.
 GridPoint grid_point(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the image point of a plane point, in units of 2^-8 px: the inverse of `plane_point_q16`.

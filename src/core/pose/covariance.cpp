@@ -6,8 +6,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the derivatives, with respect to the parameters, of the direction from the place `from`
-/// to the place `to`, in rad. `scale` is the unit of the places, in spacings.
+/// Returns the gradient, with respect to the parameters, of the angle (in rad) of the vector from
+/// the place `from` to the place `to`. `scale` is the unit of the places, in spacings.
 Parameters direction_gradient(const FourVecs& places, float scale, std::size_t from,
                               std::size_t to) {
     const float x = (places.x[to] - places.x[from]) * scale;
@@ -53,8 +53,8 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
     fix.dots_seen = std::max(fix.dots_seen, fix.dots_used);
     fix.residual_px = std::sqrt(fit.variance) * static_cast<float>(fix.spacing_px_q16) / 65536.0F;
     const ScaledPlane plane(float_plane(pattern_from_image), static_cast<float>(fit.reach_px));
-    // Theta is the direction of the x axis of the image in the pattern, computed between two points
-    // that are 16 px apart.
+    // Theta is the direction, in the pattern, of the x axis of the image. Its gradient is computed
+    // from two points on this axis, 16 px apart.
     constexpr float kStep_px = 8;
     const FixedVec from_centre_q8 = reference_q8 - pattern_from_image.centre_q8;
     const float x = static_cast<float>(from_centre_q8.x) / 256;

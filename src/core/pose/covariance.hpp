@@ -1,4 +1,4 @@
-// Covariance: computes the covariance of the pose from the residuals of its fit.
+// Covariance: computes the covariance of the pose from the covariance of the fitted plane.
 #pragma once
 
 #include "core/pose/refine_pose.hpp"
@@ -6,8 +6,8 @@
 
 namespace dotpose::core {
 
-/// Sets `covariance`, `residual_px`, `dots_seen`, `dots_used` and `surface` of the fix for the pose
-/// at the reference point.
+/// Sets `covariance` of the fix to the covariance of the pose at the reference point. Also sets
+/// `residual_px`, `dots_seen`, `dots_used` and `surface`. The fix must already contain the spacing.
 void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_image,
                          FixedVec reference_q8, Fix& fix);
 

@@ -9,10 +9,10 @@ namespace {
 
 constexpr auto kSide = DotPixels::kSide;
 
-/// Chords of one half of the ellipse, parallel to u, from the outermost chord to the innermost.
-/// Each chord is given by the cosine of the parametric angle of its end, measured from the v axis.
-/// The other half of the ellipse is symmetric. Neighbouring chords are less than a pixel apart.
-/// kChordsOfSmall is for small ellipses.
+/// cos(a) for the chords of one half of the ellipse, from the outermost chord to the innermost. The
+/// chord with the parametric angle a is at v = radius.y cos(a). Its ends are at u = radius.x sin(a)
+/// and at u = -radius.x sin(a). The other half of the ellipse is symmetric. Neighbouring chords are
+/// less than a pixel apart. kChordsOfSmall is for small ellipses.
 constexpr float kChordsOfSmall[] = {0.99144486F, 0.92387953F, 0.79335334F,
                                     0.60876143F, 0.38268343F, 0.13052619F};
 constexpr float kChords[] = {0.99691733F, 0.97236992F, 0.92387953F, 0.85264016F, 0.76040597F,
@@ -20,7 +20,7 @@ constexpr float kChords[] = {0.99691733F, 0.97236992F, 0.92387953F, 0.85264016F,
 // An ellipse is small if its squared half axes are both below this value.
 constexpr float kSmall_px2 = 4;
 
-/// Returns exp(-x) for x >= 0. Unlike library functions, gives bit-identical results on every
+/// Returns exp(-x) for x >= 0. Unlike the result of std::exp, the result is bit-identical on every
 /// platform.
 float exp_of_minus(float x) {
     constexpr float kLog2 = 0.693147181F;
@@ -33,11 +33,11 @@ float exp_of_minus(float x) {
     return std::ldexp(power, -static_cast<int>(halvings));
 }
 
-/// The normal distribution at x.
+/// A normal distribution with mean 0, evaluated at x.
 struct Normal {
     float density;
     float cumulative;
-    float integral;  ///< integral of the cumulative distribution, up to x
+    float integral;  ///< integral of the cumulative distribution from -infinity to x
 
     Normal(float x, float sigma) {
         // Abramowitz and Stegun, Handbook of Mathematical Functions, 26.2.17: error below 1e-7.
@@ -101,7 +101,7 @@ DotImages draw(const ModelDot& dot, int half_px) {
         const PixelLine right(dot.centre.x + radius.x * sine, dot.blur_2.x, half_px);
         const PixelLine above(dot.centre.y - radius.y * cosine, dot.blur_2.y, half_px);
         const PixelLine below(dot.centre.y + radius.y * cosine, dot.blur_2.y, half_px);
-        // Fraction of the area of the dot that the chord covers, per px of its length.
+        // Fraction of the area of the dot that one chord represents, per px of its length.
         const float fraction = sine / (2 * static_cast<float>(cosines.size()) * radius.x);
         for (std::size_t v = begin; v < end; ++v) {
             const float down = fraction * (below.point[v] + above.point[v]);
@@ -122,8 +122,9 @@ DotImages draw(const ModelDot& dot, int half_px) {
     }
     for (std::size_t v = begin; v < end; ++v) {
         for (std::size_t u = begin; u < end; ++u) {
-            // The total darkness is always 1, so each pixel becomes paler as the ellipse becomes
-            // wider.
+            // `fraction` is proportional to 1 / radius.x, which adds -dot / radius.x to the
+            // derivative with respect to radius.x. The divisors 2 * radius convert derivatives with
+            // respect to a half axis to derivatives with respect to its square.
             float& by = by_radius_u.all[v][u];
             by = (by - images.dot.all[v][u] / radius.x) / (2 * radius.x);
             by_radius_v.all[v][u] /= 2 * radius.y;

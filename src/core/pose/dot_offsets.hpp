@@ -5,14 +5,14 @@
 
 namespace dotpose::core {
 
-/// A measured dot in the pattern, in spacings.
+/// Place and residual of a measured dot in the pattern, in spacings.
 struct DotOffset {
     FloatVec at;        ///< measured place
     FloatVec residual;  ///< vector from the measured place to the printed place
     float squared() const { return residual.x * residual.x + residual.y * residual.y; }
 };
 
-/// Maps a measured dot to the pattern with a plane. Returns the place of the dot and its residual.
+/// Returns the place and the residual of a measured dot, which `plane` maps to the pattern.
 /// `displacement` is the distance of the printed dots from their intersections, in spacings.
 inline DotOffset dot_offset(const MeasuredDots& dots, std::size_t k, const FloatPlane& plane,
                             float displacement) {

@@ -61,8 +61,8 @@ DotShape::Normal DotShape::equations(const StackedDots& stacks, const Terms& ter
     by_width[radius_v] = -by_width[radius_u];
     normal.add(by_width, (terms[radius_v] - terms[radius_u]) / first[radius_u],
                1 / (tuned::kSigmaOfWidth * tuned::kSigmaOfWidth));
-    // Prior: the contrast of the ink has a typical value. The images of small dots determine the
-    // product of size and contrast, but hardly the size alone.
+    // Prior: the contrast of the ink has a typical value. The image of a small dot determines the
+    // product of area and contrast, but not each factor separately.
     const float area = kPi * std::sqrt(terms[radius_u] * terms[radius_v]);
     const float contrast = terms[mass] / area;
     Terms by_contrast{};
@@ -78,8 +78,8 @@ DotShape::Terms DotShape::changed(const Terms& terms, const Terms& step) {
     Terms result = terms;
     for (std::size_t i = 0; i < Term::count; ++i)
         result[i] += step[i];
-    // Half axes and blur must remain positive, so a step reduces each of these terms at most to a
-    // quarter of its value, and not below kMin_px2.
+    // The half axes and the blur must remain positive. A step therefore reduces each of these terms
+    // to no less than a quarter of its value, and to no less than kMin_px2.
     for (const std::size_t i : {radius_u, radius_v, blur_u, blur_v})
         result[i] = std::max({result[i], terms[i] / 4, tuned::kMin_px2});
     return result;

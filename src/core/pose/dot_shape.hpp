@@ -29,7 +29,8 @@ class DotShape {
     /// not determine the model.
     bool fit(const StackedDots& stacks);
 
-    /// Returns the images of the fitted model dot at `centre`, in px relative to the central pixel.
+    /// Returns the images of the fitted model dot. `centre` is in px, relative to the central
+    /// pixel.
     DotImages drawn_at(FloatVec centre) const {
         return draw(dot(terms_, centre), DotPixels::kHalf_px);
     }
@@ -40,8 +41,9 @@ class DotShape {
     /// Returns the variance of a quantity, given its derivatives with respect to the terms. The
     /// variance is scaled by the misfit of the model.
     float variance(const Terms& derivatives) const;
-    /// Returns the mean squared residual of the images, divided by the noise variance, but at least
-    /// 1. A model that explains the images up to noise has a misfit of 1.
+    /// Returns the reduced chi-squared of the images: the sum of the squared residuals, in units of
+    /// the noise variance, divided by the degrees of freedom. The result is at least 1. If only
+    /// noise remains, the result is about 1.
     float misfit() const { return misfit_; }
 
   private:

@@ -11,8 +11,8 @@ namespace {
 namespace tuned = tuning::fit;
 
 /// Returns the squared step length, in units of the standard deviation of the pose, below which the
-/// fit has converged. The limit is larger for a nearly linear plane, because one step then ends
-/// closer to the solution.
+/// fit has converged. The limit is larger for a plane with little perspective and lens distortion.
+/// The fit of such a plane is nearly linear, so one step ends close to the solution.
 float settled(const FloatPlane& p, float reach) {
     const float nonlinear =
         (std::abs(p.tilt_x) + std::abs(p.tilt_y)) * reach + std::abs(p.bend) * reach * reach;
@@ -20,7 +20,8 @@ float settled(const FloatPlane& p, float reach) {
                       tuned::kMinSettled, tuned::kMaxSettled);
 }
 
-/// Returns true if the limits `limit` and `next_limit` select the same inliers, or nearly the same.
+/// Returns true if `limit` and `next_limit` select the same inliers, or differ by less than the
+/// fraction kSameLimit.
 bool keeps_dots(const FitSums& sums, float limit, float next_limit) {
     return (sums.outliers == 0 && sums.farthest <= next_limit) ||
            std::abs(next_limit - limit) < tuned::kSameLimit * limit;

@@ -32,13 +32,13 @@ struct Box {
     bool operator==(const Box&) const = default;
 };
 
-/// Window in which a dot is measured.
+/// Size of the window in which a dot is measured, and width of the fitted dot.
 struct Window {
     int half_px = 0;
     std::int32_t sigma_q8 = 0;
 
-    /// Sets the size of the window for dots whose standard deviation, including blur, is about a
-    /// tenth of the spacing.
+    /// Computes both sizes from the spacing. `sigma_q8` is about a tenth of the spacing, which is
+    /// the standard deviation of a blurred dot.
     explicit Window(std::int32_t spacing_q8)
         : half_px(std::min<std::int32_t>(
               std::max<std::int32_t>(spacing_q8 * tuned::kHalf_32nds / 32 + 255,
@@ -90,7 +90,7 @@ class Patch {
     std::array<std::array<float, kMaxInFours>, kMaxSide_px> levels_;
 };
 
-/// Paper level around a dot, in grey levels. The paper level is a plane through the border of the
+/// Linear model of the paper level around a dot, in grey levels, computed from the border of the
 /// window.
 struct BorderBackground {
     float middle = 0;

@@ -1,6 +1,6 @@
-// Measure: measures the exact centres of all dots in the image, at their places in the code. The
-// second attempt needs these measurements, because its filter blurs the dots and its threshold
-// misses some of the dots. Differs: docs/differs-from-paper.md.
+// Measure: measures the precise centres of all dots in the image, near the places that the code
+// predicts. The second attempt needs these measurements, because its filter blurs the dots and its
+// threshold misses some of the dots. Differs: docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/grid.hpp"

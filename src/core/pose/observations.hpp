@@ -22,8 +22,8 @@ inline FixedVec nominal_place_q16(const Observation& o, std::int32_t displacemen
 /// The dots of the cells of a grid, with their symbols in the code.
 class Observations {
   public:
-    /// `paper` is the paper level of the image in which all dots were measured. `paper` is null if
-    /// the dots were not measured.
+    /// `paper` contains the paper levels of the image, from which `noise` is computed. If `paper`
+    /// is null, the noise is not known, and `noise` must not be called.
     Observations(std::span<const DetectedDot> dots, const Grid& grid, const Nominal& nominal,
                  const PaperMap* paper = nullptr)
         : dots_(dots), grid_(grid), nominal_(nominal), paper_(paper) {}

@@ -16,13 +16,13 @@ namespace tuned = tuning::paper_step;
 
 constexpr float kOnPlane = tuned::kOnPlane;
 constexpr std::size_t kMaxDots = 1024;
-constexpr std::size_t kLines = 48;  ///< maximum number of lines in each direction
+constexpr std::size_t kLines = 48;  ///< maximum number of lines that are tried per direction
 constexpr float kLinesPerSpacing = 2;
 constexpr int kDirections = 8;
 constexpr float kBehind = tuned::kBehind;
 
-/// Sums over the dots of one part of the sheet. Coherent dots are dots whose residuals a common
-/// displacement may explain.
+/// Sums over the dots of one part of the sheet. A dot is coherent if its residual is small enough
+/// to be due to a displacement of the whole part.
 struct PartSums {
     /// Number of dots; sum of the log odds of these dots for the single plane; number of coherent
     /// dots; sum of the squared residuals of the coherent dots.
@@ -98,8 +98,9 @@ struct Symmetric3 {
 class AffineFit {
   public:
     AffineFit() = default;
-    /// `x_off` and `y_off` are the sums of the residuals along x and y, each multiplied by 1, x and
-    /// y.
+    /// `x_off` contains the sums of r, x r and y r over all coherent dots, where r is the residual
+    /// along x and (x, y) is the place of a dot. `y_off` contains the same sums for the residual
+    /// along y.
     AffineFit(const PartSums& all, const Triple& x_off, const Triple& y_off)
         : inverse_(Symmetric3{all.dots(), all.places[0], all.places[1], all.moments[0],
                               all.moments[1], all.moments[2]}
@@ -111,8 +112,8 @@ class AffineFit {
     /// Returns the sum of the squared residuals of all coherent dots after subtraction of the
     /// affine map.
     float squares() const { return squares_; }
-    /// Returns the reduction of the sum of squared residuals that a displacement of the part beyond
-    /// a line achieves.
+    /// Returns the amount by which a displacement of the part beyond a line reduces the sum of
+    /// squared residuals.
     float explained_by_displacement(const PartSums& beyond) const {
         const Triple step{beyond.dots(), beyond.places[0], beyond.places[1]};
         const float spread = step[0] - inner_product(step, inverse_ * step);
@@ -121,8 +122,8 @@ class AffineFit {
         const float y = beyond.places[3] - inner_product(step, y_);
         return (x * x + y * y) / spread;
     }
-    /// Returns the reduction of the sum of squared residuals that a displacement and rotation of
-    /// the part beyond a line achieve.
+    /// Returns the amount by which a displacement and rotation of the part beyond a line reduce the
+    /// sum of squared residuals.
     float explained_by_step(const PartSums& beyond) const {
         const float xx = beyond.moments[0];
         const float xy = beyond.moments[1];
@@ -213,8 +214,8 @@ class Search {
             if (max_gain_of(part, here) > best.gain) consider(line, gain_of(part, here));
         }
         if (likeliest == 0) return;
-        // A rotation of the part is tested only near the line where a pure displacement explains
-        // the most.
+        // Tests a rotation of the part only near the line at which a pure displacement reduces the
+        // sum of squared residuals the most.
         constexpr std::size_t kNear = 2;
         const std::size_t last = std::min(likeliest + kNear, lines_ - 1);
         for (std::size_t line = std::max(likeliest, kNear + 1) - kNear; line <= last; ++line) {
@@ -263,7 +264,8 @@ class Search {
     }
 
     /// Returns the gain of a step at the line relative to the best affine map, as a log likelihood
-    /// ratio, or 0 if the gain is certainly at most `min_gain`.
+    /// ratio: n ln(s / r) for n coherent dots, where s and r are the sums of squared residuals
+    /// without and with the step. Returns 0 if the upper bound n (s - r) / r is at most `min_gain`.
     float gain_of_step(const PartSums& beyond, float min_gain) const {
         const float explained = affine_.explained_by_step(beyond);
         const float remaining = affine_.squares() - explained;

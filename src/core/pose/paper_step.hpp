@@ -10,10 +10,9 @@ namespace dotpose::core {
 
 /// A line in the pattern that divides the sheet.
 struct PaperStep {
-    /// Chance can explain gains below kPossible: the gain exceeds kPossible on 1 in 100 flat
-    /// sheets. Chance cannot explain gains above kCertain. Both limits are high because many lines
-    /// are tried, each with three parameters for the part beyond the line, and because steps are
-    /// rare.
+    /// Limits of `gain`. On 1 in 100 flat sheets, the gain exceeds kPossible by chance. A gain
+    /// above kCertain is not due to chance. Both limits are high because many lines are tried, each
+    /// with three parameters for the part beyond the line, and because steps are rare.
     static constexpr float kPossible = 12;
     static constexpr float kCertain = 23;
 
@@ -25,7 +24,7 @@ struct PaperStep {
 };
 
 /// Returns the line with the largest gain among the lines that are tried. If no line has a positive
-/// gain, the gain of the result is 0. `fit` contains the scatter of the dots about the plane.
+/// gain, the gain of the result is 0. `fit` is the result of the fit of `plane`.
 PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, const PoseFit& fit,
                           FloatVec reference_px);
 

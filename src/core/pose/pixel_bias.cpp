@@ -28,8 +28,9 @@ float place_of_window(std::int32_t window, std::int32_t sum, std::int32_t mass) 
     return static_cast<float>(window) + std::floor(quarters + 0.5F) / 4;
 }
 
-/// Weight function of a centroid window along one axis, with its first moment and the derivative of
-/// this moment, at each pixel. See kernels/loops/centroid_windows.inc.
+/// Weights of a centroid window at the pixels along one axis: w(t) = (1 - t^2)^4, the moment
+/// weights m(t) = t w(t), and their derivatives m'(t). t is the signed distance from the centre of
+/// the window, in radii. See kernels/loops/centroid_windows.inc.
 struct WindowWeights {
     std::array<float, DotPixels::kSide> weight;
     std::array<float, DotPixels::kSide> moment;
@@ -138,9 +139,10 @@ class AxisBias {
 };
 
 /// Returns the error, in px, of the centroid of a dot at the offset `d` from the centre of its
-/// window. The kernels take one Newton step, which treats the moment as linear. The actual moment
-/// is proportional to (d - bend d^3). The kernels divide the moment by its slope along u at the
-/// centre of the window. `slopes` is the slope along v divided by the slope along u.
+/// window. The kernels compute the offset by one Newton step, as if the moment were linear in d.
+/// The moment is proportional to d - bend d^3. The kernels divide the moments along both axes by
+/// the slope along u at the centre of the window. `slopes` is the slope along v divided by the
+/// slope along u.
 FloatVec error_off_centre(float bend, float slopes, FloatVec d) {
     return {2 * bend * d.x * d.x * d.x,
             d.y * (slopes * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1)};

@@ -23,9 +23,9 @@ struct CentroidWindow {
 /// dots whose window is not completely in the image.
 void recentre_windows(const ImageView& image, const CentroidWindow& window, MeasuredDots& dots);
 
-/// Subtracts the bias from the centres of all inliers of the plane. Returns the variance that the
-/// bias still adds to the mean of all centres, along u and v, in px^2. If the bias is negligible or
-/// cannot be determined, changes no centre and returns 0.
+/// Subtracts the bias from the centres of all inliers of the plane. Returns the variance of the
+/// mean of all centres that is due to the remaining bias, along u and v, in px^2. If the bias is
+/// negligible or cannot be determined, changes no centre and returns 0.
 FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window,
                             const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots);
 

@@ -13,9 +13,10 @@ namespace tuned = tuning::fit;
 
 constexpr float kPower30 = 1073741824.0F;
 
-/// Scatter of the dots as a function of the illumination. Print errors do not depend on the
-/// illumination. Pixel noise, relative to the contrast, increases as the illumination decreases.
-/// Fits a line to the squared residuals as a function of the noise.
+/// Linear model of the squared residual of a dot as a function of its pixel noise
+/// (`Observations::noise`). The constant term is due to print errors, which do not depend on the
+/// illumination. The linear term is due to pixel noise, which increases, relative to the contrast,
+/// as the illumination decreases.
 class Scatter {
   public:
     void add(float noise, float squared_residual) {
@@ -35,7 +36,7 @@ class Scatter {
         by_noise_ = std::clamp(slope / mean_square, 0.0F, tuned::kMaxByNoise / mean_noise);
         always_ = 1 - by_noise_ * mean_noise;
     }
-    /// Returns the variance of the typical dot divided by the variance of a dot with this noise.
+    /// Returns the mean variance of all dots divided by the variance of a dot with this noise.
     Four weight(Four noise) const { return 1.0F / (always_ + by_noise_ * noise); }
 
   private:
@@ -48,7 +49,7 @@ class Scatter {
     float by_noise_ = 0;
 };
 
-/// One Gauss-Newton round: computes the equations at the current pose, and the step from this pose.
+/// One Gauss-Newton iteration: computes the normal equations at the current pose and solves them.
 class Round {
   public:
     Round(const ObservationBatches& batches, const PlaneFromImage& pose)

@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::paper_step;
 
-/// Finds the residual that is common to the largest number of dots near a point, in spacings.
-/// Returns false if fewer than kMinAgreeing dots have a common residual.
+/// Sets `common` to the residual, in spacings, on which the largest number of dots near a point
+/// agree. Returns false if fewer than kMinAgreeing dots agree.
 bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                         FloatVec near, FloatVec& common) {
     constexpr std::size_t kMaxDots = 256;

@@ -19,7 +19,7 @@ struct Phase {
 /// contains their centre.
 class StackedDots {
   public:
-    /// The dots of one stack.
+    /// Sums over the dots of one stack.
     struct Stack {
         float dots = 0;
         FloatVec rest;  ///< sum of `Phase::rest`
@@ -53,12 +53,13 @@ class StackedDots {
     }
     /// Returns the distance from the central pixel to the outermost pixels, along each axis, in px.
     int half_px() const { return half_px_; }
-    /// Returns true if there are enough dots to separate signal from noise.
+    /// Returns true if the number of dots exceeds the number of stacks by enough to estimate the
+    /// noise from the differences between the dots of a stack.
     bool are_enough() const;
     /// Returns the sum of the darkness of all pixels of a dot, averaged over all dots.
     float mass() const;
-    /// Returns the variance of the darkness of a pixel among the dots of a stack, plus a minimum
-    /// that accounts for the quantization of grey levels.
+    /// Returns the variance of the darkness of a pixel between the dots of a stack, plus a constant
+    /// for the quantization of grey levels.
     float noise_2() const;
 
   private:

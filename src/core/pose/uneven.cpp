@@ -105,8 +105,9 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
     FloatPlane beyond;
     if (fit_far_side(kernels, dots, reference_px, split, beyond))
         return add_difference(split.plane, beyond, reference_px, 1, fit);
-    // If the plane beyond the line is not known, the part beyond the line may be displaced by up to
-    // half a cell, and rotated by a few degrees.
+    // The plane beyond the line is not known. Its displacement is assumed to be uniformly
+    // distributed between -1/2 and 1/2 cell, which gives a variance of 1/12. Its rotation is
+    // assumed to have a standard deviation of 0.02 rad.
     add(1.0F / 12, 0, fit);
     add(1.0F / 12, 1, fit);
     add(0.02F * 0.02F, 2, fit);

@@ -1,4 +1,4 @@
-/// The function by which the module _tools gives _dotpose the pose of a mounted camera.
+/// Type of the function that the module _tools provides to _dotpose for mounted cameras.
 #pragma once
 
 #include "binding.hpp"

@@ -125,8 +125,8 @@ py::list bits(const SeenFix& self) {
     return all.list();
 }
 
-/// Returns a field of the evidence as a Python object. If `is_known` is false, integers are 0 and
-/// floating-point numbers are NaN.
+/// Returns a field of the evidence as a Python object. An enumeration becomes its name. If
+/// `is_known` is false, integers become 0 and floating-point numbers become NaN.
 template <typename Value>
 py::object evidence(bool is_known, Value value) {
     if constexpr (std::is_enum_v<Value>)

@@ -15,7 +15,7 @@
 namespace dotpose::python {
 namespace {
 
-/// Result for an image: the Python class Located or Followed.
+/// Result for an image: the Python class Located. `track` is empty if the image was located alone.
 struct SeenLocated {
     SeenFix fix;
     std::optional<SeenPlace> place;

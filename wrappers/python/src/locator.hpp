@@ -18,14 +18,14 @@ namespace dotpose::python {
 struct LocatorSetup {
     std::optional<CodeVariant> code;  ///< none if the code is detected from all frames
     std::optional<Camera> camera;
-    WithCamera with_camera = nullptr;  ///< not null if the camera is mounted
+    WithCamera with_camera = nullptr;  ///< null if the camera file has neither view nor heading
     std::optional<PixelPoint> reference_px;
     DeviceOptions options;
     bool keep_stages = false;
 };
 
-/// Locates frames in sequence. Threads may share a locator: they wait for each other with the GIL
-/// released.
+/// Locates frames in sequence. Threads may share a locator. They wait for each other without
+/// holding the GIL.
 class LocatorOfPython : public StageSource, public std::enable_shared_from_this<LocatorOfPython> {
   public:
     explicit LocatorOfPython(const LocatorSetup& setup);

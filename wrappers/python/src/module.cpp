@@ -1,5 +1,5 @@
-// The module dotpose._dotpose: what locating and tracking need. The package dotpose re-exports its
-// contents.
+// The module dotpose._dotpose: classes and functions for locating, tracking and simulation. The
+// package dotpose re-exports its contents.
 #include "binding.hpp"
 #include "dotpose/version.hpp"
 

@@ -8,7 +8,7 @@ namespace {
 template <typename T>
 std::vector<T> kept(std::span<const T>& shown) {
     std::vector<T> copy(shown.begin(), shown.end());
-    shown = copy;  // moving the vector leaves its elements in place
+    shown = copy;  // remains valid, because moving a vector does not move its elements
     return copy;
 }
 

@@ -18,7 +18,7 @@ def resident_kb():
 
 
 def use_all_of(fix, tracker, time_us):
-    """Reads everything that a program may read of a frame."""
+    """Reads the results of a frame as a program does, and sometimes draws the picture."""
     fix.covariance, fix.section, fix.cell, fix.other, fix.message, repr(fix)
     track = tracker.update(time_us, fix)
     track.covariance, track.events

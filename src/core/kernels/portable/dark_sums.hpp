@@ -1,4 +1,5 @@
-// Dark sums: mass and moments of the dark pixels of a square, for processors without vectors.
+// Dark sums: mass and moments of the dark pixels of a square, for processors without vector
+// instructions.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +17,8 @@ struct DarkSums {
     std::int32_t y = 0;
 };
 
-/// Half side of the squares whose corners are excluded, which leaves a diamond. At the dot sizes
-/// that can be tracked, no pixel in these corners is more than half as dark as the centre of the
-/// dot.
+/// Half side of the squares for which `dark_sums` adds only a diamond. At the dot sizes that can be
+/// tracked, no pixel in the excluded corners is more than half as dark as the centre of the dot.
 inline constexpr int kHalfOfDiamond = 2;
 
 /// Returns the sums of a square of 2 Half + 1 pixels per side whose upper left pixel is at `row`.
@@ -30,7 +30,7 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
                                            std::int32_t level) {
     std::int32_t mass = 0;
     std::int32_t sum_x = 0;
-    std::int32_t cumulative = 0;  // sum over the rows of the mass up to and including each row
+    std::int32_t cumulative = 0;  // sum of the values of `mass` after each row
     const auto add_row = [&](int reach) {
 #pragma GCC unroll 16
         for (int x = -reach; x <= reach; ++x) {
@@ -54,8 +54,8 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
         for (int y = -Half; y <= Half; ++y)
             add_row(Half);
     }
-    // `cumulative` counts the mass of row y (-Half to Half) Half + 1 - y times. The difference is
-    // therefore the sum over the rows of y times the mass of row y.
+    // Let m(y) be the mass of row y, with y from -Half to Half. Then `cumulative` is the sum of
+    // (Half + 1 - y) m(y), and the difference is the sum of y m(y).
     return {mass, sum_x, (Half + 1) * mass - cumulative};
 }
 
