@@ -76,8 +76,9 @@ struct Varied {
     const FrameSpread& of(Way way) const { return spreads[static_cast<std::size_t>(way)]; }
 };
 
-/// Times nominal frames of 188 x 120 px, and a tenth as many frames with a tag. Throws Error if a
-/// fix is wrong.
+/// Measures the time to locate `frames` nominal frames of 188 x 120 px, and the time of libapriltag
+/// to detect the tags in `frames` / 10 frames. Each frame is measured `passes` times. Throws Error
+/// if a fix is wrong.
 Varied time_varied_frames(int frames, int passes);
 std::string varied_table(const Varied& varied);
 

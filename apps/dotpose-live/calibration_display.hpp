@@ -32,13 +32,14 @@ class CalibrationDisplay {
   public:
     explicit CalibrationDisplay(bool has_window);
     /// Shows the newest frame, the trace of its stages, and the status. Returns false if the user
-    /// closed the window or pressed q or Escape in it.
+    /// closed the window or pressed q or Escape in the window.
     bool show(const CalibrationStatus& status, ImageView image, const Trace& trace);
 
     /// Handles the events of the window. Returns false if the user closed the window.
     bool is_wanted() { return screen_.is_wanted(); }
 
-    /// Writes a message to standard error. The next status does not overwrite it. Thread-safe.
+    /// Writes a message to standard error. The next status does not overwrite the message.
+    /// Thread-safe.
     void say(const std::string& message);
 
   private:

@@ -15,8 +15,8 @@ constexpr std::int64_t kWindow_us = 1'000'000;
 /// Minimum number of failed frames in a second for a hint. Slow cameras deliver only a few frames
 /// per second.
 constexpr std::size_t kMinFrames = 3;
-/// Maximum number of remembered frames. It limits the memory if the timestamps of a source do not
-/// advance.
+/// Maximum number of remembered frames. This maximum limits the memory if the timestamps of a
+/// source do not advance.
 constexpr std::size_t kMaxFrames = 2000;
 
 std::string reason_with_advice(Record record, ImageView image, const DeviceOptions& options,

@@ -32,7 +32,8 @@ struct Latency {
 
 class FleetState {
   public:
-    /// Maximum number of robots. If it is exceeded, the robot with the oldest message is removed.
+    /// Maximum number of robots. If there are more robots, the robot with the oldest message is
+    /// removed.
     static constexpr std::size_t kMaxRobots = 10'000;
 
     using Listener = std::function<void(std::string_view robot, const RobotState& state)>;

@@ -55,7 +55,7 @@ void FleetView::draw(const FleetState& fleet) {
 }
 
 /// Returns the name of the map to draw: the world frame of the sheet file or, without a sheet file,
-/// the map of the first robot that has one.
+/// the map of the first robot that has a map.
 std::string FleetView::map_shown(const FleetState& fleet) const {
     if (!map_id_.empty()) return map_id_;
     for (const auto& [name, robot] : fleet.robots()) {

@@ -246,8 +246,9 @@ std::optional<Camera> LiveCalibration::lens() const {
 
 /// Returns true if another calibration would improve on the newest calibration. Each calibration
 /// takes longer than the previous one, so the next calibration waits for twice the number of
-/// frames. It waits for fewer frames if only the accuracy of the lens is insufficient, because
-/// standard deviations are inversely proportional to the square root of the number of frames.
+/// frames. The next calibration waits for fewer frames if only the accuracy of the lens is
+/// insufficient, because standard deviations are inversely proportional to the square root of the
+/// number of frames.
 bool LiveCalibration::is_worth_calibrating() const {
     if (taken_.size() < std::size_t{kWantedFrames} || taken_.size() == job_.frames()) return false;
     const std::vector<CalibrationNeed> missing = needs();
@@ -262,8 +263,8 @@ bool LiveCalibration::is_worth_calibrating() const {
 }
 
 /// Starts and finishes calibrations with the frames taken so far. During a calibration, a camera
-/// continues to deliver frames. All other sources wait, which makes the result independent of the
-/// speed of the computer. Returns false if the user stops.
+/// continues to deliver frames. All other sources wait, to make the result independent of the speed
+/// of the computer. Returns false if the user stops.
 bool LiveCalibration::go_on_calibrating() {
     if (!coverage_) return true;
     if (!job_.is_running() && is_worth_calibrating()) job_.start(taken_);

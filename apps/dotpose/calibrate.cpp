@@ -117,8 +117,8 @@ auto with_progress(const CalibrateArguments& arguments, Sources& sources, const 
     }
 }
 
-/// Returns the path of the picture of the turn. It is the path given by --draw. If the picture of
-/// the lens also needs this path, "-spin" is inserted before the extension.
+/// Returns the path of the picture of the turn: the path given by --draw. If the picture of the
+/// lens also needs the path given by --draw, inserts "-spin" before the extension.
 std::string spin_picture_of(const CalibrateArguments& arguments) {
     const bool is_only_picture = arguments.spin.empty() || !arguments.sources.is_given();
     if (arguments.picture.empty() || is_only_picture) return arguments.picture;

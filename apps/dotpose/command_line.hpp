@@ -38,7 +38,7 @@ class ValidationError : public UsageError {
 bool parse_number(const std::string& text, double& number);
 bool parse_number(const std::string& text, int& number);
 
-/// Returns the reason why a value is invalid, or an empty string if it is valid.
+/// Returns the reason why a value is invalid, or an empty string if the value is valid.
 using Check = std::function<std::string(const std::string& value)>;
 
 /// Checks option values. If only a few values are valid, `choices` lists them.

@@ -60,7 +60,7 @@ void add_attempt_options(Command& command, DeviceOptions& options);
 /// Adds --size WxH, the size of a simulated frame.
 void add_size_option(Command& command, CameraModel& camera);
 
-/// Adds an option whose value is the name of an element of `values`, which must outlive the
+/// Adds an option whose value is the name of an element of `values`. `values` must outlive the
 /// command.
 template <typename Values, typename Store>
 Option* add_named(Command& command, const std::string& flag, const Values& values,
@@ -112,8 +112,9 @@ std::optional<DotDrawing> drawing_by_name(const std::string& name);
 /// Adds --dots, the method by which a PDF draws dots.
 void add_drawing_option(Command& command, DotDrawing& drawing);
 
-/// Parses integers from 0 to `max`, separated by exactly these separators. For example, "640x480"
-/// has the separators "x", and "10,20,640x480" has ",,x". Returns none for any other string.
+/// Parses integers from 0 to `max`, separated by exactly the given separators. For example,
+/// "640x480" has the separators "x", and "10,20,640x480" has ",,x". Returns none for any other
+/// string.
 std::optional<std::vector<std::uint32_t>> whole_numbers(std::string_view text,
                                                         std::string_view separators,
                                                         std::uint32_t max);

@@ -48,7 +48,7 @@ constexpr const char* kEvaluateExamples =
     "wrong; errors are computed from the other fixes. Exit status 1 if truth.csv or an image\n"
     "cannot be read, 2 for wrong usage.\n";
 
-/// Value of --protocol paper, which repeats the protocol of section IV of the paper.
+/// Value of `--protocol paper`: repeats the protocol of section IV of the paper.
 struct PaperProtocol {};
 constexpr std::array kProtocols = {PaperProtocol{}};
 const char* name(PaperProtocol) {
@@ -147,7 +147,7 @@ std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line) 
         std::ranges::move(evaluate(run).front(), std::back_inserter(outcomes));
     }
     if (interrupted()) {
-        // Removes the frames of a video that were not read, which are marked by a problem.
+        // Removes the frames of a video that were not read. These frames are marked by a problem.
         std::erase_if(outcomes, [](const Outcome& outcome) { return !outcome.problem.empty(); });
         tell(fmt::format("interrupted; the report covers the first {} of {} frames",
                          outcomes.size(), all.frames));

@@ -15,7 +15,7 @@
 
 namespace dotpose::cli {
 
-/// Options of an evaluation with a sheet file.
+/// Options for an evaluation with a sheet file.
 struct MeasuredArguments {
     std::string sheets;      ///< sheet file; if empty, poses are in the pattern frame
     bool is_aligned = true;  ///< true to align the located places with the true places

@@ -98,8 +98,8 @@ std::optional<PlanePose> pose_of(const PosePacket& packet, double spacing_mm, Un
     return units == Units::ros ? with_other_y(pose) : pose;
 }
 
-/// Returns the field with the standard deviation of the position, the larger of the values along x
-/// and y.
+/// Returns the field with the standard deviation of the position: the larger of the standard
+/// deviations along x and y.
 Field deviation_field(const PosePacket& packet, double spacing_mm, Units units) {
     const double sigma_mm = packet.deviation_q12 * spacing_mm / 4096;
     // 255 represents all larger deviations as well, so it is not reported.

@@ -1,5 +1,5 @@
-/// `dotpose calibrate --live`. It runs in dotpose-live because it opens a window. `dotpose` and
-/// dotpose-live have different definitions of this function.
+/// `dotpose calibrate --live`. This part of the command runs in dotpose-live, because it opens a
+/// window. `dotpose` and dotpose-live have different definitions of this function.
 #pragma once
 
 #include <string>

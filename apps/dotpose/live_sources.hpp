@@ -1,5 +1,5 @@
-/// Access to cameras and videos. Only dotpose-live accesses them, because it loads the video
-/// module. `dotpose` and dotpose-live have different definitions of these functions.
+/// Access to cameras and videos. Only dotpose-live accesses cameras and videos, because it loads
+/// the video module. `dotpose` and dotpose-live have different definitions of these functions.
 #pragma once
 
 #include <memory>

@@ -106,7 +106,7 @@ ros::RobotUpdate update_of(const LogCells& row) {
     ros::RobotUpdate update;
     update.time_ns = time_ns_in(row);
     // There is no plane while the robot is lost. In this state, fixes are in the world if they have
-    // x_m, which requires a sheet file with world poses.
+    // x_m. The column x_m requires a sheet file with world poses.
     const bool is_in_world = plane == "world" || (plane.empty() && row.number("x_m"));
     const PoseColumns& columns = is_in_world ? kInWorld : kInPattern;
     if (row.text("status") == "ok") {

@@ -54,7 +54,8 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
     const std::string asked = bare(word);
     std::string nearest;
-    // Longer words do not match any name, and their distance table would need too much memory.
+    // Maximum length of a word that is compared with the names. Longer words do not match any name,
+    // and the distance table for a longer word would need too much memory.
     constexpr std::size_t kMaxCharacters = 64;
     if (asked.size() > kMaxCharacters) return nearest;
     int min_distance = static_cast<int>(kMaxCharacters);

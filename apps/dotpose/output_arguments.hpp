@@ -43,7 +43,7 @@ void write_report(const ReportArguments& arguments, const std::string& report);
 Option* add_draw_option(Command& command, std::string& path, const std::string& help);
 
 /// Destination of a document that the library can only write to a named file. For standard output,
-/// the library writes a temporary file, which is copied to standard output at the end.
+/// the library writes a temporary file. This file is copied to standard output at the end.
 class DocumentOutput {
   public:
     /// `out` is the value of -o. `ending` is the file extension of the format, such as ".pdf".

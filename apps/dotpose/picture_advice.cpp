@@ -86,7 +86,7 @@ std::optional<double> too_small_spacing_px(ImageView image, const DeviceOptions&
     return std::nullopt;
 }
 
-/// Stretch of the image along one direction, which compensates for the foreshortening of a tilted
+/// Stretch of the image along one direction, to compensate for the foreshortening of a tilted
 /// sheet.
 struct Stretch {
     double angle_rad = 0;
@@ -102,8 +102,8 @@ struct Stretch {
     }
 };
 
-/// Returns the centre of the stretched image, a square with sides of at most `side_px`. Its corners
-/// may be outside the image.
+/// Returns the centre of the stretched image, a square with sides of at most `side_px`. The corners
+/// of this square may be outside the image.
 GreyImage stretched_middle(const ImageView& image, int side_px, const Stretch& stretch) {
     const int side = std::min({image.width_px, image.height_px, side_px});
     return resampled(image, side, side, [&](int u, int v) {
@@ -199,12 +199,13 @@ GreyImage reduced_by(ImageView image, int by) {
     return small;
 }
 
-/// Returns the spacing of the dots in px if it is too large. The dots of the reduced image must
-/// form a grid.
+/// Returns the spacing of the dots in px if this spacing is too large. The dots of the reduced
+/// image must form a grid.
 std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {
     constexpr double kMaxSpacing_px = 60;
-    // If the camera is too near, only a few dots are visible.
+    // Minimum number of dots of the grid. The number is small, because few dots are visible if the
+    // camera is too near.
     constexpr int kMinDots = 16;
     DeviceOptions blobs;
     blobs.code = options.code;
@@ -228,7 +229,7 @@ std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions&
     return std::nullopt;
 }
 
-/// Returns true if the dots are white on black, which means that the inverted image can be located.
+/// Returns true if the dots are white on black, that is, if the inverted image can be located.
 bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     GreyImage inverted = reduced_by(image, 1);
     for (std::uint8_t& grey : inverted.pixels)
@@ -281,8 +282,8 @@ std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeM
             "the sheet is tilted too much, by about {:.0f} degrees: look straight down on it",
             *tilt_degrees);
     }
-    // In videos of sharp frames, H.264 and HEVC begin to lose dots at 0.1 bits per pixel
-    // (docs/live.md).
+    // Bits per pixel below which a video counts as compressed too much. In videos of sharp frames,
+    // H.264 and HEVC begin to lose dots at 0.1 bits per pixel (docs/live.md).
     constexpr double kTooFewBits_per_px = 0.15;
     if (facts.bits_per_px > 0 && facts.bits_per_px < kTooFewBits_per_px) {
         return fmt::format(

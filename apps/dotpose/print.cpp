@@ -90,7 +90,8 @@ std::string title_of(const PrintArguments& arguments) {
     return system::path_of(arguments.out).stem().string();
 }
 
-/// Returns the print settings of a page, which are stored in its entry in the sheet file.
+/// Returns the print settings of a page. The settings are stored in the entry of the page in the
+/// sheet file.
 SheetPrint print_of(const PrintArguments& arguments) {
     SheetPrint print;
     print.title = title_of(arguments);

@@ -25,15 +25,15 @@ bool take_ctrl_c();
 /// up.
 std::string duration_text(double seconds);
 
-/// A progress line on standard error, such as "printing sheet.png: 42 %, 12 s left". It appears if
-/// standard error is a terminal and the work takes more than a second, and it is removed at the
-/// end. A message written by `tell` hides the line until the next update. There can be only one
-/// progress line at a time.
+/// A progress line on standard error, such as "printing sheet.png: 42 %, 12 s left". The line
+/// appears if standard error is a terminal and the work takes more than a second. The line is
+/// removed at the end. A message written by `tell` hides the line until the next update. There can
+/// be only one progress line at a time.
 class ProgressLine {
   public:
     /// `out` is the file to which the work writes lines. Empty or "-" means standard output. If
-    /// standard output is a terminal, its lines already show the progress, so the progress line is
-    /// not shown.
+    /// this output is a terminal, the lines already show the progress, so the progress line is not
+    /// shown.
     ProgressLine(std::string what, const std::string& out);
     explicit ProgressLine(std::string what);
     ~ProgressLine();

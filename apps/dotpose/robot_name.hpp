@@ -1,4 +1,4 @@
-/// Options for robot names, which are part of MQTT and ROS topics.
+/// Options for robot names. These names are part of MQTT and ROS topics.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@ namespace dotpose::cli {
 
 class Command;
 
-/// Adds --robot NAME, which rejects names that are not valid in topics.
+/// Adds --robot NAME. The option rejects names that are not valid in topics.
 void add_robot_option(Command& command, std::string& robot, const std::string& help);
 
 /// Adds --frame-prefix PREFIX. ros::with_prefix rejects prefixes that are not valid in ROS.

@@ -37,8 +37,8 @@ class SheetEntryArguments {
                  std::optional<SheetReservation>& reservation) const;
 
     /// Adds a page to the file, with its print settings. If the user did not give --origin, the
-    /// page is placed in the next free region. `print.command` must not contain --origin, which
-    /// this function adds. Returns the sheet with its new origin.
+    /// page is placed in the next free region. `print.command` must not contain --origin, because
+    /// this function adds --origin. Returns the sheet with its new origin.
     Sheet enter(SheetFile& file, const Sheet& sheet, Page page, SheetPrint print) const;
 
     /// Appends --origin to `command`. The result is a command that prints the dots of one page.

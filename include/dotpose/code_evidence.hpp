@@ -1,7 +1,8 @@
-/// Code evidence: the probability of each code variant of a sheet, given frames of the sheet. The
-/// code variants agree on most of the plane. A frame can therefore often be read in several code
-/// variants, usually at the same place, but sometimes at distant places. If one frame is ambiguous,
-/// further frames of the sheet resolve the ambiguity:
+/// Code evidence: how probable each code variant is, given the frames of a sheet.
+///
+/// Code variants agree on most of the plane. A frame can therefore often be read in several
+/// variants, usually at the same place. Sometimes the places are far apart. If one frame is
+/// ambiguous, further frames of the sheet resolve the ambiguity:
 ///
 ///     CodeEvidence evidence;
 ///     for (;;) {
@@ -9,7 +10,7 @@
 ///         evidence = reading.evidence;
 ///     }
 ///
-/// For the derivation of the odds, see docs/integrity.md.
+/// docs/integrity.md derives the odds.
 #pragma once
 
 #include <array>
@@ -25,89 +26,89 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// The odds of each code variant of one sheet, given all frames so far. Consecutive frames at one
-/// place contain the same dots with the same defects, so they count as a single frame: together
-/// they reduce the odds of a code variant by the mean of their individual factors. Frames are at
-/// the same place if, along both axes, they are less than 64 cells from the first frame at this
-/// place.
+/// Odds for each code variant of a sheet, given all frames so far.
+///
+/// Consecutive frames at one place contain the same dots with the same defects, so they count as a
+/// single frame. Each of them would divide a variant's odds by some factor. The odds are divided by
+/// the mean of these factors. Frames are at the same place if they are less than 64 cells from the
+/// first frame there, along both axes.
 class CodeEvidence {
   public:
-    /// log2 of the likelihood or the odds of each code variant, in units of 2^-8.
+    /// Log-likelihood or log-odds for each code variant: log2, in units of 2^-8.
     using LogOdds = std::array<std::int32_t, kCodeVariantCount>;
 
-    /// log2 of the maximum ratio between the odds of the likeliest and of any other code variant.
-    /// Applies to each frame and to all frames together. Because of this limit, later frames can
-    /// still reveal that the sheet was replaced.
+    /// Maximum log2 ratio between the odds for the likeliest code variant and any other. Applies to
+    /// each frame and to all frames together. The limit allows later frames to reveal that the
+    /// sheet was replaced.
     static constexpr std::int32_t kMax_log2 = 40;
-    /// log2 of the maximum factor by which consecutive frames at one place together reduce the odds
-    /// of a code variant. These frames contain the same dots with the same defects, so they are not
-    /// independent.
+    /// Maximum log2 factor by which consecutive frames at one place together reduce a variant's
+    /// odds. These frames contain the same dots with the same defects, so they are not independent.
     static constexpr std::int32_t kMaxOfPlace_log2 = 32;
 
-    /// Starts with all code variants equally likely.
+    /// Starts with equal odds for all code variants.
     CodeEvidence() = default;
 
     /// Returns the code variant with the highest odds.
     CodeVariant likeliest() const;
-    /// Returns log2 of the odds of a code variant relative to the likeliest code variant, in units
-    /// of 2^-8, at most 0.
+    /// Returns the log2 odds for `code` relative to the likeliest code variant. The result is in
+    /// units of 2^-8, and at most 0.
     std::int32_t log2_q8(CodeVariant code) const;
-    /// Returns the probability, in [0, 1], that `code` is not the code variant of the sheet.
+    /// Returns the probability, in [0, 1], that the sheet is not printed in `code`.
     float p_wrong(CodeVariant code) const;
 
-    /// Adds the evidence of a frame located at `cell`. `log2_q8` is log2 of the likelihood of the
-    /// bits of the frame in each code variant, in units of 2^-8.
+    /// Adds a frame located at `cell`. `log2_q8` contains the log2 likelihood of the frame's bits
+    /// in each code variant, in units of 2^-8.
     void add(Cell cell, const LogOdds& log2_q8);
 
   private:
     LogOdds sum() const;
 
-    LogOdds before_log2_q8_{};  ///< log2 of the odds from all places except the newest
-    /// For each code variant, the sum over the frames at the newest place of the factor by which a
-    /// frame reduces the odds of the variant, relative to the likeliest variant. `sum()` uses the
+    LogOdds before_log2_q8_{};  ///< log2 odds from all places except the newest
+    /// One sum per code variant, over the frames at the newest place. Each frame adds the factor by
+    /// which it reduces the variant's odds relative to the likeliest variant. `sum()` uses the
     /// mean, factors_here_ / frames_here_.
     std::array<float, kCodeVariantCount> factors_here_{};
     Cell here_;
     std::uint32_t frames_here_ = 0;
 };
 
-/// The result of locating one frame, with the evidence for the code variant of its sheet.
+/// Result of locating one frame, with the evidence for each code variant.
 struct CodeReading {
-    /// If the status is ambiguous_code, the pose and the counts are those of one of the two places.
+    /// If the status is ambiguous_code, pose and counts belong to one of the two places.
     Fix fix;
     CodeVariant code = CodeVariant::anoto;  ///< code variant of `fix`
-    CodeEvidence evidence;                  ///< evidence that includes this frame
-    /// True if the place in the following members also explains the frame, in another code variant.
-    /// Set by `Locator::locate_in_any_code` only if the status is ambiguous_code, and by
-    /// `Locator::locate_in_code` in the cases listed there. If the fix is ok, its `p_wrong_log2`
-    /// does not include the odds of this place.
+    CodeEvidence evidence;                  ///< evidence including this frame
+    /// True if a place in another code variant also explains the frame. The members below contain
+    /// this place. `Locator::locate_in_any_code` sets the flag only if the status is
+    /// ambiguous_code. `Locator::locate_in_code` lists its own cases. If the fix is ok, its
+    /// `p_wrong_log2` does not include the odds for this place.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;
-    Cell other_cell{};  ///< cell of the other place, as in Fix; fractions and angle are the same as
-                        ///< in `fix`
+    Cell other_cell{};  ///< cell in `other_code`, as in Fix; fractions and angle are the same as in
+                        ///< `fix`
     Section other_section{};
 };
 
 class Locator;
 
-/// Locates the frames of one sheet, in a given code variant or, if none is given, in the code
-/// variant detected from the frames.
+/// Locates the frames of one sheet in a given code variant. If none is given, detects the code
+/// variant from the frames.
 class CodeReader {
   public:
     /// Uses the code variant `given`. If `given` is empty, detects the code variant from all frames
     /// so far.
     explicit CodeReader(std::optional<CodeVariant> given = std::nullopt) : given_(given) {}
 
-    /// Locates an image. Also sets the code variant in the options of `locator` to the code variant
-    /// of the fix. The status of the fix reports errors, as in Locator::locate.
+    /// Locates an image, and sets the locator's code variant to that of the fix. The fix's status
+    /// reports errors, as in Locator::locate.
     Fix locate(const ImageView& image, Locator& locator);
 
-    /// Returns true if the code variant was given.
+    /// Returns true if a code variant was given.
     bool is_given() const { return given_.has_value(); }
-    /// Returns the given code variant, or the likeliest code variant so far if none is given.
+    /// Returns the given code variant. If none was given, returns the likeliest so far.
     CodeVariant code() const { return given_.value_or(evidence_.likeliest()); }
-    /// Returns the evidence from the frames so far. If a code variant was given, all code variants
-    /// remain equally likely.
+    /// Returns the evidence from all frames so far. If a code variant was given, no evidence is
+    /// collected, and all code variants remain equally likely.
     const CodeEvidence& evidence() const { return evidence_; }
 
   private:

@@ -1,6 +1,5 @@
-/// Macros that enclose the declarations exported by the shared libraries of dotpose. All other
-/// names are hidden. On Windows, the macros are empty, because Mingw-w64 exports all names of a
-/// library.
+/// Macros that enclose declarations exported by the shared libraries. All other names are hidden.
+/// On Windows the macros are empty, because Mingw-w64 exports all names.
 #pragma once
 
 #include "dotpose/language.hpp"

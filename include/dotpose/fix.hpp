@@ -1,4 +1,4 @@
-/// Fix: the pose computed from one frame, with the evidence for this pose.
+/// Fix: the pose computed from one frame, with the evidence for it.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// The attempt of `locate` that made a fix. Each attempt has a file in src/locate or src/device.
+/// Attempt of `locate` that produced a fix. Each attempt has its own file in src/locate or
+/// src/device.
 enum class Attempt : std::uint8_t {
     tracked,  ///< dots were measured where a prediction expected them
     first,    ///< without a prediction, from patches of the image
@@ -36,7 +37,7 @@ enum class Surface : std::uint8_t {
 /// Returns the identifier, such as "divided".
 const char* name(Surface surface) noexcept;
 
-/// The places considered possible when the probability of a wrong fix was computed.
+/// Places that counted as possible when the probability of a wrong fix was computed.
 enum class Prior : std::uint8_t {
     plane,        ///< all places of the code
     sheets,       ///< places on known sheets; the bits make any other sheet improbable
@@ -45,48 +46,48 @@ enum class Prior : std::uint8_t {
 /// Returns the identifier, such as "plane".
 const char* name(Prior prior) noexcept;
 
-/// Result of Locator::locate or DeviceLocator::locate. Unless `status` is ok, only `status`,
-/// `dots_seen` and the counts of the stages that the frame reached are valid.
+/// Result of Locator::locate or DeviceLocator::locate. If `status` is not ok, only `status`,
+/// `dots_seen` and the counts from completed stages are valid.
 ///
-/// The pattern point under the reference point (by default the image centre) is `cell + fraction`,
-/// in units of the spacing. `theta` is the angle of the image x axis in the pattern frame, from +x
-/// towards +y. As seen on the paper, this direction is clockwise, because y points down.
+/// The pattern point under the reference point is `cell + fraction`, in spacings. The reference
+/// point is the image centre by default. `theta` is the angle of the image x axis in the pattern
+/// frame, from +x towards +y. On the paper, this direction is clockwise, because y points down.
 struct Fix {
     Status status = Status::not_run;
     Attempt attempt = Attempt::first;
     Surface surface = Surface::even;  ///< always `even` from a DeviceLocator
     Prior prior = Prior::plane;       ///< see Locator::set_known
 
-    Cell cell;                         ///< nearest intersection to the upper left of the reference
-                                       ///< point
+    Cell cell;                         ///< nearest intersection above and to the left of the
+                                       ///< reference point
     std::uint16_t fraction_x_q16 = 0;  ///< distance from `cell` to the right, in 1/65536 spacing
     std::uint16_t fraction_y_q16 = 0;  ///< distance from `cell` downwards, in 1/65536 spacing
-    std::int32_t theta_bam = 0;        ///< binary angle: 2^31 is half a turn, in [-2^31, 2^31)
-    Section section;                   ///< section in which `cell` was read
+    std::int32_t theta_bam = 0;        ///< binary angle in [-2^31, 2^31); 2^31 is half a turn
+    Section section;                   ///< section where `cell` was read
     std::int32_t spacing_px_q16 = 0;   ///< grid spacing in the image, in 2^-16 px
-    /// Spacing of the printed grid, from the options; 0 if unknown.
+    /// Spacing of the printed grid, from the options. 0 if unknown.
     std::int32_t spacing_nm = 508'000;
 
-    /// Number of frames whose bits determined the position. More than 1 only if the camera's motion
-    /// between the frames was given.
+    /// Number of frames whose bits were combined to find the position. More than 1 only if the
+    /// camera motion between frames was given.
     int frames = 1;
-    int dots_seen = 0;  ///< number of blobs of the size of a dot
-    int dots_used = 0;  ///< number of dots to which the pose was fitted
+    int dots_seen = 0;  ///< number of dot-sized blobs
+    int dots_used = 0;  ///< number of dots in the pose fit
     /// Number of bits that contradict the position. Each cell contributes two bits.
     int bit_errors = 0;
-    /// log2 of an upper bound on the probability that the position is wrong.
+    /// Upper bound on the probability that the position is wrong, as log2.
     int p_wrong_log2 = 0;
-    /// Root mean square distance of the dots from their fitted places, along each axis.
+    /// Root mean square distance between the dots and their fitted places, along each axis.
     float residual_px = 0;
 
-    /// The map from the image to the pattern, in spacings relative to `place`. The pose is the
-    /// value and the orientation of this map at the reference point. `Prediction` uses this map.
+    /// Map from the image to the pattern, in spacings relative to `place`. The pose is the map's
+    /// value and orientation at the reference point. `Prediction` uses this map.
     PlaneFromImage pattern_from_image;
     Place place;                        ///< origin of `pattern_from_image`
-    std::int32_t displacement_q16 = 0;  ///< typical distance of a dot from its intersection, in
-                                        ///< 2^-16 spacing
+    std::int32_t displacement_q16 = 0;  ///< typical distance between a dot and its intersection, in
+                                        ///< 2^-16 spacings
 
-    /// Covariance of (x, y, theta). x and y are in spacings, and theta is in radians.
+    /// Covariance of (x, y, theta), with x and y in spacings and theta in radians.
     float covariance[3][3] = {};
     /// Returns true if the covariance is known. A DeviceLocator computes neither covariance nor
     /// residual.
@@ -95,14 +96,13 @@ struct Fix {
     /// Returns true if the frame was located.
     explicit operator bool() const { return status == Status::ok; }
 
-    // Only these functions use double precision. They are not part of the core's object code.
+    // Only the functions below use double precision. They are not part of the core's object code.
     double x_grid() const { return cell.x + fraction_x_q16 / 65536.0; }
     double y_grid() const { return cell.y + fraction_y_q16 / 65536.0; }
-    /// Position in the pattern frame, in mm, or NaN if the spacing of the printed grid is not
-    /// known.
+    /// Position in the pattern frame, in mm. NaN if the grid spacing is unknown.
     double x_mm() const { return x_grid() * spacing_mm(); }
     double y_mm() const { return y_grid() * spacing_mm(); }
-    /// Spacing of the printed grid, in mm, or NaN if the spacing is not known.
+    /// Spacing of the printed grid, in mm. NaN if unknown.
     double spacing_mm() const {
         return spacing_nm > 0 ? spacing_nm / 1e6 : std::numeric_limits<double>::quiet_NaN();
     }

@@ -1,7 +1,7 @@
-/// Geometry: points, and the map from an image to the plane of the paper.
+/// Geometry: points, and the map from an image to the paper plane.
 ///
-/// Fixed point: a suffix _qN marks a value in units of 2^-N. Pixel frame: the centre of the first
-/// pixel is (0, 0), u to the right, v down.
+/// Fixed point: the suffix _qN marks a value in units of 2^-N. Pixel coordinates: u points right
+/// and v points down. The centre of the first pixel is (0, 0).
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// A vector or point in fixed point.
+/// Fixed-point vector or point.
 struct FixedVec {
     std::int32_t x = 0;
     std::int32_t y = 0;
     friend constexpr bool operator==(const FixedVec&, const FixedVec&) = default;
 };
 
-/// Maps image points to the plane of the paper, in spacings. With (x, y) in px from `centre`,
+/// Maps image points to the paper plane, in spacings. With (x, y) in px from `centre`:
 ///
 ///     plane = at_centre + (du x + dv y) / (1 + perspective . (x, y) + lens (x^2 + y^2)).
 ///
-/// The map is exact for a tilted camera with the lens distortion of eq. 2.
+/// The map is exact for a tilted camera with the paper's lens distortion (eq. 2).
 struct PlaneFromImage {
     FixedVec centre_q8;         ///< image point of (x, y) = (0, 0), in 2^-8 px
     FixedVec at_centre_q16;     ///< plane point at `centre`, in 2^-16 spacings

@@ -11,16 +11,15 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Minimum width and height, in pixels, of an image that can be located.
+/// Minimum width and height, in pixels, for locating an image.
 inline constexpr int kMinFrameSide_px = 64;
-/// Minimum width and height, in pixels, of an image that can be located on known sheets
-/// (Locator::set_known).
+/// Minimum width and height, in pixels, for locating an image on known sheets (Locator::set_known).
 inline constexpr int kMinKnownFrameSide_px = 24;
-/// Maximum width and height, in pixels, of an image.
+/// Maximum image width and height, in pixels.
 inline constexpr int kMaxFrameSide_px = 4096;
 
-/// A grey image with dark dots on light paper. Grey level 0 is black. Row `v` starts at
-/// `pixels + v * stride_bytes`.
+/// Grey image with dark dots on light paper. Row `v` starts at `pixels + v * stride_bytes`.
+/// Grey level 0 is black.
 struct ImageView {
     const std::uint8_t* pixels = nullptr;
     int width_px = 0;

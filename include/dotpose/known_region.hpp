@@ -1,6 +1,5 @@
-/// Known regions: the parts of the code plane that are printed on the sheets that may be in view.
-/// With known regions, a Locator also reads views that are too small to be unique on the whole
-/// plane.
+/// Known regions: printed parts of the code plane that may be in view. With known regions, a
+/// Locator also reads views that are too small to be unique on the whole plane.
 ///
 ///     static constexpr KnownRegion kSheets[] = {
 ///         {.first = {1024, 1024}, .columns = 393, .rows = 563}};
@@ -16,7 +15,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// A printed rectangle of the code plane.
+/// Printed rectangle of the code plane.
 struct KnownRegion {
     CodeVariant code = CodeVariant::anoto;
     Section section;
@@ -25,12 +24,11 @@ struct KnownRegion {
     std::uint32_t rows = 0;
 };
 
-/// Minimum number of dots required to search for a grid if regions are known. The limit is
-/// min(kMinKnownDots, `min_dots` of the options). The smallest views that can be certain have about
-/// 25 dots.
+/// Minimum number of dots required to search for a grid if regions are known. A lower `min_dots` in
+/// the options takes precedence. The smallest views that can be certain have about 25 dots.
 inline constexpr int kMinKnownDots = 16;
 
-/// Specifies whether sheets other than the known sheets may be in view.
+/// Whether sheets other than the known ones may be in view.
 enum class OtherSheets : std::uint8_t {
     possible,    ///< other sheets are also located, but need more dots in view
     impossible,  ///< only places on known sheets are possible

@@ -1,8 +1,7 @@
-/// Checks that the compiler uses the C++ version that all headers require, so an older version
-/// fails with a clear error message.
+/// Checks the C++ version that all headers require. Older versions fail with a clear error message.
 #pragma once
 
-// Microsoft's compiler sets __cplusplus to the version only with the option /Zc:__cplusplus.
+// Microsoft's compiler sets __cplusplus correctly only with the option /Zc:__cplusplus.
 #if __cplusplus < 202002L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
 #error "dotpose needs C++20: compile with -std=c++20, GCC 12 or clang 14 or later"
 #endif

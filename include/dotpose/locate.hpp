@@ -48,7 +48,7 @@ class RowLocator {
 
     /// Returns the options in use.
     const DeviceOptions& options() const { return options_; }
-    /// Sets the options of the following frames. Drops a frame that was begun but not finished.
+    /// Sets the options for the following frames. Drops a frame that was begun but not finished.
     void set_options(const DeviceOptions& options);
 
     /// Returns the results of each stage for the last frame. The stages of a DeviceLocator share
@@ -106,7 +106,7 @@ class Locator : public RowLocator {
     Locator(LargeMemory& memory, const Fixed& options) : Locator(memory.workspace_, options) {}
     ~Locator() { delete owned_; }
 
-    /// Sets the options of the following frames. Drops a frame that was begun but not finished.
+    /// Sets the options for the following frames. Drops a frame that was begun but not finished.
     /// Unless the code is given, restarts the detection of the code.
     void set_options(const LocatorOptions& options) {
         set_fixed_options(options);
@@ -117,9 +117,9 @@ class Locator : public RowLocator {
         set_fixed_options(options);
     }
 
-    /// Sets the regions of the code plane that are printed on the sheets that may be in view. With
-    /// known regions, views of about 30 dots suffice. `regions` must remain valid while the locator
-    /// uses it. An empty span makes all places possible again. Returns bad_argument, and keeps the
+    /// Sets the regions of the code plane on the printed sheets that may be in view. With known
+    /// regions, views of about 30 dots suffice. `regions` must remain valid while the locator uses
+    /// it. An empty span makes all places possible again. Returns bad_argument, and keeps the
     /// previous regions, if a region is empty, extends beyond the plane, or has a code or section
     /// that does not exist. Effort::device does not use the regions.
     Status set_known(std::span<const KnownRegion> regions,
@@ -165,8 +165,8 @@ class Locator : public RowLocator {
     /// three cases:
     /// - A different place in another code variant explains the image about as well as the fix.
     /// - The same place in another code variant explains the image much better.
-    /// - The image has no fix in `options().code`, but a place in another code variant explains it
-    ///   with few wrong bits.
+    /// - The image has no fix in `options().code`, but a place in another code variant explains the
+    ///   image with few wrong bits.
     CodeReading locate_in_code(const ImageView& image);
 
     /// Starts an image that is pushed row by row, with or without a prediction. The locator keeps

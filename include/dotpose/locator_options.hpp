@@ -1,6 +1,6 @@
-/// LocatorOptions: options of a Locator, in millimetres, pixels and ratios. The defaults suit any
-/// camera. Ranges are in [brackets]. If a value is outside its range, every frame gets
-/// Status::bad_argument, and `bad_option` names the option.
+/// LocatorOptions: options for a Locator, in millimetres, pixels and ratios. The defaults suit any
+/// camera. Ranges are in [brackets]. If a value is out of range, every frame gets
+/// Status::bad_argument, and `bad_option` returns the option's name.
 #pragma once
 
 #include <cmath>
@@ -15,36 +15,35 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Options of a Locator. All options apply to every attempt, including attempts on images that are
-/// pushed row by row.
+/// Options for a Locator. They apply to every attempt, including images that are pushed row by row.
 struct LocatorOptions {
     /// Code variant of the sheet. Default: detected from all frames so far. If two code variants
-    /// explain a frame about equally well, the status is ambiguous_code.
+    /// explain a frame about equally well, its status is ambiguous_code.
     std::optional<CodeVariant> code;
-    /// Spacing of the printed grid, which converts a fix to millimetres. Default: 0.508 mm, as in
-    /// the paper. 0 means that the spacing is not known. [0 to 1000 mm]
+    /// Spacing of the printed grid. Used to convert a fix to millimetres. Default: 0.508 mm, as in
+    /// the paper. Use 0 if the spacing is unknown. [0 to 1000 mm]
     double spacing_mm = 0.508;
 
-    /// Radial distortion k in p_u = m + r_d / (1 + k |r_d|^2) (paper eq. 1-2), per px^2. Negative
+    /// Radial distortion k, per px^2: p_u = m + r_d / (1 + k |r_d|^2) (paper, eq. 1-2). Negative
     /// for barrel distortion. [above -2^-9, below 2^-9]
     double lens_k_per_px2 = 0;
     /// Distortion centre m, relative to the image centre. [-1024 to 1024 px]
     double lens_centre_dx_px = 0;
     double lens_centre_dy_px = 0;
-    /// Reference point: the image point whose pose is reported, relative to the image centre.
+    /// Reference point: the image point whose pose is reported. Relative to the image centre.
     /// [-16384 to 16384 px]
     double reference_dx_px = 0;
     double reference_dy_px = 0;
 
-    /// Maximum of the upper bound on the probability that a fix is wrong. A position with a larger
-    /// bound is refused as not_certain. Rounded down to a power of two. [1e-300 to 1]
+    /// Maximum accepted bound on the probability that a fix is wrong. Positions with a larger bound
+    /// are refused as not_certain. Rounded down to a power of two. [1e-300 to 1]
     double max_p_wrong = 1e-9;
-    /// Maximum fraction of the bits read on either axis that may contradict the position. A larger
-    /// fraction indicates that the frame contains two patterns. [0 to 1]
+    /// Maximum fraction of bits that may contradict the position. Applies to each axis separately.
+    /// A larger fraction indicates that the frame contains two patterns. [0 to 1]
     double max_bit_errors = 0.18;
     /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast gets the
-    /// status no_contrast. Default 0: any contrast that can be read. Use a larger value for noisy
-    /// cameras. [0 to 255]
+    /// status no_contrast. Default 0: any readable contrast. Use a larger value for noisy cameras.
+    /// [0 to 255]
     int min_contrast = 0;
     /// Minimum number of dots required to search for a grid. A position needs at least 6 x 6 dots.
     /// [0 to 2^20]
@@ -52,17 +51,16 @@ struct LocatorOptions {
 
     Effort effort = Effort::twice;
     Decoder decoder = Decoder::all;
-    /// True if every attempt stores dots, grid and bits in the trace, for drawing and calibration.
-    /// Storing them takes time.
+    /// If true, every attempt stores dots, grid and bits in the trace. Drawing and calibration need
+    /// them. Storing takes time.
     bool show_stages = false;
 
-    /// Returns the same options in fixed point. If any option is outside its range, one of the
-    /// returned options is also outside its range.
+    /// Returns the same options in fixed point. If any option is out of range, the result causes
+    /// Status::bad_argument.
     operator DeviceOptions() const;
 };
 
-/// Returns the name of the first option that is outside its range, or null if all options are in
-/// range.
+/// Returns the name of the first option that is out of range. Returns null if there is none.
 inline const char* bad_option(const LocatorOptions& options) {
     const auto is_in = [](double value, double low, double high) {
         return value >= low && value <= high;  // false if `value` is NaN
@@ -91,7 +89,7 @@ inline const char* bad_option(const LocatorOptions& options) {
     return nullptr;
 }
 
-// Double precision is used only in headers, so the core's object code contains none.
+// Only headers use double precision, so the core's object code contains none.
 inline LocatorOptions::operator DeviceOptions() const {
     DeviceOptions fixed;
     if (bad_option(*this) != nullptr) {

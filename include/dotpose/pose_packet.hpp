@@ -1,5 +1,5 @@
-/// Pose packets: the results that a device sends over a serial line or radio, one packet per frame
-/// (docs/pose-packet.md).
+/// Pose packets: results that a device sends over a serial line or radio, one packet per frame.
+/// docs/pose-packet.md describes the format.
 ///
 ///     const PacketBytes bytes = encode(make_packet(fix, options.code, sequence++, time_us));
 ///     send(bytes.data(), bytes.size());
@@ -7,9 +7,9 @@
 ///     PacketReader reader;
 ///     for (std::uint8_t byte : received) if (reader.push(byte)) use(reader.packet());
 ///
-/// The reader always refuses packets with one to four wrong bits. It accepts about 1 in 65536
-/// packets with five or more wrong bits. After a damaged packet, reading continues with the next
-/// packet. No heap, no double, no globals. Different objects may be used concurrently.
+/// The reader always refuses packets with one to four wrong bits. With five or more wrong bits, it
+/// accepts about 1 in 65536 packets. After a damaged packet, it continues with the next packet. No
+/// heap, no double, no globals. Different objects may be used concurrently.
 #pragma once
 
 #include <array>
@@ -25,15 +25,14 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Version of the packet format that is written and read.
+/// Packet format version, for writing and reading.
 inline constexpr int kPacketVersion = 1;
 
-/// The part of a frame's result that a packet contains. Unless `status` is ok, only the members
-/// above `cell` are valid, and `make_packet` leaves the other members at their default, 0.
+/// The part of a frame's result that is sent in a packet. If `status` is not ok, only the members
+/// above `cell` are valid. `make_packet` then leaves the other members at their default, 0.
 struct PosePacket {
-    std::uint16_t sequence = 0;  ///< number of the frame; a gap in the numbers means lost packets
-    std::uint32_t time_us = 0;   ///< time of the frame on the sender's clock; wraps every 71.6
-                                 ///< minutes
+    std::uint16_t sequence = 0;  ///< frame number; a gap means lost packets
+    std::uint32_t time_us = 0;   ///< frame time on the sender's clock; wraps every 71.6 minutes
     Status status = Status::not_run;
     CodeVariant code = CodeVariant::anoto;
 
@@ -43,14 +42,13 @@ struct PosePacket {
     std::int16_t theta_bam16 = 0;  ///< binary angle: 2^15 is half a turn, and one step is 0.0055
                                    ///< degrees
     Section section;
-    /// -log2 of an upper bound on the probability that the position is wrong. 255 means 255 or
-    /// more.
+    /// Upper bound on the probability that the position is wrong, as -log2. 255 means 255 or more.
     std::uint8_t certainty = 0;
-    /// The larger of the standard deviations of x and y, in units of 2^-12 spacings, rounded up.
-    /// 255 means 255 or more, or not known.
+    /// Standard deviation of x or y, whichever is larger, in units of 2^-12 spacings, rounded up.
+    /// 255 means 255 or more, or unknown.
     std::uint8_t deviation_q12 = 0;
 
-    // Only these functions use double precision. They are not part of the embedded object code.
+    // Only the functions below use double precision. They are not part of the embedded object code.
     double x_grid() const { return cell.x + fraction_x_q16 / 65536.0; }
     double y_grid() const { return cell.y + fraction_y_q16 / 65536.0; }
     /// Angle of the image x axis in the pattern frame, in [-pi, pi).
@@ -59,17 +57,17 @@ struct PosePacket {
     friend constexpr bool operator==(const PosePacket&, const PosePacket&) = default;
 };
 
-/// Returns the packet of a fix. `sequence` is the number of the frame, and `time_us` is its time.
+/// Returns the packet for a fix. `sequence` is the frame number, and `time_us` is the frame time.
 PosePacket make_packet(const Fix& fix, CodeVariant code, std::uint16_t sequence,
                        std::uint32_t time_us);
 
-/// The bytes of a packet, including the end mark. The end mark is the only zero byte.
+/// Bytes of a packet, including the end mark. The end mark is the only zero byte.
 using PacketBytes = std::array<std::uint8_t, 32>;
 
-/// Returns the bytes of a packet for sending.
+/// Encodes a packet for sending.
 PacketBytes encode(const PosePacket& packet);
 
-/// Extracts packets from a stream of bytes that may contain other data.
+/// Extracts packets from a byte stream that may contain other data.
 class PacketReader {
   public:
     /// Processes the next byte. Returns true if the byte completes a valid packet.
@@ -79,12 +77,12 @@ class PacketReader {
     const PosePacket& packet() const { return packet_; }
 
     /// Returns the number of invalid packets so far. An invalid packet is a byte sequence between
-    /// two end marks that is damaged or of another version.
+    /// two end marks that is damaged or has an unsupported version.
     std::uint32_t damaged() const { return damaged_; }
 
   private:
     std::array<std::uint8_t, 31> bytes_{};  ///< bytes since the last end mark
-    /// Number of bytes since the last end mark. 32 means more bytes than a packet contains.
+    /// Number of bytes since the last end mark. 32 means that there were too many for a packet.
     std::size_t count_ = 0;
     std::uint32_t damaged_ = 0;
     PosePacket packet_;

@@ -1,7 +1,7 @@
-/// Prediction: the expected place of the pattern in the next frame. With a prediction, a Locator
+/// Prediction: where the pattern is expected in the next frame. With a prediction, a Locator
 /// computes the next fix in a fraction of the time. It measures the dots at their expected places
 /// and compares their bits with the code. A prediction never makes a fix less certain. A frame that
-/// does not confirm the prediction is located without the prediction.
+/// does not confirm the prediction is located without it.
 ///
 ///     Fix fix = locator.locate(image);
 ///     for (;;) fix = locator.locate(image, Prediction::like(fix));
@@ -19,29 +19,28 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// The expected map from the image to the pattern, with its uncertainty.
+/// Expected map from the image to the pattern, with its uncertainty.
 struct Prediction {
-    /// The map from the image to the pattern, in spacings relative to `place`.
+    /// Map from the image to the pattern, in spacings relative to `place`.
     PlaneFromImage pattern_from_image;
     Place place;
-    /// Typical distance of a dot from its intersection in the last frame, in units of 2^-16
+    /// Typical distance between a dot and its intersection in the last frame, in units of 2^-16
     /// spacings.
     std::int32_t displacement_q16 = 65536 / 6;
-    /// Standard deviation of x and y, in units of 2^-16 spacings. The search radius, in spacings,
-    /// is min(3 sigma, 0.6) on a DeviceLocator, and min(3 sigma + 0.1, 0.6) on a Locator.
+    /// Standard deviation of x and y, in units of 2^-16 spacings. It determines the search radius,
+    /// in spacings: min(3 sigma, 0.6) on a DeviceLocator, and min(3 sigma + 0.1, 0.6) on a Locator.
     std::int32_t sigma_q16 = 65536 / 5;
     /// Standard deviation of the angle, as a binary angle: 2^31 is half a turn. Default: 1.4
-    /// degrees. The search does not use this value; it always covers rotations of up to 4 degrees.
+    /// degrees. The search ignores this value and always covers rotations of up to 4 degrees.
     std::int32_t sigma_theta_bam = 1 << 24;
 
-    /// Returns the prediction for a camera that does not move after the frame of `fix`. The fix
-    /// must be ok.
+    /// Returns a prediction for a camera that has not moved since `fix`. The fix must be ok.
     static Prediction like(const Fix& fix);
 };
 
-/// Returns the prediction for a camera that has moved by `by_q16` and rotated by `turn_bam` about
-/// the image point `pivot_q8`. `by_q16` is in the pattern frame, in units of 2^-16 spacings. For
-/// `turn_bam`, 2^31 is half a turn. `pivot_q8` is in units of 2^-8 px.
+/// Returns the prediction after the camera has moved by `by_q16` and rotated by `turn_bam` about
+/// the image point `pivot_q8`. `by_q16` is in the pattern frame, in units of 2^-16 spacings.
+/// `turn_bam` is a binary angle: 2^31 is half a turn. `pivot_q8` is in units of 2^-8 px.
 Prediction moved(const Prediction& prediction, CodeVariant code, FixedVec by_q16,
                  std::int32_t turn_bam, FixedVec pivot_q8);
 

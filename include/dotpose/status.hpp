@@ -1,4 +1,4 @@
-/// Status: the result of a call, or the reason for its failure. A frame without a fix is a normal
+/// Status: the result of a call, or the reason why it failed. A frame without a fix is a normal
 /// result.
 #pragma once
 
@@ -11,9 +11,9 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// The result of a call. The comment of each value is its `message`. The number of a value never
-/// changes, because pose packets contain it. scripts/generate-fields copies names and messages to
-/// C, the other languages and the documents.
+/// Result of a call. The comment on each value is its `message`. The numbers never change, because
+/// pose packets contain them. scripts/generate-fields copies names and messages to C, the other
+/// languages and the documents.
 enum class [[nodiscard]] Status : std::uint8_t{
     ok,  ///< located
     // Invalid arguments.
@@ -47,15 +47,15 @@ enum class [[nodiscard]] Status : std::uint8_t{
     other = 255,  ///< a newer version of dotpose has added this status
 };
 
-/// Number of values of Status, excluding `other`.
+/// Number of status values, excluding `other`.
 inline constexpr int kStatusCount = static_cast<int>(Status::ambiguous_code) + 1;
 
-/// Returns the identifier of a status, as in output lines, for example "too_few_dots". Returns
-/// "other" for every number that is not a Status of this version.
+/// Returns the identifier used in output lines, for example "too_few_dots". Returns "other" for
+/// numbers that this version does not define.
 const char* name(Status status) noexcept;
 
-/// Returns one plain sentence for the user, without a full stop. The sentence holds for every frame
-/// with this status.
+/// Returns one plain sentence for the user, without a full stop. It is true for every frame with
+/// this status.
 const char* message(Status status) noexcept;
 
 }  // namespace dotpose

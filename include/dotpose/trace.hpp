@@ -1,6 +1,6 @@
-/// Trace: the results of each stage of `Locator::locate` for the last frame, for drawing,
-/// evaluation and calibration. The trace is read-only and not a stable interface, because it
-/// changes with the stages.
+/// Trace: results from each stage of `Locator::locate` for the last frame, for drawing, evaluation
+/// and calibration. The trace is read-only. It is not a stable interface, because it changes with
+/// the stages.
 ///
 ///     DeviceOptions options;
 ///     options.show_stages = true;  // otherwise the first and the tracked attempt store little
@@ -8,7 +8,7 @@
 ///     const Fix fix = locator.locate(image);
 ///     for (const DetectedDot& dot : locator.trace().dots) ...
 ///
-/// Fixed point: a suffix _qN marks a value in units of 2^-N.
+/// Fixed point: the suffix _qN marks a value in units of 2^-N.
 #pragma once
 
 #include <array>
@@ -26,27 +26,26 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Side of the decoding window of the paper (section II-B.5).
+/// Side of the decoding window, in cells (paper, section II-B.5).
 inline constexpr int kWindowSide = 8;
 
-/// A detected dot.
+/// Detected dot.
 struct DetectedDot {
     FixedVec centre_q8;      ///< in 2^-8 px, corrected for lens distortion
-    std::uint16_t mass = 0;  ///< sum of the darkness of its pixels, in grey levels; at most 65535
+    std::uint16_t mass = 0;  ///< summed darkness of its pixels, in grey levels; at most 65535
     std::uint16_t area_px = 0;
 };
 
-/// A connection between two seeds, which are the dots from which the lattice is found. Each seed is
-/// among the four nearest seeds of the other.
+/// Connection between two seeds, the dots from which the lattice is found. Each seed is among the
+/// four seeds nearest to the other.
 struct SeedEdge {
     std::int16_t from = 0;  ///< index of a seed
     std::int16_t to = 0;
-    /// Vector from `from` to `to`, in 2^-8 px. The vector points down or, if it is horizontal,
-    /// right.
+    /// Vector from `from` to `to`, in 2^-8 px. Points down or, if horizontal, right.
     FixedVec step_q8;
 };
 
-/// First estimate of the grid: intersection (i, j) is at origin + i u + j v in the image. All
+/// First estimate of the grid. In the image, intersection (i, j) is at origin + i u + j v. All
 /// vectors are in 2^-16 px.
 struct Lattice {
     FixedVec u_q16;
@@ -54,27 +53,27 @@ struct Lattice {
     FixedVec origin_q16;
 };
 
-/// One cell of the matrices P of Fig. 8 of the paper.
+/// Cell of the grid, with its entries in the paper's matrices P (Fig. 8).
 struct GridCell {
     static constexpr std::uint16_t kNoDot = 65535;
-    /// Marks a cell in which graphics cover some of the four places. The low bits are a mask of the
-    /// covered places, indexed by Symbol.
+    /// Marks a cell where graphics cover some of the four possible dot places. The low bits are a
+    /// mask of the covered places, indexed by Symbol.
     static constexpr std::uint16_t kHidden = 65504;
     bool has_dot() const { return dot < kHidden; }
     bool is_hidden() const { return dot >= kHidden && dot != kNoDot; }
     bool is_hidden(int symbol) const { return is_hidden() && (dot >> symbol & 1) != 0; }
-    /// Quasi-probability of the x bit, from -127 (certainly 0) to 127 (certainly 1).
+    /// Quasi-probabilities of the x bit and the y bit, from -127 (surely 0) to 127 (surely 1).
     std::int8_t x = 0;
     std::int8_t y = 0;
-    /// Index of the dot in this cell, kNoDot, or kHidden plus the mask.
+    /// Index of the cell's dot, kNoDot, or kHidden plus the mask.
     std::uint16_t dot = kNoDot;
 };
 
-/// Quarter turn from the grid to the pattern: pattern_step = turn(grid_step).
+/// Rotation from the grid to the pattern, in quarter turns: pattern_step = turn(grid_step).
 struct QuarterTurn {
     int quarters = 0;  ///< number of quarter turns, 0 to 3, from +x towards +y
 
-    /// Converts a step of the grid to a step of the pattern.
+    /// Converts a grid step to a pattern step.
     constexpr FixedVec operator()(FixedVec grid) const {
         switch (quarters) {
             case 1:
@@ -87,11 +86,11 @@ struct QuarterTurn {
                 return grid;
         }
     }
-    /// Returns the turn from the pattern to the grid.
+    /// Returns the rotation from the pattern to the grid.
     constexpr QuarterTurn inverse() const { return {(4 - quarters) % 4}; }
 };
 
-/// A rectangle of grid cells: columns i0 to i0 + columns - 1, rows j0 to j0 + rows - 1.
+/// Rectangle of grid cells: columns i0 to i0 + columns - 1, rows j0 to j0 + rows - 1.
 struct GridRegion {
     int i0 = 0;
     int j0 = 0;
@@ -99,44 +98,42 @@ struct GridRegion {
     int rows = 0;
 };
 
-/// The decoded position of the grid.
+/// Decoded position of the grid.
 struct Decoding {
     GridRegion window;  ///< the clearest window of 8 x 8 cells
     GridRegion region;  ///< all decoded cells: at most kMaxLines x kMaxLines
-    /// Agreement, at the likeliest quarter turn, between the main sequence and the lines that vote
-    /// on the turn.
+    /// Agreement between the main sequence and the lines that vote on the quarter turn, at the
+    /// likeliest quarter turn.
     std::int32_t agreement = 0;
     QuarterTurn pattern_from_grid;
-    Place place;  ///< place in the code of grid cell (0, 0); the cell may be out of view
-    /// True if the workspace contains the line scores of the region, rotated by
-    /// `pattern_from_grid`.
+    Place place;  ///< place of grid cell (0, 0) in the code; the cell may be out of view
+    /// True if the workspace contains the region's line scores, rotated by `pattern_from_grid`.
     bool lines_are_scored = false;
     int bits = 0;  ///< number of bits compared with the code at `place`, two per dot
-    /// log2 of an upper bound on the probability that the position is wrong along x and along y,
-    /// times 256.
+    /// Upper bounds on the probability that the position is wrong along x and y, as log2 times 256.
     std::array<int, 2> p_wrong_log2_q8{};
 };
 
-/// The matrices P^(x) and P^(y) of Fig. 8 of the paper, for a rectangle of grid cells.
+/// The paper's matrices P^(x) and P^(y) (Fig. 8), for a rectangle of grid cells.
 struct GridView {
     std::span<const GridCell> cells;  ///< row by row
-    GridRegion region;                ///< the region of the grid that `cells` covers
+    GridRegion region;                ///< grid region that `cells` covers
 
-    /// Returns the cell in column i and row j of the grid. The cell must be in the region.
+    /// Returns the cell in grid column i and row j. The cell must be in the region.
     const GridCell& at(int i, int j) const {
         return cells[static_cast<std::size_t>((j - region.j0) * region.columns + (i - region.i0))];
     }
-    /// Returns true if the region contains the cell in column i and row j of the grid.
+    /// Returns true if the region contains the cell in grid column i and row j.
     bool contains(int i, int j) const {
         return i >= region.i0 && j >= region.j0 && i < region.i0 + region.columns &&
                j < region.j0 + region.rows;
     }
 };
 
-/// The results of the stages for the last frame, in order. The spans are valid until the next frame
+/// Results from all stages for the last frame, in order. The spans are valid until the next frame
 /// begins.
 struct Trace {
-    DeviceOptions options;  ///< options of the Locator, with the code variant of the fix
+    DeviceOptions options;  ///< options used by the Locator, with the code variant of the fix
     std::span<const DetectedDot> dots;
     std::span<const std::uint16_t> seeds;  ///< indices of the dots from which the lattice was found
     std::span<const SeedEdge> edges;       ///< edges between seeds

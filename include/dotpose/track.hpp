@@ -1,6 +1,6 @@
 /// Tracker: follows a robot from frame to frame. An adaptive filter estimates position, angle and
 /// velocities, with their covariance. The tracker reports the events `fix`, `lost`, `kidnapped`,
-/// `stationary` and `moving`. docs/tracking.md explains filter, events and weak fixes.
+/// `stationary` and `moving`. docs/tracking.md explains the filter, the events and weak fixes.
 ///
 ///     Tracker tracker;
 ///     for (;;) {
@@ -10,14 +10,14 @@
 ///         const Track& track = tracker.update(time_us, ok ? &sighting : nullptr);
 ///     }
 ///
-/// `predict` returns the expected place of the pattern in the next frame. The loop of
-/// examples/follow_robot.cpp uses it.
+/// `predict` returns where the pattern is expected in the next frame. See the loop in
+/// examples/follow_robot.cpp.
 ///
-/// Coordinate frames: all poses are in the plane of the sightings. This plane is the pattern frame,
-/// or the world of a sheet file, in which a robot may drive from sheet to sheet. Positions are
+/// Coordinates: all poses are in the same plane as the sightings. This plane is the pattern frame
+/// or the world of a sheet file, where a robot may drive from sheet to sheet. Positions are
 /// integers in nanometres, which cover the whole pattern plane (2.1e14 nm). Angles are binary, from
-/// +x towards +y; 2^31 is half a turn. Velocities are in mm/s along x and y, and angular velocities
-/// are in rad/s.
+/// +x towards +y; 2^31 is half a turn. Velocities are in mm/s along x and y. Angular velocities are
+/// in rad/s.
 ///
 /// No heap, no double, no globals. Different trackers may be used concurrently.
 #pragma once
@@ -36,10 +36,10 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Covariance of (x, y, theta, their velocities), in mm, rad and seconds.
+/// Covariance of (x, y, theta) and their velocities, in mm, rad and seconds.
 using Covariance6 = std::array<std::array<float, 6>, 6>;
 
-/// Position and angle of the robot measured in one frame.
+/// Robot position and angle, measured in one frame.
 struct Sighting {
     std::int64_t time_us = 0;  ///< middle of the exposure, on any clock
     std::int64_t x_nm = 0;
@@ -49,71 +49,72 @@ struct Sighting {
     std::uint32_t plane = 0;
     std::array<std::array<float, 3>, 3> covariance{};  ///< covariance of x, y and theta, in mm and
                                                        ///< rad
-    /// log2 of an upper bound on the probability that the position is wrong, as in Fix. If it
-    /// exceeds TrackOptions::max_p_wrong_log2, the sighting is *weak*.
+    /// Upper bound on the probability that the position is wrong, as log2 (see Fix). The sighting
+    /// is *weak* if this value exceeds TrackOptions::max_p_wrong_log2.
     int p_wrong_log2 = 0;
     std::int32_t spacing_nm = 508'000;  ///< spacing of the pattern in view
-    /// True if the y axis of the plane points up on the paper. In this case, angles have the
-    /// opposite sign of angles in the pattern.
+    /// True if the plane's y axis points up on the paper. Angles then have the opposite sign to
+    /// angles in the pattern.
     bool is_y_up = false;
 };
 
-/// Returns the sighting of a fix in the pattern frame. The plane ID is the section of the fix. The
-/// fix must be ok, and its spacing must be known and at most 20 mm.
+/// Returns a fix as a sighting in the pattern frame. The plane ID is the fix's section. The fix
+/// must be ok, and its spacing must be known and at most 20 mm.
 Sighting sighting_of(const Fix& fix, std::int64_t time_us);
 
-/// Limits of the robot's motion, and criteria for accepting sightings.
+/// Limits on the robot's motion, and criteria for accepting sightings.
 struct TrackOptions {
-    /// Standard deviation of the robot's acceleration while it manoeuvres. At other times, the
-    /// filter estimates a lower value. With a larger value, the filter follows sudden changes
-    /// faster. The default suits a table-top robot.
+    /// Standard deviation of the robot's acceleration while manoeuvring. At other times, the filter
+    /// estimates a lower value. With a larger value, the filter follows sudden changes faster. The
+    /// default suits a table-top robot.
     float acceleration_mm_s2 = 600;
     float angular_acceleration_rad_s2 = 6;
 
-    /// Maximum acceleration that the robot can have, for example in a collision. If a sighting is
-    /// farther from the prediction than this acceleration explains, further sightings must confirm
-    /// it before it is accepted.
+    /// Maximum possible acceleration, for example in a collision. If this acceleration does
+    /// not explain a sighting, further sightings must confirm it before it is accepted.
     float max_acceleration_mm_s2 = 10'000;
     float max_angular_acceleration_rad_s2 = 200;
-    /// Maximum speed. Limits the distance that the robot can have moved since its last sighting.
+    /// Maximum speed. Limits how far the robot can have moved since its last sighting.
     float max_speed_mm_s = 1000;
     float max_turn_rad_s = 20;
-    /// Margin of the limits of motion, in standard deviations of the innovation. A sighting is
-    /// inside the gate if it exceeds the limits by at most this margin.
+    /// Gate margin, in standard deviations of the innovation (the difference between sighting and
+    /// prediction). A sighting is inside the gate if it exceeds the motion limits by at most this
+    /// margin.
     float gate_sigmas = 5;
-    /// Number of consecutive consistent sightings required to accept a jump. A larger number delays
-    /// the acceptance. A smaller number may accept a single wrong fix.
+    /// Number of consecutive consistent sightings required to accept a jump. With a larger number,
+    /// acceptance takes longer. With a smaller number, a single wrong fix may be accepted.
     int confirmations = 3;
 
-    /// Time without an accepted sighting and without a motion after which the robot is lost.
+    /// Time after which the robot is lost if there was neither an accepted sighting nor a motion.
     std::int64_t lost_after_us = 70'000;
-    /// Maximum standard deviation of the position, along either axis, while the pose is computed
-    /// only from motions. If it is exceeded, the robot is lost.
+    /// Maximum standard deviation of the position along either axis, while only motions update the
+    /// pose. Above this value, the robot is lost.
     float max_sigma_mm = 5;
 
-    /// A robot whose pose changes by at most these limits, along each axis, for
-    /// `stationary_after_us` is stationary.
+    /// Stationary limits. A robot is stationary if its pose changes by at most these limits along
+    /// each axis for `stationary_after_us`.
     float still_mm = 0.1F;
     float still_rad = 0.02F;
     std::int64_t stationary_after_us = 500'000;
 
-    /// Standard deviations of printing errors. Their squares are added to the covariance of a
-    /// sighting. Printing errors at one place are the same in every frame, so they do not average
+    /// Standard deviations of printing errors. Their squares are added to each sighting's
+    /// covariance. Printing errors at one place are the same in every frame, so they do not average
     /// out.
     float min_sigma_mm = 0.0002F;
     float min_sigma_rad = 0.00002F;
 
-    /// Maximum log2 of the upper bound on the probability that an accepted sighting is wrong. The
-    /// bound for a weak sighting takes the prior into account.
+    /// Maximum accepted bound on the probability that a sighting is wrong, as log2. For a weak
+    /// sighting, the bound assumes that the robot is inside the gate. This assumption is the
+    /// *prior*.
     int max_p_wrong_log2 = -30;
-    /// Maximum `p_wrong_log2` of an accepted weak sighting, regardless of the prior. The value must
-    /// be at most -1.
+    /// Maximum `p_wrong_log2` for an accepted weak sighting, regardless of the prior. Must be at
+    /// most -1.
     int max_weak_p_wrong_log2 = -10;
-    /// Spacing of the pattern. Determines the number of places within the gate.
+    /// Pattern spacing. Determines how many code places are inside the gate.
     float spacing_mm = 0.508F;
 };
 
-/// Pose and velocities of the robot.
+/// Robot pose and velocities.
 struct TrackedPose {
     std::int64_t time_us = 0;
     std::int64_t x_nm = 0;
@@ -125,62 +126,62 @@ struct TrackedPose {
     float turn_rad_s = 0;
     Covariance6 covariance{};
 
-    // Only these functions use double precision. They are not part of the embedded object code.
+    // Only the functions below use double precision. They are not part of the embedded object code.
     double x_mm() const { return static_cast<double>(x_nm) * 1e-6; }
     double y_mm() const { return static_cast<double>(y_nm) * 1e-6; }
     /// Angle in [-pi, pi).
     double theta_rad() const { return theta_bam * (std::numbers::pi / 2147483648.0); }
 };
 
-/// The tracker's verdict on the sighting of a frame.
+/// The tracker's verdict on a frame's sighting.
 enum class Verdict : std::uint8_t {
     none,  ///< there was no sighting
-    /// Sufficiently certain without the prior, and either at a possible place or confirmed by
-    /// consistent sightings. A place is possible if it is inside the gate. While the robot is lost,
-    /// a place is possible if the robot can have reached it. The first sighting is always at a
-    /// possible place.
+    /// Certain enough without the prior, and possible or confirmed. A sighting is possible if it is
+    /// inside the gate. While the robot is lost, it is possible if the robot can have reached the
+    /// place. The first sighting is always possible. A sighting is confirmed by further consistent
+    /// sightings.
     accepted,
-    /// Weak, but accepted because it is sufficiently certain together with the prior.
+    /// Weak, but certain enough together with the prior.
     with_prior,
-    /// Sufficiently certain without the prior, but not at a possible place, and not confirmed yet
-    /// by consistent sightings.
+    /// Certain enough without the prior, but at an impossible place and not confirmed yet.
     gated,
-    /// Weak, and not accepted: the robot is lost, the sighting is outside the gate, or it is not
-    /// sufficiently certain even with the prior.
+    /// Weak and rejected. Either the robot is lost, or the sighting is outside the gate, or it is
+    /// not certain enough even with the prior.
     too_weak,
 };
-/// Number of values of Verdict.
+/// Number of verdicts.
 inline constexpr int kVerdictCount = 5;
 /// Returns the identifier, such as "with_prior".
 const char* name(Verdict verdict) noexcept;
 
-/// The events of a frame. Several events may occur together.
+/// Events in a frame. Several events may occur together.
 struct TrackEvents {
-    bool fix = false;  ///< the robot has been found after it was lost, or for the first time
-    /// The robot is now lost: no sighting was accepted for TrackOptions::lost_after_us.
+    bool fix = false;  ///< the robot was found, for the first time or after being lost
+    /// The robot is now lost. There was no accepted sighting or motion for
+    /// TrackOptions::lost_after_us, or the uncertainty exceeds TrackOptions::max_sigma_mm.
     bool lost = false;
-    /// Confirmed sightings are at a place that the robot cannot have reached by driving from the
-    /// place of its last accepted sighting.
+    /// Confirmed sightings are at a place that the robot cannot have reached by driving since its
+    /// last accepted sighting.
     bool kidnapped = false;
     bool stationary = false;  ///< the robot came to rest
-    bool moving = false;      ///< the robot was stationary and moves again
+    bool moving = false;      ///< the stationary robot moves again
 };
 
-/// The state after a frame.
+/// State after a frame.
 struct Track {
     bool is_lost = true;
     bool is_stationary = false;
     Verdict verdict = Verdict::none;
-    /// log2 of an upper bound on the probability that the pose is wrong. For a weak sighting, the
+    /// Upper bound on the probability that the pose is wrong, as log2. For a weak sighting, the
     /// bound takes the prior into account. 0 if the frame has no accepted sighting.
     int p_wrong_log2 = 0;
     TrackEvents events;
-    /// Pose at the time of the latest frame. If the frame had no accepted sighting, the pose is
-    /// predicted. Not valid while the robot is lost.
+    /// Pose at the time of the latest frame. Predicted if the frame had no accepted sighting. Not
+    /// valid while the robot is lost.
     TrackedPose pose;
 };
 
-/// Types of the filter's state, private to Tracker.
+/// Implementation details of Tracker: the filter state. Not part of the public API.
 namespace track {
 
 using Vector3 = std::array<float, 3>;
@@ -188,12 +189,12 @@ using Matrix3 = std::array<Vector3, 3>;
 using Vector9 = std::array<float, 9>;
 using Covariance9 = std::array<Vector9, 9>;
 
-/// The state of the filter.
+/// State of the filter.
 struct MotionEstimate {
     TrackedPose pose;
     Vector3 acceleration{};    ///< mm/s^2, rad/s^2
     Covariance9 covariance{};  ///< covariance of (x, y, theta), their velocities and accelerations
-    /// Variance of the process noise (new acceleration) along each axis, divided by the variance
+    /// Process noise along each axis: the variance of new accelerations, relative to the variance
     /// from TrackOptions.
     Vector3 agility{1, 1, 1};
     Vector3 innovation{};  ///< difference between the newest sighting and its prediction
@@ -204,30 +205,30 @@ struct MotionEstimate {
 
 }  // namespace track
 
-/// Follows one robot through its sightings.
+/// Follows one robot from sighting to sighting.
 class Tracker {
   public:
     /// Starts in the `lost` state.
     explicit Tracker(const TrackOptions& options = {}) : options_(options) {}
 
-    /// Updates the state with a frame, given by its time and its sighting. The sighting is null if
-    /// there is no fix. A frame that is not newer than the previous frame only clears the events.
+    /// Updates the state with a frame. `sighting` is null if the frame has no fix. A frame that is
+    /// not newer than the previous frame only clears the events.
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
-    /// Updates the state with a frame and with the motion since the previous update, from odometry.
-    /// `right_mm` is along the direction theta of the sightings: the image x axis or, with a camera
-    /// file, the heading of the robot. Without a sighting, the motion updates the pose, and the
-    /// uncertainty of the motion increases the covariance of the pose.
+    /// Updates the state with a frame and the odometry motion since the previous update. `right_mm`
+    /// is along the sightings' direction theta. This is the image x axis or, with a camera file,
+    /// the robot's heading. Without a sighting, the motion moves the pose and its uncertainty
+    /// increases the pose's covariance.
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion& motion);
 
     /// Returns the state after the newest frame.
     const Track& track() const { return track_; }
 
-    /// Predicts the place of the pattern in the frame at `time_us`. `newest` must be a fix with
-    /// status ok, and `seen` must be its sighting. Moves the map of `newest` to the pose predicted
-    /// by the filter, and adds the uncertainty of this pose. If `seen` is not accepted yet, the
-    /// prediction is based on the sightings that agree with `seen`.
+    /// Predicts where the pattern is in the frame at `time_us`. `newest` must be a fix with status
+    /// ok, and `seen` must be its sighting. Moves the map of `newest` to the pose predicted by the
+    /// filter, and adds the uncertainty of that pose. If `seen` is not accepted yet, the prediction
+    /// is based on the sightings that agree with `seen`.
     ///
     /// Returns Prediction::like(newest) if no prediction is possible:
     /// - `seen` is not the newest sighting of a motion estimate,
@@ -236,24 +237,24 @@ class Tracker {
     /// - the spacing is not known, or
     /// - the predicted motion along x or y is 2048 spacings or more.
     ///
-    /// `options` are the options of the Locator.
+    /// `options` are the Locator's options.
     Prediction predict(std::int64_t time_us, const Fix& newest, const Sighting& seen,
                        const DeviceOptions& options) const;
 
-    /// Returns true if a weak sighting of the next frame could be accepted. In this case, the frame
-    /// can be located with a relaxed IntegrityOptions::max_p_wrong_log2.
+    /// Returns true if a weak sighting in the next frame could be accepted. The frame can then be
+    /// located with a relaxed IntegrityOptions::max_p_wrong_log2.
     bool has_prior() const { return !track_.is_lost; }
 
   private:
-    /// Returns the motion estimate whose newest sighting is `seen`, or null if there is none.
+    /// Returns the motion estimate whose newest sighting is `seen`. Returns null if there is none.
     const track::MotionEstimate* following(const Sighting& seen) const;
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion* motion);
-    /// Returns the verdict on a sighting. `dt_s` is the time in seconds since `last_`, as `last_`
-    /// was before this frame.
+    /// Returns the verdict on a sighting. `dt_s` is the time since `last_`, in seconds. If a motion
+    /// has already updated `last_` in this frame, `dt_s` is relative to its earlier state.
     Verdict judge(const track::MotionEstimate& prediction, const Sighting& sighting, float dt_s);
     bool is_confirmed(const Sighting& sighting);
-    /// Returns true if the last accepted sighting or motion is too old, or if the position is too
+    /// Returns true if the last accepted sighting or motion is too old, or the position too
     /// uncertain.
     bool is_stale() const;
     void restart(const track::MotionEstimate& motion);
@@ -263,14 +264,14 @@ class Tracker {
     Track track_;
     bool was_seen_ = false;       ///< true if any sighting has been accepted
     bool has_frame_ = false;      ///< true if there has been a frame
-    bool is_y_up_ = false;        ///< true if the y axis of the newest sighting points up
+    bool is_y_up_ = false;        ///< true if y points up in the newest sighting's plane
     std::int64_t newest_us_ = 0;  ///< time of the newest frame
-    /// State at the last accepted sighting, or at the last motion after this sighting.
+    /// State after the last accepted sighting, or after the last motion since then.
     track::MotionEstimate last_;
-    /// Estimate from the newest sightings that contradict the track. These sightings are filtered
-    /// like accepted sightings, because the robot may have been put down elsewhere.
+    /// Estimate from the newest sightings that contradict the track. They are filtered like
+    /// accepted sightings, because the robot may have been put down elsewhere.
     track::MotionEstimate candidate_;
-    int agreeing_ = 0;  ///< number of sightings from which `candidate_` is estimated
+    int agreeing_ = 0;  ///< number of sightings in `candidate_`
     TrackedPose rest_;  ///< pose from which movement is measured
 };
 

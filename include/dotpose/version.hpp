@@ -1,10 +1,10 @@
 /// Version of dotpose, as preprocessor macros. The build, the packages and the other languages read
-/// the version from this header.
+/// it from this header.
 #pragma once
 
 #include "dotpose/language.hpp"
 
-/// The version as text.
+/// Version as text.
 #define DOTPOSE_VERSION "0.2.0"
-/// The version as one number: 10000 * major + 100 * minor + patch.
+/// Version as one number: 10000 * major + 100 * minor + patch.
 #define DOTPOSE_VERSION_NUMBER 200

@@ -108,7 +108,7 @@ void require_writable(const fs::path& target) {
 }
 
 fs::path without_links(fs::path path) {
-    constexpr int kMaxLinks = 40;  // same limit as Linux
+    constexpr int kMaxLinks = 40;  // maximum number of links to follow, as in Linux
     std::error_code error;
     for (int i = 0; i < kMaxLinks && fs::is_symlink(path, error); ++i) {
         const fs::path target = fs::read_symlink(path, error);

@@ -8,7 +8,8 @@
 namespace dotpose::calibrate {
 
 /// Replaces the dots that `locate` read by all blobs at the places where `fit` predicts a dot of
-/// the code. A frame keeps its dots if it has fewer than half as many of these blobs as dots.
+/// the code. If a frame has fewer than half as many of these blobs as dots that `locate` read, the
+/// dots of the frame are not replaced.
 ///
 /// `locate` reads only the dots that a pose needs. In the corners of the image of a slightly tilted
 /// camera, the plane of `locate` fits badly, and `locate` omits the dots with large residuals. The

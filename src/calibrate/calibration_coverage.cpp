@@ -59,8 +59,8 @@ double corner_sigma_px(const Camera& camera) {
                                 const char* key) {
         Camera other = camera;
         double& changed = of_centre != nullptr ? other.centre_px.*of_centre : other.*value;
-        // Step of the difference quotient, in standard deviations. It is small because undistortion
-        // is not linear in the parameters.
+        // Step of the difference quotient, in standard deviations. The step is small, because
+        // undistortion is not linear in the parameters.
         constexpr double kPart = 1e-3;
         changed += kPart * camera.sigma.at(key);
         const PixelPoint moved = from_middle(other, corner);

@@ -76,9 +76,9 @@ class Series {
     std::vector<std::uint64_t> hashes_;
 };
 
-/// Returns the decrease of the sum of squared residuals of one frame, divided by their variance, if
-/// the frame is fitted with its own scale, shear and perspective. The decrease expected by chance
-/// is 5, the number of these parameters.
+/// Returns by how much the sum of the squared residuals of one frame decreases if the frame is
+/// fitted with its own scale, shear and perspective. The decrease is divided by the variance of the
+/// residuals. The decrease expected by chance is 5, the number of these parameters.
 double gain_of_own_view(const LocatedFrame& frame,
                         const std::vector<std::array<double, 2>>& residuals,
                         const std::vector<char>& is_outlier, const FitSetting& setting,

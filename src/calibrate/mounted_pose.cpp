@@ -123,7 +123,8 @@ double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale
     const PaperScale& paper = *camera.paper;
     const double divisor = 1 + paper.perspective_u * (middle.u - camera.centre_px.u) +
                            paper.perspective_v * (middle.v - camera.centre_px.v);
-    // The Jacobian determinant of a homography is its own determinant divided by divisor^3.
+    // The Jacobian determinant of a homography is the determinant of its matrix divided by
+    // divisor^3.
     const double mm2_per_px2 = paper.mm_per_px_x * paper.mm_per_px_y / std::pow(divisor, 3);
     const FixedVec du = fix.pattern_from_image.du_q24;
     const FixedVec dv = fix.pattern_from_image.dv_q24;

@@ -13,8 +13,8 @@ using Eigen::Vector2d;
 /// Minimum number of correct dots in an outer line of a field, as a fraction of the cells of the
 /// line.
 constexpr double kMinLineShare = 0.5;
-/// An outer line must have more correct dots than this fraction of the correct dots in the longest
-/// line.
+/// Lower limit on the number of correct dots in an outer line, as a fraction of the number of
+/// correct dots in the longest line.
 constexpr double kMinLength = 0.15;
 
 /// Minimum number of correct dots in an outer line, as a fraction of the dots of the line. By
@@ -22,8 +22,9 @@ constexpr double kMinLength = 0.15;
 /// correct if the columns happen to agree.
 constexpr double kMinRightShare = 0.7;
 
-/// Returns the located tiles whose maps predict the cells of a tile. This is the tile itself or, if
-/// it has no fix, its neighbours. A tile that shows only the edge of a field has no fix.
+/// Returns the located tiles whose maps predict the cells of a tile. The result contains the tile
+/// itself or, if the tile has no fix, its neighbours. A tile that shows only the edge of a field
+/// has no fix.
 std::vector<const LocatedTile*> views_of(int tile, const Tiling& tiling, const Field& field) {
     if (const auto& own = field.tiles[static_cast<std::size_t>(tile)]) return {&*own};
     std::vector<const LocatedTile*> views;

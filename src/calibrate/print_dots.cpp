@@ -133,9 +133,10 @@ class Meter {
         return darkest_px;
     }
 
-    /// Moves iteratively from the darkest of the four possible places of a dot to its centroid, and
-    /// measures the dot there. Sets `cell`, except its symbols. `strength` is the expected darkness
-    /// of a dot. Returns the offset of the dot from its intersection, in spacings.
+    /// Moves iteratively from the darkest of the four possible places of a dot to the centroid of
+    /// the dot, and measures the dot there. Sets `cell`, except its symbols. `strength` is the
+    /// expected darkness of a dot. Returns the offset of the dot from its intersection, in
+    /// spacings.
     Vector2d measure(const Vector2d& intersection_px, double strength, SeenCell& cell) const {
         Vector2d place_px = darkest_place(intersection_px);
         double moved_px = 1;
@@ -157,8 +158,8 @@ class Meter {
         return offset;
     }
 
-    /// Returns true if the border of a cell is not blank. This is the case if its darkness differs
-    /// from paper by more than `min_darkness` in either direction. A border is lighter than
+    /// Returns true if the border of a cell is not blank, that is, if the darkness of the border
+    /// differs from paper by more than `min_darkness` in either direction. A border is lighter than
     /// `paper_` if most of the tile is filled with grey. The middles of the four sides are not
     /// checked, because swollen dots may merge there.
     bool is_covered(const Vector2d& intersection_px, double min_darkness) const {

@@ -9,7 +9,7 @@
 
 namespace dotpose::calibrate {
 
-/// Code of a field, which determines the nominal place of each dot.
+/// Code of a field. Determines the nominal place of each dot.
 struct Code {
     CodeVariant code = CodeVariant::anoto;
     Section section;
@@ -25,7 +25,7 @@ struct SeenCell {
     std::uint32_t x = 0;  ///< column of the cell
     std::uint32_t y = 0;
     Symbol nominal = Symbol::up;
-    /// True if other print crosses the border of the cell, which dots do not reach.
+    /// True if other print crosses the border of the cell. Dots do not reach this border.
     bool is_covered = false;
     /// Symbol that was read. This member and all members below except `strength` are valid only if
     /// `has_dot` is true.
@@ -54,8 +54,8 @@ struct PrintLevels {
 PrintLevels measure_levels(const ImageView& scan, const TileMap& map,
                            const std::vector<Eigen::Vector2d>& dots_px);
 
-/// Measures all cells whose intersections are inside `rect` or at most half a spacing outside it.
-/// Returns no cells if no paper is visible.
+/// Measures all cells whose intersections are inside `rect` or at most half a spacing outside
+/// `rect`. Returns no cells if no paper is visible.
 std::vector<SeenCell> measure_cells(const ImageView& scan, const PixelRect& rect,
                                     const TileMap& map, const PrintLevels& levels,
                                     const Code& code);

@@ -31,8 +31,8 @@ constexpr double kSwollenGain = 0.5;
 constexpr double kThinGain = -0.3;
 constexpr double kNotableShare = 0.01;
 constexpr double kMinContrast = 0.2;
-/// Below kCoarse_px per spacing, faults of single dots may be due to the scan. They are attributed
-/// to the scan if the dots scatter by more than kCoarseScatter spacings, or if more than
+/// Below kCoarse_px per spacing, faults of single dots may be due to the scan. These faults are
+/// attributed to the scan if the dots scatter by more than kCoarseScatter spacings, or if more than
 /// kCoarseWrongShare of the bits are wrong.
 constexpr double kCoarse_px = 10;
 constexpr double kCoarseScatter = 0.05;

@@ -15,12 +15,12 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kInch_mm = 25.4;
-/// Darkness between two dots, relative to the dots, above which they are merged.
+/// Darkness between two dots, relative to the dots, above which the two dots count as merged.
 constexpr double kMergedShare = 0.6;
 /// Minimum number of dots in a part of the page for which distortion is reported.
 constexpr int kMinBinDots = 60;
-/// Quantile of the darkness of the dots. It is used as the darkness of ink if it exceeds the
-/// expected darkness.
+/// Quantile of the darkness of the dots. The darkness at this quantile is used as the darkness of
+/// ink if it exceeds the expected darkness.
 constexpr double kDarkest = 0.98;
 constexpr double kSigmaPerDeviation = 1.4826;
 
@@ -65,7 +65,8 @@ PrintScale scale_of(const Eigen::Matrix2d& linear) {
     return scale;
 }
 
-/// Fit of a field, which predicts the image positions of its dots.
+/// Map from the paper to the image, fitted to the dots of one field. Predicts the image positions
+/// of these dots.
 struct Fitted {
     PlaneFit fit;
     Units units;

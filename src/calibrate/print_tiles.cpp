@@ -71,8 +71,8 @@ std::optional<LocatedTile> TileLocator::locate_whole() {
 /// Returns the spacing of the pattern in crops of the scan. Returns 0 if no crop shows the pattern.
 double TileLocator::find_spacing_px() {
     for (const bool thorough : {true, false}) {
-        // First, some crops are located with `Effort::twice`. If none of them has a fix, all crops
-        // are located with `Effort::once`.
+        // First, some crops are located with `Effort::twice`. If none of these crops has a fix, all
+        // crops are located with `Effort::once`.
         use_effort(thorough ? Effort::twice : Effort::once);
         for (const Probe& probe : kProbes) {
             zoom_ = probe.zoom;

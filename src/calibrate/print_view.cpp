@@ -8,13 +8,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Minimum relative change of lengths across the page that indicates a camera. A camera held
-/// straight by hand is tilted by about a degree, which changes lengths by 1 %. Scanners change
-/// lengths by less than 0.1 %.
+/// Relative change of lengths, due to perspective or lens distortion, above which an image may be a
+/// photo. A camera held straight by hand is tilted by about a degree. Such a tilt changes lengths
+/// by 1 %. Scanners change lengths by less than 0.1 %.
 constexpr double kMinSign = 0.003;
-/// Maximum residual of the fit of a camera, relative to the residual of the fit of a flat page,
-/// that indicates a camera. Uneven motion of a scanner's carriage displaces dots along one axis
-/// only, so the fit of a camera hardly reduces the residual.
+/// Ratio of the residuals of two fits, of a camera and of a flat page, below which an image may be
+/// a photo. Uneven motion of a scanner's carriage displaces dots along one axis only, so the fit of
+/// a camera hardly reduces the residual.
 constexpr double kMaxResidual = 0.8;
 
 /// Plane of the paper as seen by a camera with a given focal length and principal point.
@@ -64,8 +64,8 @@ std::optional<ScaleRatio> scale_ratio_of(const PlaneFit& fit, double longer_side
         }
     }
     if (least > most || most - least > 2 * kMaxUncertainty) return std::nullopt;
-    // Uncertainty due to the lens. Real lenses have more distortion terms than the one that is
-    // fitted.
+    // Uncertainty due to the lens. Real lenses have more distortion terms than the single term that
+    // is fitted.
     constexpr double kLensUncertainty = 0.0005;
     return ScaleRatio{0.5 * (least + most), 0.5 * (most - least) + kLensUncertainty};
 }

@@ -15,7 +15,8 @@ namespace {
 
 /// Maximum distance of the image centre from the page whose dots the frame shows, in mm.
 constexpr double kBeyondPage_mm = 400;
-/// Minimum number of dots of a view. With fewer dots, its scales along the axes are not reliable.
+/// Minimum number of dots of a view. With fewer dots, the scales of the view along the axes are not
+/// reliable.
 constexpr std::size_t kMinViewDots = 30;
 constexpr int kFieldsPerSide = 8;
 /// Minimum number of fields, out of 64, that must show dots of located sheets. Once this number is
@@ -197,7 +198,8 @@ std::vector<SheetView> SeamLocator::views_with(const GreyImage& image, Effort ef
     return views;
 }
 
-/// Returns the camera with its sensor cropped to the part. Its reference point is the image centre.
+/// Returns the camera with its sensor cropped to the part. The reference point of the result is the
+/// image centre.
 Camera SeamLocator::camera_of(const GreyImage& image, const Part& part) const {
     Camera camera;
     if (camera_) {

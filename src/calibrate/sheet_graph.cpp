@@ -23,7 +23,7 @@ constexpr double kPinned = 1e-7;
 /// Prior relative standard deviation of the scale of a camera relative to the sheets.
 constexpr double kCameraPrior = 0.03;
 /// Prior standard deviation of the aspect and the skew of a camera whose file does not contain
-/// them. It is small, because the pixels of sensors are square.
+/// them. The standard deviation is small, because the pixels of sensors are square.
 constexpr double kSquarePrior = 0.002;
 
 /// Vector in the plane. T is double or an automatic differentiation type.
@@ -113,9 +113,9 @@ void pin_one(ceres::Problem& problem, std::array<double, kSize>& block, std::siz
     pin(problem, block, weights, expected, sigma);
 }
 
-/// Returns a pose on the page of the sheet of a view. Its position is the position of the point
-/// `in_camera`, given in the camera's coordinate frame. Its direction is the direction of the x
-/// axis of this coordinate frame.
+/// Returns a pose on the page of the sheet of a view. The position of this pose is the position of
+/// the point `in_camera`, given in the camera's coordinate frame. The direction of the pose is the
+/// direction of the x axis of this coordinate frame.
 PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const Sheet& sheet,
                   const AxisScale& scale) {
     const Eigen::Vector2d at = view.place + view.axes * (in_camera - view.middle);
@@ -206,8 +206,7 @@ PlanePose SheetGraph::image_centre(const SheetView& view) const {
 }
 
 /// Sets initial poses of the sheets by a breadth-first search from the fixed sheet. Each pose comes
-/// from the frame that shows the most dots of both sheets, measured by the smaller of the two
-/// numbers.
+/// from the frame in which the smaller of the numbers of dots on the two sheets is largest.
 void SheetGraph::spread_from_fixed() {
     const auto start = [this](std::size_t sheet, const PlanePose& pose) {
         const AxisScale scale = sheets_[sheet].print_scale();

@@ -99,7 +99,7 @@ void prepare(const SourceOptions& options, const std::string& name, GreyImage& i
 std::int64_t time_of(std::int64_t index, double fps);
 
 /// Opens raw 8-bit grey frames on standard input. Throws BadArgument if the options do not contain
-/// their size.
+/// the size of the frames.
 std::unique_ptr<FrameSource> open_raw(const SourceOptions& options);
 
 /// Opens the images at the paths that `next_path` returns, until it returns an empty optional.

@@ -1,5 +1,5 @@
-// Decoding: finds the place of a window of symbols in the code. The window must contain no wrong
-// symbols. Paper sections II-A and II-B.7.
+// Decoding: finds a window of symbols in the code. All symbols must be correct (paper, sections
+// II-A and II-B.7).
 #include <array>
 #include <cstddef>
 
@@ -15,16 +15,15 @@ constexpr int kMinWindow = code::kMainOrder;
 using Rolls = std::array<std::uint8_t, kMaxWindow>;
 using Deltas = std::array<std::uint8_t, kMaxWindow - 1>;
 
-/// Result of a search in one secondary sequence: the first place where the digits of a window
-/// occur, and the number of such places. The digits are one digit of each difference between
-/// adjacent rolls.
+/// Places where a string of digits occurs in a secondary sequence. `first` is valid only if `count`
+/// is positive.
 struct Places {
     std::uint32_t first = 0;
     int count = 0;
 };
 
-/// Returns true if a.digits[place + i], with the index modulo the length, is digit `digit` of
-/// deltas[i] for all i.
+/// Returns true if a.digits[place + i] is digit `digit` of deltas[i] for all i. Indices wrap
+/// around.
 bool matches_at(const code::Secondary& a, std::size_t digit, std::span<const std::uint8_t> deltas,
                 std::uint32_t place) {
     for (const std::uint8_t d : deltas) {
@@ -42,7 +41,7 @@ Places find(const code::Secondary& a, std::size_t digit, std::span<const std::ui
     Places places;
     if (first == code::kAbsent) return places;
     if (!a.has_twins) {
-        // The first kOrder digits occur only at this place, so only the remaining digits are
+        // The first kOrder digits occur only at this place. Only the remaining digits need to be
         // compared.
         std::uint32_t next = first + std::uint32_t{code::kOrder};
         if (next >= a.length) next -= a.length;
@@ -55,8 +54,8 @@ Places find(const code::Secondary& a, std::size_t digit, std::span<const std::ui
     return places;
 }
 
-/// Returns the place in the main sequence that matches all bits of column or row `line` of the
-/// window, or kAbsent if the main sequence does not contain these bits.
+/// Returns the place in the main sequence where the bits of a column or row begin. Returns kAbsent
+/// if the main sequence does not contain these bits.
 std::uint8_t place_in_main(const SymbolWindow& window, bool columns, int line) {
     const int length = columns ? window.rows : window.columns;
     const auto bit = [&](int i) -> unsigned {
@@ -77,8 +76,8 @@ std::uint8_t place_in_main(const SymbolWindow& window, bool columns, int line) {
     return place;
 }
 
-/// Reads the rolls of all columns (or rows) of a window. Sets the roll and the position of the
-/// first column (or row). Errors: not_in_code, ambiguous.
+/// Decodes the columns of a window, or its rows if `columns` is false. Sets the roll and the
+/// position of the first line. Errors: not_in_code, ambiguous.
 Status read_axis(CodeVariant code, const SymbolWindow& window, bool columns,
                  std::uint8_t& first_roll, std::uint32_t& position) {
     Rolls rolls{};

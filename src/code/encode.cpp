@@ -1,4 +1,4 @@
-// Encoding: computes the symbols of a position (paper section II-A), in O(1) per column and row.
+// Encoding: computes the symbol at any position in constant time (paper, section II-A).
 #include "code/basis.hpp"
 #include "dotpose/code.hpp"
 
@@ -13,10 +13,11 @@ int delta(CodeVariant code, std::uint32_t p) noexcept {
 }
 
 int roll(CodeVariant code, std::uint32_t p) noexcept {
-    // The roll is the sum of the p differences before line p. Modulo 63:
-    //     5 p + sum over the sequences of ((p - place) / length * rolls[length] + rolls[place])
-    // (p - place) / length is the number of full periods. `period_roll` is rolls[length] times the
-    // inverse of the length modulo 63. Adding 4 * 63 keeps `lines - place` positive.
+    // The roll is the sum of all differences before p, modulo 63:
+    //     roll = 5 p + sum over a1 to a4 of (periods * rolls[length] + rolls[place])
+    //     periods = (p - place) / length
+    // `period_roll` is rolls[length] times the inverse of `length` modulo 63. The extra 4 * 63
+    // keeps `lines - place` positive.
     const std::uint32_t lines = code::modulo_sections(p) + 4 * kSections;
     std::uint32_t sum = code::kMinDelta * lines;
     for (const code::Secondary& a : code::basis(code)) {
@@ -45,16 +46,15 @@ int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
 
 namespace {
 
-/// Position and sections of a place along one axis. `own` is the section of the lines of this axis,
-/// and `cross` is the section of the lines of the other axis.
+/// A place along one axis. `own` is this axis's section, and `cross` is the other axis's section.
 struct AxisPlace {
     std::uint32_t position;
     std::uint8_t own;
     std::uint8_t cross;
 };
 
-/// Returns the place moved by `distance` positions. Not inlined, because there are two calls, and
-/// most of the code is rarely executed.
+/// Moves a place by `distance` positions. Not inlined, because it is called twice and most of its
+/// code is rarely executed.
 [[gnu::noinline]] AxisPlace moved(CodeVariant code, AxisPlace place, std::int32_t distance) {
     const std::int64_t target = std::int64_t{place.position} + distance;
     const bool is_before = target < 0;
@@ -62,9 +62,9 @@ struct AxisPlace {
         place.position = static_cast<std::uint32_t>(target);
         return place;
     }
-    // Along x, with L = kPositionsPerAxis: the rolls of the columns p and p + L differ by roll(L),
-    // so the section of the columns changes by roll(L). The rows are read L cells farther along, so
-    // the section of the rows changes by L modulo 63.
+    // The target is outside [0, L), where L = kPositionsPerAxis. Along x, the columns p and p + L
+    // differ by roll(L), so the column section changes by roll(L). The rows begin L cells later, so
+    // the row section changes by L modulo 63. Along y, columns and rows are exchanged.
     const auto shifted = [&](int section, int by) {
         const int sum = section + (is_before ? kSections - by : by);
         return static_cast<std::uint8_t>(sum % kSections);

@@ -1,5 +1,6 @@
-// Rolls: computes the rolls of single lines and of runs of consecutive lines. Computing a run in
-// one call is faster than computing its rolls line by line.
+// Rolls: computes the rolls of columns and rows. The roll of a line is the place in the main
+// sequence where its bits begin. For adjacent lines, `follow_rolls` is faster than one call per
+// line.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +10,16 @@
 
 namespace dotpose::code {
 
-/// Returns the roll, in [0, 63), of line `position` (a column or a row) of a section, if the first
-/// bit of the line is at position `cross` of the other axis.
+/// Returns the roll of a column or row, in [0, 62]. `position` and `section` are its own position
+/// and section. Its first bit is at position `cross` on the other axis.
 int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32_t cross);
 
-/// Returns the roll of a position in the code variant `other` minus its roll in the variant `read`,
-/// modulo 63. `place` is the place of the position in a4, the only sequence that differs between
-/// the variants.
+/// Returns the roll of a position in the code `other` minus its roll in the code `read`, modulo 63.
+/// `place` is the position's place in a4, the only sequence that differs between codes.
 int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, std::uint32_t place);
 
 /// Sets rolls[i] to the roll of line `position` + i. `first_roll` is the roll of line `position`.
-/// Lines may be beyond the last position, because the differences between rolls are periodic.
+/// Lines beyond the last position are allowed, because the roll differences are periodic.
 void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls);
 

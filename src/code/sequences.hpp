@@ -1,6 +1,6 @@
-// Sequences: the main sequence and the secondary sequences of the code, as published, with proofs
-// of the properties that decoding needs. Paper section II-A, US patent 6,667,695.
-// docs/position-code.md describes the variants of a4.
+// Sequences: the main sequence and the secondary sequences (paper, section II-A; US patent
+// 6,667,695). Compile-time proofs check the properties that decoding needs. docs/position-code.md
+// describes the variants of a4.
 #pragma once
 
 #include <array>
@@ -51,8 +51,7 @@ inline constexpr auto kA4Microdots = digits(
 
 // ---- Proofs, by enumeration at compile time -----------------------------------------------------
 
-/// Returns `length` digits of a cyclic sequence, beginning at place `start`, as one number in base
-/// `base`.
+/// Returns the `length` digits from `start` as a number in base `base`. The sequence is cyclic.
 template <std::size_t Length>
 constexpr unsigned key(const Digits<Length>& sequence, std::size_t start, int length,
                        unsigned base) {
@@ -63,8 +62,8 @@ constexpr unsigned key(const Digits<Length>& sequence, std::size_t start, int le
     return value;
 }
 
-/// Returns true if every digit is less than `base`, and every string of `order` digits occurs at
-/// most once in the cyclic sequence. This is the definition of a quasi De Bruijn sequence.
+/// Returns true if the cyclic sequence is quasi De Bruijn: all digits are less than `base`, and
+/// every string of `order` digits occurs at most once.
 template <std::size_t Length>
 consteval bool is_quasi_de_bruijn(const Digits<Length>& sequence, int order, unsigned base) {
     constexpr std::size_t kMaxStrings = 2187;  // 7 digits in base 3
@@ -78,8 +77,8 @@ consteval bool is_quasi_de_bruijn(const Digits<Length>& sequence, int order, uns
     return true;
 }
 
-/// Returns true if the cyclic sequence contains a string of `length` bits and also the same string
-/// reversed with its bits flipped.
+/// Returns true if some string of `length` bits also occurs reversed and inverted. The sequence is
+/// cyclic.
 template <std::size_t Length>
 consteval bool has_flipped_reverse(const Digits<Length>& sequence, std::size_t length) {
     for (std::size_t i = 0; i < Length; ++i) {

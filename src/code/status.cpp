@@ -1,4 +1,4 @@
-// A table of the names and messages of all statuses.
+// Status texts: the name and the message of each status.
 #include "dotpose/status.hpp"
 
 #include <algorithm>
@@ -65,18 +65,18 @@ constexpr bool in_order() {
 }
 static_assert(in_order(), "kTexts has one row per Status, in the order of the values");
 
-/// Returns the row of a status. The last row is for `other` and for values that are not a Status.
+/// Returns the row of a status. Unknown values use the last row, as `other` does.
 constexpr std::size_t row_of(Status status) {
     return std::min<std::size_t>(static_cast<std::size_t>(status), kStatusCount);
 }
 
-/// The names, stored separately from the messages. The linker then omits the messages from device
-/// programs that print only names.
+/// Names, stored apart from the messages. Device programs that print only names then link no
+/// messages.
 constexpr auto kNames = [] {
     std::array<std::array<char, 16>, kTexts.size()> names{};
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::string_view name = kTexts[i].name;
-        // Includes the terminating zero in the copy.
+        // Copies the terminating zero, too.
         std::copy_n(name.data(), name.size() + 1, names[i].begin());
     }
     return names;

@@ -1,5 +1,5 @@
-// Lookup tables, computed from the sequences at compile time: rolls, for encoding in O(1), and
-// places of digit strings, for decoding.
+// Tables: lookup tables that are computed from the sequences at compile time. Roll tables serve
+// encoding, and place tables serve decoding.
 #pragma once
 
 #include <array>
@@ -11,20 +11,20 @@
 
 namespace dotpose::code {
 
-/// Marks a string of digits that does not occur in the sequence.
+/// Marks a string of digits that does not occur in a sequence.
 inline constexpr std::uint8_t kAbsent = 255;
-/// Number of consecutive differences that determine a place in a secondary sequence. Each
-/// difference contributes one digit of the sequence. In the a4 of `libdots`, some strings of this
-/// length occur twice (`Secondary::has_twins`).
+/// Number of consecutive roll differences that determine a place in a secondary sequence. Each
+/// difference contributes one digit. In the a4 of `libdots`, some strings of this length occur
+/// twice (see `Secondary::has_twins`).
 inline constexpr int kOrder = 5;
 
-/// The tables of a sequence extend beyond its end, so loops over adjacent lines need not wrap
-/// around. kLinesAhead entries cover the lines of a view whose first line is at the last place.
-/// kVectorAhead further entries cover a vector load that begins at the last of these lines.
+/// Table entries beyond the end of a sequence. With these entries, loops over adjacent lines need
+/// not wrap around. kLinesAhead entries cover a view whose first line is at the last place.
+/// kVectorAhead more entries cover a vector load from the view's last line.
 inline constexpr std::size_t kLinesAhead = 64;
 inline constexpr std::size_t kVectorAhead = 32;
 
-/// Returns n modulo 63, for n < 4095. Needs no division, because 64 modulo 63 is 1.
+/// Returns n modulo 63 for n < 4095. Needs no division, because 64 modulo 63 is 1.
 constexpr std::uint32_t short_modulo_sections(std::uint32_t n) {
     n = (n & 63) + (n >> 6);
     return n < kSections ? n : n - kSections;
@@ -37,42 +37,38 @@ constexpr std::uint32_t modulo_sections(std::uint32_t n) {
     return short_modulo_sections((n & 63) + (n >> 6));
 }
 
-/// A secondary sequence with its tables. All sequences have this type, regardless of length and
-/// base.
+/// A secondary sequence with its tables. All lengths and bases use this type.
 struct Secondary {
     const std::uint8_t* digits;  ///< `length` digits
-    /// For each place, the sum of the weighted digits before this place, modulo 63: the
-    /// contribution of the sequence to the roll. The table extends beyond the end of the sequence
-    /// by kLinesAhead + kVectorAhead entries.
+    /// Contribution to the roll, by place: the sum of all weighted digits before the place, modulo
+    /// 63. Has kLinesAhead + kVectorAhead entries beyond the end.
     const std::uint8_t* rolls;
-    /// First place of each string of 5 digits, or kAbsent if the string does not occur. Indexed by
-    /// the key of the string (see `key`).
+    /// First place of each 5-digit string, or kAbsent if the string does not occur. The index is
+    /// the string's `key`.
     const std::uint8_t* first_place_of;
-    /// One bit set per digit: bit i is 1 if place i contains the digit. The sequence is repeated
-    /// cyclically up to 256 + kLinesAhead bits. Bit 0 is the least significant bit of the first
-    /// word.
+    /// One bit set per digit: bit i is 1 if place i contains the digit. Place 0 is the lowest bit
+    /// of the first word. The sets repeat cyclically up to 256 + kLinesAhead bits.
     const std::uint32_t* const* places_of;
     std::uint32_t reciprocal;     ///< 2^20 / length
     std::uint16_t rest_of_65536;  ///< 65536 modulo length
     std::uint8_t length;
-    std::uint8_t period_roll;  ///< roll of one period divided by `length`, modulo 63; see `roll`
+    std::uint8_t period_roll;  ///< rolls[length] times the inverse of `length`, modulo 63
     std::uint8_t base;
-    std::uint8_t weight;  ///< weight of the digits in the basis equation of section II-A
-    bool has_twins;       ///< true if any string of 5 digits occurs twice
+    std::uint8_t weight;  ///< weight of the digits in a roll difference
+    bool has_twins;       ///< true if some string of 5 digits occurs twice
 
-    /// Returns the place of a position in the sequence: `position` modulo `length`. Needs no
-    /// division.
+    /// Returns the place of a position, which is `position` modulo `length`. Needs no division.
     constexpr std::uint32_t place_of(std::uint32_t position) const {
-        // The sum is less than 2^24.
+        // n is less than 2^24, so the product fits in 32 bits.
         const std::uint32_t n = (position >> 16) * rest_of_65536 + (position & 0xFFFF);
         std::uint32_t rest = n - ((n >> 8) * reciprocal >> 12) * length;
         while (rest >= length)
             rest -= length;
         return rest;
     }
-    /// Returns the places p for which digits[p + i] equals digits[place + i] for all i < `count`,
-    /// with cyclic indices. The result is a bit set of the places 32 * word to 32 * word + 31, and
-    /// includes `place` itself. Bits beyond the end of the sequence are 0.
+    /// Returns the places with the same next `count` digits as `place`, including `place` itself.
+    /// Indices wrap around. The result is a bit set for the places 32 * word to 32 * word + 31.
+    /// Bits beyond the end of the sequence are 0.
     constexpr std::uint32_t equal_places(std::uint32_t place, int count, std::uint32_t word) const {
         const std::uint32_t rest = length - 32 * word;
         std::uint32_t places = rest < 32 ? ~(~std::uint32_t{0} << rest) : ~std::uint32_t{0};
@@ -97,7 +93,7 @@ consteval Digits<Length + kLinesAhead + kVectorAhead> rolls(const Digits<Length>
     return result;
 }
 
-/// Returns the table `Secondary::places_of` of a sequence for one digit.
+/// Returns the bit set in `Secondary::places_of` for one digit.
 template <std::size_t Length>
 consteval auto places_of(const Digits<Length>& sequence, int digit) {
     std::array<std::uint32_t, (256 + kLinesAhead) / 32> words{};
@@ -107,7 +103,7 @@ consteval auto places_of(const Digits<Length>& sequence, int digit) {
     return words;
 }
 
-/// Returns the roll of one period of a sequence divided by the length of the sequence, modulo 63.
+/// Returns `roll_of_period` times the inverse of `length`, modulo 63.
 consteval std::uint8_t period_roll(std::size_t length, unsigned roll_of_period) {
     std::size_t inverse = 1;
     while (length * inverse % kSections != 1)
@@ -115,8 +111,8 @@ consteval std::uint8_t period_roll(std::size_t length, unsigned roll_of_period) 
     return static_cast<std::uint8_t>(roll_of_period * inverse % kSections);
 }
 
-/// Returns the first place of each string of `Order` digits in base `Base`, or kAbsent if the
-/// string does not occur. Indexed by the key of the string.
+/// Returns the first place of each string with `Order` digits, or kAbsent if the string does not
+/// occur. The index is the string's `key` in base `Base`.
 template <unsigned Base, int Order, std::size_t Length>
 constexpr auto first_places(const Digits<Length>& sequence) {
     constexpr std::size_t kKeys = [] {
@@ -133,7 +129,6 @@ constexpr auto first_places(const Digits<Length>& sequence) {
     return places;
 }
 
-/// The tables of one sequence.
 template <unsigned Base, const auto& Sequence, std::uint8_t Weight>
 struct Tables {
     static constexpr std::size_t kLength = Sequence.size();
@@ -159,8 +154,8 @@ struct Tables {
 
 using Basis = std::array<Secondary, 4>;
 
-/// The four sequences of a code variant, with their weights in the basis equation d = 5 + a1 + 3 a2
-/// + 9 a3 + 18 a4 (section II-A).
+/// The four sequences of a code variant. A roll difference is d = 5 + a1 + 3 a2 + 9 a3 + 18 a4
+/// (paper, section II-A).
 template <const auto& A4>
 inline constexpr Basis kBasis{Tables<3, kA1, 1>::kSecondary, Tables<3, kA2, 3>::kSecondary,
                               Tables<2, kA3, 9>::kSecondary, Tables<3, A4, 18>::kSecondary};
@@ -168,7 +163,7 @@ inline constexpr Basis kBasis{Tables<3, kA1, 1>::kSecondary, Tables<3, kA2, 3>::
 inline constexpr int kMinDelta = 5;
 inline constexpr int kMaxDelta = 58;
 
-/// The digits a1 to a4 of each difference from 5 to 58, two bits per digit, a1 in the lowest bits.
+/// Digits of each roll difference from 5 to 58, two bits per digit. a1 is in the lowest bits.
 inline constexpr auto kDigitsOfDelta = [] {
     std::array<std::uint8_t, kMaxDelta - kMinDelta + 1> result{};
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -178,7 +173,7 @@ inline constexpr auto kDigitsOfDelta = [] {
     return result;
 }();
 
-/// Returns digit a(n + 1) of a difference, for n = 0 to 3.
+/// Returns the digit of sequence a(n + 1) in a roll difference, for n = 0 to 3.
 constexpr unsigned digit_of_delta(std::size_t delta, std::size_t n) {
     return kDigitsOfDelta[delta - kMinDelta] >> 2 * n & 3U;
 }
@@ -191,7 +186,7 @@ inline constexpr auto kMainRepeated = [] {
     return bits;
 }();
 
-/// The 32 bits of the main sequence that begin at each index. The first bit is the lowest bit.
+/// 32 bits of the main sequence, from each index. The first bit is the lowest bit.
 inline constexpr auto kMainWords = [] {
     std::array<std::uint32_t, kSections> words{};
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -201,7 +196,7 @@ inline constexpr auto kMainWords = [] {
     return words;
 }();
 
-/// Returns the 64 bits of the main sequence that begin at `index`. The first bit is the lowest bit.
+/// Returns 64 bits of the main sequence, from `index`. The first bit is the lowest bit.
 constexpr std::uint64_t main_bits(std::size_t index) {
     const std::size_t next = index + 32;
     return kMainWords[index] | std::uint64_t{kMainWords[next < kSections ? next : next - kSections]}

@@ -1,5 +1,5 @@
-// Table of the minimum number of unshared lines between a position in one code variant and all
-// positions in another variant. unshared_lines.hpp explains the term. Generated;
+// Unshared lines between codes: compares each position in one code with all positions in another
+// code. unshared_lines.hpp defines unshared lines. Generated.
 // tests/unit/code/unshared_codes_test.cpp recomputes the table.
 #pragma once
 
@@ -12,11 +12,10 @@
 
 namespace dotpose::code {
 
-/// Minimum numbers of unshared lines, indexed by the code variant that was read, the other variant,
-/// and the index of the number of lines in `kUnsharedOf`. Digit p of a string is the minimum for
-/// lines that begin at place p of a4, over all places in the a4 of the other variant and all
-/// shifts. Most of a4 is the same in anoto and libdots, so the same place at shift 0 is excluded
-/// between these two variants.
+/// Minimum numbers of unshared lines. Indices: code that was read, other code, row of
+/// `kUnsharedOf`. Digit p of a string applies to lines that begin at place p in a4. The minimum is
+/// over all places in the other code's a4, at all shifts. Between anoto and libdots, the same place
+/// at shift 0 is excluded, because most of a4 is equal.
 inline constexpr std::array<std::array<std::array<std::string_view, 3>, kCodeVariantCount>,
                             kCodeVariantCount>
     kUnsharedInOther{{

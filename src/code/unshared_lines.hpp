@@ -1,7 +1,7 @@
-// Tables of the number of unshared lines of two positions that differ in the place in one sequence.
-// The positions share a line at a *shift* if their rolls in this line differ by the shift. As
-// between two sections, the shift is the same for all lines. Generated;
-// tests/unit/code/unshared_lines_test.cpp recomputes the tables.
+// Unshared lines: compares each position with all positions that differ from it in a single
+// sequence. Two positions share a line at shift s if their rolls in this line differ by s. The
+// shift is the same in all lines. Generated. tests/unit/code/unshared_lines_test.cpp recomputes the
+// tables.
 #pragma once
 
 #include <array>
@@ -10,15 +10,14 @@
 
 namespace dotpose::code {
 
-/// Numbers of consecutive lines for which the tables contain values. Each number corresponds to a
-/// *row* of the tables.
+/// Number of consecutive lines that each table row covers.
 inline constexpr std::array<int, 3> kUnsharedOf{10, 13, 16};
 
-/// Index of the first entry of each sequence in the table, in the order a1, a2, a3, restored a4.
+/// Index of each sequence's first entry in `kUnshared`. Order: a1, a2, a3, restored a4.
 inline constexpr std::array<std::size_t, 4> kUnsharedFrom{0, 236, 469, 500};
 
-/// Packed minimum numbers of unshared lines, indexed by `kUnsharedFrom` plus the place of the first
-/// line in the sequence. `unshared_at_one_shift` and `unshared_on_two_sides` unpack the entries.
+/// Minimum numbers of unshared lines, packed. The index is kUnsharedFrom[sequence] plus the place
+/// of the first line. `unshared_at_one_shift` and `unshared_on_two_sides` unpack an entry.
 inline constexpr std::array<std::uint16_t, 741> kUnshared{
     0x2A48, 0x2A48, 0x2A49, 0x2889, 0x4A91, 0x4892, 0x5292, 0x2A92, 0x2A51, 0x2892, 0x2A52, 0x324A,
     0x328A, 0x288A, 0x2A92, 0x2A52, 0x3249, 0x328A, 0x0849, 0x2A92, 0x4A92, 0x42D2, 0x2ADA, 0x08DA,
@@ -84,13 +83,12 @@ inline constexpr std::array<std::uint16_t, 741> kUnshared{
     0x7322, 0x7522, 0x74DA, 0x7D1B, 0x551B, 0x5CDB, 0x54DB, 0x2C93, 0x2C4A,
 };
 
-/// Maximum number of unshared lines for which kMaxPositionsWith contains bounds.
+/// Maximum number of unshared lines that `kMaxPositionsWith` covers.
 inline constexpr std::size_t kMaxCounted = 7;
 
-/// Upper bounds on the number of positions with exactly n unshared lines, indexed by row, sequence
-/// and n - 1. The positions differ from the decoded position only in the place in this sequence. A
-/// position counts once for each shift where it shares at least one line. The bounds hold at all
-/// places and for the a4 of every code variant.
+/// Upper bounds on the number of positions with exactly n unshared lines. Indices: row, sequence, n
+/// - 1. These positions differ from the decoded position in this sequence only. A position counts
+/// once for each shift where it shares a line. The bounds hold at all places and for all codes.
 inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>, 3>
     kMaxPositionsWith{{
         {{{1, 4, 15, 34, 64, 120, 227},
@@ -107,17 +105,16 @@ inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>
           {0, 0, 3, 4, 7, 10, 16}}},
     }};
 
-/// Returns the minimum number of unshared lines, among `kUnsharedOf[row]` consecutive lines, over
-/// all shifts and all positions that differ only in the sequence of `entry`. The minimum is at
-/// least row + 1. Three bits of the entry store the excess.
+/// Returns the minimum number of unshared lines over all shifts and all positions. `row` selects
+/// the number of lines in `kUnsharedOf`. The minimum is at least row + 1. Three bits of the entry
+/// store the excess.
 constexpr std::size_t unshared_at_one_shift(std::size_t entry, std::size_t row) {
     return row + 1 + (kUnshared[entry] >> 3 * row & 7U);
 }
 
-/// Returns the minimum number of unshared lines, among `kUnsharedOf[row]` consecutive lines, if the
-/// shift may change once: from one shift for the first lines to another shift for the remaining
-/// lines. The minimum is over all such pairs of shifts and all positions that differ only in the
-/// sequence of `entry`. The minimum is at least `row`. Two bits of the entry store the excess.
+/// Returns the minimum number of unshared lines if the shift may change once, between two lines.
+/// `row` selects the number of lines in `kUnsharedOf`. The minimum is at least `row`. Two bits of
+/// the entry store the excess.
 constexpr std::size_t unshared_on_two_sides(std::size_t entry, std::size_t row) {
     return row + (kUnshared[entry] >> (9 + 2 * row) & 3U);
 }

@@ -1,4 +1,4 @@
-// Known sheets: the regions of the code plane that may be in view.
+// Known sheets: the parts of the code plane that may be in view.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace dotpose::core {
 
-/// Range of positions along one axis. If the first of `lines` adjacent lines is in this range, at
-/// least one of these lines is on the region. `region_first` and `region_size` are the first
-/// position and the number of positions of the region along the axis.
+/// Range of positions for the first of `lines` adjacent lines, along one axis. If the first line is
+/// in this range, at least one line is on the region. The region begins at `region_first` and has
+/// `region_size` positions.
 struct PositionRange {
     std::uint32_t first;
     std::uint32_t count;
@@ -24,15 +24,15 @@ struct PositionRange {
     friend bool operator==(const PositionRange&, const PositionRange&) = default;
 };
 
-/// The known sheets of a locator, and whether other sheets are possible.
+/// The known sheets, and whether other sheets may be in view.
 struct KnownSheets {
     std::span<const KnownRegion> regions;
     OtherSheets others = OtherSheets::possible;
 
     bool any() const { return !regions.empty(); }
     bool are_all() const { return any() && others == OtherSheets::impossible; }
-    /// Returns true if a block of cells is at least partly on a known sheet. `corner` is the place
-    /// of the upper left cell of the block.
+    /// Returns true if a block is at least partly on a known sheet. `corner` is the place of its
+    /// upper left cell.
     bool show(CodeVariant code, const Place& corner, int columns, int rows) const {
         for (const KnownRegion& region : regions) {
             if (region.code == code && region.section == corner.section &&

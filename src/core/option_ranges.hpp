@@ -1,6 +1,6 @@
-// Option ranges: the valid range of each option. If all options are in range, no stage can
-// overflow. Options that are safe with any value have no range. An example is the lens coefficient
-// k (see bend_q48).
+// Option ranges: the valid range of each option. With all options in range, no stage can overflow.
+// Options that are safe at any value have no range, for example the lens coefficient k (see
+// bend_q48).
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace dotpose::core {
 
-/// Calls `is_good(name, value, low, high)` for each option until `is_good` returns false. Returns
-/// true if `is_good` returned true for all options.
+/// Calls `is_good(name, value, low, high)` for each option, and stops at the first false result.
+/// Returns true if all results are true.
 template <typename IsGood>
 constexpr bool all_options(const DeviceOptions& options, IsGood is_good) {
     constexpr std::int32_t kFarthestReference_q8 = 16384 * 256;
     constexpr std::int32_t kFarthestLens_q8 = 1024 * 256;
-    constexpr std::int32_t kMax = 1 << 20;  // 256 times this value fits in 32 bits
+    constexpr std::int32_t kMax = 1 << 20;  // 256 * kMax fits in 32 bits
     const auto is_far_at_most = [&](const char* name, std::int32_t offset, std::int32_t most) {
         return is_good(name, offset, -most, most);
     };

@@ -1,5 +1,5 @@
-// Patch memory: the memory in which the desktop attempts store a part of the image with its dots,
-// and the measured dots of a frame.
+// Patch memory: storage for a part of the image and its dots, and for the measured dots of a frame.
+// The desktop attempts use it.
 #pragma once
 
 #include <array>
@@ -8,18 +8,17 @@
 
 namespace dotpose::core {
 
-/// Dots in a patch. Coordinates are in px of the image, relative to the middle of the patch or to
+/// Dots in a patch, in px of the image. Coordinates are relative to the middle of the patch, or to
 /// the origin that `move_origin_to_densest` chooses.
 struct PatchDots {
     static constexpr int kMax = 2048;
     int count = 0;
-    // The capacities are rounded up to a whole number of vectors. The unused elements of the last
-    // vector are far outside the patch.
+    // Padded to whole vectors. In the last vector, unused elements are far outside the patch.
     alignas(64) std::array<float, kMax + 16> x;
     alignas(64) std::array<float, kMax + 16> y;
 };
 
-/// A part of an image, downscaled by the factor `scale`, with a margin on all sides.
+/// A part of an image with a margin on all sides, downscaled by the factor `scale`.
 struct Patch {
     static constexpr int kMaxWidth_px = 256;
     static constexpr int kMaxHeight_px = 192;
@@ -33,7 +32,7 @@ struct Patch {
     static constexpr int kTiles = kTilesPerRow * kMaxHeight_px / kTileHeight_px;
     static constexpr int kStrips = kMaxWidth_px / 32;
 
-    /// Minimum side of a patch if no sheets are known: 8 dots at a spacing of 6 px.
+    /// Minimum side without known sheets: 8 dots at a spacing of 6 px.
     static constexpr int kMinSide_px = 48;
 
     int min_side_px = kMinSide_px;
@@ -44,7 +43,7 @@ struct Patch {
     int height_px = 0;
     int stride = 0;
     int dot_contrast_q8 =
-        0;  ///< darkness of a typical dot in the smoothed patch, in 1/256 of the paper level
+        0;  ///< darkness of a typical dot after smoothing, in 1/256 of the paper level
     alignas(64) std::array<std::uint8_t, kMaxPixels> pixels;
     alignas(64) std::array<std::uint8_t, kMaxPixels> smoothed;
     alignas(64) std::array<std::uint8_t, kTiles> brightest;
@@ -57,34 +56,34 @@ struct Patch {
     }
 };
 
-/// Measured dots and their cells in the pattern. The arrays consist of whole vectors. After a
-/// measurement, `x` is kNoDot_px in the unused elements of the last vector.
+/// Measured dots and their cells in the pattern. The arrays are padded to whole vectors. After a
+/// measurement, `x` is kNoDot_px in the padding.
 struct MeasuredDots {
     int count = 0;
-    std::span<float> column;  ///< column of the cell, in the coordinates of the current plane
+    std::span<float> column;  ///< column of the cell, in the current plane
     std::span<float> row;
-    /// Bits of the cell in the code: the x bit plus twice the y bit.
+    /// Bits of the cell in the code: x bit + 2 * y bit.
     std::span<std::int32_t> bits;
-    /// Middle of the window, in px relative to the first pixel of the image.
+    /// Window centre, in px relative to the first pixel of the image.
     std::span<std::int32_t> window_u;
     std::span<std::int32_t> window_v;
-    /// Sum of the darkness in the window. For a dot that is sampled directly, its contrast.
+    /// Summed darkness in the window, or the contrast of a directly sampled dot.
     std::span<std::int32_t> mass;
-    /// First moment along u: sum of the darkness times the distance from the middle of the window,
-    /// in px.
+    /// First moment along u: darkness times distance from the window centre in px, summed over the
+    /// window.
     std::span<std::int32_t> sum_u;
     std::span<std::int32_t> sum_v;  ///< first moment along v
-    std::span<std::int32_t> paper;  ///< grey level of the paper around the dot
-    /// Measured centre after undistortion, in px relative to the centre of the plane. `x` is
-    /// kNoDot_px if there is no dot. Before the measurement, `x` and `y` contain the predicted
-    /// image point.
+    std::span<std::int32_t> paper;  ///< paper level around the dot, in grey levels
+    /// Measured centre after undistortion, in px relative to the centre of the plane. Before the
+    /// measurement, `x` and `y` contain the predicted image point. `x` is kNoDot_px if there is no
+    /// dot.
     std::span<float> x;
     std::span<float> y;
 
     int capacity() const { return static_cast<int>(column.size()) - 8; }
 };
 
-/// A coordinate far outside every image.
+/// Coordinate of a missing dot, far outside every image.
 inline constexpr float kNoDot_px = 1e6F;
 
 }  // namespace dotpose::core

@@ -1,4 +1,4 @@
-// Row locator: the functions that Locator and DeviceLocator share.
+// Row locator: functions that Locator and DeviceLocator share.
 #include <span>
 
 #include "core/steps.hpp"

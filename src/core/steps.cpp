@@ -26,8 +26,8 @@ bool are_valid(const DeviceOptions& options) {
 
 Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w) {
     if (!are_valid(options)) return Status::bad_argument;
-    // True if the locator makes a first or a tracked attempt. Only these attempts locate images
-    // that are smaller than kMinFrameSide_px.
+    // True if the locator makes first or tracked attempts. Only these attempts accept images
+    // smaller than kMinFrameSide_px.
     const bool may_be_small = options.effort != Effort::device && options.decoder == Decoder::all;
     if (std::min(width_px, height_px) < (may_be_small ? w.min_side_px : kMinFrameSide_px))
         return Status::image_too_small;
@@ -76,8 +76,7 @@ void threshold_bands(int ready, const DeviceOptions& options, Workspace& w) {
     for (int band = newest - ready + (is_last ? 1 : 0); ready > 0; --ready, ++band) {
         const int before = w.threshold.max_contrast;
         measure_levels(band, threshold, w.threshold);
-        // The contrast of all earlier bands is below the new minimum, so the dots found in these
-        // bands are noise.
+        // All earlier bands have less contrast than the new minimum, so their dots are noise.
         if (before < min_tile_contrast(threshold, w.threshold)) w.dot_count = 0;
         for (int v = band_begin(w.threshold, band); v < band_end(w.threshold, band); ++v) {
             grow_blobs(v, w.threshold, w.open, dot_list(w));
@@ -95,10 +94,10 @@ Status find_dots(const DeviceOptions& options, Workspace& w) {
     sift_dots(options.blobs, dot_list(w));
     w.fix.dots_seen = w.dot_count;
     if (!w.threshold.has_contrast) return Status::no_contrast;
-    // Requires at least one dot even if min_dots is 0, because later stages compute means over the
-    // dots.
+    // Later stages average over the dots, so they need at least one dot even if min_dots is 0.
     if (w.dot_count < std::max(options.lattice.min_dots, 1)) return Status::too_few_dots;
-    undistort(options.lens, image_centre_q8(w.threshold), first(w.dots, w.dot_count));  // eq. 1-2
+    // Undistorts the dots (paper, eq. 1-2).
+    undistort(options.lens, image_centre_q8(w.threshold), first(w.dots, w.dot_count));
     return Status::ok;
 }
 
@@ -107,9 +106,11 @@ Status find_axes(FixedVec start_q8, int max_seeds, Workspace& w) {
     const int room = std::min(max_seeds, static_cast<int>(w.seeds.size()));
     w.seed_count = choose_seeds(dots, start_q8, first(w.seeds, room));
     const std::span<const std::uint16_t> seeds = first(w.seeds, w.seed_count);
-    find_neighbours(dots, seeds, w.buckets, w.neighbours);  // II-B.2, Fig. 3
+    // Finds the neighbours of each seed (paper, section II-B.2 and Fig. 3).
+    find_neighbours(dots, seeds, w.buckets, w.neighbours);
     w.edge_count = connect_symmetric(dots, seeds, w.neighbours, w.edges);
-    return estimate_axes(first(w.edges, w.edge_count), w.edge_values, w.lattice);  // Fig. 4-5
+    // Estimates the grid axes from the edges (paper, Fig. 4-5).
+    return estimate_axes(first(w.edges, w.edge_count), w.edge_values, w.lattice);
 }
 
 void choose_region(Workspace& w) {

@@ -1,5 +1,5 @@
-// Steps: the processing steps that desktops and devices share, in integer arithmetic. Fig. 1 of the
-// paper contains each of these steps.
+// Steps: the processing steps that desktops and devices share, in integer arithmetic. All of them
+// appear in Fig. 1 of the paper.
 #pragma once
 
 #include "core/detect/adaptive_threshold.hpp"
@@ -21,46 +21,43 @@ FixedVec image_centre_q8(const AdaptiveThreshold& threshold);
 FixedVec reference_q8(FixedVec centre_q8, const DeviceOptions& options);
 
 /// Returns ok if the options are valid and the workspace accepts frames of this size. Otherwise,
-/// returns the reason for the refusal. The overload for an image also checks that the image has
-/// pixels.
+/// returns the reason for refusal. The second overload also requires pixels.
 Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w);
 Status check(const ImageView& image, const DeviceOptions& options, const Workspace& w);
 
-/// Refuses a frame before the first stage. Clears the results of the previous frame, sets the
-/// status of the fix to `reason`, and returns the fix.
+/// Refuses a frame before its first stage. Clears the previous results, sets the status of the fix
+/// to `reason`, and returns the fix.
 const Fix& refuse(Status reason, Workspace& w);
 
 /// Clears the results of the previous frame.
 void forget_frame(Workspace& w);
 
-/// Starts a frame. The size of the frame must be within the capacity of the workspace.
+/// Starts a frame. The frame size must be within the limits of the workspace.
 void begin_frame(int width_px, int height_px, Workspace& w);
 
-/// Detects the blobs in the next `ready` bands of rows.
-void threshold_bands(int ready, const DeviceOptions& options, Workspace& w);  // II-B.1
+/// Detects blobs in the next `ready` bands of rows (paper, section II-B.1).
+void threshold_bands(int ready, const DeviceOptions& options, Workspace& w);
 
-/// Processes the next row of pixels, and detects the blobs of the bands that the row completes.
-/// Most rows do not complete a band.
+/// Processes the next row of pixels, and detects the blobs of each band that the row completes.
 inline void detect_row(const std::uint8_t* pixels, const DeviceOptions& options, Workspace& w) {
     const int ready = take_row(pixels, w.threshold);
     if (ready > 0) threshold_bands(ready, options, w);
 }
 
-/// Detects the blobs of a whole image.
+/// Detects all blobs in an image.
 void detect_image(const ImageView& image, const DeviceOptions& options, Workspace& w);
 
-/// Selects the dots among the blobs and undistorts them. Errors: no_contrast, too_few_dots.
+/// Selects the dots among the blobs, and undistorts them. Errors: no_contrast, too_few_dots.
 Status find_dots(const DeviceOptions& options, Workspace& w);
 
-/// Finds the directions and spacings of the grid from connections between neighbouring dots. Uses
-/// at most `max_seeds` dots, in a square around `start_q8`. Error: no_grid.
+/// Finds the directions and spacings of the grid from edges between neighbouring dots. Uses at most
+/// `max_seeds` dots, in a square around `start_q8`. Error: no_grid.
 Status find_axes(FixedVec start_q8, int max_seeds, Workspace& w);
 
-/// Chooses the region of the grid that is decoded. The memory for lines limits the size of the
-/// region.
+/// Chooses the grid region to decode. Its size is limited by the memory for lines.
 void choose_region(Workspace& w);
 
-/// Returns `mirrored` if the bits agree with a mirrored pattern. Otherwise, returns `reason`.
+/// Returns `mirrored` if the bits agree with a mirrored pattern, and `reason` otherwise.
 Status refused(Status reason, const Workspace& w);
 
 }  // namespace dotpose::core

@@ -1,6 +1,6 @@
-// Workspace: the memory of a locator. After a frame, the workspace contains the results of the
-// stages. All capacities are fixed. The caller provides the memory as a DeviceMemory, SmallMemory
-// or LargeMemory. The workspace is constructed in this memory and reused for each frame.
+// Workspace: the memory of a locator. After a frame, it contains the results of all stages. All
+// capacities are fixed. The caller provides the memory as a DeviceMemory, SmallMemory or
+// LargeMemory. The workspace is constructed there once, and reused for each frame.
 #pragma once
 
 #include <array>
@@ -19,26 +19,26 @@
 
 namespace dotpose::core {
 
-/// Memory and results of the stages that desktops and devices share, as spans.
+/// Memory and results of the stages that desktops and devices share.
 struct Workspace {
     std::int16_t min_side_px = kMinFrameSide_px;
     std::int16_t max_width_px = 0;
     std::int16_t max_height_px = kMaxFrameSide_px;
-    /// True if the stages do not share memory, so the results of every stage remain available.
+    /// True if stages do not share memory. The results of every stage then remain available.
     bool keeps_every_stage = false;
     // detect
     AdaptiveThreshold threshold;
     OpenBlobs open;
-    std::span<DetectedDot> dots;  ///< the size of the span is the capacity
+    std::span<DetectedDot> dots;  ///< its size is the capacity
     int dot_count = 0;
-    /// Distance from the image centre, along each axis, within which dots are kept. The distance
-    /// decreases when `dots` is full.
+    /// Maximum distance of stored dots from the image centre, along each axis. Decreases when
+    /// `dots` is full.
     int dots_kept_within_px = 0;
     // lattice
     std::span<std::uint16_t> seeds;  ///< indices of dots
     int seed_count = 0;
     std::span<BucketedSeed> buckets;  ///< size: number of seeds plus 1
-    /// For each seed, the indices of the four nearest seeds.
+    /// Indices of the four nearest seeds, for each seed.
     std::span<std::array<std::int16_t, 4>> neighbours;
     std::span<SeedEdge> edges;  ///< size: two per seed
     int edge_count = 0;
@@ -47,7 +47,7 @@ struct Workspace {
     PlaneFromImage grid_from_image;
     // decode
     Grid grid;
-    /// Scores of the columns in the first half, and of the rows in the second half.
+    /// Column scores in the first half, row scores in the second half.
     std::span<ScoredLine> line_scores;
     Decoding decoding;
     // pose

@@ -1,5 +1,5 @@
-// Affine fit: least squares of an affine map from image points to the grid, with 32-bit sums, which
-// are fast on small processors.
+// Affine fit: least-squares map from image points to the grid. Uses 32-bit sums, which are fast on
+// small processors.
 #pragma once
 
 #include "core/math/fixed.hpp"
@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Accumulates image points and their places in the grid, and solves for the affine map.
+/// Accumulates image points with their grid coordinates, and solves for the affine map.
 class AffineFitInt32 {
   public:
     template <typename Int>
@@ -15,8 +15,8 @@ class AffineFitInt32 {
         Int xx = 0, xy = 0, yy = 0;
         Int ix = 0, iy = 0, jx = 0, jy = 0;
 
-        /// Adds a point p and its target. `weighted` is p times the weight of the point, which is 1
-        /// or -1. `target` must also be multiplied by the weight.
+        /// Adds a point p and its target. `weighted` is p times its weight, which is 1 or -1.
+        /// `target` must also be multiplied by the weight.
         [[gnu::always_inline]] void add(const FixedVec& p, const FixedVec& weighted,
                                         const FixedVec& target) {
             xx += weighted.x * p.x;
@@ -35,13 +35,12 @@ class AffineFitInt32 {
                    const Products<std::int32_t>& sums)
         : changes_(count), p_(p), target_(target), recent_(sums) {}
 
-    /// Adds an image point p and its target. p is in units of 1/8 px, relative to the centre of the
-    /// plane, and within 2048 px. The target is in units of 2^-bits cells (see `solve`), within
-    /// 2^15.
+    /// Adds an image point p and its target. p is relative to the plane centre, in 1/8 px, and
+    /// within 2048 px. The target is in units of 2^-bits cells (see `solve`), within 2^15.
     [[gnu::always_inline]] void add(const FixedVec& p, const FixedVec& target) {
         change(p, p, target);
     }
-    /// Adds a point if `weight` is 1, or removes a point if `weight` is -1.
+    /// Adds a point if `weight` is 1. Removes a point if `weight` is -1.
     [[gnu::always_inline]] void count(const FixedVec& p, const FixedVec& target, int weight) {
         unused_ += 1 - weight;
         change(p, FixedVec{weight * p.x, weight * p.y},
@@ -54,7 +53,7 @@ class AffineFitInt32 {
     bool solve(int bits, PlaneFromImage& plane);
 
   private:
-    /// Near points have coordinates from -kNear to kNear - 1. Sums of products of kMaxRecent near
+    /// Near points have coordinates from -kNear to kNear - 1. Product sums over kMaxRecent near
     /// points and one far point fit in 32 bits. Small processors add 32-bit numbers three times as
     /// fast as 64-bit numbers.
     static constexpr std::uint32_t kNear = 1024;
@@ -72,8 +71,8 @@ class AffineFitInt32 {
     }
     /// Adds the recent 32-bit sums to the 64-bit sums.
     void carry_over();
-    /// Returns n^2 times the covariance of two coordinates of n points. `products` is the sum of
-    /// the products of the coordinates, and a and b are the sums of the coordinates.
+    /// Returns n^2 times the covariance of two coordinates, for n points. `products` is the sum of
+    /// coordinate products. a and b are the coordinate sums.
     std::int64_t moment(std::int64_t products, std::int32_t a, std::int32_t b) const;
 
     std::int32_t changes_ = 0;

@@ -8,11 +8,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of dots from which the displacement and the scatter are measured. The dots are
-/// evenly spaced in the list of observations.
+/// Maximum sample size for measuring displacement and scatter. The sampled dots are evenly spaced
+/// in the list of observations.
 constexpr int kSample = 64;
 
-/// Returns, for each symbol, a vector of the given length in the direction of the symbol.
+/// Returns a vector of the given length in the direction of each symbol.
 std::array<FixedVec, 4> displacements(std::int32_t length) {
     std::array<FixedVec, 4> all;
     for (std::size_t s = 0; s < all.size(); ++s) {
@@ -22,7 +22,7 @@ std::array<FixedVec, 4> displacements(std::int32_t length) {
     return all;
 }
 
-/// Offset of a dot from its intersection, in units of 2^-16 spacings, and the symbol of the dot.
+/// Offset of a dot from its intersection, in 2^-16 spacings, and the symbol of the dot.
 struct Offset {
     FixedVec q16;
     Symbol symbol;
@@ -32,8 +32,7 @@ std::int32_t squared_q16(FixedVec a_q16) {
     return (a_q16.x >> 8) * (a_q16.x >> 8) + (a_q16.y >> 8) * (a_q16.y >> 8);
 }
 
-/// Adds one point. Not inlined, because the inlined code needs more registers than small processors
-/// have.
+/// Adds one point. Not inlined, because inlining needs more registers than small processors have.
 [[gnu::noinline]] void add(AffineFitInt32& fit, FixedVec p, FixedVec target) {
     fit.add(p, target);
 }
@@ -60,8 +59,7 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
             values[s] = value(sample[s]);
         return median(std::span(values).first(count));
     };
-    // The displacement is measured in each frame, because it depends on the spread of ink and on
-    // blur.
+    // The displacement is measured in each frame, because it depends on ink spread and blur.
     displacement_q16 = sampled_median([](const Offset& offset) {
         return offset.q16.x * dx(offset.symbol) + offset.q16.y * dy(offset.symbol);
     });
@@ -69,14 +67,15 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
     const auto squared_residual_q16 = [&](FixedVec offset, Symbol symbol) {
         return squared_q16(offset - displaced_q16[static_cast<std::size_t>(symbol)]);
     };
-    // The squared residuals of a two-dimensional Gaussian have a median of 1.39 sigma^2. The limit
-    // of 12 medians is therefore 4.1 sigma. One in 4,000 dots exceeds the limit by chance.
+    // For a two-dimensional Gaussian, the median squared residual is 1.39 sigma^2. The limit of 12
+    // medians is therefore 4.1 sigma. One in 4,000 dots exceeds it by chance.
     const std::int32_t limit_q16 = 12 * sampled_median([&](const Offset& offset) {
                                        return squared_residual_q16(offset.q16, offset.symbol);
                                    }) +
                                    1;
 
-    // Targets are the printed places of the dots, in units of 1/64 cell, and are within 2^15.
+    // Number of fractional bits in the targets. A target is the printed place of a dot, in 1/64
+    // cell, and within 2^15.
     constexpr int kTargetBits = 6;
     const auto targets = displacements(shift_rounded(displacement_q16, 16 - kTargetBits));
     AffineFitInt32 fit;

@@ -27,8 +27,9 @@ FixedVec start_q8(const Workspace& w) {
     for (const DetectedDot& dot : w.found_dots())
         sum_q4 = sum_q4 + FixedVec{dot.centre_q8.x >> 4, dot.centre_q8.y >> 4};
     const FixedVec mean_q8{sum_q4.x / w.dot_count * 16, sum_q4.y / w.dot_count * 16};
-    // If the pattern fills the view, the distance of the centroid from the image centre is at most
-    // a few hundredths of half a side.
+    // The centroid is far from the image centre if, along an axis, the distance exceeds 1/kFar of
+    // half a side. If the pattern fills the view, the distance is at most a few hundredths of half
+    // a side.
     constexpr int kFar = 4;
     const bool is_far = magnitude(mean_q8.x - centre_q8.x) * kFar > centre_q8.x ||
                         magnitude(mean_q8.y - centre_q8.y) * kFar > centre_q8.y;

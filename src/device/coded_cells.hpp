@@ -1,5 +1,4 @@
-// Coded cells: the bits of the code around a predicted place, line by line, and the bits that were
-// read there.
+// Coded cells: coded bits around a predicted place, line by line, and the bits read there.
 #pragma once
 
 #include "device/tracking.hpp"
@@ -7,7 +6,7 @@
 
 namespace dotpose::core {
 
-/// Sets the code of each line, beginning at `Tracking::corner`, and marks all dots as not read.
+/// Sets the coded bits of each line, starting at `Tracking::corner`. Marks all dots as not read.
 void lay_tracked_lines(CodeVariant code, Tracking& tracking);
 
 inline ComparedLine& column_of(const Tracking& tracking, int i) {
@@ -20,14 +19,14 @@ inline ComparedLine& row_of(const Tracking& tracking, int j) {
 /// Returns the number of dots read so far.
 int dots_seen(const Tracking& tracking);
 
-/// Returns the symbol of the code in a cell.
+/// Returns the coded symbol of a cell.
 inline Symbol coded_symbol(const Tracking& tracking, int i, int j) {
     return make_symbol(static_cast<int>(column_of(tracking, i).code >> j & 1),
                        static_cast<int>(row_of(tracking, j).code >> i & 1));
 }
 
-/// Displacement of a dot along the directions of its two bits (eq. 7-8), in units of 2^-12
-/// spacings. A positive component means that the bit is 1.
+/// Displacement of a dot, projected onto its two bit directions, in 2^-12 spacings (paper, eq.
+/// 7-8). A bit is 1 if its component is positive.
 struct Projections {
     std::int32_t x_q12;
     std::int32_t y_q12;

@@ -11,7 +11,7 @@
 namespace dotpose::core {
 namespace {
 
-/// A set of vectors. Both components of each vector are in [low, low + extent], modulo 2^32.
+/// A square of vectors. Both components are in [low, low + extent], modulo 2^32.
 struct Square {
     std::uint32_t low;
     std::uint32_t extent;
@@ -24,16 +24,15 @@ struct Square {
     }
 };
 
-/// Returns the set of plane points, in units of 2^-16 spacings, that truncation assigns to cells up
-/// to `limit` cells from cell (0, 0).
+/// Returns the plane points within `limit` cells of cell (0, 0), in 2^-16 spacings. The cell of a
+/// point is its integer part.
 Square cells_within(int limit) {
     return {static_cast<std::uint32_t>(-limit * 65536),
             static_cast<std::uint32_t>((2 * limit + 1) * 65536 - 1)};
 }
 
-/// Returns the set of plane points whose offset from the nearest intersection is at most
-/// `limit_q16` along both axes. The elements of the set are the lower 16 bits of
-/// `rounding_plane_point_q16`, shifted left by 16 bits.
+/// Returns the offsets from an intersection that are at most `limit_q16` along both axes. An offset
+/// is encoded as the lower 16 bits of `rounding_plane_point_q16`, shifted left by 16 bits.
 Square offsets_within(std::int32_t limit_q16) {
     return {static_cast<std::uint32_t>(32768 - limit_q16) << 16,
             static_cast<std::uint32_t>(std::min<std::int32_t>(2 * limit_q16, 65535)) << 16};
@@ -43,11 +42,11 @@ bool is_near(FixedVec rounding_q16, const Square& offsets) {
                          static_cast<std::uint32_t>(rounding_q16.y) << 16);
 }
 
-/// Maximum distance from cell (0, 0), along each axis, of a cell whose dot may belong to the grid.
+/// Maximum distance from cell (0, 0), along each axis. Dots farther away do not belong to the grid.
 constexpr int kFarthest_cells = 500;
 
 /// Calls `use(dot, c, is_within_reach)` for each dot. c is `rounding_plane_point_q16` of the dot,
-/// and its integer part is the nearest cell. Returns the statistics of the dots, without
+/// and its integer part is the nearest cell. Returns the dot statistics, without
 /// `near_intersections`.
 template <typename Use>
 Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const Cells& cells,
@@ -55,8 +54,8 @@ Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const
     int farthest_cell = 0;
     int beyond = 0;
     const Square reach = cells_within(reach_cells);
-    // Cells within reach that are not farther away than the farthest dot so far. Most dots are in
-    // these cells and need no further test.
+    // Cells within reach, and not beyond the farthest dot so far. Most dots are in these cells and
+    // need no further test.
     Square common = cells_within(0);
     for (const DetectedDot& dot : dots) {
         const FixedVec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));
@@ -78,7 +77,7 @@ Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const
     return found;
 }
 
-/// The cell of a dot, packed into one word, or `no` if the fit does not use the dot.
+/// The cell of a dot, packed into one word. `no` means that the fit does not use the dot.
 enum class Used : std::uint32_t { no = 0x80808080 };
 
 Used used(FixedVec rounding_q16) {
@@ -90,17 +89,17 @@ FixedVec cell_of(Used used) {
     return {static_cast<std::int16_t>(both >> 16), static_cast<std::int16_t>(both & 0xFFFF)};
 }
 
-/// Returns the mean square of the offsets of dots, from the sum of their `squared_offset_q14`.
+/// Returns the mean squared offset, from a sum of `squared_offset_q14`.
 std::int64_t mean_square_q20(std::int32_t squared_offsets_q14, int dots) {
     return squared_offsets_q14 / std::max(dots, 1) * 64;
 }
-/// Returns the square of the offset of a dot from its intersection, in units of 2^-14 spacing^2.
+/// Returns the squared offset of a dot from its intersection, in 2^-14 spacings^2.
 std::int32_t squared_offset_q14(FixedVec rounding_q16) {
     const FixedVec offset_q8{(rounding_q16.x >> 8 & 255) - 128, (rounding_q16.y >> 8 & 255) - 128};
     return (offset_q8.x * offset_q8.x + offset_q8.y * offset_q8.y) >> 2;
 }
 
-/// Successive fits of the grid. Most dots have the same cell in each fit, so each fit updates the
+/// Successive fits of the grid. Most dots keep their cell from fit to fit, so each fit updates the
 /// sums only for dots whose cell has changed.
 class Fits {
   public:
@@ -109,7 +108,7 @@ class Fits {
         if (remembers()) std::fill_n(before_.begin(), dots.size(), Used::no);
     }
 
-    /// Fits the plane to the dots that are within reach and near an intersection, and sets `found`.
+    /// Fits the plane to the dots that are within reach and near an intersection. Sets `found`.
     /// Returns false if the dots do not determine the plane, or if its cells are not nearly square.
     bool operator()(int reach_cells, Regularity& found, PlaneFromImage& plane) {
         const Cells cells(plane);
@@ -118,7 +117,7 @@ class Fits {
         return sums_.solve(0, plane) && is_nearly_square(plane);
     }
 
-    /// Checks that the dots are displaced from the intersections of a grid. Errors: no_grid,
+    /// Checks that the dots are on a grid and displaced from its intersections. Errors: no_grid,
     /// no_displacement.
     Status judge(int reach_cells, const PlaneFromImage& plane) const {
         const Square near = near_;

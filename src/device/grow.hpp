@@ -1,7 +1,7 @@
-// Grow: extends the first estimate of the grid to all dots, without perspective or lens distortion.
-// Paper section II-B.3. Differs: the paper uses eq. 6 and then the median lengths between
-// neighbours. This implementation estimates all terms with a least-squares fit to the dots within
-// reach. The fit treats displacements as noise. The reach grows from fit to fit.
+// Grow: extends the first grid estimate to all dots (paper, section II-B.3). Assumes no perspective
+// and no lens distortion. Unlike the paper, which uses eq. 6 and then median lengths between
+// neighbours, this fits all terms by least squares. The fit treats displacements as noise. It
+// starts near the origin and extends its reach from fit to fit.
 #pragma once
 
 #include "dotpose/device_options.hpp"
@@ -10,9 +10,9 @@
 
 namespace dotpose::core {
 
-/// Sets the map from the image to the grid. Errors: no_grid if the dots are not on a grid,
-/// no_displacement if all dots are on intersections. A camera with a tilt of more than a few
-/// degrees, or a lens that bends the grid by more than a third of a spacing, needs `refine_grid`.
+/// Sets the map from the image to the grid. Returns no_grid if the dots are not on a grid, and
+/// no_displacement if all dots are on intersections. Use `refine_grid` if the camera is tilted by
+/// more than a few degrees, or if the lens bends the grid by more than a third of a spacing.
 Status grow_grid(std::span<const DetectedDot> dots, const LatticeOptions& options,
                  FixedVec image_centre_q8, const Lattice& first, PlaneFromImage& grid_from_image);
 

@@ -1,5 +1,4 @@
-// Locate: locates a frame in integer arithmetic, with the given memory and options. Implements
-// `DeviceLocator`.
+// Locate: implements `DeviceLocator` in integer arithmetic, with the given memory and options.
 #pragma once
 
 #include "device/workspace.hpp"

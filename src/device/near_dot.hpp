@@ -15,8 +15,8 @@
 namespace dotpose::core {
 
 /// Distance, in px, from the middle of a square to its outermost pixels. kHalf_px is for the square
-/// around an intersection, which contains the dot at any of its four places. kDotHalf_px is for the
-/// square around the centre of a dot. Valid for spacings of 7 to 13 px.
+/// around an intersection. This square contains the dot at any of its four places. kDotHalf_px is
+/// for the square around the centre of a dot. Valid for spacings of 7 to 13 px.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kDotHalf_px = 2;
 
@@ -33,8 +33,8 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
                static_cast<unsigned>(tracking.rows_taken - tracking.first_kept - 2 * half);
 }
 
-/// Returns the paper level around the pixel of an intersection: the mean of the corners of its
-/// square, which no dot reaches.
+/// Returns the paper level around the pixel of an intersection: the mean of the corners of the
+/// square around this pixel. No dot reaches the corners.
 [[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking,
                                                         const std::uint8_t* at) {
     constexpr int kSide_px = 2 * kHalf_px;

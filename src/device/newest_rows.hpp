@@ -5,7 +5,7 @@
 
 namespace dotpose::core {
 
-/// Returns the stride of the stored rows in bytes: the width, rounded up to whole 32-bit words.
+/// Returns the stride of stored rows, in bytes: the width rounded up to whole 32-bit words.
 constexpr int stride_of(int width_px) {
     return (width_px + 3) & ~3;
 }
@@ -13,11 +13,11 @@ constexpr int stride_of(int width_px) {
 /// Stores a row. The memory must have room for the row.
 void keep_row(const std::uint8_t* pixels, Tracking& tracking);
 
-/// Discards all rows except the newest `Tracking::rows_needed` rows, unless there is room for
-/// `rows` more rows.
+/// Makes room for `rows` more rows. If necessary, discards all but the newest
+/// `Tracking::rows_needed` rows.
 void make_room(int rows, Tracking& tracking);
 
-/// Returns a stored row. The following rows are stored after this row, at intervals of the stride.
+/// Returns a stored row. Later rows follow at intervals of the stride.
 inline const std::uint8_t* kept_row(const Tracking& tracking, int v) {
     return tracking.rows.data() + (v - tracking.first_kept) * tracking.stride_px;
 }

@@ -5,12 +5,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum distance, along each axis, between `near_q8` and the cells whose dots are used. At
-/// larger distances, the error of the first grid may reach a third of a cell.
+/// Maximum distance from `near_q8` to a used cell, along each axis. Farther away, the first grid
+/// may be wrong by a third of a cell.
 constexpr int kReach_cells = 4;
 
-/// Circular mean of the offsets of dots from their intersections, along one axis: the angle of a
-/// sum of unit vectors.
+/// Circular mean of dot offsets along one axis: the angle of a sum of unit vectors.
 struct Phase {
     FixedVec sum;
 

@@ -11,7 +11,7 @@
 namespace dotpose::core {
 namespace {
 
-/// The direction along a row of cells in which v does not decrease in the image.
+/// Direction along a row of cells in which the image coordinate v does not decrease.
 struct RowDirection {
     FixedVec step_q16;
     int i_step;

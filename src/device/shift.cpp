@@ -21,7 +21,8 @@ Shifts::Shifts(const Tracking& tracking) {
         return std::min((reach_px + kStep_px - 1) / kStep_px, kMaxSteps);
     };
     steps_ = {steps(tracking.reach_px + sideways_px), steps(tracking.reach_px)};
-    // The dots are at most half a spacing from their intersections.
+    // Margin for the largest shift plus the displacement of a dot, so that every sampled pixel is
+    // in its row. Half a spacing is a safe upper bound on the displacement.
     const int margin = kStep_px * steps_.x + (tracking.spacing_q8 >> 9) + 1;
     left_ = std::max(tracking.width_px / 2 - half, margin);
     right_ = std::min(tracking.width_px / 2 + half, tracking.width_px - margin);
@@ -94,8 +95,8 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 }
 
 void Shifts::divide_by_dots() {
-    // Minimum divisor. A mean over fewer dots is unreliable, so it is reduced by this larger
-    // divisor.
+    // Minimum divisor. A mean over fewer dots is unreliable, so the larger divisor reduces this
+    // mean.
     constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);

@@ -9,11 +9,12 @@ namespace dotpose::core {
 
 /// Mean darkness of the pixels at the predicted dots near the middle column of the image, for each
 /// possible shift. At the correct shift, all displaced dots are at their predicted places, so the
-/// mean darkness is largest. If few dots are in view, it may be nearly as large at shifts that
-/// differ from the correct shift by one spacing.
+/// mean darkness is largest. If few dots are in view, the mean darkness may be nearly as large at
+/// shifts that differ from the correct shift by one spacing.
 class Shifts {
   public:
-    /// Measures the darkness in the first rows of the frame, which must be stored in `tracking`.
+    /// Measures the darkness in the first rows of the frame. These rows must be stored in
+    /// `tracking`.
     explicit Shifts(const Tracking& tracking);
 
     /// Sets `shift_q8` to the shift with the largest mean darkness among the shifts that are more

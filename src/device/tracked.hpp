@@ -1,5 +1,5 @@
-// Tracked: the tracked attempt of devices. Measures dots at predicted places while the rows arrive,
-// in integer arithmetic and without a frame buffer.
+// Tracked: the tracked attempt on devices. Measures dots at predicted places while rows arrive, in
+// integer arithmetic and without a frame buffer.
 #pragma once
 
 #include "device/workspace.hpp"
@@ -8,15 +8,14 @@
 
 namespace dotpose::core {
 
-/// Starts a frame. The size of the frame must be within the capacity of the workspace. Error:
-/// not_tracked.
+/// Starts a frame. The frame must fit in the workspace. Error: not_tracked.
 Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& options,
                             const Prediction& prediction, DeviceWorkspace& w);
 
 /// Takes the next row. Error: not_tracked. After an error, further rows are ignored.
 Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w);
 
-/// Ends the frame. Sets and returns the fix of the workspace. The status is not_tracked if the dots
+/// Ends the frame. Sets and returns the fix in the workspace. The status is not_tracked if the dots
 /// do not confirm the prediction, or if any row returned not_tracked.
 const Fix& finish_device_tracked(const DeviceOptions& options, DeviceWorkspace& w);
 

@@ -10,9 +10,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the number of bits by which masses and mass-weighted sums are shifted right. After the
-/// shift, the sum of all masses is below 2^16 and all sums are below 2^31, because offsets are at
-/// most 416/256 px.
+/// Returns how far masses and mass-weighted sums must be shifted right. The total mass is then
+/// below 2^16. All sums are below 2^31, because offsets are at most 416/256 px.
 int excess_bits(const Tracking& tracking) {
     std::uint32_t mass = 0;
     for (const TrackedRow& row : tracking.grid_rows)
@@ -20,8 +19,8 @@ int excess_bits(const Tracking& tracking) {
     return std::max(static_cast<int>(std::bit_width(mass)) - 16, 0);
 }
 
-/// Returns the sums for a least-squares fit of the offsets of the dots as an affine function of
-/// their cells. The weight of a dot is its mass.
+/// Returns the sums for a least-squares fit of the dot offsets. The fit is affine in the cell
+/// coordinates, and weights each dot by its mass.
 AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
     std::int32_t mass = 0;
     FixedVec cells;
@@ -50,8 +49,8 @@ AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
 
 /// Returns the cells, corrected by the fitted offsets.
 CellMap corrected(const CellMap& cells, const PlaneFromImage& offsets) {
-    // `AffineFitInt32` interprets the coordinates of points as multiples of 1/8 px. Here, the
-    // coordinates are whole cells, so the slopes are divided by 8.
+    // `AffineFitInt32` expects coordinates in 1/8 px. Here, coordinates are whole cells, so the
+    // slopes are divided by 8.
     constexpr int kShift = 24 + 3 - 16;
     const FixedVec du_q16{offsets.du_q24.x >> kShift, offsets.du_q24.y >> kShift};
     const FixedVec dv_q16{offsets.dv_q24.x >> kShift, offsets.dv_q24.y >> kShift};
@@ -60,13 +59,13 @@ CellMap corrected(const CellMap& cells, const PlaneFromImage& offsets) {
             cells.along_x_q16 + du_q16, cells.along_y_q16 + dv_q16};
 }
 
-/// Sets the plane to the inverse of the map of the cells. Returns false if cells are smaller than 1
-/// px^2.
+/// Sets the plane to the inverse of the cell map. Returns false if cells are smaller than 1 px^2.
 bool invert(const CellMap& cells, FixedVec centre_q8, PlaneFromImage& plane) {
     const FixedVec x = cells.along_x_q16;
     const FixedVec y = cells.along_y_q16;
     const std::int64_t det_q24 = cross(x, y) >> 8;
-    // A fit to a few dots can have any result. If cells have at least 1 px^2, no slope overflows.
+    // A fit to only a few dots may be arbitrarily wrong. This limit prevents overflow of the
+    // slopes.
     if (det_q24 < 1 << 24) return false;
     const auto slope_q24 = [&](std::int32_t a_q16) {
         return short_quotient(std::int64_t{a_q16} << 32, det_q24);
@@ -87,8 +86,8 @@ bool invert(const CellMap& cells, FixedVec centre_q8, PlaneFromImage& plane) {
     return true;
 }
 
-/// Returns (measured - expected) / expected, in units of 2^-12, for the mean displacement of the
-/// dots. The expected displacement is `Tracking::displacement_q12`.
+/// Returns (measured - expected) / expected for the mean displacement, in 2^-12. The expected
+/// displacement is `Tracking::displacement_q12`.
 std::int32_t relative_excess_q12(const Tracking& tracking, int excess, std::int32_t mass) {
     std::int64_t along = 0;
     for (std::size_t s = 0; s < tracking.offset_q8.size(); ++s) {

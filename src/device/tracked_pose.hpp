@@ -1,12 +1,12 @@
-// Tracked pose: the map from image to pattern of a tracked frame, in integer arithmetic.
+// Tracked pose: computes the map from image to pattern for a tracked frame, in integer arithmetic.
 #pragma once
 
 #include "device/tracking.hpp"
 
 namespace dotpose::core {
 
-/// Fits the cells to the dots that were read. Sets the map, and the typical displacement of dots in
-/// units of 2^-16 spacings. Returns the number of dots, or 0 if the dots do not determine the map.
+/// Fits the map to the dots that were read. Sets `displacement_q16` to the typical displacement, in
+/// 2^-16 spacings. Returns the number of dots, or 0 if the dots do not determine the map.
 int fit_tracked_pose(const Tracking& tracking, PlaneFromImage& pattern_from_image,
                      std::int32_t& displacement_q16);
 

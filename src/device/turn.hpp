@@ -1,13 +1,13 @@
-// Turn: rotates and scales the shifted cells of a prediction to fit the image.
+// Turn: rotates and scales predicted cells to fit the image, after they have been shifted.
 #pragma once
 
 #include "device/tracking.hpp"
 
 namespace dotpose::core {
 
-/// Measures the dots of the first rows from the middle outwards, ring by ring. After most rings,
-/// moves the cells to fit the measured dots. Sets the displacement and the range of masses of dots.
-/// Returns false if too many dots contradict the code, or if too few dots agree with the code.
+/// Measures the dots in the first rows, ring by ring from the middle outwards. Refits the cells
+/// after most rings. Sets the displacement and the mass limits for dots. Returns false if too many
+/// dots contradict the code, or if too few agree with it.
 bool find_turn(Tracking& tracking);
 
 }  // namespace dotpose::core

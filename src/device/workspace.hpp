@@ -30,8 +30,9 @@ struct DeviceCapacity {
     // a row, so further runs and blobs are noise or graphics.
     int runs = 0;
     int blobs = 0;
-    // Maximum number of runs of a whole frame, which bounds the time. The dots of a frame of 188 x
-    // 120 px have about 500 runs. Noisy frames of this size that were located had up to 1,900 runs.
+    // Maximum number of runs of a whole frame. The maximum bounds the time. The dots of a frame of
+    // 188 x 120 px have about 500 runs. Noisy frames of this size that were located had up to 1,900
+    // runs.
     int max_runs = 0;
 };
 

@@ -63,13 +63,13 @@ std::string probability(const Fix& fix) {
     return "≤ 10" + exponent;
 }
 
-/// Replaces a leading hyphen by a minus sign, which is as wide as a digit.
+/// Replaces a leading hyphen with a minus sign. The minus sign is as wide as a digit.
 std::string with_minus(std::string text) {
     if (text.starts_with('-')) text.replace(0, 1, "−");
     return text;
 }
 
-/// Texts of the pose and its standard deviations, which the caption shows in large letters.
+/// Texts that the caption shows in large letters: the pose and its standard deviations.
 struct Shown {
     /// Name of the coordinate frame, used as a suffix in the labels of the coordinates.
     const char* frame;
@@ -183,7 +183,7 @@ std::string message_of(const Fix& fix, const DeviceOptions& options) {
 }
 
 void draw_failure(const Fix& fix, const std::string& reason, double width, Svg& svg) {
-    constexpr double kLineHeight = 46;  // five lines fit above the legend
+    constexpr double kLineHeight = 46;  // height of a line; five lines fit above the legend
     svg.text({0, 70}, kBigSize, fmt::format("no fix: {}", name(fix.status)),
              R"(fill="#c0392b" font-weight="bold")");
     const auto max_bytes = static_cast<std::size_t>(width / (0.6 * kSmallSize));

@@ -1,5 +1,5 @@
-// Parts of the picture of `draw_frame`. Each part has its own coordinate system with (0, 0) at the
-// top left corner.
+// Panels of the picture that `draw_frame` draws. Each panel has its own coordinate system with (0,
+// 0) at the top left corner.
 #pragma once
 
 #include "draw/frame_view.hpp"

@@ -34,7 +34,7 @@ struct Map {
     std::vector<MapRobot> robots;
 };
 
-/// Returns the drawing. Its size is the bounding box of its contents.
+/// Returns the drawing. The size of the drawing is the bounding box of its contents.
 std::string draw_map(const Map& map);
 
 }  // namespace dotpose::draw

@@ -17,7 +17,8 @@ namespace {
 
 using Outcomes = std::vector<std::vector<Outcome>>;
 
-/// Locates frames in several threads. Each thread takes the next frame as soon as it is free.
+/// Locates frames in several threads. Each thread takes the next frame as soon as the thread is
+/// free.
 class Crew {
   public:
     Crew(const FrameRun& run, Outcomes& outcomes)

@@ -32,7 +32,7 @@ double tick_step(double range, int min_count);
 /// that is at least `value`.
 double rounded_up(double value);
 
-/// Scale of one axis, which converts data values to drawing units.
+/// Scale of one axis. Converts data values to drawing units.
 struct Scale {
     double first = 0;
     double last = 1;  ///< may be below `first`, unless `is_log`
@@ -44,8 +44,8 @@ struct Scale {
     std::vector<double> ticks(int min_count) const;
 };
 
-/// Returns a logarithmic scale that contains `min` and `max` with a margin of at least 10 %. Its
-/// ends are round numbers.
+/// Returns a logarithmic scale that contains `min` and `max` with a margin of at least 10 %. The
+/// ends of the scale are round numbers.
 Scale log_scale(double min, double max);
 
 /// A rectangle with an x axis below and a y axis to the left.

@@ -88,7 +88,7 @@ void mark_wrong(Svg& svg, const Axes& axes, const Sweep& sweep, Decoder decoder)
 }
 
 /// Returns a logarithmic scale that contains the medians and the 95 % quantiles of the position
-/// errors. Its ends are round numbers.
+/// errors. The ends of the scale are round numbers.
 Scale error_scale(const Sweep& sweep) {
     double low_um = 1e300;
     double high_um = 0;

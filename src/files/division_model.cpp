@@ -122,7 +122,7 @@ PixelPoint PlumbBob::undistorted(PixelPoint pixel) const {
     const double yd = (pixel.v - cy) / fy;
     double x = xd;
     double y = yd;
-    // Fixed-point iteration, because there is no closed-form solution.
+    // Number of fixed-point iterations. There is no closed-form solution.
     constexpr int kIterations = 100;
     for (int i = 0; i < kIterations; ++i) {
         const double r2 = x * x + y * y;

@@ -5,8 +5,8 @@
 
 namespace dotpose::files {
 
-/// Lens model of OpenCV, which maps undistorted to distorted positions. It is the model plumb_bob
-/// in http://docs.ros.org/en/api/sensor_msgs/html/msg/CameraInfo.html.
+/// Lens model of OpenCV. Maps undistorted to distorted positions. It is the model plumb_bob in
+/// http://docs.ros.org/en/api/sensor_msgs/html/msg/CameraInfo.html.
 struct PlumbBob {
     double fx = 0;
     double fy = 0;

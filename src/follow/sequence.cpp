@@ -28,8 +28,8 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
     Found found = find(options_.track.max_p_wrong_log2, predict(time_us));
     const Fix strict = found.fix;
     if (strict.status == Status::not_certain && tracker_.has_prior()) {
-        // Locates the image without a prediction. The tracker then applies its prior to the result,
-        // which must not already depend on the prior.
+        // Locates the image without a prediction. The tracker then applies its prior to the result.
+        // The result must therefore not depend on the prior already.
         found = find(options_.track.max_weak_p_wrong_log2, {});
     }
     const auto sighting = sighting_of(found, time_us);
@@ -94,8 +94,8 @@ Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
     }
     Fix fix = expected ? locator(options).locate(image, *expected) : locator(options).locate(image);
     auto place = find_sheet(options_.sheets, options.code, fix);
-    // If the image centre of a tracked image has left the page, it may be on another page.
-    // Therefore the image is located again without the prediction.
+    // If the image centre of a tracked image is no longer on the page, another page may be there.
+    // The image is therefore located again without the prediction.
     if (fix.status == Status::ok && fix.attempt == Attempt::tracked && !place &&
         !options_.sheets.empty()) {
         fix = locator(options).locate(image);

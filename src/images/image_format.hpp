@@ -84,11 +84,11 @@ inline constexpr double kCentimetresPerInch = 2.54;
 /// mean that the resolution is unknown.
 std::optional<Resolution> resolution_from(double x, double y, double units_per_inch);
 
-/// EXIF tags of cameras, which scanners do not write: exposure time, f-number, sensitivity, focal
-/// length (CIPA DC-008).
+/// EXIF tags that cameras write and scanners do not write: exposure time, f-number, sensitivity,
+/// focal length (CIPA DC-008).
 inline constexpr std::array<std::uint16_t, 4> kCameraTags{0x829A, 0x829D, 0x8827, 0x920A};
 
-/// Returns true if EXIF data contain one of kCameraTags. The name "Exif" may precede their TIFF
+/// Returns true if EXIF data contain one of kCameraTags. The name "Exif" may precede the TIFF
 /// header. Truncated or damaged data count as missing.
 bool is_of_camera(Bytes exif);
 

@@ -15,8 +15,8 @@
 namespace dotpose::images {
 namespace {
 
-/// Reads a PNG file. libpng reports errors with longjmp. Only `guarded` calls its functions, and no
-/// objects with destructors may be created in the scope of that call.
+/// Reads a PNG file. libpng reports errors with longjmp. Only `guarded` calls functions of libpng,
+/// and no objects with destructors may be created in the scope of that call.
 class PngReader {
   public:
     explicit PngReader(Bytes file)

@@ -110,8 +110,8 @@ Header read_header(Reader& reader, int max_pixels) {
     return header;
 }
 
-/// Returns the minimum number of bytes that encode the pixels. It is compared with the file size
-/// before memory is allocated.
+/// Returns the minimum number of bytes that encode the pixels. The number is compared with the file
+/// size before memory is allocated.
 std::size_t min_bytes(const Header& header) {
     const std::size_t samples = header.width_px * header.height_px * header.channels;
     if (header.is_bitmap) {

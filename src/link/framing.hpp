@@ -11,7 +11,7 @@
 namespace dotpose::link {
 
 inline constexpr std::size_t kPlainBytes = 27;
-/// Number of bytes after COBS encoding (Cheshire and Baker, 1999), which adds one byte to up to 254
+/// Number of bytes after COBS encoding (Cheshire and Baker, 1999). COBS adds one byte to up to 254
 /// bytes.
 inline constexpr std::size_t kCodedBytes = kPlainBytes + 1;
 /// Number of bytes of the CRC. Each byte contains at most 7 bits of the CRC, and its top bit is
@@ -30,7 +30,7 @@ std::uint16_t crc16(std::span<const std::uint8_t> bytes);
 
 Framed frame(const Plain& plain);
 
-/// Decodes framed bytes. Returns false if they are not a result of `frame`.
+/// Decodes framed bytes. Returns false if the bytes are not a result of `frame`.
 bool unframe(const Framed& framed, Plain& plain);
 
 }  // namespace dotpose::link

@@ -30,9 +30,9 @@ float half_side_px(const ImageView& image) {
 }
 
 /// Returns true if all of these conditions hold:
-/// - At least `min_dots` dots, and at least half of the dots seen, were read.
+/// - At least `min_dots` dots were read, and at least half of the dots seen.
 /// - Dots were seen in at least a quarter of the listed cells, or the view is partial.
-/// - On each axis, at most the fraction `max_bit_error_q8` / 256 of the bits contradicts the code.
+/// - On each axis, at most max_bit_error_q8 / 256 of the bits contradict the code.
 bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOptions& options,
                   int min_dots, bool is_partial_view) {
     const bool is_full = 4 * bits.seen >= dots.count || is_partial_view;
@@ -43,8 +43,8 @@ bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOp
            !exceeds_error_rate(bits.wrong_x) && !exceeds_error_rate(bits.wrong_y);
 }
 
-/// Returns true if the bits need no second reading: at least kClear_percent of the dots seen are
-/// clear, and of n dots read, at most max(kMaxWrong, n / kDotsPerWrong) bits are wrong.
+/// Returns true if the bits need no second reading. At least kClear_percent of the dots seen must
+/// be clear. Of n dots read, at most max(kMaxWrong, n / kDotsPerWrong) bits may be wrong.
 bool is_clean(const BitsRead& bits) {
     return 100 * bits.read >= tuned::kClear_percent * bits.seen &&
            bits.wrong_x + bits.wrong_y <=
@@ -56,8 +56,8 @@ std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
             Confidence::of_hard_bits(bits.read, bits.wrong_y)};
 }
 
-/// Returns true if the bits in `block`, which are all from the current frame, make the place of the
-/// hypothesis certain.
+/// Returns true if `block` makes the place of the hypothesis certain. `block` contains only bits of
+/// the current frame.
 bool is_certain_alone(const Kernels& kernels, const DeviceOptions& options,
                       const Hypothesis& hypothesis, const CellsInView& view, const BitBlock& block,
                       const BitsRead& bits, DesktopWorkspace& w) {
@@ -80,13 +80,12 @@ bool is_certain_alone(const Kernels& kernels, const DeviceOptions& options,
     return is_certain(kernels, evidence, options.code, options.integrity, w.fix, others);
 }
 
-/// Returns true if the bits in `block`, together with the bits of earlier frames, make the place of
-/// the hypothesis certain. `grid_from_image` is relative to the image centre.
+/// Returns true if `block` makes the place certain together with the bits of earlier frames.
+/// `grid_from_image` is relative to the image centre.
 bool is_certain_together(const Kernels& kernels, const DeviceOptions& options, const Place& place,
                          const FloatPlane& grid_from_image, const BitBlock& block,
                          DesktopWorkspace& w) {
-    // The permitted probability is divided equally between a wrong match of the grids and a wrong
-    // place.
+    // A wrong match of the grids and a wrong place each get half of the permitted probability.
     DeviceOptions half = options;
     --half.integrity.max_p_wrong_log2;
     const auto joined = w.earlier.join(block, grid_from_image);
@@ -106,9 +105,8 @@ bool is_certain_together(const Kernels& kernels, const DeviceOptions& options, c
     return true;
 }
 
-/// Returns ok if the bits in `block` make the place of the hypothesis certain, alone or, in an
-/// attempt that reads frames together, with the bits of earlier frames. Returns uncertain
-/// otherwise.
+/// Returns ok if the bits make the place of the hypothesis certain, and uncertain otherwise. If
+/// frames are read together, also uses the bits of earlier frames.
 Confirmation confirm_place(const Kernels& kernels, const DeviceOptions& options,
                            const Hypothesis& hypothesis, const CellsInView& view,
                            const BitBlock& block, const BitsRead& bits, DesktopWorkspace& w) {
@@ -191,9 +189,9 @@ bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRea
                      hypothesis.displacement, hypothesis.pattern_from_image, fit);
 }
 
-/// Corrects pixel bias and neighbour bias where they matter, and then fits the plane again. Returns
-/// the variance of the mean of the centres that is due to the remaining pixel bias, along u and v,
-/// in px^2. Returns 0 if nothing was corrected or the new fit failed.
+/// Corrects pixel bias and neighbour bias where they matter, then fits the plane again. Returns the
+/// variance of the mean centre due to the remaining pixel bias, along u and v, in px^2. Returns 0
+/// if nothing was corrected, or if the new fit failed.
 FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const CellsInView& view,
                           const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
     FloatVec remaining_px2;
@@ -201,7 +199,7 @@ FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const
     if (!reader.correct_neighbour_bias(hypothesis, fit) && !has_pixel_bias) return {};
     FloatPlane better = hypothesis.pattern_from_image;
     PoseFit better_fit;
-    // The correction drops dots at the border, so too few dots may remain.
+    // The correction drops dots at the border, so too few may remain.
     if (!fit_plane(kernels, reader.dots(), static_cast<int>(half_side_px(image)) + 1,
                    tuning::fit::kOutlier * fit.variance, fit.displacement, better, better_fit)) {
         return {};
@@ -212,8 +210,8 @@ FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const
     return remaining_px2;
 }
 
-/// Converts a variance of the image point, along u and v, to spacings^2, and adds it to the
-/// covariance of the pose.
+/// Adds the variance of an image point to the pose covariance. Converts it from px^2, along u and
+/// v, to spacings^2.
 void add_variance(FloatVec px2, const FloatPlane& plane, PoseFit& fit) {
     const std::array<float, 2> by_u{plane.du_x, plane.du_y};
     const std::array<float, 2> by_v{plane.dv_x, plane.dv_y};
@@ -239,16 +237,16 @@ void write_fix(const ImageView& image, const DeviceOptions& options, const Hypot
     write_pose(w.pattern_from_image, reference, options.code, hypothesis.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
     if (!(from_q8 == FixedVec{})) {
-        // Predictions from this fix need the plane relative to the image centre.
+        // Predictions need a plane relative to the image centre.
         w.fix.pattern_from_image =
             fixed_plane(recentred(hypothesis.pattern_from_image, {-from.x, -from.y}), centre_q8);
     }
     w.fix.status = Status::ok;
 }
 
-/// Returns true if the fitted plane differs from the plane before the fit by more than kFar
-/// spacings along either axis, at a corner of the part of the image within `reach_px` of the image
-/// centre. If so, the small centroid windows did not capture the full offsets.
+/// Returns true if the fit moved the plane by more than kFar spacings along an axis, in a corner of
+/// the measured part. This part is within `reach_px` of the image centre. Small centroid windows do
+/// not capture such offsets completely.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);
@@ -268,12 +266,12 @@ FloatVec reference_px(const DeviceOptions& options, const Hypothesis& hypothesis
             static_cast<float>(options.reference_dy_q8) / 256 - hypothesis.from_centre.y};
 }
 
-/// Distance from `Hypothesis::from_centre`, in px along each axis, within which dots are read. The
-/// distance grows from round to round.
+/// Distance from `Hypothesis::from_centre` within which dots are read, in px along each axis. Grows
+/// from round to round.
 struct Reach {
     float full;  ///< distance that includes the whole image
-    /// Distance within which the bits must make the position certain. Bits at larger distances are
-    /// not counted as evidence for the position.
+    /// Distance within which the bits must make the position certain. Bits beyond it are not
+    /// evidence for the position.
     float deciding;
     float now;  ///< distance of the current round
 
@@ -284,9 +282,8 @@ struct Reach {
           deciding(full <= tuned::kDenseAtMost * spacing_px ? full : tuned::kDense * spacing_px),
           now(deciding) {
         if (!hypothesis.is_partial_view) return;
-        // In a partial view, the pattern may end anywhere, so the first round reads dots within a
-        // smaller distance. These dots may not suffice to make the position certain, so the
-        // deciding distance is larger.
+        // A partial view may end anywhere, so the first round only reads nearby dots. They may be
+        // too few for a certain position, so the deciding distance is larger.
         deciding = std::min(full, tuned::kDecidingOfPart * spacing_px);
         now = std::min(full, tuned::kDenseOfPart * spacing_px);
     }
@@ -325,9 +322,9 @@ Confirmation finish(const Kernels& kernels, const ImageView& image, const Device
     return Confirmation::ok;
 }
 
-/// Measures the dots of the hypothesis, compares their bits with the code, and fits the pose. An
-/// exact hypothesis is implausible if its bits are not clean, or if its plane still changes (see
-/// `is_far_from`) after kMaxLooks rounds.
+/// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose. An
+/// exact hypothesis is implausible if its bits are not clean, or if its plane still moves after
+/// kMaxLooks rounds (see `is_far_from`).
 Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
                                  const DeviceOptions& options, Hypothesis hypothesis,
                                  DesktopWorkspace& w) {
@@ -355,8 +352,8 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
             return Confirmation::implausible;
         if (!is_clean(bits)) {
             if (hypothesis.is_exact) return Confirmation::implausible;
-            // In the deciding round, reads the bits again with a plane that is fitted to all dots.
-            // This plane reduces the number of misread bits.
+            // In the deciding round, fits the plane to all dots and reads the bits again. The new
+            // plane reduces the number of misread bits.
             if (decides && !fit_to_dots(kernels, dots, bits, image, hypothesis, fit))
                 return Confirmation::implausible;
             if (decides) bits = reader.read_again(hypothesis, block);

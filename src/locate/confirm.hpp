@@ -1,5 +1,5 @@
-// Confirm: the common part of the first and the tracked attempt. Measures the dots of a hypothesis,
-// compares their bits with the code, and fits the pose.
+// Confirm: the common last step of the first and the tracked attempt. Measures the dots of a
+// hypothesis, compares their bits with the code, and fits the pose.
 #pragma once
 
 #include "core/kernels/select.hpp"
@@ -11,25 +11,24 @@
 
 namespace dotpose::core {
 
-/// Returns true if the plane passes `is_within_reason` over the whole image. All stages that use a
-/// plane require this.
+/// Returns true if `is_within_reason` holds over the whole image. All stages that use a plane
+/// require this.
 bool is_plausible(const ImageView& image, const FloatPlane& plane);
 
 /// Result of `confirm`.
 enum class Confirmation : std::uint8_t {
     ok,
-    implausible,  ///< the plane is not plausible, or the dots or their bits contradict the
-                  ///< hypothesis
+    implausible,  ///< the plane is not plausible, or the dots or bits contradict the hypothesis
     uncertain,    ///< the hypothesis is plausible, but its position is not certain
 };
 
-/// Measures the dots of the hypothesis, compares their bits with the code, and fits the pose. If
-/// the hypothesis is predicted and its dots can be sampled directly, first tries direct sampling.
-/// If the result is ok, sets the fix of the workspace and, if requested, its trace.
+/// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose.
+/// Tries direct sampling first if the hypothesis is predicted and its dots allow it. If the result
+/// is ok, sets the fix of the workspace and, if requested, the trace.
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      Hypothesis hypothesis, DesktopWorkspace& w);
 
-/// Returns true if the residuals of a fix are so large that a second attempt may be better.
+/// Returns true if the residuals of a fix are large. A second attempt may then be better.
 bool is_rough(const Fix& fix);
 
 }  // namespace dotpose::core

@@ -13,9 +13,8 @@ namespace {
 
 namespace tuned = tuning::confirm;
 
-/// Prefetches the pixels in view if their size is kMinFetched_bytes to kMaxFetched_bytes. A new
-/// camera image is not in the cache, and the order in which dots are read defeats hardware
-/// prefetching.
+/// Prefetches the pixels in view if they take kMinFetched_bytes to kMaxFetched_bytes. A new camera
+/// image is not in the cache, and the order of reading defeats hardware prefetching.
 void fetch_pixels(const ImageView& image, const CellsInView& view) {
     constexpr std::ptrdiff_t kLine_bytes = 64;
     const auto range = [&](float centre, int size_px) {
@@ -35,9 +34,9 @@ void fetch_pixels(const ImageView& image, const CellsInView& view) {
     }
 }
 
-/// Drops windows that are much darker than paper. These windows are on the table beyond the sheet,
-/// where noise can resemble dots. `paper` is the mean level around dots. The first call, with
-/// `paper` = 0, sets this level and drops no windows.
+/// Drops windows that are much darker than the paper. They are on the table beyond the sheet, where
+/// noise can resemble dots. `paper` is the mean level around dots. The first call, with `paper` =
+/// 0, only sets this level.
 void drop_table(MeasuredDots& dots, float& paper) {
     float sum = 0;
     float count = 0;
@@ -68,8 +67,8 @@ float window_radius_px(const Hypothesis& hypothesis) {
 }
 
 /// Returns true if all dots of a row, or all dots of a column, have nearly the same sub-pixel
-/// phase: the step from cell to cell differs from a whole number of pixels by less than
-/// `max_off_px`, both along u and along v.
+/// phase. Along u and v, the step between cells must be within `max_off_px` of a whole number of
+/// pixels.
 bool has_common_phase(const FloatPlane& p, float max_off_px) {
     const float by = 1 / (p.du_x * p.dv_y - p.dv_x * p.du_y);
     const auto is_whole = [&](float px) {
@@ -90,7 +89,7 @@ bool can_sample_directly(const Hypothesis& hypothesis) {
 
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px) {
     if (variance_px2 > tuned::kMaxVariance_px2) return false;
-    // Maximum drift of the phase per step of the grid.
+    // Maximum phase drift per grid step.
     const float drift_px = tuned::kDriftInView_px * spacing_px(plane) / static_cast<float>(side_px);
     return has_common_phase(plane, drift_px);
 }
@@ -106,7 +105,7 @@ BitsRead DotReader::read(const CellsInView& view, Hypothesis& hypothesis, BitBlo
     if (hypothesis.is_exact)
         return kernels_.read_levels(image_, view, hypothesis.depth_q8, dots_, columns, rows);
     WindowOptions window = window_options(hypothesis);
-    // In a partial view, most windows of later rounds may be empty, so later rounds use the typical
+    // In a partial view, most windows of later rounds may be empty. These rounds use the typical
     // mass of the first round.
     if (hypothesis.is_partial_view) window.typical_mass = typical_mass_;
     typical_mass_ = hypothesis.typical_mass = kernels_.measure_windows(image_, view, window, dots_);
@@ -130,9 +129,9 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
         FloatPlane& plane = hypothesis.pattern_from_image;
         const auto points = static_cast<float>(found.points);
         bits.right = found.points;
-        // Sum, over the dots, of the offset from the intersection along the direction of the
-        // displacement: the predicted displacement plus the measured offset, which the plane
-        // converts from px to spacings.
+        // Offsets from the intersections along the displacement directions, summed over all dots.
+        // The sum is the predicted displacement plus the measured offset, converted from px to
+        // spacings.
         bits.projected = points * hypothesis.displacement + plane.du_x * found.of_x[0] +
                          plane.dv_x * found.of_x[1] + plane.du_y * found.of_y[0] +
                          plane.dv_y * found.of_y[1];
@@ -147,8 +146,8 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
 
 bool DotReader::correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                                    const PoseFit& fit, FloatVec& remaining_px2) const {
-    // Dots that are sampled directly have different sub-pixel phases (see `can_sample_directly`).
-    // Lens distortion also makes the phases differ. In both cases, the bias averages out.
+    // The bias averages out if the dots have different sub-pixel phases. This is the case for
+    // directly sampled dots (see `can_sample_directly`), and with lens distortion.
     if (hypothesis.is_exact || view.lens.k != 0) return false;
     const float variance_px2 =
         fit.variance * spacing_px_ * spacing_px_ / static_cast<float>(fit.dots);

@@ -1,5 +1,5 @@
-// Dot reader: reads the bits and measures the centres of the listed dots, by direct sampling or in
-// windows, depending on the precision of the hypothesis.
+// Dot reader: reads the bits and measures the centres of the listed dots. Samples them directly or
+// in windows, depending on the precision of the hypothesis.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"
@@ -9,40 +9,38 @@
 namespace dotpose::core {
 
 /// Returns true if the dots of a predicted hypothesis can be sampled directly. Direct sampling
-/// reads the bits of a cell from one sample at each of its four places, and measures each centre in
-/// a small centroid window.
+/// takes one sample at each of a cell's four places, and measures centres in small centroid
+/// windows.
 bool can_sample_directly(const Hypothesis& hypothesis);
 
-/// Returns true if the pixel bias matters. This is the case if all dots of a row or of a column
-/// have nearly the same sub-pixel phase, so the bias does not average out, and if the other errors
-/// of the dots are small. `variance_px2` is the variance of the mean of all centres along one axis.
-/// `side_px` is the longer side of the image.
+/// Returns true if the pixel bias matters. In this case, all dots of a row or column have nearly
+/// the same sub-pixel phase, and their other errors are small. `variance_px2` is the variance of
+/// the mean centre along one axis. `side_px` is the longer image side.
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px);
 
-/// Reads and measures the listed dots. Samples at the four places of each cell if the hypothesis is
-/// exact. Otherwise uses windows around the intersections.
+/// Reads and measures the listed dots. If the hypothesis is exact, samples the four places of each
+/// cell. Otherwise, uses windows around the intersections.
 class DotReader {
   public:
     DotReader(const Kernels& kernels, const ImageView& image, float spacing_px, MeasuredDots& dots)
         : kernels_(kernels), image_(image), spacing_px_(spacing_px), dots_(dots) {}
 
-    /// Reads the bits of the listed dots. If `block` is not null, stores the bits in this block,
-    /// which must be empty. Sets `typical_mass` of the hypothesis, unless the hypothesis is exact.
+    /// Reads the bits of the listed dots. Stores the bits in `block`, unless it is null. `block`
+    /// must be empty. Sets `typical_mass` of the hypothesis, unless the hypothesis is exact.
     BitsRead read(const CellsInView& view, Hypothesis& hypothesis, BitBlock* block);
     /// Reads the bits of the measured dots again, with the new plane of the hypothesis. Overwrites
-    /// the block.
+    /// `block`.
     BitsRead read_again(const Hypothesis& hypothesis, BitBlock& block) const;
-    /// Measures the centres of the dots in centroid windows. If the hypothesis is not exact, does
-    /// so only if `is_last` is true. If the hypothesis is exact, also fits the plane of the
-    /// hypothesis to the centres, and sets `projected`, `squares` and `right` of `bits`. `right` is
-    /// then the number of dots found. If fewer than kMinFound dots are found, sets only `right`, to
-    /// 0.
+    /// Measures the dot centres in centroid windows. If the hypothesis is not exact, does so only
+    /// if `is_last` is true. If the hypothesis is exact, also fits its plane to the centres, and
+    /// sets `projected`, `squares` and `right` of `bits`. `right` is then the number of dots found.
+    /// If fewer than kMinFound dots are found, only sets `right` to 0.
     void find_centres(const CellsInView& view, Hypothesis& hypothesis, bool is_last,
                       BitsRead& bits) const;
-    /// If the pixel bias matters (see `may_be_biased`), measures the centres again and subtracts
-    /// the bias. The plane must have been fitted to the current centres, and must be fitted again
-    /// afterwards. Sets `remaining_px2` to the variance of the mean of the centres that is due to
-    /// the remaining bias. Returns false without any change if the bias does not matter.
+    /// Measures the centres again and subtracts the pixel bias, if the bias matters (see
+    /// `may_be_biased`). The plane must have been fitted to the current centres, and must be fitted
+    /// again afterwards. Sets `remaining_px2` to the variance of the mean centre due to the
+    /// remaining bias. Returns false without any change if the bias does not matter.
     bool correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                             const PoseFit& fit, FloatVec& remaining_px2) const;
     /// Corrects the bias of facing dots if the centroid windows reach the neighbouring dot. The
@@ -59,7 +57,7 @@ class DotReader {
     const float spacing_px_;
     MeasuredDots& dots_;
     float typical_mass_ = 0;
-    float paper_ = 0;  ///< mean paper level around dots; 0 if not yet known
+    float paper_ = 0;  ///< mean paper level around dots, or 0 if unknown
 };
 
 }  // namespace dotpose::core

@@ -19,13 +19,13 @@ namespace tuned = tuning::joined;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// Returns the word of a line, shifted by `by` cells. `by` may be negative.
+/// Returns a word shifted by `by` cells, which may be negative.
 std::uint64_t shifted(std::uint64_t word, int by) {
     if (std::abs(by) >= BitBlock::kSide) return 0;
     return by >= 0 ? word << by : word >> -by;
 }
 
-/// Returns the lines after a shift by `across` lines and by `along` cells within each line.
+/// Returns the lines, shifted by `across` lines and by `along` cells within each line.
 BitLines shifted(const BitLines& lines, int across, int along) {
     BitLines result;
     for (int line = std::max(0, across); line < BitBlock::kSide + std::min(0, across); ++line) {
@@ -41,7 +41,7 @@ BitBlock shifted(const BitBlock& block, FixedVec by) {
     return {shifted(block.columns, by.x, by.y), shifted(block.rows, by.y, by.x)};
 }
 
-/// Number of bits that two blocks have in common, and number of these bits that differ.
+/// Number of bits that two blocks share, and number of shared bits that differ.
 struct Overlap {
     int shared = 0;
     int different = 0;
@@ -57,15 +57,14 @@ void count_overlap(const BitLines& a, const BitLines& b, int across, int along, 
     }
 }
 
-/// Returns log2 of the likelihood ratio of an overlap: the likelihood if the blocks match, divided
-/// by the likelihood if the blocks show unrelated parts of the pattern.
+/// Returns log2 of the likelihood ratio between two cases: the blocks match, or they show unrelated
+/// parts of the pattern.
 float log2_ratio(const Overlap& overlap) {
     return tuned::kEqualBit_log2 * static_cast<float>(overlap.shared - overlap.different) +
            tuned::kDifferentBit_log2 * static_cast<float>(overlap.different);
 }
 
-/// Adds the cells of `more` to a block. Drops the cells whose x bits or y bits contradict each
-/// other.
+/// Adds the cells of `more` to a block. Drops a cell if its x bits or its y bits differ.
 void add_cells(const BitBlock& more, BitBlock& block) {
     std::array<std::uint64_t, BitBlock::kSide> contradicted{};  // by column
     for (std::size_t i = 0; i < BitBlock::kSide; ++i) {
@@ -108,12 +107,12 @@ float power_of_two(float exponent) {
     return natural_exp(std::numbers::ln2_v<float> * exponent);
 }
 
-/// The likeliest match of two grids, and the summed weights of all possible matches.
+/// The likeliest match of two grids, and the summed weight of all possible matches.
 struct Match {
     int quarters = 0;
-    FixedVec shift;  ///< from the cells of the turned earlier grid to those of the current grid
+    FixedVec shift;  ///< from the turned earlier grid to the current grid, in cells
     float best_log2 = -1e9F;
-    float sum = 0;  ///< sum of all weights, relative to the best weight
+    float sum = 0;  ///< summed weight, relative to the best weight
 
     void add(float weight_log2, int at_quarters, FixedVec at_shift) {
         if (weight_log2 <= best_log2) {
@@ -125,8 +124,8 @@ struct Match {
         quarters = at_quarters;
         shift = at_shift;
     }
-    /// Returns an upper bound on the probability that the best match is wrong. `blunder_log2` is
-    /// log2 of the weight of the hypothesis that the motion was measured wrongly.
+    /// Returns an upper bound on the probability of a wrong match. `blunder_log2` is log2 of the
+    /// weight of a wrongly measured motion.
     float p_wrong(float blunder_log2) const {
         return std::max(sum - 1, 0.0F) + power_of_two(std::min(blunder_log2 - best_log2, 99.0F));
     }
@@ -137,14 +136,14 @@ float normal_log2(float distance, float variance) {
     return -0.5F * std::numbers::log2e_v<float> * distance * distance / variance;
 }
 
-/// The expected shift between two grids, in cells, with the variance along each axis.
+/// Expected shift between two grids, in cells, with its variance along each axis.
 struct ExpectedShift {
     FloatVec by;
     float variance = 0;
 };
 
-/// Adds the possible matches at one number of quarter turns. `turn_log2` is log2 of the weight of
-/// this rotation.
+/// Adds the possible matches after `quarters` quarter turns. `turn_log2` is log2 of the weight of
+/// this turn.
 void add_matches(const BitBlock& now, const BitBlock& earlier, const ExpectedShift& expected,
                  int quarters, float turn_log2, Match& match) {
     const float reach =
@@ -218,7 +217,8 @@ std::optional<JoinedBits> EarlierBits::join(const BitBlock& block,
         const float off_rad = std::remainder(
             angle_of(grid_from_image) - angle_of(before) - motion_.turn_rad, 2 * kPi);
         if (std::abs(off_rad) > tuned::kReach_sigmas * std::sqrt(variance_rad2)) continue;
-        // Image point, in the earlier frame, of the paper that is now at the reference point.
+        // The paper that is now at the reference point was at this image point in the earlier
+        // frame.
         const float scale = spacing_px(before) / spacing_mm_;
         const FloatVec reached{reference_px_.x + scale * motion_.right_mm,
                                reference_px_.y + scale * motion_.down_mm};

@@ -1,7 +1,6 @@
-// Earlier bits: the bits of earlier frames, in the grid of the newest of these frames. A motion
-// between the frames relates this grid to the grid of the current frame, so frames that are not
-// certain alone can be certain together. docs/integrity.md, "Frames read together", derives the
-// bound.
+// Earlier bits: the bits of earlier frames, in the grid of the newest earlier frame. A measured
+// motion relates this grid to the current grid. Frames that are not certain alone can then be
+// certain together. docs/integrity.md, "Frames read together", derives the bound.
 #pragma once
 
 #include <optional>
@@ -13,19 +12,19 @@
 
 namespace dotpose::core {
 
-/// The bits of one or several frames in one grid.
+/// Bits of one or several frames in one grid.
 struct FrameBits {
     BitBlock block;
-    FloatPlane grid_from_image;  ///< px relative to the image centre
+    FloatPlane grid_from_image;  ///< image points in px relative to the image centre
     int bits = 0;                ///< number of bits in the block
-    int frames = 0;              ///< number of frames from which the bits were read
+    int frames = 0;              ///< number of frames that contributed bits
 };
 
 /// Bits of several frames in the grid of the current frame.
 struct JoinedBits {
     BitBlock block;
     int frames = 0;
-    /// log2 of an upper bound on the probability that the grids of the frames were matched wrongly.
+    /// log2 of an upper bound on the probability of a wrong grid match.
     int p_mismatch_log2 = 0;
 };
 
@@ -33,26 +32,24 @@ class EarlierBits {
   public:
     /// Forgets all frames.
     void clear();
-    /// Begins a frame. `motion` is the motion since the previous frame. The spacing in the options
-    /// must be known.
+    /// Begins a frame. `motion` is the motion since the previous frame. The options must contain
+    /// the spacing.
     void begin_frame(const MeasuredMotion& motion, const DeviceOptions& options);
     /// Ends the frame. Keeps its bits, joined with the earlier bits if the grids match.
     void end_frame();
 
-    /// Stores bits of the current frame, between `begin_frame` and `end_frame`. If several blocks
-    /// are stored, keeps the last block whose place is confirmed or, if there is none, the largest
-    /// block.
+    /// Stores bits of the current frame, between `begin_frame` and `end_frame`. The last block with
+    /// a confirmed place replaces all others. Without a confirmed place, the largest block is kept.
     void note(const BitBlock& block, const FloatPlane& grid_from_image, bool is_confirmed);
 
-    /// True while an attempt reads the current frame together with the earlier frames.
+    /// True while an attempt reads the current frame together with earlier frames.
     bool is_joining = false;
     /// Returns true between `begin_frame` and `end_frame`.
     bool is_in_series() const { return is_in_frame_; }
     bool has_earlier() const { return is_in_frame_ && earlier_.frames > 0; }
-    /// Returns the bits of a block of the current frame together with the earlier bits. Drops cells
-    /// in which the frames contradict each other. Returns nullopt if there are no earlier bits, or
-    /// if the bound on the probability of a wrong match of the grids exceeds half of the maximum in
-    /// the options.
+    /// Joins a block of the current frame with the earlier bits. Drops cells in which the frames
+    /// contradict each other. Returns nullopt if there are no earlier bits, or if a wrong grid
+    /// match is too probable. The limit is half of the maximum in the options.
     std::optional<JoinedBits> join(const BitBlock& block, const FloatPlane& grid_from_image) const;
 
   private:

@@ -41,15 +41,14 @@ FloatVec middle_of(const Patch& patch, const ImageView& image) {
             middle_v_px(patch) - static_cast<float>(image.height_px - 1) / 2};
 }
 
-/// Places a patch around a point of the image, in px. Returns false if the patch is too small for a
-/// grid.
+/// Places a patch around an image point. Returns false if the patch is too small for a grid.
 bool place_patch(const ImageView& image, FixedVec around_px, int scale, DesktopWorkspace& w) {
     return place_patch(image, around_px.x, around_px.y, kPatchWidth_px * scale,
                        kPatchHeight_px * scale, scale, *w.patch);
 }
 
-/// Finds the dots of the patch. Sets the status of the fix, which is the result if no patch
-/// contains a grid. Returns false, without setting the status, if the patch has no contrast.
+/// Finds the dots of the patch. Also sets the status that is reported if no patch contains a grid.
+/// Returns false, without setting the status, if the patch has no contrast.
 bool find_patch_dots(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -64,8 +63,8 @@ bool find_patch_dots(const Kernels& kernels, const ImageView& image, const Devic
     return true;
 }
 
-/// Finds the quarter turn of a block of bits, and the place in the code of cell (0, 0) of the
-/// turned block. Prefers places on known sheets. Returns false if no place is found.
+/// Finds the quarter turn of a block, and the place in the code of the turned block's cell (0, 0).
+/// Prefers places on known sheets. Returns false if no place is found.
 bool find_turn_and_place(const Kernels& kernels, const DeviceOptions& options,
                          const BitBlock& block, DesktopWorkspace& w, int& quarters, Place& place) {
     quarters = likeliest_turn(kernels, block);
@@ -83,9 +82,9 @@ bool find_turn_and_place(const Kernels& kernels, const DeviceOptions& options,
            find_place(options.code, score_block(kernels, upright, w.line_scores), place);
 }
 
-/// In a series of frames, stores the bits of the current frame or, if the frames are read together,
-/// replaces `block` with the bits of all frames. Returns false if the grids of the frames do not
-/// match. The plane is relative to `from_centre`.
+/// In a series of frames, stores the current bits. If the frames are read together, replaces
+/// `block` with the bits of all frames instead. Returns false if the grids do not match.
+/// `grid_from_image` is relative to `from_centre`.
 bool join_earlier(const FloatPlane& grid_from_image, FloatVec from_centre, DesktopWorkspace& w,
                   BitBlock& block) {
     EarlierBits& earlier = w.earlier;
@@ -100,7 +99,7 @@ bool join_earlier(const FloatPlane& grid_from_image, FloatVec from_centre, Deskt
     return joined.has_value();
 }
 
-/// Finds a place in the code from the dots of a patch. The dots and the hypothesis are relative to
+/// Finds a place in the code from the dots of a patch. Dots and hypothesis are relative to
 /// `from_centre`. Returns false if no grid or no place is found.
 bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const PatchView& view,
                      FloatVec from_centre, DesktopWorkspace& w, Hypothesis& hypothesis) {
@@ -120,9 +119,9 @@ bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const
     return true;
 }
 
-/// Sets `is_mirrored` of the workspace if the dots of a patch around the image centre show the
-/// mirrored code. A grid counts as mirrored only if adjacent lines without wrong bits determine a
-/// place (`find_place_exactly`). Mirrors the dots of the patch and does not restore them.
+/// Sets `is_mirrored` of the workspace if a patch around the image centre shows the mirrored code.
+/// Accepts only places that `find_place_exactly` finds from adjacent lines without wrong bits.
+/// Leaves the dots of the patch mirrored.
 void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, DesktopWorkspace& w) {
     if (w.is_mirrored) return;
     Patch& patch = *w.patch;
@@ -138,17 +137,16 @@ void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, Des
         find_place_exactly(options.code, turned(likeliest_turn(kernels, block), block), place);
 }
 
-/// Returns true if the grid of the patch is precise enough to predict all dots of the image to
-/// within a fraction of a pixel: the patch covers the whole image, so the grid was fitted to all
-/// dots, and the spacing is at least kMinSpacingForPrediction_px.
+/// Returns true if the patch predicts all dots in the image to within a fraction of a pixel. The
+/// patch must cover the whole image, so its grid was fitted to all dots. The spacing must be at
+/// least kMinSpacingForPrediction_px.
 bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane& plane) {
     return patch.width_px == image.width_px && patch.height_px == image.height_px &&
            spacing_px(plane) >= tuned::kMinSpacingForPrediction_px;
 }
 
-/// Finds the grid of the dots of the patch at the image centre, and tests the hypothesis of this
-/// grid. If `is_skewed` is true, the cells may be any parallelograms. Otherwise, the cells must be
-/// about square.
+/// Finds the grid in the patch at the image centre, and tests its hypothesis. If `is_skewed` is
+/// true, cells may be any parallelograms. Otherwise, they must be about square.
 Confirmation locate_grid(const Kernels& kernels, const ImageView& image,
                          const DeviceOptions& options, bool is_skewed, DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -166,9 +164,9 @@ Confirmation locate_grid(const Kernels& kernels, const ImageView& image,
     return confirm(kernels, image, options, hypothesis, w);
 }
 
-/// Searches the patch at the image centre for a square grid. If this search yields no plausible
-/// hypothesis, searches the patch for a grid of any parallelograms, because a rolling shutter
-/// shears and stretches the image of a moving scene.
+/// Searches the patch at the image centre for a square grid. Without a plausible hypothesis,
+/// searches again for any parallelograms, because a rolling shutter shears and stretches moving
+/// scenes.
 Confirmation locate_in_middle(const Kernels& kernels, const ImageView& image,
                               const DeviceOptions& options, DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -179,8 +177,8 @@ Confirmation locate_in_middle(const Kernels& kernels, const ImageView& image,
                                                : square;
 }
 
-/// Finds a hypothesis in a patch around a point of the image, in px. Sets `densest_px`, the origin
-/// of the hypothesis, to the point where the dots are densest. Returns false if the patch yields no
+/// Finds a hypothesis in a patch around an image point. Sets `densest_px` to the point where the
+/// dots are densest. This point is also the origin of the hypothesis. Returns false if there is no
 /// hypothesis. Leaves `densest_px` unchanged if the patch is too small, or has no contrast or too
 /// few dots.
 bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
@@ -212,10 +210,9 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
     return false;
 }
 
-/// Searches a patch around a point of the image. If the patch yields no hypothesis and its dots are
-/// densest far from its middle, also searches a patch around the densest point. `tries_left` is the
-/// number of hypotheses that may still turn out to be uncertain before the search ends. Each
-/// uncertain hypothesis increases the probability of a wrong fix.
+/// Searches a patch around an image point. If there is no hypothesis and the dots are densest far
+/// from the middle, also searches a patch around the densest point. `tries_left` is the number of
+/// uncertain hypotheses that are still allowed. Each one increases the probability of a wrong fix.
 Confirmation locate_around(const Kernels& kernels, const ImageView& image,
                            const DeviceOptions& options, FixedVec around_px, int scale,
                            int& tries_left, DesktopWorkspace& w) {
@@ -237,8 +234,7 @@ Confirmation locate_around(const Kernels& kernels, const ImageView& image,
     return Confirmation::implausible;
 }
 
-/// Searches the whole image in adjacent patches. The size of the patches increases from round to
-/// round.
+/// Searches the whole image in adjacent patches. The patches grow from round to round.
 Confirmation locate_elsewhere(const Kernels& kernels, const ImageView& image,
                               const DeviceOptions& options, DesktopWorkspace& w) {
     int tries_left = tuned::kMaxTries;
@@ -256,8 +252,7 @@ Confirmation locate_elsewhere(const Kernels& kernels, const ImageView& image,
     return tries_left < tuned::kMaxTries ? Confirmation::uncertain : Confirmation::implausible;
 }
 
-/// Searches patches of increasing size around the image centre, and then patches all over the
-/// image.
+/// Searches patches of increasing size around the image centre, then patches all over the image.
 Confirmation locate_outwards(const Kernels& kernels, const ImageView& image,
                              const DeviceOptions& options, DesktopWorkspace& w) {
     for (const int scale : {1, 2, 4}) {

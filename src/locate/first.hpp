@@ -1,4 +1,4 @@
-// First: the first attempt. Locates an image without a prediction. Begins with a patch around the
+// First: the first attempt. Locates an image without a prediction, starting with a patch around the
 // image centre.
 #pragma once
 
@@ -9,9 +9,9 @@
 
 namespace dotpose::core {
 
-/// Finds the grid in a part of the image, then measures the dots of the whole image. Returns true
-/// if a fix was found. Stores the fix in the workspace or, if there is none, one of the statuses
-/// no_contrast, too_few_dots, no_grid and not_certain.
+/// Finds the grid in a part of the image, then measures the dots of the whole image. Stores the fix
+/// in the workspace, and returns true if there is one. Otherwise, stores the status no_contrast,
+/// too_few_dots, no_grid or not_certain.
 bool locate_first(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                   DesktopWorkspace& w);
 

@@ -25,10 +25,10 @@ bool fit_pattern(const DeviceOptions& options, const ImageView& image, DesktopWo
                  PoseFit& fit) {
     const Nominal nominal(w.grid, options.code, w.decoding);
     w.pattern_from_image =
-        upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // II-B.8
+        upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // paper, section II-B.8
     w.dot_count = measure_dots(image, options.lens, w.pattern_from_image, nominal, w.grid, w.dots);
     undistort(options.lens, image_centre_q8(w.threshold), first(w.dots, w.dot_count));
-    w.seed_count = 0;  // the seeds refer to the previous dots
+    w.seed_count = 0;  // seeds are indices of the previous dots
     const Observations observations(w.found_dots(), w.grid, nominal, &w.smoothing.paper);
     return refine_pose(observations, w.pattern_from_image, fit);
 }

@@ -8,23 +8,23 @@
 
 namespace dotpose::core {
 
-/// Returns true if the position does not explain the frame well: the displacement is not positive,
-/// or
+/// Returns true if the position does not explain the frame well. This is the case if the
+/// displacement is not positive, or if
 ///
 ///     sqrt(variance) / displacement + bit_errors / bits > kMaxImplausible.
 ///
-/// Two overlapping patterns that are nearly aligned can look like a third pattern, with the columns
-/// of the first and the rows of the second pattern. In such a frame, a quarter of the cells have no
-/// dot at the expected place, half of the dots are next to their places, and the typical
-/// displacement is too small. For the numbers, see docs/integrity.md.
+/// Two nearly aligned patterns that overlap can look like a third pattern, with the columns of one
+/// and the rows of the other. In such a frame, a quarter of the cells have no dot at the expected
+/// place. Half of the dots are next to their places, and the typical displacement is too small. For
+/// the numbers, see docs/integrity.md.
 bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
-/// Measures the dots that the code predicts at the decoded position, and fits the map from the
-/// image to the pattern. Returns false if the dots do not determine the map.
+/// Measures the dots that the code predicts at the decoded position, and fits the map from image to
+/// pattern. Returns false if the dots do not determine the map.
 bool fit_pattern(const DeviceOptions& options, const ImageView& image, DesktopWorkspace& w,
                  PoseFit& fit);
 
-/// Calls `fit_pattern` and writes the pose and its covariance into the fix. Errors: no_grid,
+/// Calls `fit_pattern`, and writes the pose and its covariance into the fix. Errors: no_grid,
 /// not_certain.
 Status measure_pose(const DeviceOptions& options, const ImageView& image, DesktopWorkspace& w);
 

@@ -14,8 +14,8 @@ struct Extent {
     int count = 0;
 };
 
-/// Returns the range of the integers from `min` to `max`, rounded outwards, with a margin of one
-/// integer on each side. The range is clamped to the `room` integers around 0.
+/// Returns the integers from `min` to `max`, rounded outwards, with a margin of 1 on each side.
+/// Clamps them to the `room` integers around 0.
 Extent extent(float min, float max, int room) {
     const int half = room / 2;
     const int first = std::max(static_cast<int>(std::floor(std::max(min, -4096.0F))) - 1, -half);
@@ -24,8 +24,7 @@ Extent extent(float min, float max, int room) {
     return {first, std::max(last - first + 1, 0)};
 }
 
-/// Writes the rolls of the lines of a view into the workspace, and sets the pointers of the view to
-/// these rolls.
+/// Writes the rolls of the lines in view into the workspace, and points the view to them.
 void follow_code(CodeVariant code, const Place& place, CellsInView& view, DesktopWorkspace& w) {
     const Place corner = moved(code, place, view.first_column, view.first_row);
     const auto follow = [&](std::uint32_t position, int section, std::uint32_t cross, int count,
@@ -67,9 +66,9 @@ CellsInView cells_in_view(const ImageView& image, const DeviceOptions& options,
     view.height_px = static_cast<float>(image.height_px);
     view.reach_px = reach_px;
     view.displacement = hypothesis.displacement;
-    // A dot that touches the border of the image is incomplete.
+    // A dot that touches the image border is incomplete.
     view.margin_px = std::max(1.7F, 0.15F * spacing_px(hypothesis.pattern_from_image));
-    // In small views of known sheets, dots closer to the border are also read.
+    // In small views of known sheets, dots closer to the border are also needed.
     const auto shorter_px = static_cast<float>(std::min(image.width_px, image.height_px));
     if (w.known.any() &&
         shorter_px < tuning::known::kSmallView * spacing_px(hypothesis.pattern_from_image)) {
@@ -111,8 +110,7 @@ void count_from_centre(CodeVariant code, Hypothesis& hypothesis) {
 }
 
 Similarity similarity_of(const DotOffsets& found) {
-    // Closed-form least-squares solution of offset = shift + (scale + i turn) * place, in complex
-    // numbers.
+    // Closed-form least squares for offset = shift + (scale + i turn) * place, in complex numbers.
     const float fraction = 1 / static_cast<float>(found.points);
     const float u = found.u * fraction;  // mean place
     const float v = found.v * fraction;

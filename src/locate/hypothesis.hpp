@@ -1,5 +1,5 @@
-// Hypothesis: a plane and a place in the code that an attempt tests. Also determines the cells in
-// view for a hypothesis.
+// Hypothesis: a plane and a place in the code, to be tested by an attempt. Also determines which
+// cells are in view.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -10,38 +10,36 @@
 
 namespace dotpose::core {
 
-/// A plane and a place that the bits have not confirmed yet.
+/// A plane and a place that are not yet confirmed by bits.
 struct Hypothesis {
-    FloatPlane pattern_from_image;  ///< upright pattern; px relative to `from_centre`
+    FloatPlane pattern_from_image;  ///< upright; image points are relative to `from_centre`
     FloatVec from_centre;           ///< origin of the plane, in px relative to the image centre
     Place place;                    ///< place of cell (0, 0) of the plane
-    float displacement = 0;     ///< distance of a typical dot from its intersection, in spacings
-    bool is_certain = false;    ///< true if the place needs no confirmation
-    bool is_predicted = false;  ///< true if the plane predicts each dot to within a fraction of a
-                                ///< pixel
-    /// True if each dot is closer to its predicted place than to any other place of its cell. In
-    /// this case, the dots are sampled directly.
+    float displacement = 0;         ///< typical distance between dot and intersection, in spacings
+    bool is_certain = false;        ///< true if the place needs no confirmation
+    bool is_predicted = false;      ///< true if dots are predicted to within a fraction of a pixel
+    /// True if each dot is closer to its predicted place than to the other places of its cell. Such
+    /// dots are sampled directly.
     bool is_exact = false;
     /// True if the pattern may cover only a part of the image, around `from_centre`.
     bool is_partial_view = false;
-    /// Contrast of a typical dot in the image smoothed with a 1-2-1 filter along both axes, in
-    /// 1/256 of the paper level.
+    /// Contrast of a typical dot after a 1-2-1 filter along both axes, in 1/256 of the paper level.
     int depth_q8 = 0;
-    /// Mass of a typical dot: the darkness beyond the threshold, relative to the paper level,
-    /// summed over the pixels of the dot. 0 if the mass is not known yet.
+    /// Mass of a typical dot: its darkness beyond the threshold, relative to the paper level,
+    /// summed over its pixels. 0 if unknown.
     float typical_mass = 0;
 };
 
-/// Threshold of windows, in 1/256 of the contrast of a typical dot. A pixel belongs to a dot if its
-/// contrast with the paper exceeds the threshold.
+/// Threshold of windows, in 1/256 of a typical dot's contrast. Pixels with more contrast belong to
+/// a dot.
 inline constexpr int kCutOfDepth_q8 = 160;
 
-/// Returns the centre of an image, in px relative to its first pixel.
+/// Returns the image centre, in px relative to the first pixel.
 FloatVec centre_px(const ImageView& image);
 
 FloatLens float_lens(const FixedLens& lens);
 
-/// Returns the input of `list_cells`: the cells in view within `reach_px` of `from_centre`,
+/// Returns the input of `list_cells` for the cells in view within `reach_px` of `from_centre`,
 /// subsampled to about `max_cells`. Writes the rolls into the workspace.
 CellsInView cells_in_view(const ImageView& image, const DeviceOptions& options,
                           const Hypothesis& hypothesis, float reach_px, int max_cells,
@@ -50,13 +48,12 @@ CellsInView cells_in_view(const ImageView& image, const DeviceOptions& options,
 /// Moves the origin of the cells to the intersection nearest to `from_centre`.
 void count_from_centre(CodeVariant code, Hypothesis& hypothesis);
 
-/// Least-squares similarity (shift, scale and rotation) that maps the predicted dots to the
-/// measured dots.
+/// Least-squares similarity from predicted dots to measured dots: shift, scale and rotation.
 struct Similarity {
     FloatVec shift_px;
-    float scale = 0;  ///< scale minus 1
+    float scale = 0;  ///< scale factor minus 1
     float turn_rad = 0;
-    float squares_px2 = 0;  ///< sum of the squared offsets that remain after the fit
+    float squares_px2 = 0;  ///< summed squared offsets after the fit
 };
 
 /// Fits a similarity to the offsets of at least two dots.

@@ -1,5 +1,5 @@
-// Selects the attempts for a frame on a desktop, and the codes in which these attempts are made.
-// Decides whether a fix is accepted.
+// Chooses the attempts for a frame on a desktop, and the codes to try. Decides whether a fix is
+// accepted.
 //
 //   tracked    measures the dots where a prediction expects them    locate/tracked.hpp
 //   first      finds the grid in a part of the image                locate/first.hpp
@@ -34,18 +34,18 @@ namespace {
 
 namespace tuned = tuning::cascade;
 
-/// The steps of the cascade. `resampled` is a second attempt that samples the bits again if the
+/// Steps of the cascade. `resampled` is a second attempt that samples the bits again if the
 /// position is doubtful. This step takes three times as long as `second`.
 enum class Step : std::uint8_t { tracked, first, second, resampled, device };
 
-/// Returns true if the dots are on a grid, but could not be read in this code. The grid may be
-/// readable in another code.
+/// Returns true if there is a grid of dots that could not be read in this code. Another code may
+/// succeed.
 bool leaves_code_open(Status status) {
     return status == Status::not_in_code || status == Status::ambiguous ||
            status == Status::not_certain;
 }
 
-/// Makes the attempts for one frame, in the codes that are possible.
+/// Makes the attempts for one frame, in all possible codes.
 class Cascade {
   public:
     Cascade(const ImageView& image, const DeviceOptions& options, const PossibleCodes& codes,
@@ -57,7 +57,7 @@ class Cascade {
           w_(w),
           second_(image, w) {}
 
-    /// Returns the fix. On return, the workspace contains the results for this fix.
+    /// Returns the fix, and leaves its results in the workspace.
     CodeReading locate(const Prediction* prediction) {
         if (options_.effort == Effort::device) return make({Step::device});
         prediction_ = prediction;
@@ -72,8 +72,7 @@ class Cascade {
     }
 
   private:
-    /// Returns true if the options allow a second attempt and the image has the minimum size for a
-    /// second attempt.
+    /// Returns true if the options allow a second attempt and the image is large enough for one.
     bool may_try_twice() const {
         return options_.effort == Effort::twice &&
                std::min(image_.width_px, image_.height_px) >= kMinFrameSide_px;
@@ -87,10 +86,10 @@ class Cascade {
         return make({Step::first, Step::second, Step::resampled});
     }
 
-    /// Runs the steps in order, each in all codes worth trying, until a fix is certain. Ends a step
-    /// other than `first` early if the failure does not depend on the code. Skips the remaining
-    /// steps if the code of the first doubtful fix is ambiguous. If no fix is certain, returns the
-    /// first doubtful fix. If there is no doubtful fix either, returns the last failure in the
+    /// Runs the steps in order, each in all codes worth trying, until a fix is certain. Steps other
+    /// than `first` end early if they fail for a reason that does not depend on the code. If the
+    /// first doubtful fix is ambiguous between codes, skips the remaining steps. Without a certain
+    /// fix, returns the first doubtful fix. If there is none, returns the last failure in the
     /// likeliest code.
     CodeReading make(std::initializer_list<Step> steps) {
         std::optional<CodeReading> doubtful;
@@ -114,22 +113,22 @@ class Cascade {
         return *doubtful;
     }
 
-    /// Returns the codes in which a step is tried, the likeliest code first. If several codes are
-    /// possible, `resampled` is tried in at most one code: among the codes in which the result of
-    /// `second` was not certain, the code with the fewest bit errors.
+    /// Returns the codes to try in a step, likeliest first. If several codes are possible,
+    /// `resampled` is tried in at most one code. That code has the fewest bit errors among the
+    /// codes in which `second` was not certain.
     std::span<const CodeVariant> worth_trying(Step step) const {
         if (step == Step::resampled && !codes_.is_known())
             return {&worth_resampling_, min_errors_ == kMaxErrors ? 0U : 1U};
         return codes_.in_order();
     }
 
-    /// Runs one step in one code. Returns true if there is a fix. In this case, the workspace
-    /// contains the fix and the odds of the other codes.
+    /// Runs one step in one code. Returns true if there is a fix. The workspace then contains the
+    /// fix and the odds of the other codes.
     bool attempt(Step step, CodeVariant code) {
         options_.code = code;
         OtherCodes& others = w_.other_codes;
         others.of = {};
-        // The bounds for chance and for alternatives are those of one code. If several codes are
+        // The bounds on chance and alternatives are for a single code. If several codes are
         // possible, the bounds are multiplied by the number of codes, each weighted by its odds.
         if (!codes_.is_known()) others.log2_in_question_q8 = log2_of_odds_q8(codes_.number(code));
         switch (step) {
@@ -167,9 +166,9 @@ class Cascade {
         return codes_.judge(read, w_.other_codes, w_.fix, options_.integrity.max_p_wrong_log2);
     }
 
-    /// Returns the certain fix, unless a better fix is found: a fix in another code that explains
-    /// the same place better or, if the residuals of a fix by the first attempt are large, a fix by
-    /// the second attempt.
+    /// Returns the certain fix, unless a better fix is found. Reads the frame again in another code
+    /// if the other code is more likely. Makes a second attempt if a first attempt has large
+    /// residuals.
     CodeReading best_of(Step step, CodeVariant code, Judgement judgement) {
         const auto remake = [&](Step other_step, CodeVariant other) {
             if (!attempt(other_step, other)) return false;
@@ -205,8 +204,8 @@ class Cascade {
     }
 
     /// Adds the evidence of the frame if the frame is certain in another code without the earlier
-    /// evidence. Strong evidence for one code would otherwise prevent every frame of a sheet in
-    /// another code from being certain.
+    /// evidence. Otherwise, strong evidence for one code would prevent certain fixes on any sheet
+    /// in another code.
     void add_evidence_of_another_sheet(CodeReading& reading) {
         if (options_.effort == Effort::device || codes_.is_known() || codes_.are_equal()) return;
         const PossibleCodes before = codes_;
@@ -241,8 +240,8 @@ CodeReading locate_checked(const ImageView& image, const DeviceOptions& options,
                            const CodeEvidence& evidence, DesktopWorkspace& w) {
     w.is_mirrored = false;
     CodeReading reading = Cascade(image, options, codes, evidence, w).locate(prediction);
-    // An earlier attempt may have found the mirrored code, and a later attempt may have failed for
-    // another reason.
+    // An earlier attempt may have found the mirrored code before a later attempt failed for another
+    // reason.
     if (reading.fix.status != Status::ok && w.is_mirrored)
         reading.fix.status = w.fix.status = Status::mirrored;
     if (reading.fix.status == Status::ok && is_pale(image, options, reading.code, reading.fix)) {
@@ -254,9 +253,9 @@ CodeReading locate_checked(const ImageView& image, const DeviceOptions& options,
     return reading;
 }
 
-/// Sets the other place of `reading` to the place of `any`, a reading of the same frame in any
-/// code. If both readings are in the same code, copies the other place of `any`. Does nothing if
-/// `any` has no place, or if more than one bit per kBitsPerError dots contradicts this place.
+/// Sets the other place of `reading` to the place of `any`. `any` is a reading of the same frame in
+/// any code. If the codes are equal, copies the other place of `any` instead. Does nothing if `any`
+/// has no place, or if `any` has more than one bit error per kBitsPerError dots.
 void note_other_reading(const CodeReading& any, CodeReading& reading) {
     const bool is_read = any.fix.status == Status::ok || any.fix.status == Status::ambiguous_code;
     if (!is_read || tuned::kBitsPerError * any.fix.bit_errors > any.fix.dots_seen) return;
@@ -309,7 +308,7 @@ CodeReading locate_in_code(const ImageView& image, const DeviceOptions& options,
         name_code_that_explains(w.other_codes, reading);
     } else if (leaves_code_open(reading.fix.status)) {
         note_other_reading(locate_in_any_code(image, options, nullptr, {}, w), reading);
-        locate(image, options, nullptr, w);  // The workspace must match the returned fix.
+        locate(image, options, nullptr, w);  // the workspace must match the returned fix
     }
     return reading;
 }

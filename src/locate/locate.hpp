@@ -1,4 +1,4 @@
-// Locate: locates a frame with the given memory and options. Implements `Locator`.
+// Locate: locates frames with given memory and options. Implements `Locator`.
 #pragma once
 
 #include "dotpose/code_evidence.hpp"

@@ -1,5 +1,5 @@
-// Implements the members of Locator: memory, options, evidence for the codes, and pushed rows.
-// locate/locate.cpp contains the attempts.
+// Members of Locator: memory, options, evidence for the codes, and pushed rows. locate/locate.cpp
+// contains the attempts.
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -16,7 +16,7 @@ LargeMemory::LargeMemory() : workspace_(core::make_workspace<core::LargeWorkspac
 
 Locator::Locator(core::DesktopWorkspace* workspace, const DeviceOptions& options)
     : RowLocator(workspace, options) {
-    // Another locator may have used the memory before, with known sheets and a series of images.
+    // Another locator may have left known sheets and a series of images in this memory.
     workspace->earlier.clear();
     workspace->set_known({});
 }

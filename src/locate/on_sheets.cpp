@@ -10,8 +10,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the hard bits of all clearly read cells of the region. Cell (0, 0) of the block is the
-/// cell `middle` of the grid.
+/// Returns the hard bits of all clearly read cells in a region. Cell (0, 0) of the block is cell
+/// `middle` of the grid.
 BitBlock bits_of(const Grid& grid, const GridRegion& region, FixedVec middle) {
     BitBlock block;
     const auto is_clear = [](int weight) { return std::abs(weight) >= tuning::known::kMinWeight; };
@@ -31,7 +31,7 @@ BitBlock bits_of(const Grid& grid, const GridRegion& region, FixedVec middle) {
     return block;
 }
 
-/// Returns the cell to which `turned(quarters, block)` moves cell (0, 0) of the block.
+/// Returns the cell to which `turned(quarters, block)` moves cell (0, 0).
 FixedVec origin_after(int quarters) {
     return {quarters == 1 || quarters == 2 ? -1 : 0, quarters >= 2 ? -1 : 0};
 }

@@ -10,23 +10,23 @@
 
 namespace dotpose::core {
 
-/// Returns true if the decoded region can be in view: the region is at least partly on a known
-/// sheet, or other sheets may be in view.
+/// Returns true if the decoded region may be in view. The region must be at least partly on a known
+/// sheet, unless other sheets may be in view.
 bool is_possible(CodeVariant code, const DesktopWorkspace& w);
 
-/// Returns the likeliest place of a block on the known sheets. Returns nullopt if this place is not
-/// in the code of the options, or if too many bits contradict it.
+/// Returns the likeliest place of a block on the known sheets. Returns nullopt if this place is in
+/// a different code, or if too many bits contradict it.
 std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const DeviceOptions& options,
                                                const BitBlock& block, const KnownSheets& known);
 
-/// Returns true if `place`, the place of an upright block, is certain given the known sheets. Sets
-/// `p_wrong_log2` of the fix, and `prior` if the place is certain.
+/// Returns true if `place` is certain on the known sheets. `block` must be upright. Sets
+/// `p_wrong_log2` of the fix and, if the place is certain, `prior`.
 bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Place& place,
                           const BitBlock& block, const KnownSheets& known, Fix& fix);
 
-/// Finds the position of the grid on the known sheets. If any position is found, sets `bit_errors`
-/// and `p_wrong_log2` of the fix. If this position is certain, also sets the decoding and `prior`
-/// of the fix, and returns true.
+/// Finds the position of the grid on the known sheets. If there is a position, sets `bit_errors`
+/// and `p_wrong_log2` of the fix. If the position is certain, also sets the decoding and `prior` of
+/// the fix, and returns true.
 bool read_on_sheets(const DeviceOptions& options, DesktopWorkspace& w);
 
 }  // namespace dotpose::core

@@ -8,7 +8,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the number of steps from one position to another, in the shorter direction.
+/// Returns the signed number of steps between two positions, in the shorter direction.
 std::int32_t steps(std::uint32_t from, std::uint32_t to) {
     constexpr auto kAll = static_cast<std::int32_t>(kPositionsPerAxis);
     const std::int32_t step = static_cast<std::int32_t>(to) - static_cast<std::int32_t>(from);
@@ -16,13 +16,13 @@ std::int32_t steps(std::uint32_t from, std::uint32_t to) {
     return step < -kAll / 2 ? step + kAll : step;
 }
 
-/// The position of a line and its roll in one code.
+/// Position and roll of a line in one code.
 struct Line {
     std::uint32_t position;
     int roll;
 };
 
-/// Returns the line at the same position as the decoded line, with its roll in the other code.
+/// Returns the line at the same position, with its roll in the other code.
 Line here(CodeVariant read, CodeVariant other, std::uint32_t position, int roll_read) {
     return {position, roll_read + roll(other, position) - roll(read, position)};
 }
@@ -37,8 +37,8 @@ std::uint8_t section(CodeVariant code, const Line& line, const Line& crossing) {
     return static_cast<std::uint8_t>(section_of(code, roll, line.position, crossing.position));
 }
 
-/// Returns the likelihood ratio of the likeliest other place. This place differs from the fix along
-/// one axis or along both axes.
+/// Returns the largest likelihood ratio of a place that differs from the fix along one axis or
+/// along both axes.
 float best_odds(const OtherCode& there) {
     return std::max(
         {there.x.best * there.y.here, there.x.here * there.y.best, there.x.best * there.y.best});
@@ -77,7 +77,7 @@ void name_other_place(CodeVariant read, CodeVariant other, const OtherCodes& oth
                               steps(fix.place.cell.y, others.first.y));
     const int x_roll = code::roll_from(read, first.cell.x, first.section.u, first.cell.y);
     const int y_roll = code::roll_from(read, first.cell.y, first.section.v, first.cell.x);
-    // The other place differs from the fix along one axis or along both axes.
+    // The place may differ from the fix along one axis or along both axes.
     const float by_x = there.x.best * there.y.here;
     const float by_y = there.x.here * there.y.best;
     const float by_both = there.x.best * there.y.best;

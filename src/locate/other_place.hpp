@@ -1,4 +1,4 @@
-// Other place: the place in another code that explains a frame.
+// Other place: a place in another code that also explains a frame.
 #pragma once
 
 #include "core/other_codes.hpp"
@@ -6,13 +6,13 @@
 
 namespace dotpose::core {
 
-/// Sets the other place of `reading` if another code explains the frame: to a different place that
-/// is about as likely as the fix, or to the same place if the other code explains the frame much
-/// better.
+/// Sets the other place of `reading` if another code also explains the frame. A different place
+/// must be about as likely as the fix. At the same place, the other code must explain the frame
+/// much better.
 void name_code_that_explains(const OtherCodes& others, CodeReading& reading);
 
-/// Sets the other place of `reading` to the likeliest different place in the code `other`. `read`
-/// is the code of the fix.
+/// Sets the other place of `reading`: the likeliest place in the code `other`, apart from the place
+/// of the fix. `read` is the code of the fix.
 void name_other_place(CodeVariant read, CodeVariant other, const OtherCodes& others,
                       CodeReading& reading);
 

@@ -6,8 +6,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the grey level at a point of the plane of the paper, or -1 if the point is outside the
-/// image.
+/// Returns the grey level at a point on the paper, or -1 if the point is outside the image.
 int level_at(const ImageView& image, const FixedLens& lens, const PlaneFromImage& plane,
              FixedVec point_q16) {
     const FixedVec at_q8 = distorted_point_q8(lens, plane, point_q16) + FixedVec{128, 128};
@@ -35,7 +34,7 @@ bool is_pale(const ImageView& image, const DeviceOptions& options, CodeVariant c
             const FixedVec cell_q16{i * kSpacing_q16, j * kSpacing_q16};
             const FixedVec dot_q16 = cell_q16 + FixedVec{dx(symbol) * fix.displacement_q16,
                                                          dy(symbol) * fix.displacement_q16};
-            // The point midway between four intersections is never covered by a dot.
+            // Dots never cover the point midway between four intersections.
             const FixedVec paper_q16 = cell_q16 + FixedVec{kSpacing_q16 / 2, kSpacing_q16 / 2};
             const int ink = level_at(image, options.lens, plane, dot_q16);
             const int paper = level_at(image, options.lens, plane, paper_q16);

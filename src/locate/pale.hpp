@@ -7,8 +7,8 @@
 
 namespace dotpose::core {
 
-/// Returns true if the mean contrast between the paper and the dots around the image centre is less
-/// than `options.min_contrast` grey levels. `code` is the code in which the fix was read.
+/// Returns true if the mean contrast of the dots around the image centre is below
+/// `options.min_contrast` grey levels. `code` is the code of the fix.
 bool is_pale(const ImageView& image, const DeviceOptions& options, CodeVariant code,
              const Fix& fix);
 

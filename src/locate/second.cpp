@@ -23,9 +23,9 @@ namespace {
 
 namespace tuned = tuning::second;
 
-/// Returns the options with the thresholds for a filtered image.
+/// Returns the options with thresholds for a filtered image.
 DeviceOptions for_filtered(DeviceOptions options) {
-    options.min_contrast = 0;  // this limit is for the original image; `is_pale` applies it
+    options.min_contrast = 0;  // applies only to the original image; see `is_pale`
     ThresholdOptions& threshold = options.threshold;
     threshold.min_contrast = threshold.min_contrast / 2 + 1;
     threshold.low_q8 = (tuned::kLow_3rds * threshold.low_q8 + 2) / 3;
@@ -41,8 +41,8 @@ void detect_filtered(const ImageView& image, const DeviceOptions& filtered, Desk
         detect_row(next_smooth_row(image, w.smoothing), filtered, w);
 }
 
-/// Finds the grid of the dots, including tilt and lens distortion. Takes longer than `find_grid`,
-/// which devices use.
+/// Finds the grid, including perspective and lens distortion. Takes longer than `find_grid`, the
+/// function for devices.
 Status find_grid_thoroughly(const DeviceOptions& options, DesktopWorkspace& w) {
     const FixedVec centre_q8 = image_centre_q8(w.threshold);
     Status status = find_axes(centre_q8, kMaxSeeds, w);
@@ -59,13 +59,11 @@ Status find_grid_thoroughly(const DeviceOptions& options, DesktopWorkspace& w) {
     return status;
 }
 
-/// Samples the bits at the cells of the grid. Returns false if the image has two overlapping
-/// patterns.
+/// Samples the bits at the grid cells. Returns false if the image shows two overlapping patterns.
 bool shows_one_pattern(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
     return sample_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
 }
 
-/// Decodes with the decoder selected by the options.
 Status decode(const DeviceOptions& options, DesktopWorkspace& w) {
     if (options.decoder == Decoder::window) {
         return decode_window(w.grid, options.code, w.line_scores, w.decoding);
@@ -73,11 +71,13 @@ Status decode(const DeviceOptions& options, DesktopWorkspace& w) {
     return decode_all(w.grid, options.code, w.line_scores, w.decoding);
 }
 
-/// Finds the position in the code from the bits, and verifies it with the bits of all dots.
+/// Finds the position from the bits, and verifies it with the bits of all dots.
 Status read_position(const DeviceOptions& options, DesktopWorkspace& w) {
-    w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
+    // Chooses the window (paper, section II-B.5).
+    w.decoding.window = choose_window(w.grid, kWindowSide);
     choose_region(w);
-    Status status = decode(options, w);  // II-B.6-7
+    // Finds the orientation and the position (paper, sections II-B.6 and II-B.7).
+    Status status = decode(options, w);
     if (status == Status::ok) {
         status = verify(w.grid, options.code, wanted_codes(w), w.decoding, options.integrity,
                         w.line_scores, w.fix);
@@ -87,19 +87,19 @@ Status read_position(const DeviceOptions& options, DesktopWorkspace& w) {
     return status == Status::ok ? status : refused(status, w);
 }
 
-/// Reads the bits again with a grid that is fitted to the dots of the doubtful position. If the
+/// Reads the bits again with a grid that is fitted to the dots of a doubtful position. If the
 /// position is correct, the new grid makes more bits clear.
 Status resample(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
     PoseFit fit;
     if (!fit_pattern(options, image, w, fit)) return Status::not_certain;
     w.grid_from_image = w.pattern_from_image;
     w.decoding.pattern_from_grid = {};
-    w.decoding.p_wrong_log2_q8 = {};  // the previous values are for the previous bits
+    w.decoding.p_wrong_log2_q8 = {};  // these values are for the previous bits
     return shows_one_pattern(image, options, w) ? read_position(options, w) : Status::not_certain;
 }
 
-/// If the pixel bias matters, measures the dots again as the tracked attempt does, which corrects
-/// the bias.
+/// Measures the dots again if the pixel bias matters. Uses the method of the tracked attempt, which
+/// corrects this bias.
 void measure_again_if_biased(const ImageView& image, const DeviceOptions& options,
                              DesktopWorkspace& w) {
     const float variance_px2 =
@@ -110,21 +110,23 @@ void measure_again_if_biased(const ImageView& image, const DeviceOptions& option
     }
 }
 
-/// Finds dots and grid in the filtered image, and reads the bits.
+/// Finds dots and grid in the filtered image, and reads the bits (paper, sections II-B.1 to
+/// II-B.4).
 Status read_filtered_with(const DeviceOptions& filtered, const ImageView& image,
                           DesktopWorkspace& w) {
     detect_filtered(image, filtered, w);
-    Status status = find_dots(filtered, w);                                // II-B.1
-    if (status == Status::ok) status = find_grid_thoroughly(filtered, w);  // II-B.2-3
+    Status status = find_dots(filtered, w);
+    if (status == Status::ok) status = find_grid_thoroughly(filtered, w);
     if (status == Status::ok) {
-        status = assign_likelihoods(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4
+        status = assign_likelihoods(w.found_dots(), w.grid_from_image, w.grid);
     }
     if (status != Status::ok) return status;
     return shows_one_pattern(image, filtered, w) ? Status::ok : Status::not_certain;
 }
 
-/// Finds dots and grid, and reads the bits. If there is no contrast or there are too few dots, but
-/// the largest contrast is high enough for pale dots, repeats the detection with a lower threshold.
+/// Finds dots and grid, and reads the bits. If there is too little contrast or there are too few
+/// dots, tries again with a lower threshold. Does so only if the maximum contrast is high enough
+/// for pale dots.
 Status read_filtered(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
     DeviceOptions filtered = for_filtered(options);
     filtered.lattice.min_dots = min_dots(options, w);
@@ -136,18 +138,18 @@ Status read_filtered(const ImageView& image, const DeviceOptions& options, Deskt
     const Fix seen = w.fix;
     filtered.threshold.min_contrast = pale;
     if (read_filtered_with(filtered, image, w) == Status::ok) return Status::ok;
-    // No pattern was found with the lower threshold, so the additional dots are noise. Keeps the
-    // first result.
+    // The lower threshold found no pattern, so the additional dots are noise. Keeps the first
+    // result.
     w.fix = seen;
     w.dot_count = 0;
     return status;
 }
 
-/// Measures the pose at the position found, computes the odds of the other codes, and corrects the
-/// pixel bias if it matters.
+/// Measures the pose at the decoded position (paper, section II-B.8). Also computes the odds of the
+/// other codes, and corrects the pixel bias if it matters.
 Status measure_and_weigh(const ImageView& image, const DeviceOptions& options,
                          DesktopWorkspace& w) {
-    const Status status = measure_pose(options, image, w);  // II-B.8
+    const Status status = measure_pose(options, image, w);
     w.fix.attempt = Attempt::second;
     if (status == Status::ok) {
         weigh_other_codes(kernels(), w.grid, options.code, w.decoding, w.line_scores,

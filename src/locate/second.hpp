@@ -1,5 +1,5 @@
 // Second: the second attempt. Removes noise and uneven light from the image, fits the grid to all
-// dots, and reads the bits in each grid cell.
+// dots, and reads the bits of each cell.
 #pragma once
 
 #include "dotpose/device_options.hpp"
@@ -8,9 +8,8 @@
 
 namespace dotpose::core {
 
-/// Runs second attempts on one image in several codes. The filtered image, its dots and its grid do
-/// not depend on the code. They are computed once, and computed again only after an attempt has
-/// overwritten them.
+/// Makes second attempts on one image, in several codes. The filtered image, its dots and its grid
+/// do not depend on the code. They are computed only once, unless an attempt overwrites them.
 class SecondAttempt {
   public:
     enum class Resampling : std::uint8_t { never, if_doubtful };
@@ -18,16 +17,16 @@ class SecondAttempt {
     SecondAttempt(const ImageView& image, DesktopWorkspace& w) : image_(image), w_(w) {}
 
     /// Locates the image in the code of the options. Returns true if there is a fix. Stores the fix
-    /// in the workspace or, if there is none, the status. With `Resampling::if_doubtful`, a
-    /// position that is not certain is read again with a grid that is fitted to its dots.
+    /// in the workspace or, without a fix, the status. `Resampling::if_doubtful` handles positions
+    /// that are not certain. It fits the grid to their dots, reads the bits again, and decodes them
+    /// again.
     bool read(const DeviceOptions& options, Resampling resampling);
 
   private:
     const ImageView& image_;
     DesktopWorkspace& w_;
-    bool is_seen_ = false;  ///< true if the workspace contains dots and cells of the filtered image
-    Fix seen_;              ///< copy of the fix, made after the bits were read and before they were
-                            ///< decoded
+    bool is_seen_ = false;  ///< true if the workspace contains the filtered image's dots and cells
+    Fix seen_;              ///< the fix after the bits were read, before decoding
 };
 
 }  // namespace dotpose::core

@@ -16,9 +16,9 @@ namespace {
 
 namespace tuned = tuning::tracked;
 
-/// Fits the position, scale and rotation of the plane to the dots by least squares. Keeps the
-/// predicted perspective and shear. Returns false if fewer than kMinNear dots are within `max_off`
-/// spacings of their places.
+/// Fits position, scale and rotation to the dots by least squares. Keeps the predicted perspective
+/// and shear. Returns false if fewer than kMinNear dots are within `max_off` spacings of their
+/// places.
 bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reach_px,
                     float displacement, float max_off, FloatPlane& plane) {
     const ScaledPlane scaled(plane, reach_px);
@@ -40,16 +40,17 @@ bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reac
     return true;
 }
 
-/// Returns the search radius in px, rounded up: min(3 sigma + 0.1, kMaxOff) spacings, where sigma
-/// is the standard deviation of the prediction.
+/// Returns the search radius in px, rounded up. The radius is min(3 sigma + 0.1, kMaxOff) spacings,
+/// where sigma is the standard deviation of the prediction.
 int max_shift_px(const Prediction& prediction, float spacing_px) {
     const float off = std::clamp(3 * static_cast<float>(prediction.sigma_q16) / 65536 + 0.1F, 0.1F,
                                  tuned::kMaxOff);
     return static_cast<int>(std::ceil(off * spacing_px));
 }
 
-/// Corrects the plane with the centroids of the listed dots. Returns false unless at least kMinNear
-/// dots, and at least three quarters of the listed dots, have offsets of at most kMaxOffset_px.
+/// Corrects the plane with the centroids of the listed dots. At least kMinNear dots, and three
+/// quarters of all listed dots, must have offsets of at most kMaxOffset_px. Otherwise, returns
+/// false.
 bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsInView view,
                           FloatPlane& plane, MeasuredDots& dots) {
     const float far_px = std::max(view.width_px, view.height_px) / 2;
@@ -82,11 +83,10 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Devic
     CellsInView view = cells_in_view(image, options, hypothesis, reach, dots.capacity(), w);
     view.windows = Windows::on_dots;
     const bool by_centroids = can_sample_directly(hypothesis);
-    // The image must contain the centroid windows at any shift that the search may find.
+    // The image must contain the centroid windows at every shift that the search may find.
     if (by_centroids) view.margin_px = kPredictedCentroidRadius_px + static_cast<float>(max_px + 1);
     kernels.list_cells(view, dots);
-    // The search tests at most thirteen shifts along each axis, in steps of about a sixth of
-    // `max_px`.
+    // The search tests at most thirteen shifts along each axis, in steps of about max_px / 6.
     const int step_px = std::max((max_px + 3) / 6, 1);
     FixedVec shift;
     if (!kernels.find_shift(image, dots, max_px, step_px, shift, hypothesis.depth_q8)) return false;
@@ -112,8 +112,8 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Devic
            fit_similarity(kernels, dots, reach, hypothesis.displacement, tuned::kSecondOff, plane);
 }
 
-/// Corrects the hypothesis with the dots near the point `from`, in px relative to the image centre.
-/// Returns false if the dots are not found.
+/// Corrects the hypothesis with the dots near `from`, in px relative to the image centre. Returns
+/// false if the dots are not found.
 bool correct(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
              FloatVec from, int max_px, Hypothesis& hypothesis, DesktopWorkspace& w) {
     hypothesis.from_centre = from;
@@ -156,8 +156,8 @@ std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Im
     return hypothesis;
 }
 
-/// Corrects the hypothesis with the dots near one point of the image after another, until the bits
-/// confirm a corrected hypothesis. Returns false if no corrected hypothesis is confirmed.
+/// Corrects the hypothesis at one image point after another, until its bits confirm it. Returns
+/// false if no point leads to a confirmed hypothesis.
 bool confirm_corrected(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                        const Hypothesis& hypothesis, int max_px, DesktopWorkspace& w) {
     for (const FloatVec fraction : tuned::kPoints) {

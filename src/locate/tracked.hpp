@@ -9,13 +9,13 @@
 
 namespace dotpose::core {
 
-/// Measures the dots at their predicted places. Returns true, and sets the fix of the workspace, if
-/// their bits confirm the prediction.
+/// Measures the dots at their predicted places. If their bits confirm the prediction, sets the fix
+/// of the workspace and returns true.
 bool locate_tracked(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                     const Prediction& prediction, DesktopWorkspace& w);
 
-/// Measures the dots of the fix in the workspace again, as the tracked attempt does. The place of
-/// the fix must be certain. If the dots do not confirm the fix, the fix remains unchanged.
+/// Measures the dots of the fix in the workspace again, as the tracked attempt does. The fix must
+/// be certain. If the dots do not confirm it, it remains unchanged.
 void measure_again(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                    DesktopWorkspace& w);
 

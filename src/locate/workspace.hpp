@@ -20,7 +20,7 @@
 
 namespace dotpose::core {
 
-/// An image that is pushed row by row to a Locator.
+/// An image that is pushed to a Locator row by row.
 struct PushedImage {
     std::span<std::uint8_t> memory;
     int width_px = 0;
@@ -29,7 +29,7 @@ struct PushedImage {
     bool has_prediction = false;
     Prediction prediction;
 
-    /// Starts an image. Returns false if the image is larger than the memory.
+    /// Starts an image. Returns false if the image does not fit in the memory.
     bool begin(int width, int height) {
         width_px = width;
         height_px = height;
@@ -41,7 +41,7 @@ struct PushedImage {
         std::copy_n(pixels, width_px, memory.begin() + static_cast<std::ptrdiff_t>(size(rows)));
         ++rows;
     }
-    /// Returns the image. Rows that were not pushed are white.
+    /// Returns the image. Missing rows are white.
     ImageView completed() const {
         const std::size_t begin = size(rows);
         std::fill_n(memory.begin() + static_cast<std::ptrdiff_t>(begin), size(height_px) - begin,
@@ -55,7 +55,7 @@ struct PushedImage {
     }
 };
 
-/// Memory of a Locator: the memory of a DeviceLocator, and the memory that only a Locator needs.
+/// Memory of a Locator. Extends the memory of a DeviceLocator.
 struct DesktopWorkspace : DeviceWorkspace {
     Patch* patch = nullptr;
     MeasuredDots measured;
@@ -68,7 +68,7 @@ struct DesktopWorkspace : DeviceWorkspace {
     PushedImage pushed;
     bool is_mirrored = false;  ///< true if an attempt found the mirrored code
 
-    /// Sets the known sheets. On known sheets, smaller images and patches can be located.
+    /// Sets the known sheets. With known sheets, smaller images and patches can be located.
     void set_known(const KnownSheets& sheets) {
         known = sheets;
         min_side_px =
@@ -77,7 +77,7 @@ struct DesktopWorkspace : DeviceWorkspace {
     }
 };
 
-/// Returns the minimum number of dots of a grid. On known sheets, or together with other frames,
+/// Returns the minimum number of dots in a grid. On known sheets, or together with other frames,
 /// fewer dots determine a place.
 inline int min_dots(const DeviceOptions& options, const DesktopWorkspace& w) {
     return w.known.any() || w.earlier.is_in_series()
@@ -85,14 +85,13 @@ inline int min_dots(const DeviceOptions& options, const DesktopWorkspace& w) {
                : options.lattice.min_dots;
 }
 
-/// Returns the storage for the odds of other codes, or null if these odds are not requested.
+/// Returns the storage for the odds of other codes, or null if the odds are not requested.
 inline OtherCodes* wanted_codes(DesktopWorkspace& w) {
     return w.other_codes.are_wanted ? &w.other_codes : nullptr;
 }
 
-/// A workspace with its memory, for images up to `MaxWidth` px wide. The workspace stores the
-/// `MaxDots` dots nearest to the image centre and the middle `GridSide` x `GridSide` cells of the
-/// grid.
+/// A workspace with its memory, for images up to `MaxWidth` px wide. Stores the `MaxDots` dots
+/// nearest to the image centre, and the middle `GridSide` x `GridSide` cells of the grid.
 template <int MaxWidth, int MaxDots, int GridSide>
 class WorkspaceOf : public DesktopWorkspace {
   public:
@@ -147,17 +146,18 @@ class WorkspaceOf : public DesktopWorkspace {
     WorkspaceOf& operator=(const WorkspaceOf&) = delete;
 
   private:
-    // Images whose shorter side is at most kMaxSideWithLowTiles_px have low tiles. All other images
+    // Images have low tiles if their shorter side is at most kMaxSideWithLowTiles_px. Other images
     // have high tiles, which need more memory. See `begin_threshold`.
     static constexpr int kBand_px =
         MaxWidth <= kMaxSideWithLowTiles_px ? kLowTile_px : kHighTile_px;
     static constexpr int kTiles = MaxWidth / kTileWidth_px + 1;
     static constexpr int kLevels = kTiles * kTileWidth_px + kReadAhead_px;
-    // A run may begin at every second pixel, and each run may begin a blob.
+    // Maximum number of runs in a row. A run may begin at every second pixel, and each run may
+    // begin a blob.
     static constexpr int kRuns = MaxWidth / 2 + 2;
 
-    // Size of the largest image that can be pushed row by row: 188 x 188 px for the sensor of the
-    // paper, otherwise 1280 x 1024 px.
+    // Size of the largest image that can be pushed row by row: 188 x 188 px for the paper's sensor,
+    // and 1280 x 1024 px otherwise.
     static constexpr std::size_t kPushed_px = std::min(MaxWidth * MaxWidth, 1280 * 1024);
 
     // Maximum number of lines that cross an image at any angle.
@@ -169,8 +169,8 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<std::array<std::uint8_t, kRolls>, 2> rolls_;
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
-    // The side of a block of the paper map is a tenth of the shorter side of the image, and at
-    // least 6 px. There are at most 11 x 683 blocks.
+    // The side of a paper map block is a tenth of the shorter image side, and at least 6 px. There
+    // are at most 11 x 683 blocks.
     std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint8_t, 11 * 683> brightest_papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};
@@ -195,7 +195,7 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<std::uint8_t, kPushed_px> pushed_;
 };
 
-/// Workspace for the 188 x 120 px sensor of the paper.
+/// Workspace for the paper's sensor, with 188 x 120 px.
 using SmallWorkspace = WorkspaceOf<188, 384, 32>;
 /// Workspace for images up to 4096 x 4096 px.
 using LargeWorkspace = WorkspaceOf<4096, 16384, 192>;

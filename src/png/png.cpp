@@ -18,8 +18,8 @@ constexpr double kInchesPerMetre = 1 / 0.0254;
 // for files that are 20 % smaller. Slower compression hardly makes noisy frames smaller.
 constexpr int kCompressionLevel = 4;
 
-/// Writes a PNG file. libpng reports errors with longjmp. Only `guarded` calls its functions, and
-/// no objects with destructors may be created in the scope of that call.
+/// Writes a PNG file. libpng reports errors with longjmp. Only `guarded` calls functions of libpng,
+/// and no objects with destructors may be created in the scope of that call.
 class Writer {
   public:
     explicit Writer(base::ByteSink& file) {

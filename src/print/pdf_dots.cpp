@@ -132,7 +132,7 @@ WholeUnits whole_units(const Pattern& pattern) {
 }
 
 // Number of columns of a tile. Deflate compresses small tiles well if equal tiles are written
-// identically, because it finds their dots in earlier rows.
+// identically, because it finds the dots of a tile in earlier rows.
 constexpr int kTileColumns = 8;
 // Number of columns after which the absolute position is written again. Without this, the rounding
 // errors of a renderer would accumulate from tile to tile.
@@ -240,7 +240,8 @@ bool is_whole_pixels(const Pattern& pattern, double dpi) {
         const double px = mm * dpi / kInch_mm;
         return std::round(px) >= 1 && std::abs(px - std::round(px)) < tolerance_px;
     };
-    // The tolerance of the spacing is smaller because its error accumulates over the page.
+    // The tolerance of the spacing is smaller, because an error of the spacing accumulates over the
+    // page.
     return is_whole(pattern.spacing_mm, 1e-6) && is_whole(pattern.displacement_mm, 0.01) &&
            is_whole(pattern.dot_mm, 0.01);
 }

@@ -26,7 +26,8 @@ void write_document(QPDF& pdf, const RowCount& rows, base::OutputFile& file) {
         writer.setOutputPipeline(&out);
         writer.setObjectStreamMode(qpdf_o_generate);
         // With a deterministic identifier, the same input gives the same file. Encrypted files
-        // cannot have one, because their key depends on the random identifier.
+        // cannot have a deterministic identifier, because their key depends on the random
+        // identifier.
         if (!pdf.isEncrypted()) writer.setDeterministicID(true);
         writer.write();
     } catch (const Error&) {

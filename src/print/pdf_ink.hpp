@@ -39,8 +39,8 @@ struct InkChange {
 
     /// Returns the kind of the converted colour for a colour of kind `from`.
     ColourKind kind(ColourKind from) const;
-    /// Returns the components of the converted colour, which has the kind `kind(from)`. `from` must
-    /// not be `ColourKind::other`.
+    /// Returns the components of the converted colour. The kind of the converted colour is
+    /// `kind(from)`. `from` must not be `ColourKind::other`.
     std::vector<double> apply(ColourKind from, std::span<const double> colour) const;
 };
 

@@ -118,7 +118,7 @@ bool has_ruler(const Sheet& sheet, Side side) {
     return free_margin_mm(sheet, side) >= kRulerRoom_mm;
 }
 
-/// Positions of the x arrow and the y arrow of the page, which are outside the two rulers.
+/// Positions of the x arrow and the y arrow of the page. The arrows are outside the two rulers.
 struct Arrows {
     double x_of_y_arrow_mm = 0;
     double y_of_x_arrow_mm = 0;
@@ -203,8 +203,8 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
     for (const std::string& line : lines) {
         bottom_mm -= kLine_mm;
         const double x_pt = (sheet.origin_x_mm - reach) * kPointsPerMm;
-        // The baseline is a quarter of the line height above the bottom of the line, which leaves
-        // room for descenders.
+        // The baseline is a quarter of the line height above the bottom of the line, to leave room
+        // for descenders.
         const double y_pt = (bottom_mm + kLine_mm / 4) * kPointsPerMm;
         if (const auto plain = in_helvetica(line)) {
             fmt::format_to(std::back_inserter(content), "1 0 0 1 {:.3f} {:.3f} Tm {} Tj\n", x_pt,

@@ -44,8 +44,8 @@ class UnpackedBytes {
     /// many filters or needs too much memory for a row of a predictor.
     void count(QPDFObjectHandle stream);
 
-    /// Counts the bytes of the object streams, which contain other objects. The limit of a page
-    /// applies to each of them.
+    /// Counts the bytes of the object streams (streams that contain other objects). The limit for
+    /// one page applies to each object stream.
     void count_object_streams(QPDF& pdf);
 
   private:

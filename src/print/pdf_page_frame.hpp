@@ -19,9 +19,9 @@ struct PageFrame {
     std::string matrix;
 };
 
-/// Computes the frame from /Rotate, /UserUnit and the boxes, which may be inherited. Throws Error
-/// if the area of the page is 0, or if its rotation is not a multiple of 90 degrees. Viewers show
-/// other rotations in different ways.
+/// Computes the frame from /Rotate, /UserUnit and the boxes. These entries may be inherited. Throws
+/// Error if the area of the page is 0, or if the rotation of the page is not a multiple of 90
+/// degrees. Viewers show other rotations in different ways.
 PageFrame page_frame(QPDFPageObjectHelper page);
 
 /// Replaces a /Rotate that is a real number, such as 90.0, by an integer, because some viewers

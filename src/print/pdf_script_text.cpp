@@ -82,8 +82,8 @@ std::string document_of(const std::string& text, double size_pt, double width_pt
     return document;
 }
 
-/// Makes the text of a form use black ink only. The library cairo writes RGB black, for which
-/// printers mix all inks.
+/// Makes the text of a form use black ink only. The library cairo writes RGB black. Printers mix
+/// all inks to print RGB black.
 void use_black_ink(QPDFObjectHandle form) {
     constexpr std::string_view kOfScreens = "0 0 0 rg";
     constexpr std::string_view kInk = "0 0 0 1 k";

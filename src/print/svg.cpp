@@ -31,8 +31,8 @@ std::string head(double width_mm, double height_mm, const std::string& title) {
         width_mm, height_mm, to_units(width_mm), to_units(height_mm), title);
 }
 
-/// Writes one path per row of dots. A dot is a line of length zero with round ends, which is drawn
-/// as a circle and takes a dozen bytes.
+/// Writes one path per row of dots. A dot is a line of length zero with round ends. Such a line is
+/// drawn as a circle and takes a dozen bytes.
 void write_dots(const Sheet& sheet, const std::function<void(int)>& row_done,
                 base::ByteSink& file) {
     SymbolRows symbols(sheet);

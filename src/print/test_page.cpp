@@ -52,7 +52,7 @@ int setting_at(std::uint32_t coordinate) {
     return setting <= kMaxSetting ? setting : 0;
 }
 
-/// Rounds a length to whole printer pixels, which gives the dots of all patches the same position
+/// Rounds a length to whole printer pixels, to give the dots of all patches the same position
 /// relative to the printer's pixels.
 double snapped_mm(double mm) {
     return std::round(mm / print::kPixelAt300Dpi_mm) * print::kPixelAt300Dpi_mm;

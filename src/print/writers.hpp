@@ -1,6 +1,6 @@
 /// One writer per file format. Each writer takes a validated sheet and writes the complete file to
-/// `file`, which the caller commits. All writers throw Error if writing fails or `progress` returns
-/// false.
+/// `file`. The caller commits `file`. All writers throw Error if writing fails or `progress`
+/// returns false.
 #pragma once
 
 #include <span>

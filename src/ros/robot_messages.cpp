@@ -64,8 +64,9 @@ PlanarCovariance turned_covariance(const PlanarMotion& motion, double yaw_rad) {
     return propagated({{{c, s, 0, 0, 0, 0}, {-s, c, 0, 0, 0, 0}, {0, 0, 1, 0, 0, 0}}}, motion);
 }
 
-/// Returns the velocities in the frame of the robot. Their covariance includes the uncertainty of
-/// the yaw, which makes their directions uncertain.
+/// Returns the velocities in the frame of the robot. The covariance of the velocities includes the
+/// uncertainty of the yaw, because an uncertain yaw makes the directions of the velocities
+/// uncertain.
 TwistWithCovariance twist_of(const PlanarMotion& motion) {
     const double c = std::cos(motion.pose.yaw_rad);
     const double s = std::sin(motion.pose.yaw_rad);

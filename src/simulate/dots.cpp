@@ -6,8 +6,8 @@
 namespace dotpose::simulate {
 namespace {
 
-// Random printing errors of one dot. They depend only on the page and the cell, so a dot has the
-// same errors in every frame.
+// Random printing errors of one dot. The errors depend only on the page and the cell, so a dot has
+// the same errors in every frame.
 struct DotErrors {
     double presence;  // uniform random number in [0, 1)
     Vec2 jitter;      // normal random numbers with standard deviation 1

@@ -16,7 +16,8 @@ namespace dotpose::system {
 /// that program is killed.
 class FileLock {
   public:
-    /// `path` names the file, which exists only while a program holds the lock or waits for it.
+    /// `path` is the path of the lock file. The file exists only while a program holds the lock or
+    /// waits for it.
     explicit FileLock(std::filesystem::path path) : path_(std::move(path)) {}
     ~FileLock();
     FileLock(const FileLock&) = delete;

@@ -49,7 +49,7 @@ struct FileNumbers {
 std::optional<FileNumbers> numbers_of(const std::filesystem::path& path);
 std::optional<FileNumbers> numbers_of(int descriptor);
 
-/// Creates a folder for temporary files, which only the user can read. Throws
+/// Creates a folder for temporary files. Only the user can read the folder. Throws
 /// std::filesystem::filesystem_error if that fails.
 std::filesystem::path create_temporary_folder();
 

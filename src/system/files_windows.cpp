@@ -88,7 +88,7 @@ std::optional<FileNumbers> numbers_of(int descriptor) {
 }
 
 fs::path create_temporary_folder() {
-    // The folder for temporary files belongs to the user alone.
+    // No access rights are set, because the folder for temporary files belongs to the user alone.
     constexpr int kAttempts = 100;
     std::random_device random;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {

@@ -6,30 +6,30 @@
 namespace dotpose::track {
 namespace {
 
-/// Time constant of the decay of the acceleration.
+/// Time constant of the acceleration decay.
 constexpr float kHold_s = 0.5F;
 
-/// Factor by which the agility (the variance of new acceleration) changes per sighting. Increases
-/// and decreases use the same factor. In equilibrium, consecutive innovations therefore have the
-/// same sign as often as opposite signs, as in a matched filter.
+/// Factor by which a sighting increases or decreases the agility. Both directions use the same
+/// factor. In equilibrium, consecutive innovations therefore have the same sign as often as
+/// opposite signs, as in a matched filter.
 constexpr float kAgility_step = 1.5F;
 constexpr float kMinAgility = 1e-6F;
-/// Number of standard deviations above which an innovation is not considered noise.
+/// Innovations above this number of standard deviations are not considered noise.
 constexpr float kSurprise = 4;
 /// Number of sightings over which the scatter is averaged.
 constexpr float kScatter_sightings = 32;
 constexpr float kMinScatter = 0.01F;
 constexpr float kMaxScatter = 9;
 
-/// Upper bound of the rounding error of the difference of two variances, relative to the larger
-/// one.
+/// Upper bound on the rounding error when two variances are subtracted, relative to the larger
+/// variance.
 constexpr float kRounding = 4e-6F;
 
 float squared(float value) {
     return value * value;
 }
 
-/// Returns the covariance of a sighting's pose plus the minimum variances of the options.
+/// Returns a sighting's covariance plus the minimum variances from the options.
 Matrix3 noise_of(const Sighting& sighting, const TrackOptions& options) {
     Matrix3 noise = sighting.covariance;
     noise[0][0] += squared(options.min_sigma_mm);
@@ -62,8 +62,8 @@ float kept(float dt_s) {
     return kHold_s / (kHold_s + dt_s);
 }
 
-/// Advances a state, or a row or column of its covariance, by `dt_s`. `at(i)` is a reference to its
-/// element i. The acceleration is assumed to be constant over the interval.
+/// Advances a state by `dt_s`, or one row or column of its covariance. `at(i)` is a reference to
+/// element i. Assumes constant acceleration over the interval.
 template <typename State>
 void advance(const State& at, float dt_s) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -73,18 +73,18 @@ void advance(const State& at, float dt_s) {
     }
 }
 
-/// Returns the standard deviation of the acceleration along an axis, for an agility of 1.
+/// Returns the standard deviation of acceleration along an axis, for an agility of 1.
 float spread(std::size_t axis, const TrackOptions& options) {
     return axis < 2 ? options.acceleration_mm_s2 : options.angular_acceleration_rad_s2;
 }
 
-/// Returns the variance of the new acceleration after `dt_s`, for an agility of 1.
+/// Returns the variance of new acceleration after `dt_s`, for an agility of 1.
 float push(std::size_t axis, float dt_s, const TrackOptions& options) {
     return squared(spread(axis, options)) * (1 - squared(kept(dt_s)));
 }
 
-/// Adds process noise to the covariance: a random variable with variance `variance` that changes
-/// position, velocity and acceleration along an axis in proportion to `effect`.
+/// Adds process noise along one axis to the covariance. The noise changes position, velocity and
+/// acceleration in proportion to `effect`.
 void add_noise(Covariance9& covariance, std::size_t axis, float variance, const Vector3& effect) {
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j)
@@ -92,8 +92,8 @@ void add_noise(Covariance9& covariance, std::size_t axis, float variance, const 
     }
 }
 
-/// Sets the covariance of the pose. If sightings scatter less than their covariances predict, the
-/// rest of their errors is common to all sightings, and averaging does not reduce it.
+/// Sets the pose covariance. If sightings scatter less than their covariances predict, they have a
+/// common error. Averaging does not reduce it.
 void set_pose_covariance(MotionEstimate& motion) {
     const float common = std::max(1 - motion.scatter, 0.0F);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -104,8 +104,7 @@ void set_pose_covariance(MotionEstimate& motion) {
     }
 }
 
-/// Returns the inverse of a covariance matrix, computed from cofactors. The matrix is symmetric and
-/// positive definite.
+/// Returns the inverse of a symmetric positive definite matrix, computed from cofactors.
 Matrix3 inverse(const Matrix3& m) {
     Matrix3 cofactors{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -150,10 +149,9 @@ void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, cons
         }
         p[i][i] += kRounding * before[i][i];
     }
-    // The upper rows equal R S^-1 H P, a product without cancellation. In single precision, the
-    // difference of nearly equal numbers would have no correct digit after a long gap. For the
-    // elements computed above, the difference cannot be avoided, so the bound of its rounding error
-    // is added.
+    // The upper rows equal R S^-1 H P, a product without cancellation. After a long gap, the
+    // subtraction above would leave no correct digit in single precision. The other elements need
+    // the subtraction. Their diagonal therefore includes a bound on the rounding error.
     const auto upper = product(noise, weighted);
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 9; ++j)
@@ -217,11 +215,11 @@ MotionEstimate predicted(const MotionEstimate& motion, std::int64_t time_us,
 
 namespace {
 
-/// A measured motion in the plane of the sightings.
+/// A measured motion, converted to the plane of the sightings.
 struct PlaneMotion {
     Vector3 step{};       ///< mm, mm, rad
     Vector3 by_theta{};   ///< derivative of `step` with respect to theta
-    Vector3 variances{};  ///< variances of the measurement, per axis
+    Vector3 variances{};  ///< measurement variances, per axis
 };
 
 PlaneMotion in_plane(const MeasuredMotion& measured, std::int32_t theta_bam, bool is_y_up) {
@@ -243,21 +241,23 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
                        std::int64_t time_us, bool is_y_up, const TrackOptions& options) {
     const float dt_s = static_cast<float>(time_us - motion.pose.time_us) * 1e-6F;
     const PlaneMotion seen = in_plane(measured, motion.pose.theta_bam, is_y_up);
-    // The agility was fitted to sightings, so it does not apply between sightings.
+    // The agility was fitted to sightings, so it does not apply between them.
     MotionEstimate later = motion;
     later.agility = {1, 1, 1};
     later = predicted(later, time_us, options);
     later.agility = motion.agility;
-    // The measurement is the new pose minus the old pose. The innovation has the error of the
-    // odometry plus g = e_new - e_old - by_theta * e_old[2], where e_old and e_new are the errors
-    // of the old and of the new pose. The last term is due to the error of the old theta, by which
-    // the axes of the measured displacement are rotated.
-    std::array<Vector9, 3> with_old{};  // covariance of the old pose with the new state
+    // The odometry measures the new pose minus the old pose. Let e_new and e_old be the errors of
+    // these poses. The error of the innovation is the odometry error plus
+    //
+    //     g = e_new - e_old - by_theta * e_old[2]
+    //
+    // The last term is due to the old theta, which rotates the measured displacement.
+    std::array<Vector9, 3> with_old{};  // covariance between old pose and new state
     for (std::size_t k = 0; k < 3; ++k) {
         with_old[k] = motion.covariance[k];
         advance([&](std::size_t i) -> float& { return with_old[k][i]; }, dt_s);
     }
-    std::array<Vector9, 3> with_g{};  // covariance of g with the new state
+    std::array<Vector9, 3> with_g{};  // covariance between g and new state
     for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t i = 0; i < 9; ++i) {
             with_g[k][i] =
@@ -266,7 +266,7 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
     }
     Matrix3 s{};  // covariance of the innovation: cov(g) plus the variances of the odometry
     for (std::size_t k = 0; k < 3; ++k) {
-        Vector3 g_with_old{};  // covariance of g[k] with the old pose
+        Vector3 g_with_old{};  // covariance between g[k] and old pose
         for (std::size_t i = 0; i < 3; ++i) {
             g_with_old[i] = with_old[i][k] - motion.covariance[k][i] -
                             seen.by_theta[k] * motion.covariance[2][i];
@@ -292,8 +292,7 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
         }
         later.covariance[i][i] += kRounding * before[i][i];
     }
-    // A scatter below 1 does not apply, because the errors of the odometry are independent of the
-    // errors of the sightings.
+    // A scatter below 1 does not apply, because odometry errors are independent of sighting errors.
     const float scatter = later.scatter;
     later.scatter = std::max(scatter, 1.0F);
     set_pose_covariance(later);
@@ -342,9 +341,9 @@ MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting,
         const float needed = old + surprise() / (pushed * squared(effect[0]));
         motion.agility[i] = std::clamp(std::max(agility, needed), kMinAgility, 1.0F);
         add_noise(motion.covariance, i, (motion.agility[i] - old) * pushed, effect);
-        // An innovation that the agility does not explain may be due to a collision, which changes
-        // the velocity abruptly, or to an outlier. Therefore the first such innovation changes only
-        // the position. A second one in the same direction also changes the velocity.
+        // An innovation that the agility does not explain may be a collision or an outlier. A
+        // collision changes the velocity abruptly. The first such innovation therefore changes only
+        // the position, and a second one in the same direction also changes the velocity.
         if (surprise() > 0) {
             const bool is_hit = repeated > squared(moved) / 2;
             add_noise(motion.covariance, i, surprise(), {1, is_hit ? 1 / dt_s : 0, 0});

@@ -9,19 +9,19 @@ namespace {
 
 using namespace dotpose::track;
 
-/// Minimum standard deviations of a prediction. The search for dots extends over three standard
-/// deviations, which are at least 3/32 of a spacing and 0.53 degrees. The minimum is needed because
-/// the covariance of the filter is too small after a long rest of the robot.
+/// Minimum standard deviations of a prediction. The dot search covers three standard deviations, so
+/// at least 3/32 spacing and 0.53 degrees. After the robot has been at rest for long, the filter
+/// covariance alone is too small.
 constexpr std::int32_t kMinSigma_q16 = 65536 / 32;
 constexpr std::int32_t kMinSigma_theta_bam = 1 << 21;
 constexpr float kDeviations = 3;
 
-/// Maximum predicted motion between two frames, in spacings. Robots do not move farther between two
-/// frames, and the limit prevents overflow of integer sums.
+/// Maximum predicted motion between two frames, in spacings. Robots do not move farther. The limit
+/// also prevents overflow of integer sums.
 constexpr float kMaxMotion = 2048;
 
-/// Converts a vector from the plane of the sighting to the pattern frame. The rotation between the
-/// two frames follows from the angle of the image x axis, which is known in both frames.
+/// Converts a vector from the sighting's plane to the pattern frame. The angle of the image x axis
+/// is known in both frames, which gives the rotation between them.
 std::array<float, 2> in_pattern(float x, float y, const Fix& fix, const Sighting& seen) {
     const auto pattern_bam = static_cast<std::uint32_t>(fix.theta_bam);
     const auto plane_bam = static_cast<std::uint32_t>(seen.theta_bam);
@@ -33,17 +33,16 @@ std::array<float, 2> in_pattern(float x, float y, const Fix& fix, const Sighting
     return {c * x - s * y, s * x + c * y};
 }
 
-/// Returns a standard deviation as an integer multiple of a unit, clamped to limits. Returns the
-/// upper limit for NaN.
+/// Returns sigma / unit as an integer, clamped to [min, max]. Returns `max` for NaN.
 std::int32_t bounded(float sigma, float unit, std::int32_t min, std::int32_t max) {
     const float value = sigma / unit;
     if (!(value < static_cast<float>(max))) return max;
     return std::max(static_cast<std::int32_t>(value), min);
 }
 
-/// Returns the standard deviation of the predicted pose along an axis. Combines the standard
-/// deviations of the filter and of the fix, and adds a third of `unforeseen`, a motion that the
-/// filter cannot predict. Three standard deviations then cover this motion.
+/// Returns the standard deviation of the predicted pose along an axis. Combines the filter
+/// covariance with the covariance of the fix. `unforeseen` is a motion that the filter cannot
+/// predict. A third of it is added, so that three standard deviations cover it.
 float sigma(const Covariance6& predicted, const Sighting& seen, std::size_t axis,
             float unforeseen) {
     return std::sqrt(predicted[axis][axis] + seen.covariance[axis][axis]) +

@@ -10,14 +10,14 @@ namespace {
 
 using namespace dotpose::track;
 
-/// Base-2 logarithm, rounded down, of the number of hypotheses along one axis: positions, sections
-/// and turns, kPositionsPerAxis * 63 * 4.
+/// log2 of the number of hypotheses along one axis, rounded down. The number is kPositionsPerAxis *
+/// 63 * 4, for positions, sections and turns.
 constexpr int kHypotheses_log2 = 36;
 static_assert((std::uint64_t{kPositionsPerAxis} * kSections * 4) >> kHypotheses_log2 == 1,
               "the number of hypotheses is rounded down to a power of two");
 
-/// Period of the shortest sequence that encodes the position. Two positions that are closer than
-/// this period have different places in all sequences, so they resemble each other only by chance
+/// Period of the shortest sequence that encodes the position. Positions closer than this have
+/// different places in all sequences, so they resemble each other only by chance
 /// (docs/tracking.md).
 constexpr int kMinSequencePeriod = 31;
 
@@ -45,7 +45,7 @@ bool is_within(const Vector3& difference, const Vector3& limits) {
     return true;
 }
 
-/// Returns true if the limits of speed and turn rate allow a robot to move from `from` to
+/// Returns true if a robot within the speed and turn rate limits can move from `from` to
 /// `sighting`.
 bool is_reachable(const MotionEstimate& from, const Sighting& sighting,
                   const TrackOptions& options) {
@@ -62,7 +62,7 @@ bool is_reachable(const MotionEstimate& from, const Sighting& sighting,
 }
 
 /// Returns log2 of an upper bound on the probability that a sighting within the gate is wrong.
-/// Returns 0, the trivial bound, if the gate is too large for the prediction to reduce the bound.
+/// Returns 0, the trivial bound, if the gate is too large for the prediction to help.
 int p_wrong_with_prior(const Sighting& sighting, const Vector3& limits,
                        const TrackOptions& options) {
     const float half = std::max(limits[0], limits[1]) / options.spacing_mm;

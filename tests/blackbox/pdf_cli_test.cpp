@@ -96,8 +96,8 @@ TEST_F(PdfCommands, overlay_enters_its_pages_in_a_sheet_file) {
         int origin_y;
         int columns;
     } expected[] = {
-        // With margins of 5 mm, n dots take (n - 0.5) * 0.508 mm. Free regions are 1024 cells
-        // apart.
+        // With margins of 5 mm, n dots need (n - 0.5) * 0.508 mm. Automatically assigned regions
+        // are kSheetGap_cells = 1024 cells apart.
         {"desk", 1, 1024, 1024, 59},
         {"form-1", 1, 1024 + 59 + 1024, 1024, 138},
         {"form-3", 3, 1024 + 59 + 1024 + 138 + 1024, 1024, 138},

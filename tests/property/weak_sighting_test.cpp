@@ -214,7 +214,8 @@ std::vector<Repetition> repetitions(CodeVariant code) {
     return found;
 }
 
-/// A place, and a step within reach to another place with five equal columns and rows.
+/// A place, and the step (dx, dy), at most kReach cells along each axis, to another place with the
+/// same 5 x 5 symbols.
 struct Twin {
     Place place;
     int dx = 0;

@@ -60,10 +60,10 @@ Place to_core(const dotpose_place& place);
 /// of range.
 dotpose_status to_core(const dotpose_options* given, LocatorOptions& options);
 
-/// Reads a motion. Returns BAD_VALUE if it is not usable.
+/// Reads a motion. Returns BAD_VALUE if the motion is not usable.
 dotpose_status to_core(const dotpose_measured_motion& given, MeasuredMotion& motion);
 
-/// Reads a prediction. Returns BAD_VALUE if the code does not contain its place.
+/// Reads a prediction. Returns BAD_VALUE if the code does not contain the place of the prediction.
 dotpose_status to_core(const dotpose_prediction& given, Prediction& prediction);
 
 /// Returns OK if a fix can be read and written, otherwise NULL_POINTER or BAD_SIZE.
@@ -72,7 +72,7 @@ dotpose_status check(const dotpose_fix* fix);
 /// Reads a fix with any status. Returns the errors of `check`, or BAD_VALUE if the fix was not
 /// written by this library.
 dotpose_status to_core(const dotpose_fix* given, Fix& fix);
-/// Reads a fix. Returns NO_FIX if its status is not ok.
+/// Reads a fix. Returns NO_FIX if the status of the fix is not ok.
 dotpose_status to_core_ok(const dotpose_fix* given, Fix& fix);
 
 /// Returns true if the prediction can be moved without overflow. This is always the case for

@@ -15,7 +15,8 @@ namespace {
 using namespace dotpose;
 
 /// Layout of CodeEvidence in the core: the log odds from earlier places; the sums of the factors of
-/// the frames at the current place; the cell of the first of these frames; and their number.
+/// the frames at the current place; the cell of the first of these frames; and the number of these
+/// frames.
 struct State {
     std::int32_t log2_q8[kCodeVariantCount];
     float factors[kCodeVariantCount];

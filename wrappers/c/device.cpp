@@ -1,5 +1,5 @@
-// Initialisation of microcontroller locators. It is in a separate file, so programs that use only
-// these locators do not contain the other kinds.
+// Initialisation of microcontroller locators. This code is in a separate file, so programs that use
+// only these locators do not contain the other kinds.
 #include "locator.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
-/* dotpose for C: the pose of a camera, from one small frame of a sheet printed with dots. C99 or
- * C++.
+/* dotpose for C99 and C++: computes the camera pose from one small image of a sheet printed with
+ * dots.
  *
  *     dotpose_locator* locator = NULL;
  *     if (dotpose_locator_create(DOTPOSE_KIND_LARGE, NULL, &locator) != DOTPOSE_OK) return 1;
@@ -11,23 +11,23 @@
  *         puts(dotpose_status_message(fix.status));
  *     dotpose_locator_destroy(locator);
  *
- * Link with -ldotpose_c -lm. No C++ library is needed. On a microcontroller, provide static
- * memory (`dotpose_device_init`) and push the rows as the camera delivers them (`dotpose_begin`,
+ * Link with -ldotpose_c -lm. No C++ library is needed. On a microcontroller, provide static memory
+ * (`dotpose_device_init`) and push the rows as the camera delivers them (`dotpose_begin`,
  * `dotpose_push_row`, `dotpose_finish`).
  *
- * Every function that can fail returns a dotpose_status: 0 (DOTPOSE_OK), the reason why a frame
- * has no pose, or the kind of misuse of the function. No function throws or prints, and only
- * dotpose_locator_create allocates memory. There are no globals, so different objects may be
- * used concurrently.
+ * Every function that can fail returns a dotpose_status. This is 0 (DOTPOSE_OK), the reason why a
+ * frame has no pose, or the kind of misuse. No function throws or prints. Only
+ * dotpose_locator_create allocates memory. There are no globals, so different objects may be used
+ * concurrently.
  *
- * Coordinates: in the pattern frame, x points to the right and y DOWN on the printed page as it
- * is read. In images, u points to the right and v down, and the origin is the centre of the first
- * pixel. Fixed point: the suffix _qN marks a value in units of 2^-N, and _bam a binary angle, in
- * which 2^31 is half a turn.
+ * Coordinates: in the pattern frame, x points right and y points DOWN, as the printed page is read.
+ * In images, u points right and v points down. The centre of the first pixel is (0, 0). Fixed
+ * point: the suffix _qN marks a value in units of 2^-N. The suffix _bam marks a binary angle, where
+ * 2^31 is half a turn.
  *
- * Layout: all fields have a fixed size and offset on every platform, without padding. Structs
- * whose first member is `size` may gain members at their end. Other structs change only together
- * with the version number of the shared library. */
+ * Layout: all fields have a fixed size and offset on every platform, without padding. A struct
+ * whose first member is `size` may gain members at its end. Other structs change only together with
+ * the shared library's version number. */
 #ifndef DOTPOSE_H
 #define DOTPOSE_H
 
@@ -43,7 +43,7 @@ extern "C" {
 
 /* ---- Statuses ------------------------------------------------------------------------------- */
 
-/* Result of a call, or the reason why it failed. The numbers of the values never change. */
+/* Result of a call, or the reason why it failed. The numbers never change. */
 typedef int32_t dotpose_status;
 enum {
     /* Located. */
@@ -82,37 +82,37 @@ enum {
     DOTPOSE_AMBIGUOUS_CODE = 16,
     /* A newer version of dotpose has added this status. */
     DOTPOSE_OTHER = 255,
-    /* Misuse of the functions of this header. */
+    /* Misuse of this header's functions. */
     DOTPOSE_NULL_POINTER = 1000,
     DOTPOSE_NOT_ALIGNED = 1001, /* the address of the memory is not a multiple of 8 */
     DOTPOSE_TOO_LITTLE_MEMORY = 1002,
-    DOTPOSE_OUT_OF_MEMORY = 1003,   /* the system has no memory left */
+    DOTPOSE_OUT_OF_MEMORY = 1003,   /* the system is out of memory */
     DOTPOSE_NOT_INITIALIZED = 1004, /* the object was not set up, or was destroyed */
     DOTPOSE_BAD_SIZE = 1005,        /* the member `size` matches no version of the struct */
     DOTPOSE_BAD_VALUE = 1006,       /* an argument is out of its range */
     DOTPOSE_BAD_STRIDE = 1007,      /* rows overlap */
     DOTPOSE_WRONG_KIND = 1008,      /* this kind of locator does not support the call */
     DOTPOSE_NO_FRAME = 1009,        /* no frame was begun, or all its rows were pushed */
-    DOTPOSE_NO_FIX = 1010,          /* a fix with the status ok is required */
+    DOTPOSE_NO_FIX = 1010,          /* a fix with status ok is required */
     DOTPOSE_NO_PACKET = 1011        /* the byte did not complete a packet; not a misuse */
 };
 
-/* Returns the identifier of a status, for example "too_few_dots". Never returns null. */
+/* Returns a status identifier, for example "too_few_dots". Never returns null. */
 const char* dotpose_status_name(dotpose_status status);
-/* Returns a description of a status: one sentence without a full stop. Never returns null. */
+/* Returns a status description: one sentence without a full stop. Never returns null. */
 const char* dotpose_status_message(dotpose_status status);
 
-/* Version of this header. DOTPOSE_VERSION_NUMBER is for the preprocessor and increases with every
+/* Version of this header. DOTPOSE_VERSION_NUMBER is for the preprocessor. It increases with every
  * version. */
 #define DOTPOSE_VERSION "0.2.0"
 #define DOTPOSE_VERSION_NUMBER 200
 
-/* Returns the version of the library, such as "0.2.0". */
+/* Returns the library version, such as "0.2.0". */
 const char* dotpose_version(void);
 
 /* ---- The position code ---------------------------------------------------------------------- */
 
-/* Variants of the position code in which sheets are printed. */
+/* Variants of the position code. A sheet is printed in one of them. */
 enum {
     DOTPOSE_CODE_DETECT = -1,  /* in options: detect the code from the frames */
     DOTPOSE_CODE_ANOTO = 0,    /* default for new sheets */
@@ -123,7 +123,7 @@ enum {
 #define DOTPOSE_POSITIONS_PER_AXIS 410815348u
 #define DOTPOSE_SECTIONS 63u
 
-/* A place in the code: 16 bytes. */
+/* Place in the code: 16 bytes. */
 typedef struct dotpose_place {
     uint32_t x; /*  0: column, less than DOTPOSE_POSITIONS_PER_AXIS */
     uint32_t y; /*  4: row, less than DOTPOSE_POSITIONS_PER_AXIS */
@@ -139,22 +139,21 @@ enum {
     DOTPOSE_SYMBOL_DOWN = 3
 };
 
-/* Returns the displacement of the dot at a place, in units of the displacement length (usually a
- * sixth of the spacing). `dx` is to the right and `dy` is down. One of them is -1 or 1, and the
- * other is 0. */
+/* Returns a dot's displacement, in displacement lengths (usually a sixth of the spacing). `dx` is
+ * to the right and `dy` is down. One of them is -1 or 1, and the other is 0. */
 dotpose_status dotpose_displacement(int32_t code, const dotpose_place* place, int32_t* dx,
                                     int32_t* dy);
 
-/* Returns the symbols of columns x rows dots, row by row from `top_left`, for printing a sheet of
- * this size. As in locators, the pattern wraps around at the end of an axis. `columns` and `rows`
- * must be from 1 to 65535. */
+/* Writes the symbols for columns x rows dots, row by row from `top_left`. Use this function to
+ * print a sheet. `columns` and `rows` must be from 1 to 65535. The pattern wraps around at the end
+ * of an axis, as in locators. */
 dotpose_status dotpose_symbols(int32_t code, const dotpose_place* top_left, int32_t columns,
                                int32_t rows, uint8_t* symbols, size_t bytes);
 
 /* ---- Results -------------------------------------------------------------------------------- */
 
-/* Maps image points to the plane of the paper, in spacings: 44 bytes. With (u, v) in px from
- * `centre`, plane = at_centre + (du u + dv v) / (1 + perspective . (u, v) + lens (u^2 + v^2)). */
+/* Maps image points to the paper plane, in spacings: 44 bytes. With (u, v) in px from `centre`:
+ *     plane = at_centre + (du u + dv v) / (1 + perspective . (u, v) + lens (u^2 + v^2)). */
 typedef struct dotpose_plane {
     int32_t centre_u_q8;       /*  0: px */
     int32_t centre_v_q8;       /*  4 */
@@ -203,12 +202,12 @@ enum {
     DOTPOSE_PRIOR_ONLY_SHEETS = 2
 };
 
-/* The pose computed from one frame, with its evidence: 248 bytes. The members are listed in
- * include/dotpose/fix_fields.def.
+/* The pose computed from one frame, with its evidence: 248 bytes. include/dotpose/fix_fields.def
+ * lists the members.
  *
  * The pose is the pattern position at the reference point of the image, by default the image
- * centre. Unless `status` is DOTPOSE_OK, x_mm, y_mm and theta_rad are NaN, and only `status`,
- * `dots_seen` and the counts of the completed stages are valid. */
+ * centre. If `status` is not DOTPOSE_OK, x_mm, y_mm and theta_rad are NaN. Only `status`,
+ * `dots_seen` and the counts from completed stages are then valid. */
 typedef struct dotpose_fix {
     /* Size of this struct; dotpose_fix_init sets it. */
     uint32_t size; /* 0 */
@@ -275,35 +274,34 @@ typedef struct dotpose_fix {
     int32_t frames; /* 244 */
 } dotpose_fix;
 
-/* Sets up a fix before the first call that writes to it. `bytes` is sizeof(dotpose_fix) in the
- * caller. Functions that read or write a fix return BAD_SIZE, and leave the fix unchanged, if its
- * size does not match any version. */
+/* Sets up a fix before the first call that writes to it. `bytes` is the caller's
+ * sizeof(dotpose_fix). If the size of a fix matches no version, functions return BAD_SIZE and leave
+ * the fix unchanged. */
 dotpose_status dotpose_fix_init(dotpose_fix* fix, size_t bytes);
 
-/* Expected position of the pattern in the next frame: 72 bytes. */
+/* Expected place of the pattern in the next frame: 72 bytes. */
 typedef struct dotpose_prediction {
     dotpose_plane pattern_from_image; /*  0 */
     dotpose_place place;              /* 44 */
     int32_t displacement_q16;         /* 60 */
-    int32_t sigma_q16;                /* 64: standard deviation of x and of y, in spacings */
+    int32_t sigma_q16;                /* 64: standard deviation of x and y, in spacings */
     int32_t sigma_theta_bam;          /* 68: standard deviation of theta */
 } dotpose_prediction;
 
-/* Returns a prediction that the next frame has the same pose as `fix`. A frame that confirms its
- * prediction is located in a fraction of the time. If the frame does not confirm the prediction, it
- * is located without the prediction. */
+/* Predicts that the next frame has the same pose as `fix`. A frame that confirms its prediction is
+ * located in a fraction of the time. Other frames are located without the prediction. */
 dotpose_status dotpose_prediction_like(const dotpose_fix* fix, dotpose_prediction* prediction);
 
 /* Moves a prediction by `by_x_q16` and `by_y_q16` spacings in the pattern frame, and turns it by
- * `turn_bam` about the image point (`pivot_u_q8`, `pivot_v_q8`). The movement along each axis must
- * be at most 4096 spacings. */
+ * `turn_bam` about the image point (`pivot_u_q8`, `pivot_v_q8`). The limit is 4096 spacings along
+ * each axis. */
 dotpose_status dotpose_prediction_move(dotpose_prediction* prediction, int32_t code,
                                        int32_t by_x_q16, int32_t by_y_q16, int32_t turn_bam,
                                        int32_t pivot_u_q8, int32_t pivot_v_q8);
 
 /* ---- Locators ------------------------------------------------------------------------------- */
 
-/* Kinds of locators, with the memory that they need. */
+/* Kinds of locators, and the memory they need. */
 enum {
     DOTPOSE_KIND_DEVICE = 0, /* microcontrollers: integers only, images up to 188 px wide, 13 KB */
     DOTPOSE_KIND_SMALL = 1,  /* images up to 188 px wide, 290 KB */
@@ -312,73 +310,71 @@ enum {
     DOTPOSE_KIND_DEVICE_320X240 = 4  /* like DEVICE, for images up to 320 x 240 px, 23 KB */
 };
 
-/* Attempts that a locator makes. A device locator always makes the device attempt. */
+/* Attempts that a locator makes. Device locators always make the device attempt. */
 enum {
-    DOTPOSE_EFFORT_DEVICE = 0, /* one attempt, in integers, as on a device */
+    DOTPOSE_EFFORT_DEVICE = 0, /* one attempt in integer arithmetic, as on a device */
     DOTPOSE_EFFORT_ONCE = 1,   /* without the second attempt */
     DOTPOSE_EFFORT_TWICE = 2   /* if the first attempt fails, a second one on the filtered frame */
 };
 
-/* Dots from which the position is decoded. */
+/* Dots used to read the position. */
 enum {
     DOTPOSE_DECODER_WINDOW = 0, /* the best window of 8 x 8 dots, as in the paper */
     DOTPOSE_DECODER_ALL = 1     /* all dots in view */
 };
 
-/* Options of a locator: 96 bytes. include/dotpose/locator_options.hpp documents the effect of
- * each option and when to change it. */
+/* Options for a locator: 96 bytes. include/dotpose/locator_options.hpp explains what each option
+ * does and when to change it. */
 typedef struct dotpose_options {
     uint32_t size; /* 0: set by dotpose_options_init */
     /* Code of the sheet: DOTPOSE_CODE_. The default, DETECT, detects the code from all images so
-     * far. Device locators cannot detect the code, and use anoto instead. */
+     * far. Device locators cannot detect the code and use anoto instead. */
     int32_t code;             /*  4 */
     int32_t effort;           /*  8: DOTPOSE_EFFORT_; default twice */
     int32_t decoder;          /* 12: DOTPOSE_DECODER_; default all */
     double spacing_mm;        /* 16: spacing of the printed grid; default 0.508, 0 if unknown */
     double lens_k_per_px2;    /* 24: radial distortion, negative for barrel distortion */
-    double lens_centre_dx_px; /* 32: centre of distortion, from the image centre */
+    double lens_centre_dx_px; /* 32: distortion centre, relative to the image centre */
     double lens_centre_dy_px; /* 40 */
-    double reference_dx_px;   /* 48: reference point of the pose, from the image centre */
+    double reference_dx_px;   /* 48: reference point of the pose, relative to the image centre */
     double reference_dy_px;   /* 56 */
-    double max_p_wrong;       /* 64: maximum p_wrong of a position; default 1e-9 */
+    double max_p_wrong;       /* 64: maximum accepted p_wrong; default 1e-9 */
     double max_bit_errors;    /* 72: maximum fraction of wrong bits; default 0.18 */
     int32_t min_contrast;     /* 80: minimum contrast, in grey levels; default 0 */
     int32_t min_dots;         /* 84: minimum number of dots; default 40 */
-    int32_t show_stages;      /* 88: 1 keeps all dots for dotpose_dots (slower); default 0 */
+    int32_t show_stages;      /* 88: if 1, keeps all dots for dotpose_dots (slower); default 0 */
     int32_t reserved;         /* 92: zero */
 } dotpose_options;
 
-/* Sets the default options. `bytes` is sizeof(dotpose_options) in the caller. */
+/* Sets the default options. `bytes` is the caller's sizeof(dotpose_options). */
 dotpose_status dotpose_options_init(dotpose_options* options, size_t bytes);
-/* Returns the name of the first member that is out of range and causes BAD_ARGUMENT. Returns null
- * if all members are valid. */
+/* Returns the name of the first member that is out of range, which causes BAD_ARGUMENT. Returns
+ * null if all members are valid. */
 const char* dotpose_bad_option(const dotpose_options* options);
 
-/* A locator, as an opaque type. It must not be used by several threads at the same time. */
+/* Opaque locator. It must not be used by several threads at the same time. */
 typedef struct dotpose_locator dotpose_locator;
 
-/* Memory sizes for static memory: at least dotpose_locator_bytes(DOTPOSE_KIND_DEVICE), and the
- * same for the other device kinds.
+/* Sizes for static memory. Each size is at least dotpose_locator_bytes() for its kind.
  *     static uint64_t memory[DOTPOSE_DEVICE_BYTES / 8]; */
 #define DOTPOSE_DEVICE_BYTES (sizeof(void*) == 4 ? 12736u : 13504u)
 #define DOTPOSE_DEVICE_160X120_BYTES (sizeof(void*) == 4 ? 10768u : 12000u)
 #define DOTPOSE_DEVICE_320X240_BYTES (sizeof(void*) == 4 ? 23232u : 25232u)
 
-/* Returns the number of bytes that a locator of a kind needs, or 0 for an unknown kind. */
+/* Returns the number of bytes that a locator needs. Returns 0 for an unknown kind. */
 size_t dotpose_locator_bytes(int32_t kind);
 
 /* Sets up a locator in memory provided by the caller. The address must be a multiple of 8. The
- * memory must not be modified or copied while the locator is in use. No call is needed before the
- * memory is released. If `options` is null, the defaults are used. */
+ * memory must not be modified or copied while the locator is in use. It can be released without a
+ * further call. If `options` is null, uses the defaults. */
 dotpose_status dotpose_locator_init(void* memory, size_t bytes, int32_t kind,
                                     const dotpose_options* options, dotpose_locator** locator);
 
-/* Sets up a locator of DOTPOSE_KIND_DEVICE. If a program sets up locators only with this function,
- * and its linker removes unused sections, it does not contain the other kinds. */
+/* Sets up a locator of DOTPOSE_KIND_DEVICE. If a program uses only this function to set up
+ * locators, the linker can remove the other kinds as unused sections. */
 dotpose_status dotpose_device_init(void* memory, size_t bytes, const dotpose_options* options,
                                    dotpose_locator** locator);
-/* Sets up a locator of DOTPOSE_KIND_DEVICE_160X120 or DOTPOSE_KIND_DEVICE_320X240 in the same
- * way. */
+/* Like dotpose_device_init, for DOTPOSE_KIND_DEVICE_160X120 and DOTPOSE_KIND_DEVICE_320X240. */
 dotpose_status dotpose_device_160x120_init(void* memory, size_t bytes,
                                            const dotpose_options* options,
                                            dotpose_locator** locator);
@@ -389,14 +385,14 @@ dotpose_status dotpose_device_320x240_init(void* memory, size_t bytes,
 /* Creates a locator in allocated memory. */
 dotpose_status dotpose_locator_create(int32_t kind, const dotpose_options* options,
                                       dotpose_locator** locator);
-/* Destroys a locator and frees the memory allocated by dotpose_locator_create. Does nothing if
+/* Destroys a locator. Frees its memory if dotpose_locator_create allocated it. Does nothing if
  * `locator` is null. */
 void dotpose_locator_destroy(dotpose_locator* locator);
 
 /* Changes the options. Discards a frame that was begun but not finished. */
 dotpose_status dotpose_set_options(dotpose_locator* locator, const dotpose_options* options);
 
-/* A printed rectangle of the code plane: 20 bytes. */
+/* Printed rectangle of the code plane: 20 bytes. */
 typedef struct dotpose_region {
     uint8_t code;      /*  0: DOTPOSE_CODE_ of the sheet */
     uint8_t section_u; /*  1: section of the code, 0 to 62 */
@@ -408,7 +404,7 @@ typedef struct dotpose_region {
     uint32_t rows;     /* 16: at least 1 */
 } dotpose_region;
 
-/* Possibility that sheets other than the known sheets are in view. */
+/* Whether sheets other than the known ones may be in view. */
 enum {
     /* Other sheets are also located if enough of their dots are in view. */
     DOTPOSE_OTHERS_POSSIBLE = 0,
@@ -416,110 +412,107 @@ enum {
     DOTPOSE_OTHERS_IMPOSSIBLE = 1
 };
 
-/* Sets the regions of the sheets that may be in view. Views of about 30 dots, in images of at least
- * 24 x 24 px, are then sufficient. The locator reads `regions` in each frame, so the array must
+/* Sets the regions of the sheets that may be in view. Views of about 30 dots then suffice, in
+ * images of at least 24 x 24 px. The locator reads `regions` in each frame, so the array must
  * remain valid and unchanged. If `count` is 0, all places are possible again. Discards a frame that
- * was begun. Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not inside
- * the plane, or has a code or section that does not exist. Returns WRONG_KIND for device
- * locators. */
+ * was begun.
+ *
+ * Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not inside the plane,
+ * or has a code or section that does not exist. Returns WRONG_KIND for device locators. */
 dotpose_status dotpose_set_known(dotpose_locator* locator, const dotpose_region* regions,
                                  size_t count, int32_t others);
 
-/* Locates the pattern in an 8-bit grey image with dark dots on light paper. Row v begins at
- * pixels + v * stride_bytes. `prediction` may be null. Returns the status of the fix. */
+/* Locates the pattern in an 8-bit grey image with dark dots on light paper. `prediction` may be
+ * null. Row v begins at pixels + v * stride_bytes. Returns the fix's status. */
 dotpose_status dotpose_locate(dotpose_locator* locator, const uint8_t* pixels, int32_t width_px,
                               int32_t height_px, ptrdiff_t stride_bytes,
                               const dotpose_prediction* prediction, dotpose_fix* fix);
 
-/* Motion of the camera since the previous image, from odometry: 20 bytes. */
+/* Camera motion since the previous image, from odometry: 20 bytes. */
 typedef struct dotpose_measured_motion {
     float right_mm;  /*  0: displacement of the reference point along x of the previous image */
     float down_mm;   /*  4: displacement along y of the previous image */
     float turn_rad;  /*  8: change of theta */
-    float sigma_mm;  /* 12: standard deviation of each displacement; values that are too small lead
-                            to wrong fixes */
+    float sigma_mm;  /* 12: standard deviation per axis; if too small, fixes may be wrong */
     float sigma_rad; /* 16: standard deviation of the rotation */
 } dotpose_measured_motion;
 
-/* Locates an image of a camera that has moved by `since_last` since the previous image. If the
- * position from this image alone is not certain, reads the image together with the previous images
- * of the series. `frames` of the fix is the number of images read together. Any other function that
- * locates an image ends the series. The spacing must be set in the options. Returns WRONG_KIND for
- * device locators. */
+/* Locates an image after the camera has moved by `since_last` since the previous image. If the
+ * position from this image alone is not certain, also reads the previous images in the series. The
+ * fix's `frames` is the number of images read together. Locating an image with any other function
+ * ends the series. The options must contain the spacing. Returns WRONG_KIND for device locators. */
 dotpose_status dotpose_locate_moved(dotpose_locator* locator, const uint8_t* pixels,
                                     int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                     const dotpose_measured_motion* since_last, dotpose_fix* fix);
 
 /* Returns the code from the options or, if the code is detected, the code of the last image. Use
- * this code to move predictions made from the fix of that image, and pass it to
- * dotpose_packet_of. */
+ * this code to move predictions made from that image's fix, and for dotpose_packet_of. */
 dotpose_status dotpose_code_of(const dotpose_locator* locator, int32_t* code);
 
-/* Locates an image row by row: dotpose_begin, then dotpose_push_row for each row from the top, then
- * dotpose_finish. A row need not remain valid after the call. `prediction` may be null. If a frame
- * does not confirm its prediction, a device locator returns the status not_tracked. Other locators
+/* Locates an image row by row: call dotpose_begin, then dotpose_push_row for each row from the top,
+ * then dotpose_finish. A row need not remain valid after the call. `prediction` may be null. If a
+ * frame does not confirm its prediction, a device locator returns not_tracked. Other locators
  * locate the frame without the prediction. */
 dotpose_status dotpose_begin(dotpose_locator* locator, int32_t width_px, int32_t height_px,
                              const dotpose_prediction* prediction);
 dotpose_status dotpose_push_row(dotpose_locator* locator, const uint8_t* pixels);
 dotpose_status dotpose_finish(dotpose_locator* locator, dotpose_fix* fix);
 
-/* A dot found in an image: 16 bytes. */
+/* Dot found in an image: 16 bytes. */
 typedef struct dotpose_dot {
     float u_px;      /*  0: undistorted position */
     float v_px;      /*  4 */
-    int32_t mass;    /*  8: sum of the darkness of its pixels, in grey levels */
+    int32_t mass;    /*  8: summed darkness of its pixels, in grey levels */
     int32_t area_px; /* 12 */
 } dotpose_dot;
 
-/* Returns up to `capacity` dots of the last frame, and their total number. If the option
- * show_stages is set, every attempt keeps its dots. Returns WRONG_KIND for device locators. */
+/* Returns up to `capacity` dots from the last frame. Sets `count` to the total number of dots. If
+ * the option show_stages is set, every attempt keeps its dots. Returns WRONG_KIND for device
+ * locators. */
 dotpose_status dotpose_dots(const dotpose_locator* locator, dotpose_dot* dots, int32_t capacity,
                             int32_t* count);
 
 /* ---- Sheets whose code is not known --------------------------------------------------------- */
 
-/* Likelihood of each code for one sheet, from all its frames so far. Initialise the struct with
- * zeros:
+/* Evidence for each code, from all frames of one sheet so far. Initialise the struct with zeros:
  *     dotpose_code_evidence evidence = {{0}}; */
 typedef struct dotpose_code_evidence {
     int32_t state[9];
 } dotpose_code_evidence;
 
-/* The code in which a frame was read, and an alternative: 28 bytes. */
+/* Code in which a frame was read, and an alternative: 28 bytes. */
 typedef struct dotpose_code_reading {
     int32_t code;        /*  0: DOTPOSE_CODE_ in which the frame was read */
     int32_t has_other;   /*  4: 1 if a place in another code also explains the frame, else 0 */
     int32_t other_code;  /*  8: DOTPOSE_CODE_ of the alternative */
-    dotpose_place other; /* 12: place in the other code that corresponds to the cell of the fix */
+    dotpose_place other; /* 12: place in the other code that corresponds to the fix's cell */
 } dotpose_code_reading;
 
-/* Locates an image whose code is not known, and adds the image to the evidence. A frame that two
- * codes explain about equally well gets the status ambiguous_code. The call sets the code of the
- * locator to the code that was read. The prediction must have been made in the previous code of the
- * locator. `prediction`, `evidence` (to use only this frame) and `reading` may be null. Returns
- * WRONG_KIND for device locators. */
+/* Locates an image whose code is not known, and adds the image to the evidence. If two codes
+ * explain the frame about equally well, the status is ambiguous_code. Sets the locator's code to
+ * the code that was read. The prediction must have been made in the locator's previous code.
+ * `prediction`, `evidence` and `reading` may be null. If `evidence` is null, uses only this frame.
+ * Returns WRONG_KIND for device locators. */
 dotpose_status dotpose_locate_any_code(dotpose_locator* locator, const uint8_t* pixels,
                                        int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                        const dotpose_prediction* prediction,
                                        dotpose_code_evidence* evidence,
                                        dotpose_code_reading* reading, dotpose_fix* fix);
 
-/* Locates an image in the code of the options, and reports whether another code also explains the
- * image. `reading` may be null. Returns WRONG_KIND for device locators. */
+/* Locates an image in the code from the options. Reports in `reading` whether another code also
+ * explains the image. `reading` may be null. Returns WRONG_KIND for device locators. */
 dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* pixels,
                                       int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                       dotpose_code_reading* reading, dotpose_fix* fix);
 
-/* Returns the most likely code, and an upper bound of the probability that another code is
+/* Returns the likeliest code, and an upper bound on the probability that another code is
  * correct. */
 dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int32_t* code,
                                       float* p_wrong);
 
 /* ---- Trackers ------------------------------------------------------------------------------- */
 
-/* Follows a robot from frame to frame. The contents of the struct are private. The struct may be
- * copied.
+/* Follows a robot from frame to frame. The contents are private. The struct may be copied.
  *
  *     dotpose_tracker tracker;
  *     dotpose_tracker_init(&tracker, NULL);
@@ -536,8 +529,8 @@ typedef struct dotpose_tracker {
     uint64_t state[216];
 } dotpose_tracker;
 
-/* Motion of the robot, and limits for accepting sightings: 88 bytes. Each comment ends with the
- * default. */
+/* Limits on the robot's motion, and criteria for accepting sightings: 88 bytes. Each comment ends
+ * with the default. */
 typedef struct dotpose_track_options {
     uint32_t size;                         /*  0: set by dotpose_track_options_init */
     float acceleration_mm_s2;              /*  4: standard deviation while manoeuvring; 600 */
@@ -550,18 +543,18 @@ typedef struct dotpose_track_options {
     int32_t confirmations;                 /* 32: sightings that confirm a jump; 3 */
     float still_mm;                        /* 36: maximum movement of a stationary robot; 0.1 */
     float still_rad;                       /* 40: 0.02 */
-    float min_sigma_mm;                    /* 44: standard deviation of print errors; 0.0002 */
+    float min_sigma_mm;                    /* 44: standard deviation of printing errors; 0.0002 */
     float min_sigma_rad;                   /* 48: 0.00002 */
     int32_t max_p_wrong_log2;              /* 52: limit above which a sighting is weak; -30 */
-    int32_t max_weak_p_wrong_log2;         /* 56: limit of weak sightings; -10, at most -1 */
-    float spacing_mm;                      /* 60: spacing of the pattern; 0.508 */
+    int32_t max_weak_p_wrong_log2;         /* 56: limit for weak sightings; -10, at most -1 */
+    float spacing_mm;                      /* 60: pattern spacing; 0.508 */
     int64_t lost_after_us;                 /* 64: 70000 */
     int64_t stationary_after_us;           /* 72: 500000 */
-    float max_sigma_mm;                    /* 80: limit for a pose known from odometry; 5 */
+    float max_sigma_mm;                    /* 80: limit while only odometry updates the pose; 5 */
     float reserved;                        /* 84: 0 */
 } dotpose_track_options;
 
-/* Position and angle of the robot measured in one frame, in any plane: 80 bytes. */
+/* Robot position and angle measured in one frame, in any plane: 80 bytes. */
 typedef struct dotpose_sighting {
     int64_t time_us;      /*  0: middle of the exposure; at most 2^62 in magnitude */
     int64_t x_nm;         /*  8: at most 2^60 in magnitude, like y_nm */
@@ -570,30 +563,30 @@ typedef struct dotpose_sighting {
     uint32_t plane;       /* 28: sightings in different planes are unrelated */
     float covariance[9];  /* 32: of x, y and theta, row by row, in mm and rad */
     int32_t p_wrong_log2; /* 68 */
-    int32_t spacing_nm;   /* 72: spacing of the pattern */
+    int32_t spacing_nm;   /* 72: pattern spacing */
     int32_t is_y_up;      /* 76: 1 if y points up the page in this plane, else 0 */
 } dotpose_sighting;
 
-/* Verdict of the tracker on a sighting. */
+/* The tracker's verdict on a sighting. */
 enum {
     DOTPOSE_VERDICT_NONE = 0, /* there was no sighting */
     DOTPOSE_VERDICT_BELIEVED = 1,
     DOTPOSE_VERDICT_WITH_PRIOR = 2, /* weak, but certain enough given the previous position */
-    DOTPOSE_VERDICT_GATED = 3,      /* at an impossible position, and not confirmed yet */
+    DOTPOSE_VERDICT_GATED = 3,      /* at an impossible place, and not confirmed yet */
     DOTPOSE_VERDICT_TOO_WEAK = 4
 };
 
-/* Bits of `events`: changes caused by a frame. */
+/* Bits of `events`: changes in a frame. */
 enum {
-    DOTPOSE_EVENT_FIX = 1,        /* the robot has been found, for the first time or again */
-    DOTPOSE_EVENT_LOST = 2,       /* no sighting was accepted for too long */
-    DOTPOSE_EVENT_KIDNAPPED = 4,  /* the robot is at a position that it cannot have driven to */
+    DOTPOSE_EVENT_FIX = 1,        /* the robot was found, for the first time or again */
+    DOTPOSE_EVENT_LOST = 2,       /* no accepted sighting for too long, or a too uncertain pose */
+    DOTPOSE_EVENT_KIDNAPPED = 4,  /* the robot cannot have driven to its new place */
     DOTPOSE_EVENT_STATIONARY = 8, /* the robot came to rest */
     DOTPOSE_EVENT_MOVING = 16     /* the robot moves again */
 };
 
-/* State of the robot at the time of the newest frame: 232 bytes. The pose is invalid while the
- * robot is lost. */
+/* Robot state at the time of the newest frame: 232 bytes. The pose is invalid while the robot is
+ * lost. */
 typedef struct dotpose_track {
     int64_t time_us;       /*  0 */
     double x_mm;           /*  8 */
@@ -606,7 +599,7 @@ typedef struct dotpose_track {
     float vx_mm_s;         /* 56 */
     float vy_mm_s;         /* 60 */
     float turn_rad_s;      /* 64 */
-    int32_t p_wrong_log2;  /* 68: log2 of an upper bound of p_wrong, including the prior */
+    int32_t p_wrong_log2;  /* 68: log2 of the bound on p_wrong, including the prior */
     int32_t verdict;       /* 72: DOTPOSE_VERDICT_ */
     int32_t is_lost;       /* 76: 1 or 0 */
     int32_t is_stationary; /* 80: 1 or 0 */
@@ -614,32 +607,30 @@ typedef struct dotpose_track {
     float covariance[36];  /* 88: of x, y, theta and their velocities, row by row; mm, rad, s */
 } dotpose_track;
 
-/* Sets the default options. `bytes` is sizeof(dotpose_track_options) in the caller. */
+/* Sets the default options. `bytes` is the caller's sizeof(dotpose_track_options). */
 dotpose_status dotpose_track_options_init(dotpose_track_options* options, size_t bytes);
 
-/* Sets up a tracker in the state `lost`. If `options` is null, the defaults are used. */
+/* Sets up a tracker in the state `lost`. If `options` is null, uses the defaults. */
 dotpose_status dotpose_tracker_init(dotpose_tracker* tracker, const dotpose_track_options* options);
 
-/* Returns the sighting of a fix in the pattern frame. The spacing must be known and at most 20
- * mm. */
+/* Returns a fix as a sighting in the pattern frame. The spacing must be known and at most 20 mm. */
 dotpose_status dotpose_sighting_of(const dotpose_fix* fix, int64_t time_us,
                                    dotpose_sighting* sighting);
 
-/* Updates the tracker with the time and the sighting of the next frame (null if the frame has no
- * fix), and returns the new state. Frames that are not newer than the last frame are ignored. */
+/* Updates the tracker with the next frame, and returns the new state. `sighting` is null if the
+ * frame has no fix. Frames that are not newer than the last frame are ignored. */
 dotpose_status dotpose_tracker_update(dotpose_tracker* tracker, int64_t time_us,
                                       const dotpose_sighting* sighting, dotpose_track* track);
 
-/* Updates the tracker as dotpose_tracker_update does, with the motion since the previous update.
- * `right_mm` of the motion is along the direction theta of the sightings. Without a sighting, the
- * motion updates the pose. */
+/* Like dotpose_tracker_update, with the motion since the previous update. `right_mm` of the motion
+ * is along the sightings' direction theta. Without a sighting, the motion moves the pose. */
 dotpose_status dotpose_tracker_update_moved(dotpose_tracker* tracker, int64_t time_us,
                                             const dotpose_sighting* sighting,
                                             const dotpose_measured_motion* motion,
                                             dotpose_track* track);
 
-/* Predicts the position of the pattern in the frame at `time_us`, from the newest fix and its
- * sighting. `locator` is the locator that will locate the frame. */
+/* Predicts where the pattern is in the frame at `time_us`, from the newest fix and its sighting.
+ * `locator` will locate the frame. */
 dotpose_status dotpose_tracker_predict(const dotpose_tracker* tracker, int64_t time_us,
                                        const dotpose_fix* newest, const dotpose_sighting* seen,
                                        const dotpose_locator* locator,
@@ -649,11 +640,11 @@ dotpose_status dotpose_tracker_predict(const dotpose_tracker* tracker, int64_t t
 
 #define DOTPOSE_PACKET_BYTES 32
 
-/* Contents of a pose packet, the result of one frame: 52 bytes. Unless `status` is DOTPOSE_OK,
- * only the members before `cell_x` are valid. */
+/* Contents of a pose packet, the result of one frame: 52 bytes. If `status` is not DOTPOSE_OK, only
+ * the members before `cell_x` are valid. */
 typedef struct dotpose_packet {
     uint32_t sequence;       /*  0: frame counter, 16 bits; gaps indicate lost packets */
-    uint32_t time_us;        /*  4: on the clock of the sender */
+    uint32_t time_us;        /*  4: on the sender's clock */
     dotpose_status status;   /*  8 */
     int32_t code;            /* 12: DOTPOSE_CODE_ */
     uint32_t cell_x;         /* 16: x in spacings is cell_x + fraction_x_q16 / 65536.0 */
@@ -667,15 +658,14 @@ typedef struct dotpose_packet {
     uint32_t deviation_q12;  /* 48: larger sigma of x and y, spacings; 255: more or unknown */
 } dotpose_packet;
 
-/* Returns the packet of a fix with any status. */
+/* Returns the packet for a fix with any status. */
 dotpose_status dotpose_packet_of(const dotpose_fix* fix, int32_t code, uint32_t sequence,
                                  uint32_t time_us, dotpose_packet* packet);
 
 /* Encodes a packet. `bytes` must have room for DOTPOSE_PACKET_BYTES. */
 dotpose_status dotpose_packet_encode(const dotpose_packet* packet, uint8_t* bytes, size_t capacity);
 
-/* Extracts packets from a byte stream that may contain other data. The contents of the struct are
- * private. */
+/* Extracts packets from a byte stream that may contain other data. The contents are private. */
 typedef struct dotpose_packet_reader {
     uint64_t state[14];
 } dotpose_packet_reader;
@@ -684,13 +674,13 @@ dotpose_status dotpose_packet_reader_init(dotpose_packet_reader* reader);
 /* Processes the next byte. Returns OK if the byte completes a packet, and NO_PACKET otherwise. */
 dotpose_status dotpose_packet_reader_push(dotpose_packet_reader* reader, uint8_t byte,
                                           dotpose_packet* packet);
-/* Returns the number of byte sequences that were rejected as damaged packets. */
+/* Returns the number of byte sequences rejected as damaged packets. */
 dotpose_status dotpose_packet_reader_damaged(const dotpose_packet_reader* reader,
                                              uint32_t* damaged);
 
-/* ---- Pacing of frames, to spare a battery --------------------------------------------------- */
+/* ---- Frame pacing, to save battery ---------------------------------------------------------- */
 
-/* Determines when to take the next frame. The contents of the struct are private. */
+/* Determines when to take the next frame. The contents are private. */
 typedef struct dotpose_pacer {
     uint64_t state[40];
 } dotpose_pacer;
@@ -698,21 +688,20 @@ typedef struct dotpose_pacer {
 /* Criteria for movement, and frame periods: 40 bytes. Each comment ends with the default. */
 typedef struct dotpose_pacer_options {
     uint32_t size;                /*  0: set by dotpose_pacer_options_init */
-    int32_t moved_q16;            /*  4: minimum movement per axis, spacings; 6554 */
-    int32_t turned_bam;           /*  8: minimum turn; 11930465, one degree */
-    int32_t lost_is_moved;        /* 12: 1 if losing the pattern is movement; 1 */
+    int32_t moved_q16;            /*  4: movement threshold per axis, spacings; 6554 */
+    int32_t turned_bam;           /*  8: turn threshold; 11930465, one degree */
+    int32_t lost_is_moved;        /* 12: 1 if losing the pattern counts as movement; 1 */
     int64_t stationary_after_us;  /* 16: 5000000 */
-    int64_t stationary_period_us; /* 24: period while stationary; 1000000 */
-    int64_t moving_period_us;     /* 32: period while moving; 0 */
+    int64_t stationary_period_us; /* 24: frame period while stationary; 1000000 */
+    int64_t moving_period_us;     /* 32: frame period while moving; 0 */
 } dotpose_pacer_options;
 
-/* Sets the default options. `bytes` is sizeof(dotpose_pacer_options) in the caller. */
+/* Sets the default options. `bytes` is the caller's sizeof(dotpose_pacer_options). */
 dotpose_status dotpose_pacer_options_init(dotpose_pacer_options* options, size_t bytes);
-/* Sets up a pacer. If `options` is null, the defaults are used. */
+/* Sets up a pacer. If `options` is null, uses the defaults. */
 dotpose_status dotpose_pacer_init(dotpose_pacer* pacer, const dotpose_pacer_options* options);
-/* Updates the pacer with the fix of a frame, with any status, and the time of the frame. Returns
- * the earliest time of the next frame, and whether the device is moving (1 or 0). `is_moving` may
- * be null. */
+/* Updates the pacer with a frame's fix, with any status, and its time. Returns the earliest time
+ * for the next frame, and whether the device is moving (1 or 0). `is_moving` may be null. */
 dotpose_status dotpose_pacer_next_frame(dotpose_pacer* pacer, const dotpose_fix* fix,
                                         int64_t time_us, int64_t* next_us, int32_t* is_moving);
 

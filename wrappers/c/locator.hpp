@@ -13,8 +13,9 @@
 
 namespace dotpose::c {
 
-/// Functions that differ between kinds of locators. They are called through pointers, so a program
-/// contains only the kinds that it creates. The last four are null for device locators.
+/// Functions that differ between kinds of locators. The functions are called through pointers, so a
+/// program contains only the kinds that it creates. The last four pointers are null for device
+/// locators.
 struct Actions {
     void (*set_options)(RowLocator& locator, const LocatorOptions& options);
     Fix (*locate)(RowLocator& locator, const ImageView& image, const Prediction* prediction);
@@ -131,7 +132,8 @@ constexpr std::size_t bytes_of() {
     return sizeof(T) + (alignof(T) > kAlignment ? alignof(T) - kAlignment : 0);
 }
 
-/// Checks memory provided by the caller. It must be aligned and have at least `needed` bytes.
+/// Checks memory provided by the caller. The memory must be aligned and have at least `needed`
+/// bytes.
 inline dotpose_status check_memory(const void* memory, std::size_t bytes, std::size_t needed) {
     if (memory == nullptr) return DOTPOSE_NULL_POINTER;
     if (reinterpret_cast<std::uintptr_t>(memory) % kAlignment != 0) return DOTPOSE_NOT_ALIGNED;

@@ -108,7 +108,7 @@ double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 /// Returns the position on the paper of an undistorted pixel, in mm from the point under the image
 /// centre, with x along the image x axis at this point. `camera.paper` must be known. In this
 /// frame, the positions from two calibrations of the same camera agree to within microns, even for
-/// points far outside the image, whose pixel coordinates differ by more.
+/// points far outside the image. The pixel coordinates of such points differ by more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 /// Returns the undistorted pixel of a point returned by `from_image_centre`.
 PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);

@@ -4,7 +4,8 @@
 ///     DeviceOptions options;
 ///     use_camera(camera, image.width_px, image.height_px, options);
 ///
-/// `read_camera` also reads the `camera_info` files of ROS (`plumb_bob`) and converts their lens.
+/// `read_camera` also reads the `camera_info` files of ROS (`plumb_bob`) and converts the lens in
+/// these files.
 #pragma once
 
 #include <filesystem>
@@ -29,8 +30,8 @@ Camera read_camera(const std::filesystem::path& path);
 /// Reads a camera from the text of a camera file. `name` is the name of the file in messages.
 Camera parse_camera(const std::string& text, const std::string& name);
 
-/// Returns true if the file is a camera_info file of ROS, which `write_camera` would replace with a
-/// file in another format. Throws Error if the file cannot be read.
+/// Returns true if the file is a camera_info file of ROS. `write_camera` would replace such a file
+/// with a file in another format. Throws Error if the file cannot be read.
 bool is_camera_info(const std::filesystem::path& path);
 
 /// Writes the file completely or not at all. Throws Error if the file cannot be written, and

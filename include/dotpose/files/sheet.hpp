@@ -29,7 +29,8 @@ struct Pattern {
     double dot_mm = kDefaultSpacing_mm / 6;           ///< diameter of a dot
 };
 
-/// Returns the maximum distance of ink from its intersection along x or y, in mm.
+/// Returns the maximum distance, along x or y, between the ink of a dot and the intersection of the
+/// dot, in mm.
 inline double reach_mm(const Pattern& pattern) {
     return pattern.displacement_mm + pattern.dot_mm / 2;
 }

@@ -43,9 +43,9 @@ namespace dotpose {
 /// Version of the format that is written and read.
 inline constexpr int kSheetFileVersion = 1;
 
-/// Number of free cells around every allocated region. It exceeds the diagonal of the largest
-/// frame: 4096 x 4096 px at 6 px per spacing, 966 cells. If a frame shows two sheets and is located
-/// by the dots of one sheet, its pose is therefore never on the other sheet.
+/// Number of free cells around every allocated region. This number exceeds the diagonal of the
+/// largest frame: 4096 x 4096 px at 6 px per spacing, 966 cells. If a frame that shows two sheets
+/// is located by the dots of one sheet, the pose is therefore never on the other sheet.
 inline constexpr std::uint32_t kSheetGap_cells = 1024;
 
 /// Place and direction of a page in the world.
@@ -178,7 +178,7 @@ class SheetFile {
 /// programs may change the file in the meantime.
 class SheetReservation {
   public:
-    /// Calls `enter` to add the sheets. Throws Error as SheetFile does, in which case nothing is
+    /// Calls `enter` to add the sheets. Throws Error as SheetFile does. After an Error, nothing is
     /// reserved.
     SheetReservation(const std::filesystem::path& path,
                      const std::function<void(SheetFile&)>& enter, const SheetFileWait& wait = {});
@@ -189,8 +189,8 @@ class SheetReservation {
     SheetReservation& operator=(const SheetReservation&) = delete;
 
     /// Removes the marks. Call this function after the pages have been written. Throws Error if the
-    /// file cannot be changed, in which case the sheets remain reserved, or if another program has
-    /// removed the sheets and assigned their cells.
+    /// file cannot be changed. The sheets then remain reserved. Also throws Error if another
+    /// program has removed the sheets and assigned their cells.
     void confirm();
 
   private:

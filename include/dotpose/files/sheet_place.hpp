@@ -1,4 +1,5 @@
-/// Places: the pose of a fix on a page of a sheet file and in the world, with its full covariance.
+/// Places: the pose of a fix on a page of a sheet file and in the world, with the full covariance
+/// of this pose.
 ///
 ///     const std::vector<SheetEntry> sheets = read_sheets("sheets.json");
 ///     if (const auto place = find_sheet(sheets, CodeVariant::anoto, fix)) {

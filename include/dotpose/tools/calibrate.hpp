@@ -187,14 +187,14 @@ struct ReadoutCalibration {
 };
 
 /// Computes the readout time of a camera that moves over a sheet, from at least 7 consecutive
-/// frames taken every `interval_ms`. Compares the motion during the readout of each frame with the
-/// motion from the previous to the next frame. Throws Error if the camera file has no view of the
-/// paper, if there are fewer than 5 located frames with a located frame before and after them, or
-/// if the motion does not determine the readout time to 10 %.
+/// frames, taken at intervals of `interval_ms`. Compares the motion during the readout of each
+/// frame with the motion from the previous to the next frame. Throws Error if the camera file has
+/// no view of the paper, if there are fewer than 5 located frames with a located frame before and
+/// after them, or if the motion does not determine the readout time to 10 %.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);
 
-/// Reference of the print scales. Frames determine the ratios between the scales of sheets and
+/// Reference for the print scales. Frames determine the ratios between the scales of sheets and
 /// axes, but not the absolute scale.
 struct ScaleReference {
     enum class By {
@@ -257,7 +257,7 @@ struct Stitching {
     std::vector<std::string> unconnected;
     int frames = 0;
     int used = 0;              ///< number of frames that show two sheets
-    ScaleReference reference;  ///< reference of the print scales
+    ScaleReference reference;  ///< reference for the print scales
 };
 
 /// Computes the world poses and print scales of sheets from frames that show parts of two sheets.

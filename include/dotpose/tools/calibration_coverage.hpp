@@ -43,9 +43,9 @@ inline constexpr double kWantedCornerSigma_px = 0.1;
 PixelPoint farthest_corner(const Camera& camera);
 
 /// Returns the standard deviation, in px, of the undistorted position of the farthest corner
-/// relative to the middle of the image. Computed from the standard deviations of `k_per_px2` and of
-/// the distortion centre, which `camera.sigma` must contain. The errors of k and of the centre are
-/// assumed to be independent.
+/// relative to the middle of the image. `camera.sigma` must contain the standard deviations of
+/// `k_per_px2` and of the distortion centre, from which the result is computed. The errors of k and
+/// of the centre are assumed to be independent.
 double corner_sigma_px(const Camera& camera);
 
 /// The parts of the image in which dots have been seen.

@@ -35,16 +35,16 @@ struct Sweep;
 
 /// Contents of the caption of `draw_frame`, in addition to the fix.
 struct DrawOptions {
-    /// Spacing of the printed grid in mm, for the pose in mm. If it is NaN, the pose is in
+    /// Spacing of the printed grid in mm, for the pose in mm. If the spacing is NaN, the pose is in
     /// spacings.
     double spacing_mm = kDefaultSpacing_mm;
     /// The fix to show, for example a fix that was corrected by a camera file, or refused after
     /// `locate`. Default: the fix of the trace.
     std::optional<Fix> fix{};
     std::string title{};  ///< for example the name of the file; default: none
-    /// Place of the fix on a sheet. If it is given, the large numbers of the caption are the pose
-    /// in the world, or on the sheet if the pose in the world is not known. Default: the pose in
-    /// the pattern.
+    /// Place of the fix on a sheet. If the place is given, the large numbers of the caption are the
+    /// pose in the world, or on the sheet if the pose in the world is not known. Default: the pose
+    /// in the pattern.
     std::optional<SheetPlace> place{};
     /// Reason and remedy for the caption if there is no fix. Default: the message of the status.
     std::string reason{};
@@ -91,15 +91,16 @@ void draw_calibration(const std::filesystem::path& path, const LensCalibration& 
 /// frame.
 void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibration);
 
-/// Draws the sheets before and after stitching, with the residuals of the frames at the seams.
+/// Contents of the caption that `draw_frame` draws, in addition to the fix.
 void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
                     const Stitching& stitching);
 
 /// Draws the sheets in the world, seen from above with x to the right and y up. Sheets without a
-/// known pose are drawn beside them. Throws Error if the sheets are too far apart to be drawn.
+/// known pose are drawn beside the other sheets. Throws Error if the sheets are too far apart to be
+/// drawn.
 void draw_sheets(const std::filesystem::path& path, std::span<const SheetEntry> sheets);
 
-/// Draws the deviations of all fields of a printed page, enlarged, over the outline of its scan.
+/// Draws the deviations of all fields of a printed page, enlarged, over the outline of the scan.
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check);
 

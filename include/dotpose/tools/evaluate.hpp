@@ -56,7 +56,7 @@ FrameSource frames_of_setup(const Setup& setup);
 /// Called regularly from the calling thread. Returning false stops the work with an Error.
 using Progress = std::function<bool(int done, int total)>;
 
-/// The frames to locate, and the options of `locate`.
+/// The frames to locate, and the options for `locate`.
 struct FrameRun {
     int frames = 0;
     FrameSource frame_at;
@@ -65,8 +65,8 @@ struct FrameRun {
     /// True to detect the code variant of frames without a known code variant, independently for
     /// each frame.
     bool any_code = false;
-    /// Refines a fix with the trace of its frame, for example by `with_camera`. If empty, fixes are
-    /// not refined. Called from several threads. Its time is not measured.
+    /// Refines a fix with the trace of the frame, for example by `with_camera`. If empty, fixes are
+    /// not refined. Called from several threads. The time of the refinement is not measured.
     std::function<Fix(const Fix&, const Trace&)> refine;
     int threads = 0;  ///< number of threads; 0 for one per core
     Progress progress;

@@ -60,8 +60,9 @@ GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaul
 GreyImage read_image(const std::filesystem::path& path, int max_pixels, std::string& note,
                      int page = 1);
 
-/// Returns the number of pages in a file, which is 1 except for TIFF. A file that is not regular,
-/// such as a pipe, is not read and counts as one page. Throws Error as `read_image` does.
+/// Returns the number of pages in a file. Only TIFF files can have more than one page. A file that
+/// is not regular, such as a pipe, is not read and counts as one page. Throws Error as `read_image`
+/// does.
 int count_pages(const std::filesystem::path& path);
 
 /// Pixels per inch along both axes.
@@ -76,8 +77,8 @@ struct ImageOrigin {
     /// exposure time, f-number, sensitivity or focal length.
     bool is_photo = false;
     /// Resolution of a scan: PNG pHYs, JPEG density, TIFF and BMP resolution. None if the image is
-    /// a photo, if the resolution is missing, or if it is 72 or 96 dpi, which programs write by
-    /// default if they do not know the resolution.
+    /// a photo, if the resolution is missing, or if it is 72 or 96 dpi. Programs write these values
+    /// by default if they do not know the resolution.
     std::optional<Resolution> resolution;
 };
 

@@ -41,7 +41,8 @@ struct MeasuredFrame {
     std::string file;
     std::optional<TruePlace> truth;  ///< none if the frame has no readable pattern
     Status status = Status::ok;
-    /// None if there is no fix, or if its place in the coordinate frame of the truth is not known.
+    /// None if there is no fix, or if the place of the fix in the coordinate frame of the truth is
+    /// not known.
     std::optional<FoundPlace> found;
     double spacing_mm = kDefaultSpacing_mm;
 };

@@ -19,12 +19,14 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Refines a fix with the camera file, from the trace of its frame. The view of a mounted camera is
-/// constant and is read from the file. Only place, angle and one scale (because print scales
-/// differ) are fitted to the dots. If the file contains the readout time of a rolling shutter, the
-/// velocity is fitted as well. The result is more accurate than `fix`, especially far from the
-/// image centre. Theta becomes the heading of the robot. `print` is the print scale of the sheet of
-/// the fix, if it is known. The fix remains in nominal units of the pattern.
+/// Refines a fix, given the camera file and the trace of the frame. The perspective and the scale
+/// of a mounted camera are constant and are read from the file. Only the place, the angle, a scale
+/// factor and the displacement of the dots are fitted: the scale factor because the scale of a
+/// print differs from its nominal scale, and the displacement because ink and blur change it. If
+/// the file contains the readout time of a rolling shutter, the velocity is fitted as well. The
+/// result is more accurate than `fix`, especially far from the image centre. Theta becomes the
+/// heading of the robot. `print` is the print scale of the sheet of the fix, if it is known. The
+/// fix remains in nominal units of the pattern.
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace,
                 const AxisScale& print = {});
 
@@ -51,8 +53,8 @@ MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const T
 double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print = {});
 
 /// Maximum relative difference between the nominal and the measured spacing of a sheet. The limit
-/// is larger than the change of scale within the depth of field of a camera close to the paper. It
-/// is smaller than 3 %, the change of scale if a printer driver shrinks the page to 97 %.
+/// is larger than the change of scale within the depth of field of a camera close to the paper. The
+/// limit is smaller than 3 %, the change of scale if a printer driver shrinks the page to 97 %.
 inline constexpr double kMaxSpacingDifference = 0.025;
 
 /// Returns true if a measured spacing contradicts the spacing of the sheet. Returns false if either

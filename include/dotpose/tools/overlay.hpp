@@ -32,10 +32,11 @@ struct OverlaidPage {
     int document_page = 0;  ///< number of the page in the document, from 1
 };
 
-/// Options of the dots, and of the pages that contain them.
+/// Options for the dots, and for the pages that contain dots.
 struct OverlayOptions {
     Pattern pattern;  ///< code, section, and dimensions of the dots
-    /// First cell of the first page; the following pages are placed like those of `make_sheets`.
+    /// First cell of the first page; the first cells of the following pages are chosen as in
+    /// `make_sheets`.
     Cell origin;
     double margin_mm = 5;  ///< margin without dots inside the visible page (its crop box)
     double dpi = 600;      ///< resolution of the printer; see PrintOptions

@@ -45,7 +45,7 @@ Paper paper_by_name(std::string_view name);
 /// Returns the page in landscape orientation.
 Paper landscape(Paper paper);
 
-/// The options of `make_sheet`.
+/// Options for `make_sheet`.
 struct SheetOptions {
     Pattern pattern;       ///< code, section, and dimensions of the dots
     Cell origin;           ///< cell of the top left dot; each sheet should have its own cells
@@ -102,7 +102,7 @@ enum class DotDrawing {
     strokes,  ///< lines of length 0 with round caps: exact at any spacing
 };
 
-/// Options of `write_sheet`.
+/// Options for `write_sheet`.
 struct PrintOptions {
     /// Resolution in dots per inch of PNG, TIFF and PDF. It should be the resolution of the
     /// printer. A PDF has no pixels, but its dots are drawn for this resolution. Not used for text

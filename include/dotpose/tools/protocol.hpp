@@ -17,7 +17,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Options of the simulated experiment.
+/// Options for the simulated experiment.
 struct ProtocolOptions {
     int samples = 20;  ///< number of samples at each position and angle
     /// Light, blur and noise of the device. Their levels are drawn once for all frames. The device

@@ -88,7 +88,7 @@ struct Imperfections {
     double ink_variation = 0;  ///< standard deviation of a dot's reflectance, relative to paper
     /// Contrast of the palest ink relative to the darkest ink. Each direction of displacement may
     /// have its own ink: the darkest ink has `ink_reflectance`, and the contrasts of the remaining
-    /// two inks are evenly spaced between those of the palest and the darkest.
+    /// two inks are evenly spaced between the contrasts of the palest and of the darkest ink.
     double palest_ink = 1;
     double vignetting = 0;  ///< loss of light in the image corners, growing with r^2
     /// Linear change of light from one side to the opposite side, relative to the light at the
@@ -147,9 +147,9 @@ struct PageArea {
 /// A printed page: a pattern, its printing errors, and its extent.
 struct Page {
     Pattern pattern;
-    /// Seed of the printing errors and of the texture of the paper. Together with the section and
-    /// the cell, it determines the jitter, ink and absence of a dot, which are therefore the same
-    /// in every frame.
+    /// Seed of the printing errors and of the texture of the paper. The seed, the section and the
+    /// cell determine the jitter, the ink and the absence of a dot. These properties are therefore
+    /// the same in every frame.
     std::uint64_t seed = 1;
     /// Printed intersections: `columns` x `rows`, starting at `origin`. The whole plane if
     /// `columns` is 0.
@@ -270,8 +270,8 @@ void cover_partly(Shot& shot, const PartialView& view);
 /// Renders a shot.
 GreyImage render(const Shot& shot);
 
-/// Frames without a unique valid position, which a locator must refuse. At a seam, however, the
-/// position and section of either side count as correct.
+/// Frames without a unique valid position. A locator must refuse these frames. At a seam, however,
+/// the position and section of either side count as correct.
 enum class Scene : std::uint8_t {
     black,
     white,

@@ -33,13 +33,13 @@ inline constexpr std::array kSweepKinds = {SweepKind::noise,   SweepKind::blur,
 /// Returns the identifier, such as "occlusion".
 const char* name(SweepKind kind);
 
-/// Options of a sweep. They apply to all values of the condition.
+/// Options for a sweep. The options apply to all values of the condition.
 struct SweepOptions {
     Setup setup;  ///< setup of all frames, except for the varied condition
     /// Number of frames per value. Frame i is the same at every value, except for the condition
     /// that is varied.
     int frames_per_value = 200;
-    /// Options of `locate`; `decoder` is ignored, because both decoders are run.
+    /// Options for `locate`; `decoder` is ignored, because both decoders are run.
     DeviceOptions locate;
     int threads = 0;
     /// Called with the progress. If it returns false, the sweep ends with the values completed so

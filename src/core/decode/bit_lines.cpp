@@ -22,7 +22,7 @@ std::uint64_t reversed(std::uint64_t word) {
     return __builtin_bswap64(word);
 }
 
-/// Returns the lines in reverse order. The order of the bits in each line does not change.
+/// Reverses the order of the lines. The bits within a line keep their order.
 BitLines in_opposite_order(const BitLines& lines) {
     BitLines result = lines;
     std::reverse(result.bits.begin(), result.bits.end());
@@ -30,8 +30,8 @@ BitLines in_opposite_order(const BitLines& lines) {
     return result;
 }
 
-/// Returns each line as it is read after a half turn: reversed, with all bits flipped. The order of
-/// the lines does not change.
+/// Returns each line as it reads after a half turn: reversed, with all bits flipped. The lines keep
+/// their order.
 BitLines backwards(const BitLines& lines) {
     BitLines result;
     for (std::size_t i = 0; i < lines.bits.size(); ++i) {
@@ -42,9 +42,8 @@ BitLines backwards(const BitLines& lines) {
     return result;
 }
 
-/// Returns the range from the first to the last line that contains bits. If this range has more
-/// than `max_count` lines, returns the `max_count` lines of the range that are nearest to the
-/// middle of the block.
+/// Returns the range from the first to the last line with bits. Keeps at most `max_count` lines,
+/// those nearest the middle of the block.
 LineRange lines_with_bits(const BitLines& lines, int max_count) {
     int first = 0;
     int last = BitBlock::kSide - 1;
@@ -57,12 +56,10 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
     return {std::clamp(BitBlock::kMiddle - max_count / 2, first, last + 1 - max_count), max_count};
 }
 
-/// Returns the score of a line read backwards minus its score read forwards. If all bits of the
-/// line agree with the main sequence in exactly one direction, the result is 127 (n - 6)
-/// (backwards) or -127 (n - 6) (forwards), where n is the number of bits. Six bits do not count,
-/// because the main sequence contains every string of six bits except one, so six bits almost
-/// always agree in the wrong direction, too. Each further bit halves the probability of a chance
-/// agreement.
+/// Compares the two reading directions: returns the line's score backwards minus its score
+/// forwards. If all n bits agree with the main sequence in only one direction, the result is 127 (n
+/// - 6) if that is backwards, and -127 (n - 6) otherwise. The first six bits are no evidence,
+/// because almost every string of six bits occurs in the main sequence.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);
     const std::uint64_t valid_back = reversed(valid);
@@ -80,14 +77,13 @@ int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid
     return backwards.best.score - forwards.best.score;
 }
 
-/// Returns the sum of the scores of several lines read backwards, minus the sum of their scores
-/// read forwards. Stops early if the sums differ by at least `kLandslide`.
+/// Sums the comparison over several lines. Stops early if the magnitude reaches `kLandslide`.
 int backwardness(const Kernels& kernels, const BitLines& lines) {
     constexpr int kVoters = tuning::turns::kVotersOfBits;
     const LineRange range = lines_with_bits(lines, BitBlock::kSide);
     int sum = 0;
     for (int voter = 0; voter < kVoters; ++voter) {
-        // Takes the voting lines from the middle half of the range, where the lines are longest.
+        // The lines in the middle half of the range are the longest.
         const auto i = static_cast<std::size_t>(range.first + range.count / 4 +
                                                 range.count * voter / (2 * kVoters));
         if (i >= lines.bits.size()) break;

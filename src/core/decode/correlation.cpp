@@ -7,20 +7,19 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of consecutive weights in a group. The signed sums of the weights of a group are
-/// tabulated for all combinations of signs. One pass over the rolls adds the sums of up to kGroups
-/// groups to the scores.
+/// Weights are processed in groups of kGroup. A table contains a group's signed sum for every
+/// combination of signs. Each pass over the rolls adds up to kGroups groups.
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;
-/// Weights of two lines a and b, packed as a + 65536 b. One addition of packed weights adds the
-/// weights of both lines, because the sums of each line fit in 16 bits.
+/// Weights of two lines, packed as a + 65536 b. One addition adds both, because the sums of each
+/// line fit in 16 bits.
 using Weights = std::array<std::int32_t, kAtOnce>;
 using Sums = std::array<std::int32_t, 1 << kGroup>;
 
-/// For each index, the string of kGroup bits of the main sequence that begins at this index. The
-/// first bit is the lowest bit. Each string is stored as a byte offset into Sums, which saves a
-/// multiplication on small processors.
+/// Strings of kGroup bits in the main sequence, by start index. The first bit is the lowest bit.
+/// Each string is stored as a byte offset into Sums, which saves a multiplication on small
+/// processors.
 constexpr auto kStrings = [] {
     std::array<std::uint8_t, 2 * kSections + kAtOnce> strings{};
     for (std::size_t i = 0; i < strings.size(); ++i) {
@@ -40,8 +39,8 @@ std::int32_t sum_at(const Sums& sums, std::uint8_t bytes) {
 
 using Line = std::span<const std::int8_t>;
 
-/// Packs kAtOnce weights of each line, starting with the weight at index `first`. Weights beyond
-/// the end of a line are 0.
+/// Packs the next kAtOnce weights of both lines, starting at index `first`. Pads with 0 beyond the
+/// end of a line.
 void gather(Line a, Line b, std::size_t first, Weights& weights) {
     const auto rest = [&](Line line) {
         line = line.subspan(std::min(first, line.size()));
@@ -61,8 +60,8 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
     ((sums[sizeof...(I) + I] = sums[I] + 2 * weight), ...);
 }
 
-/// Computes the signed sum of a group of weights for each string of bits. A weight is negated if
-/// its bit is 0. Unrolling halves the time. Not inlined, because the unrolled code is long.
+/// Tabulates a group's signed sum for each string of bits. A 0 bit negates its weight. Unrolling
+/// halves the time. Not inlined, because the unrolled code is long.
 [[gnu::noinline]] void sum_signed(const std::int32_t* weights, Sums& sums) {
     static_assert(kGroup == 5);
     sums[0] = -(weights[0] + weights[1] + weights[2] + weights[3] + weights[4]);
@@ -73,9 +72,8 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
     append_sums(sums, weights[4], std::make_index_sequence<16>{});
 }
 
-/// Adds the sums of the first `Groups` groups to the score of each roll or, if `Adds` is false,
-/// overwrites the scores with these sums. `phase` is the index of the first weight in its line,
-/// modulo 63.
+/// Adds the group sums to the score of each roll, or overwrites the scores if `Adds` is false.
+/// `phase` is the line index of the first weight, modulo 63.
 template <std::size_t Groups, bool Adds>
 void take_sums(const std::array<Sums, kGroups>& sums, std::size_t phase, LineScores& scores_a,
                LineScores& scores_b) {
@@ -100,8 +98,7 @@ void correlate_both(Line a, Line b, LineScores& scores_a, LineScores& scores_b) 
     const auto are_zero = [&](std::size_t i) {
         return (i >= a.size() || a[i] == 0) && (i >= b.size() || b[i] == 0);
     };
-    // Skips empty cells at both ends. If the grid is rotated in the image, most lines have empty
-    // ends.
+    // Skips empty cells at both ends. If the grid is rotated in the image, most lines have some.
     std::size_t end = std::max(a.size(), b.size());
     std::size_t first = 0;
     while (first < end && are_zero(first))

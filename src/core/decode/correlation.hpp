@@ -1,5 +1,5 @@
-// Correlation: correlates the weights of the bits of a line with the main sequence at every roll.
-// Paper section II-B.7.
+// Correlation: scores a line at each roll (paper, section II-B.7). A *roll* is the place in the
+// main sequence at which the line starts.
 #pragma once
 
 #include <cstdint>
@@ -9,33 +9,31 @@
 
 namespace dotpose::core {
 
-/// A roll (an offset in the main sequence) and its score.
+/// A roll and its score.
 struct Match {
     std::int32_t score = 0;
     std::uint8_t roll = 0;
 };
 
-/// Computes the score of each roll. The score is the sum of all weights, each multiplied by +1 if
-/// the corresponding bit of the main sequence is 1, and by -1 if the corresponding bit is 0. At
-/// roll o, the first weight corresponds to bit o. Doubtful bits have small weights. `weights`
-/// contains at most 256 values in [-127, 127].
+/// Computes the score at each roll. Adds each weight where the main sequence has a 1, and subtracts
+/// it where the sequence has a 0. At roll o, the first weight belongs to bit o. Doubtful bits have
+/// small weights. `weights` contains at most 256 values in [-127, 127].
 void correlate(std::span<const std::int8_t> weights, LineScores& scores);
 
-/// Correlates two lines. Takes little more time than `correlate` takes for one line.
+/// Correlates two lines, in little more time than `correlate` takes for one.
 void correlate_both(std::span<const std::int8_t> a, std::span<const std::int8_t> b,
                     LineScores& scores_a, LineScores& scores_b);
 
-/// Returns the roll with the best score. Ties are broken by the smallest roll.
+/// Returns the roll with the highest score. Ties are broken by taking the smallest roll.
 Match best_match(const LineScores& scores);
 
-/// Returns the match that follows `last` in decreasing order of scores. Matches of equal score are
-/// in increasing order of rolls.
+/// Returns the next match after `last`, by decreasing score and then by increasing roll.
 Match next_match(const LineScores& scores, Match last);
 
-/// Returns the best score and its margin over the second best score.
+/// Returns the highest score and its margin over the second highest score.
 BestScore best_score(const LineScores& scores);
 
-/// The maximum and the minimum score of a line.
+/// The highest and lowest score of a line.
 struct Extremes {
     std::int32_t max = 0;
     std::int32_t min = 0;

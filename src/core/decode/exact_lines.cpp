@@ -10,7 +10,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Index in the main sequence of each string of six bits. The first bit is the lowest bit.
+/// Index of each six-bit string in the main sequence. The first bit is the lowest bit.
 constexpr auto kIndexOfBits = [] {
     std::array<std::uint8_t, 64> indices{};
     indices.fill(code::kAbsent);
@@ -23,8 +23,8 @@ int below_sections(int roll) {
     return roll < kSections ? roll : roll - kSections;
 }
 
-/// Finds the position of the first line of a range, and its roll at `first_cell`. Returns false if
-/// the axis fails one of the conditions that `find_place_exactly` lists.
+/// Reads the position of the first line in a range, and its roll at cell `first_cell`. Returns
+/// false under the conditions of `find_place_exactly`.
 bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange& range,
                        int first_cell, AxisReading& reading) {
     const auto count = static_cast<std::size_t>(range.count);
@@ -36,8 +36,7 @@ bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange&
     };
     const auto length = static_cast<std::size_t>(run_length(code));
     std::array<std::uint8_t, BitBlock::kSide> rolls;
-    // Skips the first quarter of the lines. The lines in the middle are the longest and therefore
-    // the most reliable.
+    // Skips the first quarter of the lines. Lines near the middle are longer and more reliable.
     std::size_t end = count / 4;
     for (std::size_t run = 0; run < length; ++end) {
         if (end == count) return false;
@@ -56,8 +55,8 @@ bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange&
     int wrong = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const int here = below_sections(reading.roll + rolls[i]);
-        // Counts wrong bits one by one. Most lines have no wrong bits, and many processors lack a
-        // popcount instruction.
+        // Counts wrong bits one by one. Most lines have none, and many processors lack a popcount
+        // instruction.
         std::uint64_t differ =
             (bits(i) ^ code::main_bits(static_cast<std::size_t>(here))) & valid(i);
         for (; differ != 0; differ &= differ - 1)

@@ -1,4 +1,4 @@
-// Grid: the matrices of quasi-probabilities of the bits. Paper section II-B.4, Fig. 8.
+// Grid: the cells of a frame with a quasi-probability for each bit (paper, section II-B.4, Fig. 8).
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,11 @@
 
 namespace dotpose::core {
 
-/// Maximum number of cells along each axis of a grid, in workspaces of any size.
+/// Maximum number of cells per axis, for every workspace size.
 inline constexpr int kMaxGridSide = 256;
 
-/// The matrices P^(x), P^(y) over the cells [i0, i0 + columns) x [j0, j0 + rows).
+/// The matrices P^(x) and P^(y) of the paper. They cover the columns [i0, i0 + columns) and the
+/// rows [j0, j0 + rows).
 struct Grid {
     std::span<GridCell> storage;
     int side = 0;  ///< `storage` has room for side * side cells

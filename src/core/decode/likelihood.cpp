@@ -10,8 +10,7 @@ struct Extent {
     int count = 0;
 };
 
-/// Returns the range of cells from `min` to `max`. If the range has more than `capacity` cells,
-/// returns the `capacity` cells of the range that are nearest to the origin.
+/// Returns the cells from `min` to `max`. Keeps at most `capacity` cells, those nearest the origin.
 Extent extent(int min, int max, int capacity) {
     if (max - min < capacity) return {min, max - min + 1};
     const int first = std::clamp(-capacity / 2, min, max - capacity + 1);
@@ -31,19 +30,19 @@ void lay_out(FixedVec min, FixedVec max, Grid& grid) {
 }
 
 std::int8_t quasi_probability(std::int32_t projection_q16) {
-    // r0 of the paper is the nominal displacement of a dot: a sixth of the spacing.
+    // The paper's r0 is a dot's nominal displacement, a sixth of the spacing.
     const int r_q8 = (projection_q16 * 6 + 128) >> 8;  // r / r0
     const int square_q16 = r_q8 * r_q8;
     if (square_q16 >= 3 * 65536) return 0;
-    // Eq. 9: (3 r - r^3) / 2, with r in units of r0.
+    // f = (3 r - r^3) / 2, with r in units of r0 (paper, eq. 9).
     const int f_q8 = (r_q8 * (3 * 65536 - square_q16)) >> 17;
     return static_cast<std::int8_t>((f_q8 * 127 + 128) >> 8);
 }
 
 namespace {
 
-/// Fills the grid from all dots. `point_of(dot)` returns the nearest cell of a dot and the offset
-/// of the dot from the centre of this cell.
+/// Fills the grid. `point_of(dot)` returns the dot's nearest cell and its offset from the cell
+/// centre.
 template <typename PointOf>
 Status assign(std::span<const DetectedDot> dots, PointOf point_of, Grid& grid) {
     FixedVec min{INT32_MAX, INT32_MAX};
@@ -58,8 +57,8 @@ Status assign(std::span<const DetectedDot> dots, PointOf point_of, Grid& grid) {
     }
     lay_out(min, max, grid);
 
-    // Local copy of the grid. Without the copy, its members would be reloaded for each dot, which
-    // is slow on small processors.
+    // A local copy keeps the grid members in registers. They would otherwise be reloaded for each
+    // dot, which is slow on small processors.
     const Grid here = grid;
     const auto columns = static_cast<unsigned>(here.columns);
     const auto rows = static_cast<unsigned>(here.rows);
@@ -68,13 +67,13 @@ Status assign(std::span<const DetectedDot> dots, PointOf point_of, Grid& grid) {
         const GridPoint g = point_of(dot);
         const auto i = static_cast<unsigned>(g.cell.x - here.i0);
         const auto j = static_cast<unsigned>(g.cell.y - here.j0);
-        // Paper eq. 7-8. Differs: y points down, so the x bit is 1 for left and down, and the y bit
-        // is 1 for right and down.
+        // Projects the offset to get the two bits (paper, eq. 7-8). Unlike in the paper, y points
+        // down. The x bit is therefore 1 for left and down, and the y bit is 1 for right and down.
         if (i < columns && j < rows) {
             const GridCell read{quasi_probability(g.offset_q16.y - g.offset_q16.x),
                                 quasi_probability(g.offset_q16.y + g.offset_q16.x), index};
             GridCell& cell = here.storage[j * columns + i];
-            if (quality(read) > quality(cell)) cell = read;  // Fig. 8
+            if (quality(read) > quality(cell)) cell = read;  // keeps the better dot (paper, Fig. 8)
         }
         ++index;
     }

@@ -1,4 +1,4 @@
-// Lines: correlates all columns (or rows) of an upright region with the main sequence.
+// Lines: the columns and rows of an upright region, scored against the main sequence.
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@
 namespace dotpose::core {
 
 enum class Axis : std::uint8_t {
-    x,  ///< columns, which are read downwards and contain the x bits
-    y,  ///< rows, which are read to the right and contain the y bits
+    x,  ///< columns, read downwards, with the x bits
+    y,  ///< rows, read to the right, with the y bits
 };
 
-/// The scores of all lines of one axis.
+/// The scored lines of one axis.
 struct Lines {
     std::span<const ScoredLine> all;
     int count() const { return static_cast<int>(all.size()); }
@@ -24,29 +24,28 @@ struct Lines {
     const BestScore& best(int line) const { return all[static_cast<std::size_t>(line)].best; }
 };
 
-/// Returns the half of the storage that is reserved for the lines of an axis.
+/// Returns the half of `storage` for an axis: the first half for x, the second half for y.
 inline std::span<ScoredLine> scores_of(Axis axis, std::span<ScoredLine> storage) {
     const std::size_t half = storage.size() / 2;
     return axis == Axis::x ? storage.first(half) : storage.last(half);
 }
 
-/// Scores all lines of one axis of the region. `storage` must have at least one element per line.
+/// Scores all lines of an axis. `storage` needs at least one element per line.
 Lines score_lines(const Upright& upright, Axis axis, std::span<ScoredLine> storage);
 
-/// Returns the lines that were scored by the last call of `score_lines` with the same arguments.
+/// Returns the lines from the last call of `score_lines` with the same arguments.
 Lines scored_lines(const Upright& upright, Axis axis, std::span<ScoredLine> storage);
 
-/// The decoded position of the lines of one axis, and its score.
+/// A position decoded from the lines of one axis.
 struct AxisReading {
     std::uint32_t position = 0;  ///< position of the first line
     std::uint8_t roll = 0;       ///< roll of the first line at its first cell
-    std::int32_t score = 0;      ///< sum of the scores of all lines
-    /// Upper bound on `score`: the sum of the highest scores of all lines, each at its own best
-    /// roll.
+    std::int32_t score = 0;      ///< total score over all lines
+    /// Upper bound of `score`: the total if each line had its highest score.
     std::int32_t max_possible = 0;
 
-    /// Returns true if the score exceeds 7/8 of `max_possible`. A search stops at a clear reading,
-    /// because no other reading is likely to have a similar score.
+    /// Returns true if the score exceeds 7/8 of `max_possible`. The search then stops, because no
+    /// other reading is likely to come close.
     bool is_clear() const { return 8 * std::int64_t{score} > 7 * std::int64_t{max_possible}; }
 };
 

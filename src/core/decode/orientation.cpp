@@ -7,11 +7,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of lines per axis that vote on the turn. The voting lines are in the middle half of the
-/// region, where the lines are longest.
+/// Number of lines per axis that vote on the turn. They are from the middle half of the region,
+/// where lines are longest.
 constexpr int kVoters = tuning::turns::kVoters;
 
-/// The voting columns or rows of a region, and the bit (x or y) that is read from their cells.
+/// The columns or rows that vote on the turn, and the bit (x or y) to read from each cell.
 class Voters {
   public:
     Voters(const Grid& grid, const GridRegion& region, bool are_columns, std::int8_t GridCell::*bit)
@@ -43,7 +43,7 @@ class Voters {
     std::int8_t GridCell::*bit_;
 };
 
-/// Sums of the best scores of the voting lines, with their bits as read and with all bits flipped.
+/// Total best scores of the voting lines, for bits as read and for flipped bits.
 struct Agreement {
     std::int32_t as_is = 0;
     std::int32_t flipped = 0;
@@ -65,7 +65,7 @@ Agreement agreement_by_pairs(const Voters& voters, bool reversed) {
     return sum;
 }
 
-/// Agreement of the voting lines, read forwards and backwards.
+/// Agreement of the voting lines in both reading directions.
 struct BothWays {
     Agreement forwards;
     Agreement backwards;
@@ -75,7 +75,7 @@ BothWays agreement(const Voters& voters) {
     return {agreement_by_pairs(voters, false), agreement_by_pairs(voters, true)};
 }
 
-/// Returns the maximum agreement that the voting lines can have with any sequence.
+/// Returns the highest agreement that any sequence could have: the sum of all |weight|.
 std::int32_t max_possible(const Voters& voters) {
     std::int32_t sum = 0;
     Line storage;
@@ -86,8 +86,7 @@ std::int32_t max_possible(const Voters& voters) {
     return sum;
 }
 
-/// Returns the largest agreement over the four ways to read the voting lines: forwards or
-/// backwards, with bits as read or flipped.
+/// Returns the best agreement over both reading directions, with bits as read or flipped.
 std::int32_t best_agreement(const Voters& voters) {
     const auto [forwards, backwards] = agreement(voters);
     return std::max(std::max(forwards.as_is, forwards.flipped),
@@ -97,8 +96,8 @@ std::int32_t best_agreement(const Voters& voters) {
 }  // namespace
 
 Orientation rank_turns(const Grid& grid, const GridRegion& region) {
-    // Differs: the paper counts the lines that occur exactly in the main sequence. Here, the sum of
-    // the best scores also takes lines with misread bits into account.
+    // Unlike the paper, adds up the best scores, to include lines with misread bits. The paper
+    // counts the lines that occur exactly in the main sequence.
     const Voters x_columns(grid, region, true, &GridCell::x);
     const Voters y_rows(grid, region, false, &GridCell::y);
     const BothWays of_columns = agreement(x_columns);
@@ -108,15 +107,15 @@ Orientation rank_turns(const Grid& grid, const GridRegion& region) {
     // A half turn reverses each line and flips its bits.
     const std::int32_t turned_columns = of_columns.backwards.flipped;
     const std::int32_t turned_rows = of_rows.backwards.flipped;
-    // A quarter turn exchanges columns and rows. The turn reverses and flips either the columns or
+    // A quarter turn exchanges columns and rows. It also reverses and flips either the columns or
     // the rows (see `turned` in upright.hpp).
     const std::array<std::int32_t, 4> scores{columns + rows, turned_columns + rows,
                                              turned_columns + turned_rows, columns + turned_rows};
     std::array<QuarterTurn, 4> turns{QuarterTurn{0}, QuarterTurn{1}, QuarterTurn{2},
                                      QuarterTurn{3}};
     const auto score = [&](QuarterTurn t) { return scores[static_cast<std::size_t>(t.quarters)]; };
-    // Sorts the turns by decreasing score with a stable insertion sort. For four elements, a
-    // library function would need much more code.
+    // Stable insertion sort by decreasing score. For four elements, a library sort would need much
+    // more code.
     for (std::size_t n = 1; n < turns.size(); ++n) {
         for (std::size_t i = n; i > 0 && score(turns[i]) > score(turns[i - 1]); --i)
             std::swap(turns[i], turns[i - 1]);
@@ -125,8 +124,8 @@ Orientation rank_turns(const Grid& grid, const GridRegion& region) {
 }
 
 bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t upright) {
-    // A mirror image exchanges x and y bits (the projections of eq. 7 and 8), and may reverse lines
-    // or flip bits.
+    // A mirror image exchanges the x and y bits (paper, eq. 7-8). It may also reverse lines or flip
+    // bits.
     const Voters y_columns(grid, region, true, &GridCell::y);
     const Voters x_rows(grid, region, false, &GridCell::x);
     const auto is_much_more = [&](std::int32_t mirrored) {

@@ -1,5 +1,4 @@
-// Orientation: finds the quarter turn that rotates the grid to the upright orientation of the
-// pattern. Paper section II-B.6.
+// Orientation: finds the quarter turn from the grid to the upright pattern (paper, section II-B.6).
 #pragma once
 
 #include <array>
@@ -11,18 +10,15 @@ namespace dotpose::core {
 
 struct Orientation {
     std::array<QuarterTurn, 4> turns;  ///< most likely turn first
-    std::int32_t agreement;  ///< agreement of the voting lines with the main sequence, at the most
-                             ///< likely turn
+    std::int32_t agreement;            ///< agreement of the voting lines at the most likely turn
 };
 
-/// Ranks the four possible turns (0 to 3 quarter turns) by a vote of columns and rows. Each voting
-/// line is compared with the main sequence twice: as read, and after a half turn. A half turn
-/// reverses the line and flips its bits.
+/// Ranks the four turns by a vote of columns and rows. Each voting line is compared with the main
+/// sequence as read and after a half turn. A half turn reverses the line and flips its bits.
 Orientation rank_turns(const Grid& grid, const GridRegion& region);
 
-/// Returns true if the region agrees much better with a mirrored pattern than with an unmirrored
-/// pattern. In a mirrored pattern, columns contain y bits and rows contain x bits. `agreement` is
-/// `Orientation::agreement` of this region.
+/// Returns true if the region agrees much better with a mirrored pattern, where columns contain y
+/// bits and rows contain x bits. `agreement` is the region's `Orientation::agreement`.
 bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t agreement);
 
 }  // namespace dotpose::core

@@ -9,10 +9,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Minimum number of lines required to determine a position.
+/// Minimum number of lines per axis for a position.
 constexpr int kMinLines = 6;
 
-/// Determines the position on one axis from the best roll of each line.
+/// Reads the position of an axis from each line's best roll.
 Status read_axis(CodeVariant code, const Lines& lines, AxisReading& reading) {
     std::array<std::uint8_t, kMaxLines> rolls{};
     for (int i = 0; i < lines.count(); ++i) {
@@ -25,7 +25,7 @@ Status read_axis(CodeVariant code, const Lines& lines, AxisReading& reading) {
     return position_from_rolls(code, used, reading.position);
 }
 
-/// Sets the turn and the place of a decoding from the readings of both axes.
+/// Sets the turn and place of a decoding from both axis readings.
 void set_place(CodeVariant code, const Upright& upright, QuarterTurn turn, const AxisReading& x,
                const AxisReading& y, Decoding& decoding) {
     const auto section = [&](const AxisReading& own, const AxisReading& other) {

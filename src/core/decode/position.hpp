@@ -1,5 +1,5 @@
-// Position: decodes the turn of the grid and its place in the code. Paper sections II-B.6 and
-// II-B.7.
+// Position: decodes the turn of the grid and its place in the code (paper, sections II-B.6 and
+// II-B.7).
 #pragma once
 
 #include "core/decode/grid.hpp"
@@ -9,21 +9,20 @@
 
 namespace dotpose::core {
 
-/// Decodes with the method of the paper, as a baseline. Finds the turn by a vote, correlates each
-/// line of the clearest window of 8 x 8 cells with the main sequence, and uses the best roll of
-/// each line. Errors: grid_too_small (also if the mean quality of the cells is less than a third of
-/// the maximum), not_in_code, ambiguous.
+/// Decodes with the paper's method, as a baseline. A vote finds the turn. The position then follows
+/// from the best roll of each line in the clearest 8 x 8 window. Errors: not_in_code, ambiguous,
+/// grid_too_small. The last error is also returned if the mean quality in the window is below a
+/// third of the maximum.
 Status decode_window(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                      Decoding& decoding);
 
-/// Decodes all dots: correlates all lines with the main sequence, and finds the position with the
-/// highest sum of scores. Tries the most likely turn and, unless the position is already clear
-/// (`AxisReading::is_clear`), the second most likely turn. Keeps the turn with the higher sum.
-/// Errors: grid_too_small, not_in_code.
+/// Decodes all lines: finds the position with the highest total score. Tries the most likely turn
+/// first. Also tries the second turn, unless the position is already clear
+/// (`AxisReading::is_clear`). Errors: grid_too_small, not_in_code.
 Status decode_all(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                   Decoding& decoding);
 
-/// Decodes all dots in bounded time, for first attempts. A position that takes longer to find is
+/// Decodes all lines in bounded time, for first attempts. A position that takes longer to find is
 /// rarely certain. Errors: same as `decode_all`.
 Status decode_briefly(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                       Decoding& decoding);

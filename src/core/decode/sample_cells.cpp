@@ -25,17 +25,17 @@ FixedVec place_60th(Symbol symbol) {
 struct PlaceView {
     bool is_seen = false;
     int darkness_q8 = 0;  ///< relative to the paper level, in 1/256
-    /// Mean darkness of a square around the place, relative to the paper level, in 1/256. The side
-    /// of the square is 2/5 of the spacing.
+    /// Mean darkness of a square around the place, relative to the paper level, in 1/256. The
+    /// square is 2/5 of a spacing wide.
     int shade_q8 = 0;
 };
 
 /// Measurements of one cell.
 struct CellView {
-    FixedVec centre_q8;  ///< image point of the intersection, in 2^-8 px
-    FixedVec u_q8;       ///< image vector of one spacing along the rows of the grid, in 2^-8 px
-    FixedVec v_q8;       ///< image vector of one spacing along the columns of the grid, in 2^-8 px
-    int half_px = 0;     ///< half the side of the square for `shade_q8`, in px
+    FixedVec centre_q8;               ///< image point of the intersection, in 2^-8 px
+    FixedVec u_q8;                    ///< step to the next column, in 2^-8 px
+    FixedVec v_q8;                    ///< step to the next row, in 2^-8 px
+    int half_px = 0;                  ///< half side of the `shade_q8` square, in px
     std::array<PlaceView, 4> places;  ///< indexed by Symbol
 
     CellView(const ImageView& image, FixedVec centre, FixedVec right, FixedVec below)
@@ -62,18 +62,16 @@ class CellSampler {
                 const PlaneFromImage& plane)
         : image_(image), paper_(paper), lens_(lens), plane_(plane) {}
 
-    /// Calls `use(cell, view)` for each cell that has at least one of its four places in the image.
-    /// `view` contains no samples yet.
+    /// Calls `use(cell, view)` for each cell with at least one place in the image. `view` is not
+    /// sampled yet.
     template <typename Use>
     void visit(const Grid& grid, Use use) const;
-    /// Sets `half_px`, and the darkness and shade of each place that is in the image.
+    /// Sets `half_px`, and the darkness and shade of each place in the image.
     void sample(CellView& view) const;
-    /// Returns the paper level at the centre of the cell divided by the paper level at the centre
-    /// of the image, in 1/256.
+    /// Returns the paper level at the cell relative to the image centre, in 1/256.
     int light_q8(const CellView& view) const;
-    /// Returns, for each place in the image, the largest shade of eight squares around the place.
-    /// The centres of the squares are about 2/15 of the spacing away from the place. The elements
-    /// of places outside the image are 0.
+    /// Returns, for each place, the largest shade of eight squares around it. Their centres are
+    /// about 2/15 of a spacing away. Places outside the image get 0.
     std::array<int, 4> darkest_around_q8(const CellView& view) const;
 
   private:
@@ -81,11 +79,11 @@ class CellSampler {
     FixedVec image_of(int i, int j) const {
         return distorted_point_q8(lens_, plane_, {i * 65536, j * 65536});
     }
-    /// Returns the mean darkness of a square relative to the paper level, in 1/256, from a sample
-    /// of its pixels.
+    /// Returns the mean darkness of a square, relative to the paper level, in 1/256. Skips pixels
+    /// in large squares.
     int shade_q8(FixedVec centre_q8, int half_px) const;
-    /// Returns the mean darkness of a square relative to the paper level, in 1/256, from the sum of
-    /// the grey levels of `pixels` pixels. Returns 0 if `pixels` is 0.
+    /// Converts the grey level sum of a square to its mean darkness, relative to the paper level,
+    /// in 1/256. Returns 0 if `pixels` is 0.
     int darkness_q8(FixedVec centre_q8, int sum, int pixels) const;
     template <typename Shade>
     static std::array<int, 4> darkest_around_q8(const CellView& view, Shade shade_q8);
@@ -96,8 +94,8 @@ class CellSampler {
     const PlaneFromImage& plane_;
 };
 
-/// Returns the distance between the sampled pixels of a square, in px. Large squares are subsampled
-/// to limit the time.
+/// Returns the sampling step within a square, in px. Large squares are subsampled to limit the
+/// time.
 int step_px(int half_px) {
     return std::max(half_px / 3, 1);
 }
@@ -125,7 +123,7 @@ int CellSampler::shade_q8(FixedVec centre_q8, int half_px) const {
 
 template <typename Use>
 void CellSampler::visit(const Grid& grid, Use use) const {
-    // Two adjacent rows of cells use the same row of intersections, which is computed only once.
+    // Adjacent rows of cells share their intersections, which are computed only once.
     std::array<FixedVec, kMaxGridSide + 1> here;
     std::array<FixedVec, kMaxGridSide + 1> below;
     const auto find_row = [&](int j, std::array<FixedVec, kMaxGridSide + 1>& row) {
@@ -177,8 +175,8 @@ std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view, Shade sh
 }
 
 std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view) const {
-    // Along each image axis, the centre of each square is at most a third of the largest component
-    // of `u_q8` and `v_q8` away from the centre of the cell.
+    // Reach of the squares from the cell centre, per image axis. Their centres are offset by at
+    // most a third of the larger step component.
     const int reach_px =
         std::max(larger_component(view.u_q8), larger_component(view.v_q8)) / (3 * 256) + 1 +
         view.half_px;
@@ -199,9 +197,8 @@ int CellSampler::light_q8(const CellView& view) const {
     return here * 256 / paper_at(paper_, image_.width_px / 2, image_.height_px / 2);
 }
 
-/// Returns a place with the darkness and the shade of a typical dot. Each value is the median over
-/// the darkest place of each sampled cell, and is at least 1. Only cells whose four places are all
-/// in the image are sampled.
+/// Returns the median darkness and shade of a dot, each at least 1. Samples the darkest place in
+/// cells that are completely in the image.
 PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
     std::array<std::int32_t, tuned::kMedianSample> darkness;
     std::array<std::int32_t, tuned::kMedianSample> shade;
@@ -222,27 +219,26 @@ PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
             std::max<std::int32_t>(median(std::span(shade).first(count)), 1)};
 }
 
-/// Computes the weights of the bits of a cell from the darkness at its four places. Contains the
-/// darkness of a typical dot and the minimum shade of graphics in the image.
+/// Converts the darkness at the four places of a cell to bit weights.
 class Ink {
   public:
     Ink(const CellSampler& sampler, const Grid& grid) : sampler_(sampler) {
         const PlaceView typical = typical_place(sampler, grid);
         contrast_q8_ = typical.darkness_q8;
-        // A place counts as graphics if its shade exceeds the geometric mean of the shade of a
-        // typical dot and the shade of solid ink.
+        // A place counts as graphics above the geometric mean of two shades: a typical dot and
+        // solid ink.
         graphics_q8_ = static_cast<int>(
             square_root(static_cast<std::uint64_t>(typical.shade_q8 * tuned::kSolidInk_q8)));
     }
 
-    /// Darkness at the places of a cell, the reliability of its bits in 1/16, and the light at the
-    /// cell relative to the light at the centre of the image, in 1/256.
+    /// Darkness at the four places of a cell. `reliability_q4` scales its bit weights, in 1/16.
+    /// `light_q8` is the light relative to the image centre, in 1/256.
     struct Sample {
         std::array<int, 4> darkness_q8;  ///< indexed by Symbol
         int reliability_q4 = 16;
         int light_q8 = 256;
     };
-    /// Returns the sample of a cell, and marks the places of the cell that graphics cover.
+    /// Returns the sample of a cell, and marks its places under graphics.
     Sample sample(const CellView& view, GridCell& cell) const {
         Sample sample;
         unsigned hidden = 0;
@@ -251,8 +247,8 @@ class Ink {
         const std::array<int, 4> darkest_around_q8 = sampler_.darkest_around_q8(view);
         for (std::size_t i = 0; i < view.places.size(); ++i) {
             const PlaceView& place = view.places[i];
-            // A place outside the image or under graphics counts as half as dark as a dot, which
-            // favours neither value of a bit.
+            // A place outside the image or under graphics counts as half a dot, which favours
+            // neither bit value.
             sample.darkness_q8[i] = contrast_q8_ / 2;
             if (!place.is_seen) continue;
             const int around_q8 = darkest_around_q8[i];
@@ -288,17 +284,16 @@ class Ink {
                4 * sorted[2] > tuned::kSecondDot_4ths * sorted[3];
     }
 
-    /// Returns the weight of a bit, in [-127, 127]. `one_q8` is the darkness of the darker of the
-    /// two places where the bit is 1. `zero_q8` is the darkness of the darker of the two places
-    /// where the bit is 0.
+    /// Returns the weight of a bit, in [-127, 127]. `one_q8` and `zero_q8` are the darkness for bit
+    /// values 1 and 0, each at the darker of two places.
     std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
-        // The weight is proportional to the log-likelihood ratio of the bit. At constant sensor
-        // noise, this ratio is proportional to the difference in grey levels times the contrast in
-        // grey levels. Both factors are proportional to the light, so the weight is proportional to
-        // the square of the light.
+        // The weight is proportional to the log-likelihood ratio of the bit. With constant sensor
+        // noise, this ratio is proportional to the level difference times the contrast. Both
+        // factors are proportional to the light, so the weight is proportional to the light
+        // squared.
         const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = sample.light_q8 * sample.light_q8;
-        // The weight is limited, because bit errors at high contrast are not caused by noise.
+        // Clamped, because bit errors at high contrast are not caused by noise.
         const int weight = static_cast<int>(
             std::clamp<std::int64_t>(std::int64_t{difference} * light_q16 >> 16, -127, 127));
         return static_cast<std::int8_t>(weight * sample.reliability_q4 / 16);
@@ -310,8 +305,8 @@ class Ink {
     int graphics_q8_ = 0;  ///< shade above which a place counts as graphics, in 1/256
 };
 
-/// Clears the grid, and sets its extent to the bounding box of the cells at 5 x 5 points. The
-/// points are evenly spaced over the whole image, including its borders.
+/// Clears the grid and lays it over the whole image. Finds the extent from the cells at 5 x 5
+/// evenly spaced points, which include the image border.
 void cover_image(const ImageView& image, const FixedLens& lens, const PlaneFromImage& plane,
                  Grid& grid) {
     FixedVec min{INT32_MAX, INT32_MAX};

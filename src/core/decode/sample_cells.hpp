@@ -1,6 +1,6 @@
-// Sample cells: reads the bits of every cell from the grey levels at the four places of the cell.
-// Dots contribute even if blob detection missed them. In the second attempt, this stage replaces
-// the projections of eq. 7-8. Differs: docs/differs-from-paper.md.
+// Sample cells: reads the bits of each cell from the grey levels at its four places. The second
+// attempt uses this stage instead of the dot projections (paper, eq. 7-8). Unlike the paper, it can
+// use dots that blob detection missed. See docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/grid.hpp"
@@ -10,11 +10,11 @@
 
 namespace dotpose::core {
 
-/// Extends the grid over the whole image, up to `grid.side` cells along each axis, and sets the
-/// weights of the bits of all its cells. Places outside the image and under graphics favour neither
-/// value of a bit. Cells with places under graphics are marked as hidden. Cells at the border, near
-/// graphics, or with dirt have smaller weights. Returns false if more than 3/8 of the completely
-/// visible cells appear to contain two dots, which means that the image contains two patterns.
+/// Lays the grid over the whole image, up to `grid.side` cells per axis, and sets all bit weights.
+/// Places outside the image or under graphics favour neither bit value. Cells with places under
+/// graphics are also marked as hidden. The weights are smaller at the border, near graphics and for
+/// dirt. Returns false if the image shows two patterns: more than 3/8 of the completely visible
+/// cells seem to contain two dots.
 bool sample_cells(const ImageView& image, const PaperMap& paper, const FixedLens& lens,
                   const PlaneFromImage& grid_from_image, Grid& grid);
 

@@ -15,7 +15,7 @@ namespace tuned = tuning::search;
 constexpr int kChoices = tuned::kChoices;
 constexpr int kMaxRunLength = 8;
 
-/// Returns the smallest roll with the given score. `scores` must contain the score.
+/// Returns the smallest roll with the given score, which must be in `scores`.
 std::uint8_t roll_of(int score, const LineScores& scores) {
     const std::int16_t* found = scores.data();
     while (*found != score)
@@ -23,8 +23,8 @@ std::uint8_t roll_of(int score, const LineScores& scores) {
     return static_cast<std::uint8_t>(found - scores.data());
 }
 
-/// The rolls of one line, ordered by decreasing score. Ties are broken by the smaller roll. The
-/// rolls are computed on demand, because rolls after the first are rarely needed.
+/// The rolls of one line, by decreasing score. Ties are broken by taking the smaller roll. Rolls
+/// after the first are computed on demand, because they are rarely needed.
 class Choices {
   public:
     Choices() = default;
@@ -34,8 +34,7 @@ class Choices {
           last_(roll_of(line.best.score, line.scores)),
           rolls_{last_} {}
 
-    /// Returns the roll of rank `i`, which must be less than kChoices. Rank 0 has the highest
-    /// score.
+    /// Returns the roll of rank `i`, for i < kChoices. Rank 0 has the highest score.
     std::uint8_t roll(int i) {
         for (; known_ <= i; ++known_) {
             last_ = next_match(*scores_, {(*scores_)[last_], last_}).roll;
@@ -43,7 +42,7 @@ class Choices {
         }
         return rolls_[static_cast<std::size_t>(i)];
     }
-    /// Returns the highest score minus the score of the roll of rank `i`.
+    /// Returns the score that is lost by choosing rank `i` instead of rank 0.
     int loss(int i) { return i == 1 ? margin_ : (*scores_)[rolls_[0]] - (*scores_)[roll(i)]; }
 
   private:
@@ -54,8 +53,8 @@ class Choices {
     std::array<std::uint8_t, kChoices> rolls_;
 };
 
-/// Returns the reading in which the line with index `line` is at `position` and has the roll
-/// `roll`. The score of the reading is the sum of the scores of all lines.
+/// Returns the reading with line `line` at `position` and roll `roll`. Its score is the total over
+/// all lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
     std::array<std::uint8_t, kMaxLines> storage;
@@ -71,8 +70,8 @@ AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32
 
 using Run = std::array<Choices, kMaxRunLength>;
 
-/// Returns the number of rolls to try for each line of a run. Repeatedly adds the roll with the
-/// smallest loss, as long as the number of combinations of rolls does not exceed `max_readings`.
+/// Chooses how many rolls to try for each line of a run. Repeatedly adds the roll with the smallest
+/// loss, as long as there are at most `max_readings` combinations.
 std::array<int, kMaxRunLength> widen(Run& run, int length, int max_readings) {
     std::array<int, kMaxRunLength> widths;
     widths.fill(1);
@@ -96,9 +95,8 @@ std::array<int, kMaxRunLength> widen(Run& run, int length, int max_readings) {
     }
 }
 
-/// Decodes the position from `rolls`, the rolls of adjacent lines beginning with line `first`.
-/// Replaces `best` if the score of this reading, summed over all lines, is higher. Returns true if
-/// `best` was replaced by a clear reading.
+/// Decodes the position from the rolls of adjacent lines, starting at line `first`. Replaces `best`
+/// if the total score is higher. Returns true if the new `best` is clear.
 bool improve(CodeVariant code, const Lines& lines, int first, std::span<const std::uint8_t> rolls,
              AxisReading& best) {
     std::uint32_t position = 0;
@@ -110,8 +108,8 @@ bool improve(CodeVariant code, const Lines& lines, int first, std::span<const st
     return best.is_clear();
 }
 
-/// Tries up to `max_readings` combinations of the most likely rolls of the lines of one run. Stops
-/// at the first clear reading.
+/// Tries up to `max_readings` combinations of the most likely rolls in one run. Stops at the first
+/// clear reading.
 void try_run(CodeVariant code, const Lines& lines, int first, int length, int max_readings,
              AxisReading& best) {
     Run run;
@@ -137,8 +135,8 @@ void try_run(CodeVariant code, const Lines& lines, int first, int length, int ma
     }
 }
 
-/// Returns the first line of the clearest run: the run with the largest sum of margins, among the
-/// runs of `length` lines that are not marked in `taken`. Returns -1 if all runs are marked.
+/// Returns the first line of the clearest run that is not marked in `taken`, or -1. Runs have
+/// `length` lines. The clearest run has the largest sum of margins.
 int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLines>& taken) {
     int clearest = -1;
     int largest = INT32_MIN;
@@ -156,13 +154,13 @@ int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLine
     return clearest;
 }
 
-/// Maximum number of runs of lines to read, and of readings per run.
+/// Maximum number of runs and readings.
 struct Limits {
     int runs;
     int readings;  ///< per run
 };
 
-/// Reads runs of lines, starting with the clearest run, until a reading is clear.
+/// Reads runs of lines, clearest run first, until a reading is clear.
 void search_by_runs(CodeVariant code, const Lines& lines, const Limits& limits, AxisReading& best) {
     const int length = run_length(code);
     std::int32_t max_possible = 0;

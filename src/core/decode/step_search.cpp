@@ -14,12 +14,11 @@ constexpr std::size_t kSequences = 4;
 constexpr std::size_t kDigits = 3;
 constexpr std::size_t kStepSizes = code::kMaxDelta - code::kMinDelta + 1;
 
-/// The losses of one step, indexed by secondary sequence and digit. Each element is the maximum of
-/// `best_agreement` over all step sizes, minus the maximum over the step sizes with this digit.
+/// Losses of one step, by secondary sequence and digit. A loss is the drop in `best_agreement` if
+/// the step must have this digit.
 using StepLosses = std::array<std::array<std::int32_t, kDigits>, kSequences>;
 
-/// Returns the maximum, over all rolls, of the sum of the scores of two adjacent lines whose rolls
-/// differ by `step`.
+/// Returns the highest total score of two adjacent lines whose rolls differ by `step`.
 int best_agreement(const LineScores& line, const LineScores& next, std::size_t step) {
     std::int16_t best = INT16_MIN;
     const std::size_t whole = kSections - step;
@@ -46,8 +45,7 @@ StepLosses losses_of(const LineScores& line, const LineScores& next) {
     return losses;
 }
 
-/// Number of places of the first line to keep in each secondary sequence: the places with the
-/// smallest losses.
+/// Number of places to keep per secondary sequence. The places with the smallest losses are kept.
 constexpr std::size_t kChoices = tuning::step_search::kChoices;
 using Choices = std::array<std::uint32_t, kChoices>;
 
@@ -75,8 +73,7 @@ Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
     return places;
 }
 
-/// Returns the reading whose first line is at `position`. Selects the roll with the highest score
-/// over all lines.
+/// Returns the reading with the first line at `position`, at the roll with the highest total score.
 AxisReading evaluate(CodeVariant code, const Lines& lines, std::uint32_t position) {
     std::array<std::uint8_t, kMaxLines> rolls;
     code::follow_rolls(code, position, 0, std::span(rolls).first(lines.all.size()));

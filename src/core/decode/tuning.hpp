@@ -1,10 +1,9 @@
-// Tuning: empirical constants of decoding. The constants were determined on the frames of `dotpose
-// evaluate --preset hard --frames 4000 --seed 404`, on 3,000 frames with `--seed 5001`, and on the
-// refused frames of seeds 777 and 778. docs/accuracy.md shows that the constants also suit other
-// frames. Comments state the number of frames that `dotpose evaluate --preset hard --frames 2000
-// --seed 404` locates with other values. With the values in this file, the command locates 1,994 of
-// the 2,000 frames. None of the values led to a wrong fix. A difference of one frame is not
-// significant.
+// Tuning: empirical constants of decoding. They were determined on the frames of `dotpose evaluate
+// --preset hard --frames 4000 --seed 404`, on 3,000 frames with `--seed 5001`, and on the refused
+// frames of seeds 777 and 778. docs/accuracy.md shows that the constants also suit other frames.
+// Comments state how many frames `dotpose evaluate --preset hard --frames 2000 --seed 404` locates
+// with other values. With the values below, it locates 1,994 frames. No value led to a wrong fix. A
+// difference of one frame is not significant.
 #pragma once
 
 #include <array>
@@ -12,97 +11,90 @@
 
 namespace dotpose::core::tuning {
 
-/// Reading of bits from the darkness at the four places of a cell (decode/sample_cells).
+/// Bit weights from the darkness at the four places of a cell (decode/sample_cells).
 namespace sample_cells {
-/// Maximum number of cells from which the darkness and the shade of a typical dot are computed, as
-/// medians. The medians hardly change even if graphics cover a quarter of the cells.
+/// Maximum number of cells to sample for the median darkness and shade of a dot. The medians hardly
+/// change even if graphics cover a quarter of the cells.
 inline constexpr std::size_t kMedianSample = 256;
-/// The shade of a place is averaged over a square whose side is 2 / kShadePart of the spacing. The
-/// square is wider than a dot, but does not reach the dots of neighbouring cells.
+/// Spacing divided by half the width of the square in which the shade is averaged. The square is
+/// wider than a dot, but does not reach the dots of neighbouring cells.
 inline constexpr int kShadePart = 5;
-/// Offsets from a place to the centres of the squares that are tested for graphics, in units of
-/// 1/60 spacing. Four squares are offset by kBeside_60th along one axis, and four squares by
-/// kBesideDiagonally_60th along each axis. With these offsets, the test detects every stroke that
-/// touches the dot.
+/// Offsets of the squares that are tested for graphics around a place, in 1/60 spacing. Four
+/// squares are offset along one axis, and four squares diagonally. Together, they detect every
+/// stroke that touches the dot.
 inline constexpr int kBeside_60th = 8;
 inline constexpr int kBesideDiagonally_60th = 5;
-/// Darkness of solid ink relative to the paper level, in 1/256. A shade above the geometric mean of
-/// this value and the shade of a typical dot counts as graphics. With half or twice this value,
-/// 1,992 frames are located.
+/// Darkness of solid ink relative to the paper level, in 1/256. A shade counts as graphics above
+/// the geometric mean of this value and a typical dot's shade. With half or twice the value, 1,992
+/// frames are located.
 inline constexpr int kSolidInk_q8 = 230;
-/// Reliability of the bits of a cell, in 1/16, indexed by the number of places of the cell that are
-/// in the image. Measured on hard frames.
+/// Reliability of the bits in a cell, in 1/16, by the number of places in the image. Measured on
+/// hard frames.
 inline constexpr std::array<int, 5> kReliabilityBySeen_q4{0, 6, 8, 10, 16};
-/// Reliability, in 1/16, of the bits of a cell with a place under graphics.
+/// Reliability of a cell with a place under graphics, in 1/16.
 inline constexpr int kReliabilityCovered_q4 = 10;
-/// Shade next to a place above which the cell counts as near graphics, in fifths of the minimum
-/// shade of graphics.
+/// Shade above which the cell is near graphics, in fifths of the graphics limit. The shade is
+/// measured next to a place.
 inline constexpr int kNearGraphics_5ths = 3;
-/// Reliability, in 1/16, of the bits of a cell near graphics. With a value of 3, 1,993 frames are
-/// located. With a value of 14, 1,994 frames are located.
+/// Reliability of a cell near graphics, in 1/16. With a value of 3, 1,993 frames are located. With
+/// a value of 14, 1,994 frames are located.
 inline constexpr int kReliabilityNearGraphics_q4 = 7;
-/// Darkness above which the darkest place of a cell may be dirt, in tenths of the darkness of a
-/// typical dot.
+/// Darkness above which a cell's darkest place may be dirt, in tenths of a typical dot.
 inline constexpr int kDark_10ths = 13;
-/// Reliability, in 1/16, of the bits of a cell whose darkest place may be dirt.
+/// Reliability of a cell whose darkest place may be dirt, in 1/16.
 inline constexpr int kReliabilityDark_q4 = 12;
-/// Darkness above which the darkest place of a cell is probably dirt, in tenths of the darkness of
-/// a typical dot.
+/// Darkness above which a cell's darkest place is probably dirt, in tenths of a typical dot.
 inline constexpr int kTooDark_10ths = 16;
-/// Reliability, in 1/16, of the bits of a cell whose darkest place is probably dirt.
+/// Reliability of a cell whose darkest place is probably dirt, in 1/16.
 inline constexpr int kReliabilityTooDark_q4 = 6;
-/// Weight of a bit, before clamping to 127, if the darkness of its places differs by the darkness
-/// of a typical dot. A difference of about two fifths of this darkness reaches the limit of 127.
-/// With a value of 150, 1,994 frames are located. With a value of 600, 1,992 frames are located.
+/// Weight of a bit whose two values differ by a typical dot's darkness, before clamping to 127.
+/// About two fifths of this difference reach the limit. With a value of 150, 1,994 frames are
+/// located. With a value of 600, 1,992 frames are located.
 inline constexpr int kGain = 300;
-/// Maximum ratio of the light at a cell to the light at the centre of the image, in 1/256. Brighter
-/// light does not increase the weights further.
+/// Maximum light at a cell relative to the image centre, in 1/256. Brighter light does not increase
+/// the weights further.
 inline constexpr int kMaxLight_q8 = 1024;
-/// A cell counts as a cell with two dots if the darkness of its second darkest place exceeds both
-/// kSecondDot_3rds / 3 of the darkness of a typical dot and kSecondDot_4ths / 4 of the darkness of
-/// its darkest place. The image contains two patterns if more than kMaxCrowded_8ths / 8 of the
-/// cells have two dots. In hard frames, at most a quarter of the cells had two dots.
+/// Test for two patterns in one image. A cell has two dots if its second darkest place exceeds two
+/// limits: kSecondDot_3rds / 3 of a typical dot's darkness, and kSecondDot_4ths / 4 of the darkest
+/// place. The image shows two patterns if more than kMaxCrowded_8ths / 8 of the cells have two
+/// dots. In hard frames, at most a quarter of the cells had two dots.
 inline constexpr int kSecondDot_3rds = 2;
 inline constexpr int kSecondDot_4ths = 3;
 inline constexpr int kMaxCrowded_8ths = 3;
 }  // namespace sample_cells
 
-/// Search for the position that agrees best with all lines (decode/search).
+/// Search by runs of lines (decode/search).
 namespace search {
-/// Maximum number of rolls to try for one line.
+/// Maximum number of rolls to try per line.
 inline constexpr int kChoices = 8;
-/// Maximum number of runs of lines, and of readings per run, in the second attempt. Halving or
-/// doubling either limit does not change the number of located frames. The chosen values leave a
-/// margin for frames with more misread bits.
+/// Maximum number of runs, and readings per run, in the second attempt. Half or twice either value
+/// locates the same number of frames. The margin is for frames with more misread bits.
 inline constexpr int kRuns = 24;
 inline constexpr int kReadings = 64;
-/// Maximum number of runs, and of readings per run, in the first attempt and on devices. None of
-/// 2,000 nominal frames and 4 of 2,000 hard frames needed more. These limits bound the time for
-/// unreadable frames.
+/// Maximum number of runs, and readings per run, in the first attempt and on devices. Bounds the
+/// time for unreadable frames. None of 2,000 nominal frames needed more, and 4 of 2,000 hard frames
+/// did.
 inline constexpr int kRunsBriefly = 3;
 inline constexpr int kReadingsBriefly = 8;
 }  // namespace search
 
-/// Search for the position by the steps between adjacent lines (decode/step_search).
+/// Search by steps between adjacent lines (decode/step_search).
 namespace step_search {
-/// Number of places kept in each of the four secondary sequences. All combinations of these places
-/// are evaluated.
+/// Number of places to keep per secondary sequence. All their combinations are evaluated.
 inline constexpr std::size_t kChoices = 3;
 }  // namespace step_search
 
-/// Search for the quarter turn of the grid (decode/orientation, decode/bit_lines).
+/// Vote on the quarter turn of the grid (decode/orientation, decode/bit_lines).
 namespace turns {
-/// Number of lines per axis that vote on the turn. Must be even. Several lines can outvote one
-/// misread line.
+/// Number of lines per axis that vote. Must be even. Several lines can outvote one misread line.
 inline constexpr int kVoters = 4;
-/// Number of lines per axis that vote on the turn if the bits are hard (0, 1 or not read).
+/// Number of lines per axis that vote if the bits are hard (0, 1 or not read).
 inline constexpr int kVotersOfBits = 5;
-/// Difference between the summed scores of the two reading directions (forwards and backwards) at
-/// which the vote ends early. The value is the score of 8 bits.
+/// Difference between the total scores backwards and forwards that ends the vote early. The value
+/// is the score of 8 bits.
 inline constexpr int kLandslide = 8 * 127;
-/// Agreement with the mirrored pattern above which an image counts as mirrored, in fourths of its
-/// agreement with the unmirrored pattern. Lines of random bits reach about 60 % of the agreement of
-/// lines of the main sequence.
+/// Agreement with a mirrored pattern above which the image is mirrored, in fourths of the
+/// unmirrored agreement. Lines of random bits reach about 60 % of a correct line's agreement.
 inline constexpr int kMirrored_4ths = 5;
 }  // namespace turns
 

@@ -1,6 +1,5 @@
-// Upright: the matrices P rotated to the upright orientation of the pattern. The result does not
-// depend on the rotation of the grid. Paper section II-B.6, last paragraph ("symbols and matrices
-// are rotated accordingly").
+// Upright: reads a region of the grid as if the pattern were upright. In the paper, "symbols and
+// matrices are rotated accordingly" (section II-B.6, last paragraph).
 #pragma once
 
 #include <array>
@@ -12,18 +11,17 @@
 
 namespace dotpose::core {
 
-/// Signed weights of the bits of a line. A positive weight favours the bit value 1.
+/// Signed weights of the bits in a line. A positive weight favours bit value 1.
 using Line = std::array<std::int8_t, kMaxGridSide>;
 
-/// Signed weights of the two bits of a symbol. A positive weight favours the bit value 1.
+/// Signed weights of the two bits in a symbol. A positive weight favours bit value 1.
 struct Bits {
     std::int8_t x = 0;
     std::int8_t y = 0;
 };
 
-/// Returns the bits of a cell rotated to the upright orientation of the pattern. A quarter turn
-/// maps the displacement (x, y) to (-y, x), and therefore the projections of eq. 7-8, (y - x, y +
-/// x), to (x + y, x - y).
+/// Returns the bits of a cell, rotated to the upright pattern. A quarter turn maps the displacement
+/// (x, y) to (-y, x). The projections (y - x, y + x) thus become (x + y, x - y) (paper, eq. 7-8).
 constexpr Bits turned(QuarterTurn pattern_from_grid, const GridCell& cell) {
     const auto minus_x = static_cast<std::int8_t>(-cell.x);
     const auto minus_y = static_cast<std::int8_t>(-cell.y);
@@ -39,7 +37,7 @@ constexpr Bits turned(QuarterTurn pattern_from_grid, const GridCell& cell) {
     }
 }
 
-/// A region of the grid, rotated to the upright orientation.
+/// A region of the grid, rotated to the upright pattern.
 class Upright {
   public:
     Upright(const Grid& grid, const GridRegion& region, QuarterTurn pattern_from_grid)
@@ -55,7 +53,7 @@ class Upright {
         };
         to_right_ = stride({1, 0});
         downwards_ = stride({0, 1});
-        // Selects the bit and the sign that `turned` uses for each cell of a line.
+        // The same bits and signs as in `turned`.
         x_bit_ = is_sideways() ? &GridCell::y : &GridCell::x;
         y_bit_ = is_sideways() ? &GridCell::x : &GridCell::y;
         x_sign_ = q == 0 || q == 1 ? 1 : -1;
@@ -67,11 +65,11 @@ class Upright {
     /// Returns the grid cell of the top left symbol.
     FixedVec corner() const { return corner_; }
 
-    /// Returns the weights of the x bits of a column, from top to bottom.
+    /// Returns the x bit weights of a column, from top to bottom.
     std::span<const std::int8_t> column(int a, Line& line) const {
         return weights(first_ + a * to_right_, downwards_, rows(), x_bit_, x_sign_, line);
     }
-    /// Returns the weights of the y bits of a row, from left to right.
+    /// Returns the y bit weights of a row, from left to right.
     std::span<const std::int8_t> row(int b, Line& line) const {
         return weights(first_ + b * downwards_, to_right_, columns(), y_bit_, y_sign_, line);
     }

@@ -1,17 +1,17 @@
-// Window: finds the square of cells with the highest sum of qualities. Paper section II-B.5, with 8
-// x 8 cells.
+// Window: finds the square of cells with the highest total quality (paper, section II-B.5, with 8 x
+// 8 cells).
 #pragma once
 
 #include "core/decode/grid.hpp"
 
 namespace dotpose::core {
 
-/// Returns the square of `side` x `side` cells with the highest sum of qualities. If the grid has
-/// fewer than `side` columns (or rows), the result contains all its columns (or rows).
+/// Returns the `side` x `side` window with the highest total quality. If the grid has fewer columns
+/// or rows, the window contains all of them.
 GridRegion choose_window(const Grid& grid, int side);
 
-/// Returns the mean quality of the cells of a region, in 1/256. The mean is 256 if every dot is
-/// exactly at the place of a symbol.
+/// Returns the mean quality of a region, in 1/256. It is 256 if every dot is exactly at one of its
+/// four possible places.
 int mean_quality_q8(const Grid& grid, const GridRegion& region);
 
 }  // namespace dotpose::core

@@ -12,11 +12,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Value of `half_low_levels` that makes every pixel count as dark. Stored after the last column as
-/// a sentinel to end the search for dark pixels.
+/// Half threshold that makes every pixel dark. Stored after the last column, as a sentinel that
+/// ends the search for dark pixels.
 constexpr std::uint8_t kAlwaysDark = 128;
 
-constexpr int kBandsKept = 4;  // three bands are needed, but a power of two is faster
+constexpr int kBandsKept = 4;  // three bands suffice, but a power of two is faster
 constexpr unsigned kContrastBins = 64;
 
 std::span<Tile> tiles_of(const AdaptiveThreshold& threshold, int band) {
@@ -24,21 +24,20 @@ std::span<Tile> tiles_of(const AdaptiveThreshold& threshold, int band) {
     return threshold.tiles.subspan(static_cast<std::size_t>(band & (kBandsKept - 1)) * n, n);
 }
 
-/// Copies blocks of kBlock bytes until fewer than kBlock bytes remain before `end`. Advances both
-/// pointers.
+/// Copies blocks of kBlock bytes as long as a whole block remains. Advances both pointers.
 template <std::size_t kBlock>
 void copy_blocks(const std::uint8_t*& from, const std::uint8_t* end, std::uint8_t*& to) {
     for (; end - from >= static_cast<std::ptrdiff_t>(kBlock); from += kBlock, to += kBlock)
         std::memcpy(__builtin_assume_aligned(to, 4), __builtin_assume_aligned(from, 4), kBlock);
 }
 
-/// Stores a row and repeats its last pixel up to the end of the last tile.
+/// Stores a row, and repeats its last pixel to fill the last tile.
 void keep_row(const std::uint8_t* pixels, const AdaptiveThreshold& threshold, std::uint8_t* row) {
     const std::uint8_t* const end = pixels + threshold.width_px;
     std::uint8_t* const whole = row + whole_width(threshold);
     if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {
-        // Copies blocks of constant size, because compilers inline these copies. The `memcpy`
-        // function of small devices copies byte by byte.
+        // Compilers inline copies of constant size. The `memcpy` of small devices copies byte by
+        // byte.
         copy_blocks<28>(pixels, end, row);
         copy_blocks<12>(pixels, end, row);
         copy_blocks<4>(pixels, end, row);
@@ -53,8 +52,8 @@ void keep_row(const std::uint8_t* pixels, const AdaptiveThreshold& threshold, st
         std::memcpy(__builtin_assume_aligned(row, sizeof words), &words, sizeof words);
 }
 
-/// The tiles of a band and of the bands above and below it. At the border of the image, the band
-/// itself replaces the missing band.
+/// The tiles of three adjacent bands. At the image border, the middle band replaces the missing
+/// band.
 struct ThreeBands {
     const Tile* above;
     const Tile* here;
@@ -67,8 +66,7 @@ ThreeBands three_bands(const AdaptiveThreshold& threshold, int band) {
             band + 1 < band_count(threshold) ? tiles_of(threshold, band + 1).data() : here};
 }
 
-/// Computes, for each tile, the maximum mean and the maximum darkness among the tile and the tiles
-/// above and below it.
+/// Takes the maximum mean and the maximum darkness over three bands, for each tile.
 void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
                 std::uint8_t* darknesses) {
     for (std::size_t t = 0; t < count; ++t) {
@@ -79,7 +77,7 @@ void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
     }
 }
 
-/// Replaces each number with the maximum of the number and its two neighbours.
+/// Replaces each number with the maximum of itself and its two neighbours.
 void join_neighbours(std::uint8_t* number, std::size_t count) {
     std::uint8_t* const last = number + count - 1;
     int here = *number;
@@ -93,7 +91,7 @@ void join_neighbours(std::uint8_t* number, std::size_t count) {
     *last = static_cast<std::uint8_t>(of_two);
 }
 
-/// Sets the columns of a tile to a level. Returns a pointer to the first column of the next tile.
+/// Sets all columns of a tile to a level. Returns the first column of the next tile.
 inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     const Word word = in_all_bytes(1) * level;
     for (std::size_t k = 0; k < kTileWidth_px; k += sizeof word)
@@ -101,11 +99,10 @@ inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     return column + kTileWidth_px;
 }
 
-/// Number of tiles for each ratio of contrast to paper level. The width of a bin is
-/// 1/kContrastBins.
+/// Number of tiles by contrast relative to the paper level. The bins are 1/kContrastBins wide.
 using Histogram = std::array<std::uint16_t, kContrastBins>;
 
-/// Adds each tile with at least `min_contrast` to the histogram, and sets the mean of all other
+/// Adds the tiles with at least `min_contrast` to the histogram, and sets the mean of all other
 /// tiles to 0. Updates `max_contrast`. Returns the number of tiles in the histogram.
 int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                    int min_contrast, int& max_contrast, Histogram& histogram) {
@@ -129,11 +126,10 @@ int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::siz
     return static_cast<int>(tiles) - blank;
 }
 
-/// Returns the contrast of the dots of a band relative to the paper level, in 1/256, or 0 if no
-/// tile has contrast. Ink reflects the same fraction of the light everywhere, so all tiles have the
-/// same relative contrast. Strokes of graphics increase the contrast of the tiles around the
-/// strokes. The result is the 30 % quantile of the tiles, which is the contrast of dots even if
-/// strokes cross the band.
+/// Returns the contrast of dots in a band, relative to the paper level, in 1/256. Returns 0 if no
+/// tile has contrast. Ink reflects the same fraction of the light everywhere, so all dots have the
+/// same relative contrast. Strokes of graphics increase it. The result is therefore the 30 %
+/// quantile over the tiles, which is typical of dots even if strokes cross the band.
 unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                              int min_contrast, int& max_contrast) {
     Histogram histogram{};
@@ -148,16 +144,17 @@ unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses
     return (2 * bin + 1) * (256 / (2 * kContrastBins));
 }
 
-/// Sets the thresholds of all columns. The low threshold is darker than the paper by the fraction
-/// `to_low_q16` of the paper level, and the high threshold by the fraction `to_high_q16`. Both
-/// fractions are in units of 2^-16. The high threshold is at most the low threshold.
+/// Sets the thresholds of all columns. The low threshold is below the paper level by the fraction
+/// `to_low_q16`, in units of 2^-16. The high threshold is below it by `to_high_q16`, and is at most
+/// the low threshold.
 void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q16,
                 unsigned to_high_q16, AdaptiveThreshold& threshold) {
     std::uint8_t* half_low_levels = threshold.half_low_levels.data();
     std::uint8_t* high_levels = threshold.high_levels.data();
     for (const std::uint8_t* const end = papers + tiles; papers != end; ++papers) {
         const unsigned paper = *papers;
-        // The low threshold is even, because the search for runs compares seven bits of each level.
+        // The low threshold is even, because the search for runs compares only seven bits of each
+        // level.
         const unsigned half_low = (paper - (paper * to_low_q16 >> 16)) >> 1;
         const unsigned high = std::min(paper - (paper * to_high_q16 >> 16), 2 * half_low);
         half_low_levels = fill(half_low_levels, half_low);
@@ -168,7 +165,8 @@ void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q
 }  // namespace
 
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold) {
-    // A smaller divisor would reject more noise, but would also reject pale dots in uneven light.
+    // The minimum contrast is the largest contrast so far divided by this number. A smaller divisor
+    // would reject more noise, but also pale dots in uneven light.
     constexpr int kContrastPart = 6;
     return std::clamp(threshold.max_contrast / kContrastPart, options.min_contrast,
                       2 * options.min_contrast);
@@ -201,18 +199,16 @@ int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold) {
 
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold) {
     const auto tiles = static_cast<std::size_t>(threshold.tiles_per_band);
-    // The memory for the column levels is first used to store one value per tile. The paper levels
-    // are stored at the end of this memory, which `set_levels` overwrites last.
+    // Reuses the threshold memory for one value per tile. The paper levels are at its end, because
+    // `set_levels` overwrites the end last.
     std::uint8_t* const papers = threshold.half_low_levels.data() + whole_width(threshold) - tiles;
     std::uint8_t* const darknesses = threshold.high_levels.data();
     join_bands(three_bands(threshold, band), tiles, papers, darknesses);
-    // The darkness includes the tiles on both sides, because dots may be farther apart than the
-    // width of a tile. The paper level does not include these tiles, because each tile contains
-    // paper, and the brightest of several tiles would be too bright.
+    // The darkness includes the tiles on both sides, because dots may be farther apart than a tile
+    // is wide. The paper level does not. Each tile contains paper, and the brightest of several
+    // tiles would be too bright.
     join_neighbours(darknesses, tiles);
-    // If less than half of the columns of the last tile are in the image, this tile consists mostly
-    // of the repeated last pixel. Its paper level is then set to at least the paper level of the
-    // preceding tile.
+    // If most of the last tile is padding, its paper level is raised to the preceding tile's level.
     if (whole_width(threshold) - threshold.width_px > kTileWidth_px / 2)
         papers[tiles - 1] = std::max(papers[tiles - 2], papers[tiles - 1]);
     const unsigned contrast_q8 = typical_contrast_q8(

@@ -10,21 +10,20 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum area and maximum side of the bounding box of a dot. The limits accept a blurred dot with
-/// a diameter of 0.35 spacings up to a spacing of 60 px.
+/// Maximum area and bounding box side of a dot. A blurred dot with a diameter of 0.35 spacings fits
+/// these limits at a spacing of up to 60 px.
 constexpr int kMaxDotArea_px = 1024;
 constexpr int kMaxDotSide_px = 48;
 constexpr std::uint32_t kMaxMass = 65535;
-/// Value of `OpenBlob::last_v` that marks a blob as merged into another blob.
+/// Value of `OpenBlob::last_v` for a blob that was merged into another blob.
 constexpr std::uint16_t kNoRow = UINT16_MAX;
 
-/// Returns an upper bound on the distance of a dot from the image centre, along either axis.
+/// Returns an upper bound of a dot's distance from the image centre, per axis.
 int all_within_px(const AdaptiveThreshold& threshold) {
     return std::max(threshold.width_px, threshold.height_px);
 }
 
-/// Predicate that returns true if the distance of a dot from the image centre, along both axes, is
-/// at most `DotList::kept_within_px`.
+/// Returns true if a dot is at most `DotList::kept_within_px` from the image centre, per axis.
 struct IsKept {
     FixedVec image_centre_q8;
     std::int32_t within_q8;
@@ -37,9 +36,8 @@ struct IsKept {
     }
 };
 
-/// Removes all dots that do not satisfy the predicate, and preserves the order of the remaining
-/// dots. Does not use std::remove_if, because standard libraries unroll it, which costs a kilobyte
-/// of code on small devices.
+/// Removes the dots that do not satisfy the predicate. The remaining dots keep their order.
+/// Standard libraries unroll std::remove_if, which would take a kilobyte on small devices.
 template <typename Predicate>
 void keep_dots(DotList list, Predicate is_to_keep) {
     DetectedDot* kept = list.dots.data();
@@ -51,9 +49,9 @@ void keep_dots(DotList list, Predicate is_to_keep) {
     list.count = static_cast<int>(kept - list.dots.data());
 }
 
-/// Reduces `kept_within_px`, and removes the dots beyond the new distance from the image centre, to
-/// make room for dots nearer the centre. Returns false if `kept_within_px` is already 0. Not
-/// inlined, because the frequent path of the caller needs the registers of small devices.
+/// Makes room for dots near the image centre: reduces `kept_within_px`, and removes the dots beyond
+/// it. Returns false if `kept_within_px` is already 0. Not inlined, because the caller's frequent
+/// path needs the registers of small devices.
 [[gnu::noinline]] bool make_room(const AdaptiveThreshold& threshold, DotList list) {
     if (list.kept_within_px == 0) return false;
     list.kept_within_px -= list.kept_within_px / 8 + 1;
@@ -61,17 +59,16 @@ void keep_dots(DotList list, Predicate is_to_keep) {
     return true;
 }
 
-/// Returns sum / mass in units of 1/256, rounded. For the largest blobs, drops the lowest bits of
-/// both numbers to stay within 32 bits.
+/// Returns sum / mass in units of 1/256, rounded. For the largest blobs, drops the lowest bits to
+/// stay within 32 bits.
 std::int32_t mean_q8(std::uint32_t sum, std::uint32_t mass) {
     for (; sum >= 1U << 23; sum /= 2)
         mass /= 2;
     return static_cast<std::int32_t>((sum * 256 + mass / 2) / mass);
 }
 
-/// Returns true if a blob is small, is not at the border of the image, and has a pixel darker than
-/// the high threshold. Does not test the lower border, because blobs in the last row are never
-/// closed.
+/// Returns true if a blob is small, is not at the image border, and has a pixel darker than the
+/// high threshold. The lower border needs no test, because blobs in the last row are never closed.
 bool may_be_dot(const OpenBlob& blob, const AdaptiveThreshold& threshold) {
     return blob.passes_high && blob.area_px <= kMaxDotArea_px && blob.first_v > 0 &&
            blob.left > 0 && blob.right < threshold.width_px &&
@@ -80,13 +77,13 @@ bool may_be_dot(const OpenBlob& blob, const AdaptiveThreshold& threshold) {
 
 void close_blob(const OpenBlob& blob, const AdaptiveThreshold& threshold, DotList list) {
     if (!may_be_dot(blob, threshold)) return;
-    // Coordinates are relative to the corner of the blob, because the sums are modulo 2^32.
+    // Coordinates are relative to the blob's corner, because the sums wrap modulo 2^32.
     const DetectedDot dot{
         {blob.left * 256 + mean_q8(blob.sum_x - blob.mass * blob.left, blob.mass),
          blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)},
         static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
         static_cast<std::uint16_t>(blob.area_px)};
-    // Until the list is full for the first time, keeps all dots without comparing distances.
+    // Until the list is full for the first time, keeps every dot without comparing distances.
     while (list.kept_within_px == all_within_px(threshold) || IsKept(threshold, list)(dot)) {
         if (list.count < static_cast<int>(list.dots.size())) {
             list.dots[static_cast<std::size_t>(list.count++)] = dot;
@@ -106,7 +103,7 @@ OpenBlob* unused_blob(OpenBlobs& open) {
     return open.blobs_begun < open.blobs.size() ? &open.blobs[open.blobs_begun++] : nullptr;
 }
 
-/// Returns a new blob that begins with a run of row `v`, or null if all blobs are in use.
+/// Opens a blob that begins with a run of row `v`. Returns null if all blobs are in use.
 OpenBlob* open_blob(const Run& run, int v, OpenBlobs& open) {
     OpenBlob* const blob = unused_blob(open);
     if (blob == nullptr) return nullptr;
@@ -122,7 +119,6 @@ OpenBlob* open_blob(const Run& run, int v, OpenBlobs& open) {
     return blob;
 }
 
-/// Adds a run of row `v` to its blob.
 void add_run(const Run& run, int v, OpenBlob& blob) {
     blob.sum_x += run.sum_x;
     blob.sum_y += run.mass * static_cast<std::uint32_t>(v);
@@ -134,7 +130,7 @@ void add_run(const Run& run, int v, OpenBlob& blob) {
     blob.passes_high |= run.passes_high;
 }
 
-/// Merges `other` into `blob`. Both blobs are parts of one dark spot.
+/// Merges `other` into `blob`.
 void unite(OpenBlob& blob, OpenBlob& other) {
     blob.sum_x += other.sum_x;
     blob.sum_y += other.sum_y;
@@ -148,22 +144,21 @@ void unite(OpenBlob& blob, OpenBlob& other) {
     other.last_v = kNoRow;
 }
 
-/// Returns the blob that contains `blob` after all merges: `blob` itself if it was not merged, or
-/// null if `blob` is null.
+/// Returns the blob that contains `blob` after all merges. Returns null if `blob` is null.
 OpenBlob* whole(OpenBlob* blob) {
     while (blob != nullptr && blob->part_of != nullptr)
         blob = blob->part_of;
     return blob;
 }
 
-/// Ends a row of runs with a sentinel to the right of all runs.
+/// Ends a row of runs with a sentinel, to the right of all runs.
 void end_row(Run& after_last) {
     after_last.begin = after_last.end = UINT16_MAX;
 }
 
-/// Adds each run of row `v` to the blob of the runs above that touch it. Runs that meet only at a
-/// corner also touch (8-connectivity). Merges the blobs of runs above that touch the same run.
-/// Opens a new blob for a run that touches no run above, or only runs without a blob.
+/// Adds each run of row `v` to the blob that it touches in the row above. Runs that meet only at a
+/// corner also touch (8-connectivity). If a run touches several blobs, merges them. If a run
+/// touches no blob, opens a new one.
 void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
     bool some_united = false;
     for (Run& run : below) {
@@ -195,8 +190,8 @@ void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
         run.blob = whole(run.blob);
 }
 
-/// Closes the blobs of the row above that do not continue in row `v`, and adds the closed blobs
-/// that may be dots to the list. Also frees the blobs that were merged into other blobs.
+/// Closes the blobs that do not continue in row `v`. Adds a closed blob to the list if it may be a
+/// dot. Also frees blobs that were merged into another blob.
 void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& threshold,
                  OpenBlobs& open, DotList list) {
     for (const Run& run : above) {
@@ -209,9 +204,8 @@ void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& thr
     }
 }
 
-/// Returns the upper quartile of a member over a sample of the blobs in the list. The upper
-/// quartile is typical of dots even if half of the blobs are noise, because few blobs are larger
-/// than dots.
+/// Returns the upper quartile of a member, over a sample of the blobs. It is typical of dots even
+/// if half the blobs are noise, because few blobs are larger than dots.
 std::int32_t typical(std::span<const DetectedDot> dots, std::uint16_t DetectedDot::*member) {
     constexpr std::size_t kSample = 128;
     const std::size_t step = dots.size() / kSample + 1;

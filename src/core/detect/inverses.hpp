@@ -1,4 +1,4 @@
-// Inverses: replaces divisions with multiplications, for processors without a divide instruction.
+// Inverses: division by multiplication, for processors without a divide instruction.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,10 @@ class Inverse {
         inverse_q22_ = static_cast<std::int32_t>(
             tabled<inverse_q22, 256>(static_cast<std::uint32_t>(mass - 1)));
     }
-    /// Returns sum / mass in units of 2^-8. The sum must be at most 8 times the mass.
+    /// Returns sum / mass in units of 2^-8. Requires |sum| <= 8 mass.
     std::int32_t quotient_q8(std::int32_t sum) const {
-        // The shifted sum has at most 12 bits: 9 bits of the mass and 3 bits of the quotient.
+        // n has at most 12 bits, because the shifted mass is at most 2^8. `inverse_q22_` is at most
+        // 2^15. The product therefore fits in 32 bits.
         const std::int32_t n = shift_ > 0 ? sum >> shift_ : sum * (1 << -shift_);
         return (n * inverse_q22_) >> 14;
     }

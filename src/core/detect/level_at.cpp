@@ -12,8 +12,8 @@ namespace {
 /// Number of pixels per axis that contribute to the level at a point.
 constexpr int kTaps = 4;
 
-/// Returns the weights of the 1-2-1 binomial filter, shifted by a fraction of a pixel, in 1/1024. A
-/// wider window would include more of a blurred dot, but also more of its surroundings.
+/// Returns the weights of a 1-2-1 binomial filter with a sub-pixel shift, in 1/1024. A wider filter
+/// would include more of a blurred dot, but also more of its surroundings.
 std::array<int, kTaps> taps(std::int32_t position_q8) {
     constexpr std::array<int, kTaps + 1> kBinomial{0, 1, 2, 1, 0};
     const int fraction = position_q8 & 255;
@@ -24,8 +24,8 @@ std::array<int, kTaps> taps(std::int32_t position_q8) {
     return weights;
 }
 
-/// Returns the level of a pixel, corrected if the pixel is defective. Pixels at the border have too
-/// few neighbours, so the nearest inner pixel replaces a pixel at the border or outside the image.
+/// Returns the level of a pixel, corrected if the pixel is defective. Border pixels have too few
+/// neighbours. The nearest inner pixel replaces a pixel on or beyond the border.
 int level_near(const ImageView& image, int u, int v) {
     return without_defect(image, std::clamp(u, 1, image.width_px - 2),
                           std::clamp(v, 1, image.height_px - 2));

@@ -1,5 +1,4 @@
-// Level at: the grey level of an image at a sub-pixel point, computed as a weighted mean over a
-// small window.
+// Level at: the grey level of an image at a sub-pixel point.
 #pragma once
 
 #include "dotpose/geometry.hpp"
@@ -7,12 +6,12 @@
 
 namespace dotpose::core {
 
-/// Returns true if the image has pixels on both sides of the point along both axes.
+/// Returns true if the image has pixels on both sides of the point, along both axes.
 bool shows_level(const ImageView& image, FixedVec point_q8);
 
-/// Returns the grey level at a point, in units of 2^-8. The level is the mean of 4 x 4 pixels,
-/// weighted with a 1-2-1 binomial filter that is centred on the point along both axes. Defective
-/// pixels are corrected. Requires `shows_level`.
+/// Returns the grey level at a point, in units of 2^-8. Averages 4 x 4 pixels with the weights of a
+/// 1-2-1 binomial filter centred on the point. Defective pixels are corrected. Requires
+/// `shows_level`.
 int level_at_q8(const ImageView& image, FixedVec point_q8);
 
 }  // namespace dotpose::core

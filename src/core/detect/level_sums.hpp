@@ -1,4 +1,4 @@
-// Level sums: sums of grey levels over boxes of pixels.
+// Level sums: sums of grey levels over pixel boxes.
 #pragma once
 
 #include <algorithm>
@@ -11,15 +11,14 @@
 
 namespace dotpose::core {
 
-/// A rectangle of pixels of the image. All four bounds are inclusive.
+/// A rectangle of pixels. All bounds are inclusive.
 struct PixelBox {
     int left;
     int right;
     int top;
     int bottom;
 
-    /// Constructs the box that extends `half_px` in all directions from the pixel nearest to a
-    /// point, clipped to the image.
+    /// Extends `half_px` in all directions from the pixel nearest to a point, clipped to the image.
     PixelBox(const ImageView& image, FixedVec point_q8, int half_px) {
         const int u = (point_q8.x + 128) >> 8;
         const int v = (point_q8.y + 128) >> 8;
@@ -33,14 +32,12 @@ struct PixelBox {
     int pixels() const { return columns() * rows(); }
 };
 
-/// A summed-area table (Crow 1984). Provides the sum of the grey levels of any box within the area
-/// of the table.
+/// A summed-area table (Crow 1984). Returns the grey level sum of any box within its area.
 class LevelSums {
   public:
     static constexpr int kMaxSide_px = 48;
 
-    /// Constructs the table for the area `all`, which must have at most kMaxSide_px rows and
-    /// columns.
+    /// Builds the table for the area `all`, which may have up to kMaxSide_px rows and columns.
     LevelSums(const ImageView& image, const PixelBox& all) : left_(all.left), top_(all.top) {
         std::fill_n(sums_[0].begin(), all.columns() + 1, 0U);
         for (int j = 0; j < all.rows(); ++j) {
@@ -54,7 +51,7 @@ class LevelSums {
             }
         }
     }
-    /// Returns the sum of the grey levels of a non-empty box.
+    /// Returns the grey level sum of a non-empty box.
     int of(const PixelBox& box) const {
         return static_cast<int>(at(box.right + 1, box.bottom + 1) - at(box.left, box.bottom + 1) -
                                 at(box.right + 1, box.top) + at(box.left, box.top));

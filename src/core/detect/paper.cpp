@@ -16,8 +16,8 @@ int blocks_along(int length_px, int side) {
     return (length_px - 1) / side + 1;
 }
 
-/// Returns the paper level of a block: the highest grey level that at least a third of the pixels
-/// of an evenly spaced sample reach.
+/// Returns the paper level of a block: the highest grey level that at least a third of its pixels
+/// reach, in an evenly spaced sample.
 std::uint8_t paper_of_block(const ImageView& image, int u0, int v0, int side) {
     static_assert(kSamplesPerSide * kSamplesPerSide <= UINT8_MAX);
     std::array<std::uint8_t, 256> pixels_of_level{};
@@ -35,8 +35,7 @@ std::uint8_t paper_of_block(const ImageView& image, int u0, int v0, int side) {
     return static_cast<std::uint8_t>(level);
 }
 
-/// Calls `use` with the paper level of a block and with the paper level of each of the eight blocks
-/// around it.
+/// Calls `use` with the paper levels of a block and its adjacent blocks.
 template <typename Use>
 void visit_around(const PaperMap& map, int column, int row, Use use) {
     for (int r = std::max(row - 1, 0); r <= std::min(row + 1, map.rows - 1); ++r) {

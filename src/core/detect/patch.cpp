@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::patch;
 
-/// Returns 2^24 / (n + 1), rounded up. The values are tabulated, because the divisions for all
-/// tiles of a patch would take a microsecond.
+/// Returns 2^24 / (n + 1), rounded up. Tabulated, because the divisions for all tiles would take a
+/// microsecond.
 constexpr std::uint32_t reciprocal_q24(std::uint32_t n) {
     return ((1U << 24) + n) / (n + 1);
 }
@@ -27,8 +27,7 @@ std::size_t relative_darkness(int darkness, int paper) {
         24);
 }
 
-/// Returns the start of an interval of `length` px around `centre`. The interval is shifted to be
-/// inside [0, size).
+/// Returns the start of a `length` px interval around `centre`, shifted into [0, size).
 int begin_of(int centre, int length, int size) {
     return std::clamp(centre - length / 2, 0, size - length);
 }
@@ -51,8 +50,8 @@ bool measure_contrast(Patch& patch) {
     const auto tile = [](int column, int row) {
         return static_cast<std::size_t>(row * Patch::kTilesPerRow + column);
     };
-    // Histogram of the tiles by the ratio of darkness to paper level, in units of 1/64. The last
-    // bin counts tiles without contrast.
+    // Bin of tiles without contrast. The other bins count tiles by darkness relative to the paper
+    // level, in units of 1/64.
     constexpr std::size_t kFlat = 65;
     std::array<int, kFlat + 1> counts{};
     for (int row = 0; row < rows; ++row) {
@@ -72,13 +71,12 @@ bool measure_contrast(Patch& patch) {
     patch.dot_contrast_q8 = 4 * static_cast<int>(median) + 2;
     const int contrast_q16 = patch.dot_contrast_q8 * tuned::kThreshold_q8;
     for (int row = 0; row < rows; ++row) {
-        // Computes the thresholds of a whole row of tiles, including unused tiles, in one vector
-        // operation.
+        // Computes a whole row of tiles in one vector operation, including unused tiles.
         const auto paper = std::span(patch.brightest).subspan(tile(0, row), Patch::kTilesPerRow);
         std::array<std::uint8_t, Patch::kTilesPerRow> thresholds;
         for (std::size_t i = 0; i < thresholds.size(); ++i)
             thresholds[i] = static_cast<std::uint8_t>(paper[i] - (paper[i] * contrast_q16 >> 16));
-        // A strip consists of two tiles. If the last strip has only one tile, the threshold of the
+        // A strip is two tiles wide. If the last strip has only one tile, the threshold of the
         // missing tile accepts no pixel.
         if (columns % 2 != 0) thresholds[static_cast<std::size_t>(columns)] = 0;
         std::copy(thresholds.begin(), thresholds.end(),
@@ -106,7 +104,7 @@ void keep_isolated(Patch& patch) {
     };
     std::size_t kept = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
-        // On a plateau, the parabola has no vertex, so the minimum has no finite coordinates.
+        // On a plateau, the fitted parabola has no vertex, so the coordinates are not finite.
         if (!(std::abs(dots.x[i]) < kNoDot_px && std::abs(dots.y[i]) < kNoDot_px)) continue;
         const int u = pixel_of(dots.x[i], patch.width_px);
         const int v = pixel_of(dots.y[i], patch.height_px);

@@ -1,5 +1,5 @@
-// Patch: places the patch that is searched for the grid, sets its thresholds, and removes minima
-// that are not dots. Paper section II-B.1.
+// Patch: the part of an image in which the grid is searched. Places the patch, sets its thresholds,
+// and removes minima that are not dots (paper, section II-B.1).
 #pragma once
 
 #include "core/patch_memory.hpp"
@@ -7,25 +7,23 @@
 
 namespace dotpose::core {
 
-/// Places a patch of the given size, in px of the image, around a point of the image. Limits the
-/// size of the patch to the size of the image and to the capacity of `Patch`, and shifts the patch
-/// into the image. Each pixel of the patch covers `scale` x `scale` pixels of the image. `scale`
-/// must be 1, 2 or 4. Returns false if a side of the resulting patch is shorter than
-/// `Patch::min_side_px`, in px of the patch.
+/// Places a patch around an image point. The requested size is in image pixels. A patch pixel
+/// covers `scale` x `scale` image pixels, and `scale` must be 1, 2 or 4. The patch is shifted into
+/// the image, and its size is limited by the image and by the capacity of `Patch`. Returns false if
+/// a side has fewer than `Patch::min_side_px` patch pixels.
 bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int width_px,
                  int height_px, int scale, Patch& patch);
 
-/// Measures the typical contrast of the dots of a smoothed patch, and computes the threshold of
-/// each tile from this contrast and the paper level of the tile. Returns false if too few tiles
-/// have contrast.
+/// Measures the typical dot contrast in a smoothed patch. Computes each tile's threshold from this
+/// contrast and the tile's paper level. Returns false if too few tiles have contrast.
 bool measure_contrast(Patch& patch);
 
-/// Removes minima that are not dots: minima on plateaus, minima in tiles without contrast, and
-/// minima whose surroundings are dark in more than two of eight directions, such as minima on a
-/// dark table beyond the edge of the sheet.
+/// Removes minima that are not dots. These are minima on plateaus, in tiles without contrast, or
+/// with dark surroundings in more than two of eight directions. The last kind occurs on a dark
+/// table beyond the sheet.
 void keep_isolated(Patch& patch);
 
-/// Return the coordinates of the middle of the patch, in px of the image.
+/// Return the middle of the patch, in image pixels.
 float middle_u_px(const Patch& patch);
 float middle_v_px(const Patch& patch);
 

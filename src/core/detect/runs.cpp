@@ -8,8 +8,7 @@ namespace {
 
 constexpr std::size_t kWord_px = sizeof(Word);
 
-/// Returns a word in which the top bit of each byte is set if the pixel is light. The lower bits of
-/// the bytes are undefined.
+/// Sets the top bit of each byte if its pixel is light. The lower bits are undefined.
 Word light_tops(Word pixels, Word half_low) {
     return (pixels >> 1 | kTops) - half_low;
 }
@@ -26,9 +25,8 @@ bool is_group_light(const std::uint8_t* pixels, const std::uint8_t* half_low_lev
     return tops == kTops;
 }
 
-/// Returns the first dark pixel of a row at or after `begin`, or the end of the row. The search
-/// never continues beyond the end of the row, because the thresholds after the end are a sentinel
-/// that makes every pixel count as dark.
+/// Returns the first dark pixel of a row at or after `begin`, or the row end. The search always
+/// stops there, because the sentinel after the thresholds makes every pixel dark.
 const std::uint8_t* find_dark(const std::uint8_t* begin, const std::uint8_t* row,
                               const std::uint8_t* half_low_levels) {
     const auto before = static_cast<std::size_t>(begin - row) % kWord_px;
@@ -60,8 +58,7 @@ const std::uint8_t* write_run(const std::uint8_t* pixel, const std::uint8_t* row
     run.begin = static_cast<std::uint16_t>(pixel - row);
     bool passes_high = false;
     std::uint32_t mass = 0;
-    // Sum of depth * (last column - column). Computed by adding the depth of each pixel once for
-    // every pixel that follows.
+    // Sum of depth * (last column - column). Each pixel adds the mass of all pixels before it.
     std::uint32_t moment = 0;
     const std::uint8_t* tile_end = nullptr;
     do {

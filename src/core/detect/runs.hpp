@@ -1,5 +1,5 @@
-// Runs: finds sequences of adjacent dark pixels in a row, and computes sums over their pixels.
-// Implements the second half of the thresholding of paper section II-B.1.
+// Runs: finds sequences of dark pixels in a row, and computes sums over them. This is the second
+// half of thresholding (paper, section II-B.1).
 #pragma once
 
 #include <cstdint>
@@ -11,23 +11,22 @@ namespace dotpose::core {
 
 struct OpenBlob;
 
-/// A sequence of adjacent pixels in one row that are darker than the low threshold.
+/// Adjacent pixels in one row that are darker than the low threshold.
 struct Run {
     std::uint16_t begin = 0;
     std::uint16_t end = 0;     ///< exclusive
-    std::uint32_t mass = 0;    ///< sum of weights: low threshold minus grey level of each pixel
+    std::uint32_t mass = 0;    ///< sum of pixel weights, each the low threshold minus the level
     std::uint32_t sum_x = 0;   ///< sum of weight times u, modulo 2^32
     bool passes_high = false;  ///< true if a pixel is darker than the high threshold
     OpenBlob* blob = nullptr;  ///< blob of the run; null if there were too many blobs
 };
 
-/// Number of pixels in a group. The pixels of a group are compared together and have the same
-/// thresholds.
+/// Number of pixels that are compared together. They have the same thresholds.
 inline constexpr std::size_t kGroup_px = 8;
 static_assert(kTileWidth_px % kGroup_px == 0);
 
 /// Finds up to runs.size() runs of row `v`, from left to right. Returns the number of runs. A run
-/// at the right border of the image may end beyond the border.
+/// at the right image border may end beyond the border.
 int find_runs(int v, const AdaptiveThreshold& threshold, std::span<Run> runs);
 
 }  // namespace dotpose::core

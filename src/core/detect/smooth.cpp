@@ -20,8 +20,8 @@ std::uint16_t* line(const Smoothing& smoothing, int v, int width_px) {
     return smoothing.lines.data() + static_cast<std::ptrdiff_t>(v % kRows) * width_px;
 }
 
-/// Clamps each pixel of row `v` to the range of its eight neighbours, which removes isolated bright
-/// or dark pixels. Pixels at the border of the image keep their levels.
+/// Clamps each pixel of row `v` to the range of its eight neighbours, to remove isolated bright or
+/// dark pixels. Pixels at the image border keep their levels.
 void clip_impulses(const ImageView& image, int v, std::uint8_t* out) {
     const std::uint8_t* above = image.row(std::max(v - 1, 0));
     const std::uint8_t* here = image.row(v);
@@ -70,15 +70,15 @@ void weight_down(const std::array<const std::uint16_t*, kRows>& rows, int width_
     }
 }
 
-/// Returns half the side, along one axis, of the window over which the local light level is
-/// averaged. Near the border of the image, the window shrinks to stay centred on the pixel, which
-/// cancels light gradients. The result is at least kMinHalf_px.
+/// Returns half the side of the averaging window for the local light, along one axis. The window
+/// shrinks near the image border to stay centred, because a centred window cancels light gradients.
+/// The result is at least kMinHalf_px.
 int half_side(int at, int length, int max_half) {
     return std::max(std::min({max_half, at, length - 1 - at}), tuned::kMinHalf_px);
 }
 
-/// Adds a row to the column sums, or subtracts the row if `add` is false. A pixel that is much
-/// darker than the paper around it counts as paper, because a stroke of graphics is not a shadow.
+/// Adds a row to the column sums, or subtracts it if `add` is false. A pixel much darker than the
+/// paper counts as paper, because a stroke of graphics is not a shadow.
 void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     const std::uint8_t* row = image.row(v);
     std::uint32_t* sums = smoothing.column_sums.data();
@@ -97,7 +97,7 @@ void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     }
 }
 
-/// Updates the column sums to include exactly the rows [begin, end).
+/// Moves the column sums to the rows [begin, end).
 void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing) {
     while (smoothing.sums_end < end)
         add_row(image, smoothing.sums_end++, true, smoothing);
@@ -108,9 +108,8 @@ void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing)
 /// Minimum level of the normalised image. Darker pixels are raised to this level.
 constexpr std::uint32_t kMinLevel = kNormalLevel * tuned::kMinLevel_5ths / 5;
 
-/// Divides by multiplication and rounds down. The quotients are exact for n / d < 256 and d < 2^20,
-/// because `factor_` is too large by at most 1. This error increases n / d by at most n / 2^48 < 1
-/// / d.
+/// Divides by multiplication and rounds down. Exact for n / d < 256 and d < 2^20. `factor_` is too
+/// large by at most 1. This increases n / d by at most n / 2^48 < 1 / d.
 class Divider {
   public:
     std::uint32_t quotient(std::uint32_t n, std::uint32_t d) {
@@ -127,15 +126,14 @@ class Divider {
     std::uint64_t factor_ = 0;
 };
 
-/// Returns kNormalLevel / mean in units of 2^-24, rounded up. Due to the rounding, the product of
-/// this factor and a pixel is too large by less than 2^-16. The result for a mean of 0 is never
-/// used.
+/// Returns kNormalLevel / mean in units of 2^-24, rounded up. The product with a pixel is then too
+/// large by less than 2^-16. The result for a mean of 0 is never used.
 constexpr std::uint32_t normalising_factor_q24(std::uint32_t mean) {
     return mean == 0 ? 0 : ((std::uint32_t{kNormalLevel} << 24) - 1) / mean + 1;
 }
 
-/// Multiplies each pixel of row `v` by kNormalLevel divided by the mean of its surroundings, and
-/// clamps the result to [kMinLevel, 255].
+/// Multiplies each pixel of row `v` by kNormalLevel / mean, where the mean is taken around the
+/// pixel. Clamps the result to [kMinLevel, 255].
 void normalise_light(const ImageView& image, int v, Smoothing& smoothing) {
     const int max_half = smoothing.paper.block_px;
     const int half_height = half_side(v, image.height_px, max_half);

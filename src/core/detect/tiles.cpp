@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Row subsampling step: every kRowsEvery-th row of a band is measured. At least some of the dots
-/// in a tile extend over a measured row.
+/// Row step: every kRowsEvery-th row of a band is measured. At least some of the dots in a tile
+/// extend over a measured row.
 constexpr int kRowsEvery = 4;
 
 /// The measured rows of a band.
@@ -29,7 +29,7 @@ struct Rows {
     }
 };
 
-/// Converts sums over the pixels of a tile to means.
+/// Converts a sum over the pixels of a tile to a mean.
 class Means {
   public:
     explicit Means(int rows) {
@@ -44,25 +44,24 @@ class Means {
     std::uint32_t inverse_q20_;
 };
 
-/// Returns the darkness of a pair of pixels from the sum of their levels.
+/// Returns the darkness of two pixels from their level sum.
 constexpr std::uint8_t darkness_of_pair(std::uint32_t min) {
     return static_cast<std::uint8_t>(255 - min / 2);
 }
 
-/// Masks of the low byte and of the top bit of each 16-bit field of a word. A field contains the
-/// sum of two adjacent pixels, called a pair, or the sum of many pairs.
+/// Masks for the low byte and the top bit of each 16-bit field in a word. A field contains a *pair*
+/// (the sum of two adjacent pixels) or a sum of pairs.
 constexpr Word kPairs = static_cast<Word>(0x00FF00FF00FF00FF);
 constexpr Word kPairTops = static_cast<Word>(0x8000800080008000);
 
-/// Returns max(a - b, 0) in each field. The top bits of the fields must be set in `a` and clear in
-/// `b`.
+/// Returns max(a - b, 0) in each field. All top bits must be set in `a` and clear in `b`.
 constexpr Word excess_of_pairs(Word a, Word b) {
     const Word difference = a - b;
     const Word is_positive = difference & kPairTops;
     return difference & (is_positive - (is_positive >> 15));
 }
 
-/// Returns the minimum of all fields, without the top bits. The top bits of all fields must be set.
+/// Returns the minimum of all fields, without their top bits. All top bits must be set.
 constexpr std::uint32_t min_of_pairs(Word pairs) {
     for (std::size_t shift = 4 * sizeof pairs; shift >= 16; shift /= 2)
         pairs -= excess_of_pairs(pairs, pairs >> shift & ~kPairTops);

@@ -1,5 +1,5 @@
-// Tiles: measures the mean level and the darkest pair of pixels of each tile. The thresholds are
-// computed from these measurements.
+// Tiles: measures the mean level and the darkest pair of adjacent pixels in each tile. The
+// thresholds are computed from these.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace dotpose::core {
 
-/// Measures the tiles of a band from every fourth row. All rows of the band must have been stored.
+/// Measures the tiles of a band from every fourth row. All rows of the band must be stored.
 void measure_tiles(int band, const AdaptiveThreshold& threshold, std::span<Tile> tiles);
 
 }  // namespace dotpose::core

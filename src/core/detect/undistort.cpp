@@ -13,9 +13,9 @@ FixedVec centre_of(const FixedLens& lens, FixedVec image_centre_q8) {
 
 FixedVec undistorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec point_q8) {
     const FixedVec centre_q8 = centre_of(lens, image_centre_q8);
-    const FixedVec r_d = point_q8 - centre_q8;  // eq. 1
+    const FixedVec r_d = point_q8 - centre_q8;  // offset from the distortion centre (paper, eq. 1)
     const std::int64_t stretch_q30 = kOne_q30 + (bend_q48(lens.k_q40, r_d) >> 18);
-    return centre_q8 + divided_q30(r_d, std::max(stretch_q30, kOne_q30 / 4));  // eq. 2
+    return centre_q8 + divided_q30(r_d, std::max(stretch_q30, kOne_q30 / 4));  // paper, eq. 2
 }
 
 void undistort(const FixedLens& lens, FixedVec image_centre_q8, std::span<DetectedDot> dots) {
@@ -28,8 +28,8 @@ FixedVec distorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec poi
     if (lens.k_q40 == 0) return point_q8;
     const FixedVec centre_q8 = centre_of(lens, image_centre_q8);
     const FixedVec r_u = point_q8 - centre_q8;
-    // If the radicand is negative, no distorted point corresponds to this point. The upper limit of
-    // 16 prevents an overflow in the next shift.
+    // If the radicand is negative, there is no distorted point. The upper limit prevents an
+    // overflow in the next shift.
     const std::int64_t radicand_q30 = std::clamp<std::int64_t>(
         kOne_q30 - (bend_q48(lens.k_q40, r_u) >> 16), 0, 16 * kOne_q30 - 1);
     const std::int64_t root_q30 = square_root(static_cast<std::uint64_t>(radicand_q30) << 30);

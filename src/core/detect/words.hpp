@@ -1,4 +1,4 @@
-// Words: adjacent pixels in one register, which are processed together. The first pixel is in the
+// Words: adjacent pixels that are processed together in one register. The first pixel is in the
 // lowest byte.
 #pragma once
 
@@ -11,16 +11,16 @@ namespace dotpose::core {
 
 using Word = std::size_t;
 
-/// Returns a word in which every byte has the value `byte`.
+/// Returns a word with the value `byte` in every byte.
 constexpr Word in_all_bytes(std::uint8_t byte) {
     return static_cast<Word>(0x0101010101010101) * byte;
 }
 
-/// Mask of the top bit of every byte. Comparisons use half of each grey level, which fits in the
+/// Mask of the top bit in every byte. Comparisons use half of each grey level, which fits in the
 /// seven lower bits, and store their result in the top bit.
 inline constexpr Word kTops = in_all_bytes(0x80);
 
-/// Loads a word. `pixels` must be aligned to the size of a word.
+/// Loads a word. `pixels` must be word-aligned.
 inline Word word_at(const std::uint8_t* pixels) {
     Word word = 0;
     std::memcpy(&word, __builtin_assume_aligned(pixels, sizeof(Word)), sizeof word);

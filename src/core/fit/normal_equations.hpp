@@ -1,4 +1,4 @@
-// Normal equations: a least-squares problem in single precision, solved by Cholesky decomposition.
+// Normal equations: least squares in single precision, solved by Cholesky decomposition.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace dotpose::core {
 
-/// The normal equations M p = right of N parameters p. `decompose` replaces M with its Cholesky
+/// The normal equations M p = right for N parameters p. `decompose` replaces M with its Cholesky
 /// factor L, where M = L L^T. Rows are computed four at a time.
 template <std::size_t N>
 class NormalEquations {
@@ -20,8 +20,8 @@ class NormalEquations {
     void set(std::size_t row, std::size_t column, float number) {
         columns_[column].set(row, number);
     }
-    /// Adds an equation, given by its derivatives with respect to the parameters, its residual and
-    /// its weight.
+    /// Adds an equation: its derivatives with respect to the parameters, its residual and its
+    /// weight.
     void add(const Vector& derivatives, float residual, float weight) {
         const Column all(derivatives);
         for (std::size_t i = 0; i < N; ++i) {
@@ -38,17 +38,16 @@ class NormalEquations {
             columns_[i].set(i, columns_[i].at(i) * by);
     }
 
-    /// Replaces M with L. Excludes a parameter if the elimination of the preceding parameters
-    /// reduces its diagonal element to `min_determined` times the original value or less. Returns
-    /// false if one of the first `required` parameters is excluded.
+    /// Replaces M with L. Excludes a parameter if the preceding eliminations reduce its diagonal
+    /// element to `min_determined` times the original value or less. Returns false if one of the
+    /// first `required` parameters is excluded.
     bool decompose(float min_determined, std::size_t required) {
         Vector minima;
         for (std::size_t i = 0; i < N; ++i)
             minima[i] = min_determined * columns_[i].at(i);
         for (std::size_t i = 0; i < N; ++i) {
             Column& column = columns_[i];
-            // If no equation contains a parameter, its diagonal element is 0, and the parameter is
-            // also excluded.
+            // A parameter that is in no equation has a diagonal element of 0. It is also excluded.
             if (!(column.at(i) > minima[i])) {
                 if (i < required) return false;
                 leave_out(i);
@@ -83,8 +82,8 @@ class NormalEquations {
     }
     /// Returns L^-T `vector`.
     Vector unwhitened(const Vector& vector) const {
-        // Subtracts the product with the most recently computed element last. The other products do
-        // not have to wait for this element.
+        // Subtracts the product with the newest element last. The other products do not have to
+        // wait for it.
         Vector result{};
         for (std::size_t i = N; i-- > 0;) {
             float rest = vector[i];
@@ -106,8 +105,7 @@ class NormalEquations {
     Vector solution() const { return unwhitened(whitened(right_)); }
 
   private:
-    /// A column of M or L, stored in vectors of four elements. Columns of L are 0 above the
-    /// diagonal.
+    /// A column of M or L, stored four elements at a time. Columns of L are 0 above the diagonal.
     class Column {
       public:
         Column() = default;

@@ -1,5 +1,4 @@
-// Plane normal: the normal equations for the least-squares fit of a plane with perspective, shear
-// and lens distortion, in single precision.
+// Plane normal: the normal equations for a plane with perspective, shear and lens distortion.
 #pragma once
 
 #include "core/fit/normal_equations.hpp"
@@ -8,27 +7,26 @@
 
 namespace dotpose::core {
 
-/// Residuals of four points, in spacings, with their weights. Points with weight 0 are ignored.
+/// Residuals of four points, in spacings, and their weights. Points with weight 0 are ignored.
 struct Residuals {
     FourVecs offset;
     Four weight;
 };
 
-/// Weighted sums over points and their residuals. The elements of the normal equations are computed
-/// from these sums.
+/// Weighted sums over points and their residuals. They determine the normal equations.
 class PlaneSums {
   public:
     void add(const FourVecs& places, const Residuals& residuals);
     FitSums all() const;
 
   private:
-    /// Negated number of points, because a vector comparison yields -1 for true.
+    /// Negated number of points, because vector comparisons yield -1 for true.
     FourInts less_points_{};
     std::array<Four, 4> places_{};
-    std::array<Four, 3> residuals_{};  ///< includes the sum of the squared residuals
+    std::array<Four, 3> residuals_{};  ///< includes the sum of squared residuals
 };
 
-/// The normal equations of the parameters of `jacobian`.
+/// The normal equations for the parameters of `jacobian`.
 class PlaneNormal : public NormalEquations<kPoseParameters> {
   public:
     PlaneNormal() = default;

@@ -14,8 +14,8 @@ using Pair = std::array<float, 2>;
 
 using Symmetric = Symmetric2<float>;
 
-/// Returns the prior covariance of the whitened terms, in units of the noise variance, for terms
-/// that have a variance of 1 before whitening.
+/// Returns the prior covariance after whitening, in units of the noise variance. Each term has a
+/// variance of 1 before whitening.
 Symmetric spread_of(const DistortionPrior& terms, const PlaneNormal& normal, float variance) {
     const std::size_t i = terms.first;
     const float scale = 1 / variance;
@@ -26,10 +26,9 @@ Symmetric spread_of(const DistortionPrior& terms, const PlaneNormal& normal, flo
     return {(a * a + b * b) * scale, b * c * scale, c * c * scale};
 }
 
-/// Posterior of the terms for one component of the prior.
+/// Posterior for one component of the prior.
 struct PosteriorOfKind {
-    /// Precision (inverse covariance) of the sum of terms and noise, in units of the precision of
-    /// the noise.
+    /// Inverse covariance of terms plus noise, in units of the inverse noise variance.
     Symmetric precision;
     Pair mean;
     float distance;  ///< squared Mahalanobis distance of the fitted terms from 0
@@ -50,8 +49,7 @@ struct PosteriorOfKind {
 using PosteriorsByKind =
     std::array<PosteriorOfKind, std::tuple_size_v<decltype(DistortionPrior::kinds)>>;
 
-/// Replaces the prior probability of each component with its posterior probability, given the
-/// fitted terms.
+/// Replaces the prior probabilities of the components with their posterior probabilities.
 void weigh(PosteriorsByKind& kinds) {
     float nearest = kinds[0].distance;
     for (const PosteriorOfKind& kind : kinds)
@@ -66,8 +64,8 @@ void weigh(PosteriorsByKind& kinds) {
         kind.probability /= sum;
 }
 
-/// Returns the posterior of the mixture. Its covariance is the mean of the covariances of the
-/// components plus the covariance of their means.
+/// Returns the posterior of the mixture. Its covariance is the mean component covariance plus the
+/// covariance of the component means.
 Posterior mixed(const PosteriorsByKind& kinds, float variance) {
     Posterior posterior{};
     for (const PosteriorOfKind& kind : kinds) {

@@ -1,5 +1,5 @@
-// Projections: maps four image points through a plane, and computes the derivatives of this map
-// with respect to the parameters of the plane.
+// Projections: maps image points through a plane, four at a time, and computes the derivatives with
+// respect to the plane parameters.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace dotpose::core {
 
-/// Parameters of a plane, in order of decreasing importance: at_centre (x, y), scale, rotation,
-/// perspective (x, y), shear (two parameters), lens distortion. The value of each parameter is its
-/// effect, in spacings, at a place one unit from the origin. kTilt, kShear and kBend are the
-/// indices of the first parameter of perspective, shear and lens distortion.
+/// Plane parameters in order of decreasing importance: at_centre (x, y), scale, rotation,
+/// perspective (x, y), shear (two parameters), lens distortion. A parameter's value is its effect
+/// at a place one unit from the origin, in spacings. kTilt, kShear and kBend are the first indices
+/// of perspective, shear and lens distortion.
 constexpr std::size_t kPoseParameters = 9;
 constexpr std::size_t kTilt = 4;
 constexpr std::size_t kShear = 6;
@@ -26,29 +26,27 @@ struct FourVecs {
     Four y;
 };
 
-/// Returns the derivatives of x and of y with respect to all parameters, at one of four places. In
-/// pattern coordinates, the derivatives are polynomials in the place (u, v): u (u, v) and v (u, v)
-/// for perspective, and (u^2 + v^2) (u, v) for lens distortion.
+/// Returns the derivatives of x and y with respect to all parameters, at one of four places. In
+/// pattern coordinates, they are polynomials in the place (u, v). For perspective, they are u (u,
+/// v) and v (u, v). For lens distortion, they are (u^2 + v^2) (u, v).
 std::array<Parameters, 2> jacobian(const FourVecs& places, std::size_t point);
 
-/// A plane with parameters that act on the pattern instead of the image. Changes of scale,
-/// rotation, perspective and shear are exact at any tilt. Places on the pattern are relative to the
-/// plane's `at`, in units of its scale. With this unit, the derivatives with respect to all
-/// parameters have similar magnitudes, so single precision is sufficient.
+/// A plane whose parameters act on the pattern instead of the image. Changes in scale, rotation,
+/// perspective and shear are then exact at any tilt. Places are relative to the plane's `at`, in
+/// units of its scale. All derivatives then have similar magnitudes, so single precision is
+/// sufficient.
 class ScaledPlane {
   public:
     ScaledPlane(const FloatPlane& plane, float reach_px);
 
-    /// Returns the places on the pattern of four image points, given in px relative to the plane's
+    /// Returns the pattern places of four image points. The image points are in px from the plane
     /// centre.
     FourVecs project(Four x_px, Four y_px) const;
 
-    /// Returns the parameters of perspective, shear and lens distortion, which are 0 for a camera
-    /// without distortion that looks straight at the sheet. The other parameters in the result are
-    /// 0.
+    /// Returns the parameters of perspective, shear and lens distortion. They are 0 for a camera
+    /// without distortion that looks straight at the sheet. All other elements are 0.
     Parameters distortions() const;
-    /// Returns the unit of places, in spacings: the length on the pattern that corresponds to
-    /// `reach_px`.
+    /// Returns the unit of places, in spacings: the pattern length that corresponds to `reach_px`.
     float scale() const { return scale_; }
     /// Returns the plane with `by` added to its parameters.
     FloatPlane changed(const Parameters& by) const;

@@ -13,17 +13,16 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of adjacent lines that two distinct positions share in the codes `anoto` and
-/// `microdots`. With one more shared line, five consecutive digits of each sequence would be equal,
-/// and five digits determine the place in a sequence. In `libdots`, some positions share more
-/// lines. The sum of the near alternatives includes these positions.
+/// Maximum number of adjacent lines that two positions share in `anoto` and `microdots`. With six
+/// shared lines, five digits would be equal in each sequence, and five digits determine a place. In
+/// `libdots`, some positions share more lines. The near alternatives include them.
 constexpr int kMaxSharedInARow = code::kOrder;
-/// Maximum expected odds of the far alternatives for which more alternatives are evaluated one by
-/// one (see `alternatives_log2`). With larger expected odds, the fix cannot become certain.
+/// Maximum expected odds of the far alternatives for which a detailed evaluation is worth the time.
+/// With larger expected odds, the fix cannot become certain.
 constexpr float kBeyondHelp = 1e-4F;
 
-/// Returns the expected sum of the odds of the alternatives that differ in at least `min_different`
-/// sequences and share fewer than `shared_lines` adjacent lines.
+/// Returns the expected odds of far alternatives. Includes alternatives that differ in at least
+/// `min_different` sequences and share fewer than `shared_lines` adjacent lines.
 float sum_of_far_alternatives(const RankedLines& lines, int shared_lines, int min_different) {
     ExpectedAlternatives expected(lines.ratios.basis, lines.ratios.position, shared_lines - 1,
                                   min_different);
@@ -32,8 +31,8 @@ float sum_of_far_alternatives(const RankedLines& lines, int shared_lines, int mi
     return expected.sum();
 }
 
-/// Returns the summed odds of the same position in the other sections. In each of these sections,
-/// the rolls of all lines differ from the rolls of the reading by the same shift.
+/// Returns the summed odds of the other sections at the same position. In another section, all
+/// rolls differ by the same shift.
 float sum_of_other_sections(const LikelihoodRatios& ratios) {
     float sum = 0;
     for (int shift = 1; shift < kSections; ++shift) {
@@ -56,16 +55,16 @@ int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2) {
     float sum = known + expected;
     const float limit = std::ldexp(1.0F, limit_log2);
     const float far_below_doubt = std::ldexp(1.0F, std::min(limit_log2, -30) - 10);
-    // Evaluates more alternatives one by one: the double alternatives, and the near alternatives
-    // that share one line fewer. This reduces the part of the sum that is only an expectation.
+    // Evaluates more alternatives one by one: double alternatives, and near alternatives with one
+    // shared line fewer. A smaller part of the sum is then only an expectation.
     if (sum > far_below_doubt && expected > known && expected < kBeyondHelp) {
         sum = known + sum_of_far_alternatives(lines, kMaxSharedInARow - 1, 3);
-        // Skips the slowest sums if the other sums already exceed the limit.
+        // Skips the slowest sums if the limit is already exceeded.
         if (sum < limit) sum += sum_of_near_alternatives(lines, kMaxSharedInARow - 1);
         if (sum < limit) {
-            // Maximum expected odds of the double alternatives that are not evaluated one by one:
-            // an eighth of max(sum, far_below_doubt), but at most an eighth of the margin to the
-            // limit. An expectation alone must not cause a refusal.
+            // Maximum expected odds of the double alternatives that are not evaluated one by one.
+            // An expectation alone must not cause a refusal, so the maximum is at most an eighth of
+            // the margin.
             const float negligible = std::min(std::max(sum, far_below_doubt), limit - sum) / 8;
             sum += sum_of_double_alternatives(lines, negligible, limit - sum);
         }

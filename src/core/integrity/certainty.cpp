@@ -19,13 +19,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of shifts, out of 63, where an alternative does not share a given line.
+/// Number of shifts, out of 63, at which a given line is not shared.
 constexpr float kShifts = kSections - 1;
-/// Upper bound on the odds of a single alternative that is not evaluated line by line, as log2 in
-/// units of 2^-8 and as a number. The sums contain this bound instead of the odds.
+/// Odds counted for a single alternative that is skipped, as log2 in units of 2^-8 and as a number.
+/// The true odds are never larger.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
-/// Total number of places in the four sequences.
+/// Number of places in all four sequences.
 constexpr float kSingles = 741;
 
 /// Returns 2^(n_q8 / 256), rounded up by about 2 %. The result is at least 2^-100.
@@ -35,8 +35,8 @@ constexpr float power_of_two_rounded_up(int n_q8) {
     return static_cast<float>(exp2_q16(n - whole * 256)) * 1.02F * power_of_two_exactly(whole - 16);
 }
 
-/// Returns the same odds as `LikelihoodRatios::odds`, but without an upper limit. Uses no 64-bit
-/// integers, because their conversion to floating point may require a library call.
+/// Returns `LikelihoodRatios::odds` without its upper limit. Avoids 64-bit integers, because their
+/// conversion to floating point may require a library call.
 float odds_of(const LikelihoodRatios& ratios, int lost) {
     const int log2_q8 = std::max(ratios.log2_odds_q8(lost), kNegligible_q8);
     const int whole = log2_q8 >> 8;
@@ -53,9 +53,8 @@ constexpr FarAlternatives kFarAlternatives = [] {
     return sets;
 }();
 
-/// Returns an upper bound on the expected sum of the odds of the far alternatives: the rough bound
-/// of quick_alternatives.cpp, but computed in floating point, for all sets of sequences in
-/// parallel.
+/// Returns an upper bound on the expected odds of the far alternatives. This is the rough bound in
+/// quick_alternatives.cpp, but in floating point and for all sets in parallel.
 float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
     std::array<float, kMaxLines> odds;
     const auto count = static_cast<std::size_t>(ratios.count());
@@ -71,8 +70,8 @@ float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
                                         kFarAlternatives);
 }
 
-/// Returns an upper bound on the summed odds of the alternatives that share no line: the same
-/// position in the other sections, and each single alternative at all shifts where it shares no
+/// Returns an upper bound on the odds of all alternatives without a shared line. Includes the other
+/// sections at the same position. Also includes single alternatives at shifts without a shared
 /// line.
 float sharing_none(const LikelihoodRatios& ratios) {
     int lost = 0;
@@ -81,17 +80,17 @@ float sharing_none(const LikelihoodRatios& ratios) {
     return (1 + kSingles) * kShifts * odds_of(ratios, lost);
 }
 
-/// Loss caused by one wrong bit, in units of the score. All bits in this file have the full weight,
-/// so losses are multiples of kBit.
+/// Loss caused by one wrong bit, in score units. All bits have the full weight here, so losses are
+/// multiples of kBit.
 constexpr int kBit = 2 * 127;
-/// Lists the lines with their minimum losses in bits, sorted by decreasing loss. Losses are clamped
-/// to [0, kMaxBits]. Returns the number of lines.
+/// Lists the lines by decreasing minimum loss. Losses are in bits and are clamped to [0, kMaxBits].
+/// Returns the number of lines.
 std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> losses) {
     constexpr int kMaxBits = 31;
     const auto count = static_cast<std::size_t>(ratios.count());
     std::array<std::uint8_t, kMaxLines> bits;
-    // Counting sort. `begin[b]` first contains the number of lines that lose b bits, then the index
-    // of the first of these lines.
+    // Counting sort. `begin[b]` is first the number of lines that lose b bits, then the index where
+    // these lines begin.
     std::array<std::uint8_t, kMaxBits + 1> begin{};
     for (std::size_t line = 0; line < count; ++line) {
         const int loss = ratios.min_loss(static_cast<int>(line)) / kBit;
@@ -109,9 +108,8 @@ std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> loss
     return count;
 }
 
-/// Returns the loss of the single alternative with the place `place` in `sequence`, at the shift
-/// where it shares the line `shared`. Stops as soon as no gain in the remaining lines can raise the
-/// odds above kSkippedOdds, and returns the loss so far.
+/// Returns the loss of a single alternative at the shift where it shares the line `shared`. Stops
+/// as soon as the odds cannot exceed kSkippedOdds, and returns the loss so far.
 int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place, int shared) {
     const std::uint8_t* own = ratios.basis[sequence].rolls + ratios.places[sequence];
     const std::uint8_t* alternative = ratios.basis[sequence].rolls + place;
@@ -127,10 +125,9 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
     return lost;
 }
 
-/// Returns an upper bound on the summed odds of the single alternatives that share a line. For most
-/// sequences, the bound comes from a table. For the remaining sequences, the alternatives that may
-/// lose less than the limit are evaluated one by one. Returns 1 if these alternatives cannot be
-/// listed (see `Kernels::list_similar_places`).
+/// Returns an upper bound on the odds of the single alternatives that share a line. Most sequences
+/// need only a table. In the remaining sequences, alternatives that may lose less than the limit
+/// are evaluated one by one. Returns 1 if `Kernels::list_similar_places` fails.
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;
@@ -164,7 +161,7 @@ float seam_alternatives(const Kernels& kernels, const UnsharedLines& unshared) {
         std::max(seam_alternatives_log2_q8(kernels, unshared), -100 * 256));
 }
 
-/// Parameters of the test for certainty. Both axes use the same parameters.
+/// Parameters of the certainty test, the same for both axes.
 struct Query {
     CodeVariant code;
     int odds_per_bit_q8;
@@ -176,8 +173,8 @@ bool is_code_in_question(const Query& query) {
     return query.others != nullptr && query.others->log2_in_question_q8 >= 0;
 }
 
-/// Returns an upper bound on the probability that random bits agree with the code at least as well
-/// as the bits that were read on one axis.
+/// Returns an upper bound on the probability that random bits agree with the code as well as the
+/// bits of one axis do.
 float chance_of(const Confidence& bits, const Query& query) {
     if (!is_code_in_question(query))
         return power_of_two_exactly(chance_log2(bits, query.odds_per_bit_q8));
@@ -185,17 +182,17 @@ float chance_of(const Confidence& bits, const Query& query) {
         chance_log2_q8(bits, query.odds_per_bit_q8, query.others->log2_in_question_q8));
 }
 
-/// Returns the number of possible codes, each weighted by its odds relative to the code that was
-/// read. Returns 1 if the code is given. All codes have the same number of alternatives, so the
-/// odds of alternatives are multiplied by this number.
+/// Returns the weighted number of possible codes, or 1 if the code is given. A code's weight is its
+/// odds relative to the code that was read. All codes have equally many alternatives, so this
+/// number multiplies the odds of alternatives.
 float codes_in_question(const Query& query) {
     return !is_code_in_question(query) ? 1
                                        : power_of_two_rounded_up(query.others->log2_in_question_q8);
 }
 
-/// Returns an upper bound on the probability that the position on one axis is wrong. Returns 1 if
-/// chance and alternatives alone exceed the limit. For hard bits, computes only the first of the
-/// three bounds on the alternatives, which is the fastest to compute and the largest.
+/// Returns an upper bound on the probability that one axis is wrong. Returns 1 if chance and
+/// alternatives exceed the limit. Tries up to three bounds on the alternatives, each slower and
+/// tighter than the last. Hard bits allow only the first bound.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,
                  const Query& query) {
     const LikelihoodRatios& ratios = unshared.ratios();
@@ -216,9 +213,9 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     return sum + seam_alternatives(kernels, unshared);
 }
 
-/// Returns true if the sum of the upper bounds on the probability of error of both axes is within
-/// the limit. Sets `fix.p_wrong_log2`, unless `axis_wrong` returns 1 or more for the x axis. On
-/// success, also sets the odds of the other codes, unless `Query::others` is null.
+/// Returns true if the error probabilities of both axes add up to at most the limit. Sets
+/// `fix.p_wrong_log2`, unless the x axis alone has a bound of 1 or more. On success, sets the odds
+/// of the other codes, unless `Query::others` is null.
 bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
                  const LikelihoodRatios& x, const LikelihoodRatios& y, const Query& query,
                  Fix& fix) {
@@ -233,14 +230,14 @@ bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
     return true;
 }
 
-/// Returns the odds that a bit is correct, as log2 in units of 2^-8, estimated from both axes. Both
-/// axes are read from the same dots and therefore have the same error rate. Returns 0 if the bits
-/// carry no information, or if too many bits of either axis are wrong. Sets `fix.bit_errors`.
+/// Returns the odds that a bit is correct, as log2 in units of 2^-8. Combines both axes, because
+/// they are read from the same dots. Returns 0 if the bits carry no information or if either axis
+/// has too many wrong bits. Sets `fix.bit_errors`.
 int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOptions& options,
                     Fix& fix) {
     fix.bit_errors = x.wrong() + y.wrong();
     for (const Confidence* bits : {&x, &y}) {
-        // A fraction of wrong bits above the limit indicates that two patterns are in view.
+        // Too many wrong bits indicate two patterns in view.
         if (256 * bits->wrong() > bits->bits() * options.max_bit_error_q8) return 0;
     }
     Confidence both = x;
@@ -248,7 +245,7 @@ int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOpt
     return odds_per_bit_q8(both);
 }
 
-/// Returns the readings of the first column and the first row.
+/// Returns the readings at the first column and at the first row.
 std::array<AxisReading, 2> readings_at(const Place& corner, CodeVariant code) {
     const auto& [cell, section] = corner;
     const auto roll = [&](std::uint32_t position, int own_section, std::uint32_t cross) {

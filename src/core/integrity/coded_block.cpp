@@ -8,12 +8,12 @@
 namespace dotpose::core {
 namespace {
 
-/// Index of the first compared line, and of the first compared cell of each line. `kFirst` is
-/// relative to cell (0, 0). `kFirstOfBlock` is the index in a BitBlock.
+/// First compared line, and first compared cell in each line. `kFirst` is relative to cell (0, 0).
+/// `kFirstOfBlock` is the index in a BitBlock.
 constexpr int kFirst = -kMaxComparedLines / 2;
 constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);
 
-/// Returns a mask of the longest run of ones in `bits`.
+/// Returns the longest run of ones in `bits`, as a mask.
 std::uint32_t longest_run(std::uint32_t bits) {
     if (const std::uint32_t beyond = bits + (bits & (0 - bits)); (beyond & bits) == 0) return bits;
     std::uint32_t longest = 0;
@@ -31,14 +31,13 @@ std::uint32_t longest_run(std::uint32_t bits) {
 
 }  // namespace
 
-/// Compares `count` lines of one axis with the code, beginning with the line `first_line`. Skips
-/// all lines except the kMaxComparedLines lines in the middle of the block. `rolls` contains the
-/// rolls of the `count` lines at the cell `first_cell`.
+/// Compares `count` lines of one axis with the code, from the line `first_line`. Uses only the
+/// middle kMaxComparedLines lines. rolls[i] is the roll of line first_line + i, at the cell
+/// `first_cell`.
 CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rolls, int first_line,
                                   int count, int first_cell) {
     Half half;
-    // The main sequence is cyclic, so `ahead` is also correct if the first compared cell is before
-    // `first_cell`.
+    // The main sequence is cyclic, so the first compared cell may be before `first_cell`.
     const int ahead = ((kFirst - first_cell) % kSections + kSections) % kSections;
     const int begin = std::max(first_line, kFirst);
     const int end = std::min(first_line + count, kFirst + kMaxComparedLines);
@@ -52,9 +51,8 @@ CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rol
         const int roll = there < kSections ? there : there - kSections;
         const std::uint32_t code = code::kMainWords[static_cast<std::size_t>(roll)];
         const std::uint32_t wrong = (bits ^ code) & seen;
-        // If a line has no wrong bits, keeps only its longest run of bits without a gap, because
-        // the tables in likelihood_ratios.cpp apply only to runs without gaps. The dropped bits
-        // could only make alternatives less likely.
+        // A line without wrong bits keeps only its longest run. The tables in likelihood_ratios.cpp
+        // require runs without gaps. The dropped bits could only make alternatives less likely.
         half.rolls[i] = static_cast<std::uint8_t>(roll);
         half.lines[i] = {code, wrong == 0 ? longest_run(seen) : seen, wrong};
         if (seen == 0) continue;

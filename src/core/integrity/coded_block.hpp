@@ -1,5 +1,5 @@
-// Coded block: the bits that were read and the bits of the code in the same cells, packed into
-// words. A single instruction compares a whole line.
+// Coded block: packs the bits that were read and the bits of the code into words. A single
+// instruction then compares a whole line.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"
@@ -11,13 +11,13 @@ namespace dotpose::core {
 /// The middle 32 x 32 cells of an upright block, compared with the code.
 class CodedBlock {
   public:
-    /// `place` is the place of cell (0, 0) of the block. `view` contains the rolls of all lines
-    /// that were read.
+    /// Cell (0, 0) of the block is at `place`. `view` contains the rolls of all lines that were
+    /// read.
     CodedBlock(CodeVariant code, const Place& place, const CellsInView& view,
                const BitBlock& block);
 
-    /// Returns the bits of one axis. `confidence` must include all bits that were read, including
-    /// bits outside the middle cells.
+    /// Returns the bits of one axis. `confidence` must include all bits that were read, even
+    /// outside the middle cells.
     AxisBits axis(Axis axis, const Confidence& confidence) const;
 
   private:
@@ -25,8 +25,8 @@ class CodedBlock {
     struct Half {
         std::array<ComparedLine, kMaxComparedLines> lines;
         std::array<std::uint8_t, kMaxComparedLines> rolls;
-        std::size_t first = 0;  ///< first line that has bits
-        std::size_t end = 0;    ///< one past the last line that has bits
+        std::size_t first = 0;  ///< first line with bits
+        std::size_t end = 0;    ///< one past the last line with bits
         AxisReading reading;    ///< reading of line `first`
     };
     static Half half(const BitLines& lines, const std::uint8_t* rolls, int first_line, int count,

@@ -5,13 +5,12 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds below which another code needs no further bits: kMaxOddsHere for the place of the reading
-/// in that code, and kMaxOddsElsewhere for the summed odds of all other places in that code.
+/// Odds below which another code needs no further bits. kMaxOddsHere applies to the same place, and
+/// kMaxOddsElsewhere applies to the sum over all other places.
 constexpr float kMaxOddsHere = 1e-12F;
 constexpr float kMaxOddsElsewhere = 1e-10F;
 
-/// Returns true if the rolls of two codes differ in any of the BitBlock::kSide lines that begin at
-/// `position`.
+/// Returns true if two codes have different rolls in any of BitBlock::kSide lines, from `position`.
 bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     std::array<std::uint8_t, BitBlock::kSide> own;
     std::array<std::uint8_t, BitBlock::kSide> theirs;
@@ -20,9 +19,9 @@ bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     return own != theirs;
 }
 
-/// Returns true if more bits may change the odds. This is the case if the odds of other places in
-/// another code are not yet negligible. It is also the case if there are more lines, and a code
-/// that is not ruled out has different rolls in the block.
+/// Returns true if more bits may change the odds:
+/// - the odds of other places in another code are not negligible, or
+/// - the block has more lines, and a code that is not ruled out has different rolls in the block.
 bool may_change_odds(CodeVariant read, const Place& place, bool has_more_lines,
                      const OtherCodes& others) {
     const auto have_other_rolls = [&](CodeVariant other) {

@@ -13,26 +13,26 @@ constexpr std::array<std::int32_t, 34> kLog2OfOneAnd{
     1466,  1039,  736,   521,   369,   261,   185,   131,  93,   66,   47,   33,
     24,    17,    12,    9,     6,     5,     3,     3,    2,    2};
 
-/// Returns an upper bound on log2(1 + 2^-n), in units of 2^-16. Interpolates linearly in the table.
-/// The function is convex, so the interpolated values are never too small.
+/// Returns an upper bound on log2(1 + 2^-n), in units of 2^-16. The function is convex, so linear
+/// interpolation in the table never gives too small a value.
 int log2_of_one_and_q16(int n_q8) {
     const auto i = static_cast<std::size_t>(n_q8 >> 7);
     return kLog2OfOneAnd[i] - ((kLog2OfOneAnd[i] - kLog2OfOneAnd[i + 1]) * (n_q8 & 127) >> 7);
 }
 
-/// Returns the odds that a bit of this level is correct, as log2 in units of 2^-8.
+/// Returns the odds that a bit at this level is correct, as log2 in units of 2^-8.
 int log_odds_q8(int odds_per_bit_q8, int level) {
     // 129 / 2^14 is about 1 / 127.
     return (odds_per_bit_q8 * Confidence::weight_of(level) * 129) >> 14;
 }
 
-/// Returns the expected fraction of wrong bits at the given log odds, in units of 2^-16.
+/// Returns the expected fraction of wrong bits at these odds, in units of 2^-16.
 std::uint32_t wrong_fraction_q16(int log_odds_q8) {
     if (log_odds_q8 >= 15 * 256) return 1;
     return UINT32_MAX / (65536 + static_cast<std::uint32_t>(exp2_q16(log_odds_q8)));
 }
 
-/// Returns log2 of the Chernoff bound for one hypothesis, in units of 2^-16.
+/// Returns log2 of Chernoff's bound for one hypothesis, in units of 2^-16.
 std::int64_t agreement_log2_q16(const Confidence& axis, int odds_per_bit_q8) {
     std::int64_t sum_q16 = 0;
     for (int level = 0; level < Confidence::kLevels; ++level) {
@@ -50,7 +50,7 @@ std::int64_t agreement_log2_q16(const Confidence& axis, int odds_per_bit_q8) {
 int odds_per_bit_q8(const Confidence& confidence) {
     struct Weighted {
         std::uint8_t level;
-        std::uint32_t weight;  ///< total weight of the bits of the level
+        std::uint32_t weight;  ///< total weight of the level's bits
     };
     std::array<Weighted, Confidence::kLevels> levels;
     std::size_t count = 0;
@@ -65,7 +65,7 @@ int odds_per_bit_q8(const Confidence& confidence) {
     }
     const std::uint64_t allowed_q16 = std::uint64_t{allowed} << 16;
     int odds_q8 = 0;
-    // Bisection. The expected weight of wrong bits decreases as the odds increase.
+    // Bisection: the expected weight of wrong bits decreases as the odds increase.
     for (int step_q8 = 8 * 256; step_q8 >= 8; step_q8 /= 2) {
         std::uint64_t expected_q16 = 0;
         for (std::size_t i = 0; i < count && expected_q16 <= allowed_q16; ++i) {

@@ -11,25 +11,25 @@
 namespace dotpose::core {
 namespace {
 
-/// Lower bound on the result: the odds kNegligible for each of the 190,027 pairs of places at each
-/// shift. (This number includes 2,217 pairs that contain a place of the reading.) No fix may rely
-/// on a smaller expectation.
+/// Minimum result: kNegligible for each pair of places, at each shift. No fix may rely on smaller
+/// expected odds. There are 190,027 pairs, including 2,217 pairs with a place that the reading has.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// Safety factor for expected odds, which are means over all positions. The odds at a given
-/// position can be larger. On 5,630 axes of hard frames, the odds were at most 21 times the mean.
+/// Safety factor for expected odds. Expected odds are means over all positions, and the odds at a
+/// given position can be larger. On 5,630 axes of hard frames, the odds were at most 21 times the
+/// mean.
 constexpr float kMargin = 32;
 
-/// Set of anchors. Bit n is the anchor of rank n.
+/// Set of anchors, one bit per rank. Anchors are the lines with the most information.
 using Anchors = std::uint32_t;
 
-/// The anchors, divided into `shared - 1` groups. An alternative that shares `shared` anchors
-/// therefore shares at least two anchors of the same group.
+/// The anchors in `shared - 1` groups. An alternative that shares `shared` anchors therefore shares
+/// at least two anchors in the same group.
 class Groups {
   public:
     Groups(const RankedLines& lines, int anchors, int shared) : count_(shared - 1) {
-        // Assigns the anchors to the groups in turn, in the order of the lines. The anchors of a
-        // group are therefore far apart, and few alternatives share two anchors of a group.
+        // Assigns the anchors to the groups in turn. Anchors in a group are therefore far apart,
+        // and few alternatives share two of them.
         int n = 0;
         for (int line = 0; line < lines.count(); ++line) {
             const int rank = lines.rank(static_cast<std::uint32_t>(line));
@@ -37,7 +37,7 @@ class Groups {
         }
     }
 
-    /// Calls `use(one, other)` for each pair of anchors of the same group. `one` and `other` are
+    /// Calls `use(one, other)` for each pair of anchors in the same group. `one` and `other` are
     /// ranks.
     template <typename Use>
     void visit_pairs(Use use) const {
@@ -50,9 +50,8 @@ class Groups {
         }
     }
 
-    /// Returns true if (`one`, `other`) is the first pair, in the order of `visit_pairs`, of
-    /// anchors that are both in `shared`. An alternative that shares several pairs of anchors is
-    /// added only for the first of these pairs.
+    /// Returns true if (`one`, `other`) is the first pair in `visit_pairs` whose anchors are both
+    /// in `shared`. An alternative is added only at its first pair.
     bool is_first_pair(Anchors shared, int one, int other) const {
         for (const Anchors group : groups_) {
             const Anchors both = shared & group;
@@ -67,8 +66,7 @@ class Groups {
     std::array<Anchors, kMinFound - 1> groups_{};
 };
 
-/// One byte for each of the lines of ranks 0 to 15, which include all anchors. The vector fits in
-/// one register.
+/// One byte per line, for ranks 0 to 15. Includes all anchors and fits in one register.
 using AnchorBytes [[gnu::vector_size(16)]] = std::uint8_t;
 static_assert(sizeof(AnchorBytes) >= kMaxAnchors && sizeof(AnchorBytes) <= kMaxLines);
 
@@ -76,8 +74,7 @@ int at(const RankedLines::Offsets& offsets, int rank) {
     return offsets.all[static_cast<std::size_t>(rank)];
 }
 
-/// Reduces differences of offsets to [0, 62], modulo 63. The given differences are in [-62, 62].
-/// Negative differences are represented modulo 256.
+/// Reduces differences in [-62, 62] modulo 63. Negative differences are stored modulo 256.
 AnchorBytes modulo_sections(AnchorBytes offsets) {
     return offsets + (static_cast<AnchorBytes>(offsets >= kSections) & kSections);
 }
@@ -88,23 +85,23 @@ AnchorBytes anchors_of(const RankedLines::Offsets& offsets) {
     return bytes;
 }
 
-/// Returns the offsets of a place at all anchors minus its offset at the anchor `one`, modulo 63.
+/// Returns a place's offsets at all anchors, relative to its offset at the anchor `one`, modulo 63.
 AnchorBytes since(int one, const RankedLines::Offsets& offsets) {
     return modulo_sections(anchors_of(offsets) - offsets.all[static_cast<std::size_t>(one)]);
 }
 
-/// Returns the negative of `since`, modulo 63. A pair of places that shares the anchor `one` also
-/// shares each anchor at which `since` of one place equals `opposite` of the other place.
+/// Returns the negative of `since`, modulo 63. If two places share the anchor `one`, they also
+/// share each anchor where `since` of one place equals `opposite` of the other.
 AnchorBytes opposite(int one, const RankedLines::Offsets& offsets) {
     return modulo_sections(offsets.all[static_cast<std::size_t>(one)] - anchors_of(offsets));
 }
 
-/// Set of anchors. The bytes of the anchors in the set are 1, all other bytes are 0.
+/// Set of anchors, one byte per rank: 1 for an anchor in the set, otherwise 0.
 class Marks {
   public:
     explicit Marks(AnchorBytes marks) {
         std::memcpy(halves_.data(), &marks, sizeof marks);
-        // The first byte must be the lowest byte of a word.
+        // Moves the first byte to the lowest byte of the word.
         if constexpr (std::endian::native == std::endian::big) {
             for (std::uint64_t& half : halves_)
                 half = __builtin_bswap64(half);
@@ -115,8 +112,8 @@ class Marks {
     Anchors anchors() const { return bits_of(halves_[0]) | bits_of(halves_[1]) << 8; }
 
   private:
-    /// Returns the lowest bits of eight bytes, packed into one byte. The multiplication moves each
-    /// of these bits to a different bit of the highest byte.
+    /// Packs the lowest bits of eight bytes into one byte. The multiplication moves each bit to a
+    /// different bit in the highest byte.
     static Anchors bits_of(std::uint64_t bytes) {
         return static_cast<Anchors>(bytes * 0x0102040810204080 >> 56);
     }
@@ -124,16 +121,15 @@ class Marks {
     std::array<std::uint64_t, 2> halves_;
 };
 
-/// A place in a sequence, with the value of `opposite` for this place. Together with a place in
-/// another sequence, this place shares each anchor at which `since` of the other place equals
-/// `offsets`.
+/// A place in a sequence, with its `opposite` offsets. They are compared with `since` of a place in
+/// another sequence.
 struct Opposite {
     AnchorBytes offsets;
     const RankedLines::Offsets* place;
 };
 
-/// The places in a sequence, except the place of the reading, sorted into buckets by the difference
-/// of their offsets at two anchors, modulo 63.
+/// The places in a sequence, in buckets by the difference between their offsets at two anchors,
+/// modulo 63. Excludes the place of the reading.
 class Buckets {
   public:
     Buckets(const RankedLines& lines, std::size_t sequence, int one, int other) {
@@ -171,7 +167,7 @@ class Buckets {
     std::array<Opposite, code::kA4Restored.size()> places_;
 };
 
-/// Adds up the odds of the double alternatives that share at least `shared` anchors.
+/// Adds up the odds of the double alternatives with at least `shared` shared anchors.
 class Finder {
   public:
     Finder(const RankedLines& lines, int anchors, int shared)
@@ -183,8 +179,8 @@ class Finder {
     float sum() const {
         float sum = 0;
         groups_.visit_pairs([&](int one, int other) {
-            // For each pair of sequences, the places in one of the two sequences are sorted into
-            // buckets. This sequence is never a3, the shortest sequence.
+            // Sorts one sequence in each pair into buckets. This sequence is never a3, the shortest
+            // one.
             sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
                    sum_of_bucketed(3, {0, 1, 2}, one, other);
         });
@@ -192,8 +188,8 @@ class Finder {
     }
 
   private:
-    /// Returns the summed odds of the alternatives that differ in `sequence` and in one of
-    /// `others`, and whose first shared pair of anchors is (`one`, `other`).
+    /// Returns the summed odds of alternatives that differ in `sequence` and in a sequence from
+    /// `others`. Includes only alternatives whose first shared pair is (`one`, `other`).
     float sum_of_bucketed(std::size_t sequence, std::initializer_list<std::size_t> others, int one,
                           int other) const {
         const Buckets buckets(lines_, sequence, one, other);
@@ -215,11 +211,10 @@ class Finder {
         return sum;
     }
 
-    /// Returns the odds of a pair of places at the shift where the pair shares a given line.
-    /// `shared` is the sum of the offsets of both places in that line.
+    /// Returns the odds of a pair of places at the shift where it shares a given line. `shared` is
+    /// the sum of both offsets in this line.
     float odds(const RankedLines::Offsets& a, const RankedLines::Offsets& b, int shared) const {
-        // Adding 126, a multiple of 63, does not change the shift and keeps the index of the loss
-        // positive.
+        // Adding 126, a multiple of 63, keeps the loss index positive.
         const int base = 2 * kSections - shared;
         int lost = 0;
         for (int rank = 0; rank < lines_.count(); ++rank) {
@@ -232,7 +227,7 @@ class Finder {
     const RankedLines& lines_;
     int shared_;
     Groups groups_;
-    AnchorBytes anchors_{};  ///< 1 for each anchor, 0 for all other lines
+    AnchorBytes anchors_{};  ///< 1 for anchors, 0 for other lines
 };
 
 }  // namespace
@@ -243,9 +238,8 @@ float sum_of_double_alternatives(const RankedLines& lines, float negligible, flo
     const auto expected_odds = [&](int shared) {
         return kMargin * expected[static_cast<std::size_t>(shared)];
     };
-    // If fewer shared anchors are required, `Finder` visits more pairs of anchors: 6 of the 66
-    // pairs for seven anchors, 18 for four, and all 66 for two. Requiring fewer than four anchors
-    // is worth the time only if the fix would otherwise be refused.
+    // Requiring fewer anchors means visiting more pairs: 6 of 66 for seven anchors, 18 for four,
+    // and all 66 for two. Fewer than four anchors are worth the time only to avoid a refusal.
     constexpr int kMinForDetail = 4;
     int shared = std::min(kMinFound, anchors);
     while (shared > 2 &&

@@ -6,10 +6,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Safety factor per step, because the digits of a sequence are not random. Any string of five
-/// digits occurs at most once in a sequence (in `libdots`, six strings occur twice). One occurrence
-/// in 233 digits of base 3 is 3^5 / 233 times the expected number in a random sequence. The product
-/// of these ratios over the four sequences is 1.12, which is less than 1.03^5.
+/// Safety factor per step, because digits are not random. A string of five digits occurs at most
+/// once in a sequence. (In `libdots`, six strings occur twice.) In 233 digits of base 3, one
+/// occurrence is 3^5 / 233 times the random expectation. Over four sequences, these ratios multiply
+/// to 1.12, less than 1.03^5.
 constexpr float kUnevenness = 1.03F;
 
 }  // namespace
@@ -31,8 +31,8 @@ ExpectedAlternatives::ExpectedAlternatives(const code::Basis& basis, std::uint32
     }
 }
 
-/// Returns the expected odds after a step, indexed by roll offset. Assumes that all digits of an
-/// alternative are equally probable. The digits of the reading are known.
+/// Returns the expected odds after a step, by roll offset. The reading's digits are known. An
+/// alternative's digits are assumed to be equally probable.
 ExpectedAlternatives::ByShift ExpectedAlternatives::after_step(const Set& set,
                                                                const ByShift& before) const {
     ByShift now = before;
@@ -68,9 +68,8 @@ void ExpectedAlternatives::add_line(const ByShift& odds) {
         for (const float sum : set.shared)
             before[0] += sum;
         const ByShift after = after_step(set, before);
-        // A run of shared lines begins where the roll offset returns to 0, and continues while all
-        // digits are equal. A step with a different digit changes the roll offset, so it ends the
-        // run.
+        // A run of shared lines begins where the roll offset returns to 0. It continues while all
+        // digits are equal, because a different digit changes the roll offset.
         float returned = after[0] - before[0] * set.equal;
         returned = returned > 0 ? returned : 0;
         for (std::size_t i = max_shared_ - 1; i > 0; --i) {

@@ -6,19 +6,18 @@
 namespace dotpose::core {
 namespace {
 
-/// Safety factor per step, the same as in expected_alternatives.cpp.
+/// Safety factor per step, as in expected_alternatives.cpp.
 constexpr float kUnevenness = 1.03F;
-/// Lower bounds on odds and on sums. They avoid denormal numbers, which are slow. All sums start at
-/// kStart. This value is so large that the lower bounds contribute little, even if other rolls fit
-/// some lines much better than the reading.
+/// Minimum odds and minimum sums. They avoid denormal numbers, which are slow. Sums start at the
+/// large value kStart. The minima then contribute little, even if other rolls fit some lines much
+/// better than the reading.
 constexpr float kMinOdds = 0x1p-40F;
 constexpr float kMinSum = 0x1p-80F;
 constexpr float kStart = 0x1p40F;
 
 using ByShift = std::array<float, kSections>;
 
-/// The alternatives that differ in two given sequences. Accumulates their expected odds over the
-/// lines added so far.
+/// Alternatives that differ in two given sequences. Accumulates their expected odds line by line.
 class Pair {
   public:
     Pair(const code::Secondary& a, const code::Secondary& b, std::uint32_t position)
@@ -37,8 +36,7 @@ class Pair {
             advance(b_, place_b_);
         }
         is_first_ = false;
-        // Sums at shift 0, indexed by the number of shared anchors. The odds of a shared line are
-        // 1.
+        // Sums at shift 0, by number of shared anchors. A shared line has odds of 1.
         std::array<float, kMinFound> shared;
         for (std::size_t n = 0; n < sums_.size(); ++n) {
             shared[n] = sums_[n][0];
@@ -48,7 +46,7 @@ class Pair {
         }
     }
 
-    /// For each n, adds the expected odds of the alternatives that share n anchors to totals[n].
+    /// Adds the expected odds of the alternatives with n shared anchors to totals[n].
     void add_to(std::span<float, kMinFound> totals) const {
         const float alternatives = static_cast<float>(a_.length * b_.length) / kStart;
         for (std::size_t n = 0; n < sums_.size(); ++n) {
@@ -62,10 +60,10 @@ class Pair {
         if (++place == of.length) place = 0;
     }
 
-    /// Updates the sums, which are indexed by shift, for a step in one sequence. Assumes that all
-    /// digits of an alternative are equally probable. The digits of the reading are known.
+    /// Updates the sums for a step in one sequence. The reading's digits are known. An
+    /// alternative's digits are assumed to be equally probable.
     static void step(const code::Secondary& of, std::uint32_t place, float factor, ByShift& sums) {
-        // Stores the sums twice in a row, so every cyclic shift of the sums is contiguous.
+        // Stores the sums twice, to make every cyclic shift contiguous.
         std::array<float, 2 * kSections> before;
         const float fraction = factor / static_cast<float>(of.base);
         for (std::size_t s = 0; s < kSections; ++s)
@@ -84,7 +82,7 @@ class Pair {
     std::uint32_t place_a_;
     std::uint32_t place_b_;
     bool is_first_ = true;
-    /// Sums indexed by the number of shared anchors, then by shift.
+    /// Sums by number of shared anchors and by shift.
     std::array<ByShift, kMinFound> sums_;
 };
 

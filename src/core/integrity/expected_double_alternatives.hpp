@@ -1,20 +1,22 @@
-// Expected double alternatives: the expected odds of the positions that differ from the reading in
-// the places in two secondary sequences, by the number of shared anchors. The odds are averaged
-// over all places. docs/integrity.md derives the expectation.
+// Expected double alternatives: the expected odds of positions that differ from the reading in two
+// secondary sequences. The odds are averaged over all places. docs/integrity.md derives the
+// expectation.
 #pragma once
 
 #include "core/integrity/ranked_lines.hpp"
 
 namespace dotpose::core {
 
-/// Maximum number of anchors. The anchors are the lines with the most information, which have the
+/// Maximum number of anchors. Anchors are the lines with the most information, which have the
 /// lowest ranks.
 inline constexpr int kMaxAnchors = 12;
-/// Alternatives that share at least this number of anchors are never part of the expected odds.
+/// Maximum number of shared anchors that the search for single pairs of places (`Finder` in
+/// double_alternatives.cpp) requires. The expected odds contain only alternatives that share fewer
+/// anchors.
 inline constexpr int kMinFound = 7;
 
-/// Returns, for each n, the expected sum of the odds of all double alternatives that share fewer
-/// than n anchors. The anchors are the lines of ranks 0 to `anchors` - 1.
+/// Returns expected odds. Element n includes all double alternatives that share fewer than n
+/// anchors. The anchors are the lines with the ranks 0 to `anchors` - 1.
 std::array<float, kMinFound + 1> expected_double_alternatives(const RankedLines& lines,
                                                               int anchors);
 

@@ -1,5 +1,5 @@
-// Known lines: the agreement of the columns and rows of a block with each position on a known
-// sheet. docs/integrity.md, "Known sheets", explains the classes of positions modulo 63.
+// Known lines: compares the columns and rows of a block with all positions on a known sheet.
+// docs/integrity.md, "Known sheets", explains the position classes modulo 63.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace dotpose::core {
 /// Number of orientations in which a block may show the pattern: 0 to 3 quarter turns.
 inline constexpr int kTurns = 4;
 
-/// Returns the class of a position: the position modulo 63.
+/// Returns the class of a position, which is the position modulo 63.
 inline std::size_t class_of(std::uint32_t position) {
     return code::modulo_sections(position);
 }
@@ -31,11 +31,11 @@ inline std::size_t sum_of_rolls(std::size_t a, std::size_t b) {
     return sum < kSections ? sum : sum - kSections;
 }
 
-/// Returns the number of bits that were read in the lines of one axis.
+/// Returns the number of bits that were read in all lines.
 int number_of_bits(const BitLines& lines);
 
-/// The lines of one axis of an upright block. For each line and each roll, contains the number of
-/// bits that agree with the code.
+/// The lines on one axis of a block. For each line and roll, contains the number of bits that agree
+/// with the code.
 class ScoredAxis {
   public:
     ScoredAxis(const Kernels& kernels, const BitLines& lines, const LineRange& range,
@@ -43,13 +43,13 @@ class ScoredAxis {
 
     int count() const { return scores_.count; }
 
-    /// Returns the number of bits that agree with the code if the first line is at `position` and
-    /// the roll of each line is its roll in section 0 plus `added`.
+    /// Returns the number of bits that agree with the code if the first line is at `position`.
+    /// `added` is added to each line's roll in section 0.
     int agreeing(CodeVariant code, std::uint32_t position, std::size_t added) const;
 
     /// Calls `use(position, sums)` for each position of the first line in `range`. sums[r] is the
-    /// number of bits that agree with the code if the roll of each line is its roll in section 0
-    /// plus r. The section and the position on the other axis determine r.
+    /// number of agreeing bits if r is added to each line's roll in section 0. r depends on the
+    /// section and on the position along the other axis.
     template <typename Use>
     void visit(CodeVariant code, const PositionRange& range, Use use) const {
         constexpr std::uint32_t kChunk = 63;
@@ -71,7 +71,7 @@ class ScoredAxis {
     RollScores scores_;
 };
 
-/// The scored lines of a block in one orientation. `upright` is the block after rotation.
+/// A block in one orientation, with scored lines. `upright` is the block after rotation.
 struct ScoredTurn {
     LineRange columns_range;
     LineRange rows_range;
@@ -86,20 +86,18 @@ struct ScoredTurn {
           columns(kernels, upright.columns, ranges.columns, ranges.rows.first),
           rows(kernels, upright.rows, ranges.rows, ranges.columns.first) {}
 
-    /// Returns the positions that the first column can have if at least one column is on the
-    /// region.
+    /// Returns the possible positions of the first column if at least one column is on the region.
     PositionRange columns_of(const KnownRegion& region) const {
         return {region.first.x, region.columns, columns.count()};
     }
-    /// Returns the positions that the first row can have if at least one row is on the region.
+    /// Returns the possible positions of the first row if at least one row is on the region.
     PositionRange rows_of(const KnownRegion& region) const {
         return {region.first.y, region.rows, rows.count()};
     }
 };
 
-/// Cache for the table of one axis of a region. The next region reuses the table if its code and
-/// its range of positions are the same. Successive regions often have the same columns or rows,
-/// because the sheets of a file are side by side.
+/// Cache for the table of one axis. The next region reuses the table if it has the same code and
+/// positions. This is frequent, because the sheets in a file are side by side.
 template <typename Table>
 class KeptTable {
   public:
@@ -118,10 +116,10 @@ class KeptTable {
     std::optional<Table> table_;
 };
 
-/// Calls `use(column, column_roll, row, row_roll)` for each pair of a column class and a row class.
-/// The roll of each column is its roll in section 0 plus `column_roll`, which depends only on the
-/// section and the row class. The roll of each row is its roll in section 0 plus `row_roll`, which
-/// depends only on the section and the column class.
+/// Calls `use(column, column_roll, row, row_roll)` for each column class and row class. A column's
+/// roll is its roll in section 0 plus `column_roll`, which depends on the section and the row
+/// class. A row's roll is its roll in section 0 plus `row_roll`, which depends on the section and
+/// the column class.
 template <typename Use>
 void visit_classes(const Section& section, Use use) {
     for (std::size_t column = 0; column < kSections; ++column) {

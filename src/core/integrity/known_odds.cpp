@@ -12,22 +12,21 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds of a position relative to the position under test, as a function of the number of bits that
-/// agree with the code. All bits have the same weight, so log2 of the odds is linear in this
-/// number.
+/// Odds of a position relative to the tested position. All bits have the same weight, so log2 of
+/// the odds is linear in the number of agreeing bits.
 class OddsOfBits {
   public:
-    /// `agreeing` is the number of bits that agree with the code at the position under test.
+    /// `agreeing` is the number of bits that agree with the code at the tested position.
     OddsOfBits(int odds_per_bit_q8, int agreeing)
         : agreeing_(agreeing),
           // Clamps the odds to [2^-52, 2^60]. Odds above 2^60 on one axis always cause a refusal,
-          // because even their product with the minimum odds on the other axis exceeds 1.
+          // because 2^60 * 2^-52 exceeds 1.
           min_(-52 * 256 / odds_per_bit_q8 - 1),
           max_(60 * 256 / odds_per_bit_q8),
           per_bit_(odds_per_bit_q8 << 15) {}
 
-    /// Returns the odds of a position at which `agreeing` bits agree with the code. Interpolates
-    /// linearly between powers of two, so the result exceeds the exact odds by at most 9 %.
+    /// Returns the odds of a position where `agreeing` bits agree with the code. Interpolates
+    /// linearly between powers of two, so the result is at most 9 % too large.
     float operator()(int agreeing) const {
         const int more = std::clamp(agreeing - agreeing_, min_, max_);
         return __builtin_bit_cast(float, kOne + more * per_bit_);
@@ -38,17 +37,17 @@ class OddsOfBits {
     int agreeing_;
     int min_;
     int max_;
-    int per_bit_;  ///< log2 of the odds of a bit, in units of 2^-23
+    int per_bit_;  ///< log2 of the odds per bit, in units of 2^-23
 };
 
-/// Position of the first line, and the common offset of all rolls relative to section 0.
+/// Position of the first line, and the roll that is added to all rolls in section 0.
 struct PositionAndRoll {
     std::uint32_t position;
     std::size_t roll;
 };
 
-/// Summed odds of all positions of a class modulo 63, indexed by class and by
-/// `PositionAndRoll::roll`. The sums exclude `left_out`.
+/// Summed odds of all positions in a class, by class and by added roll. The class is the position
+/// modulo 63. Excludes `left_out`.
 class OddsByClass {
   public:
     OddsByClass(const ScoredAxis& axis, CodeVariant code, const PositionRange& range,
@@ -88,10 +87,10 @@ float random_agreement(int bits, int wrong) {
     return term * power_of_two_exactly(exponent) / (1 - ratio);
 }
 
-/// Returns an upper bound on the probability that a view of none of the known sheets, such as a
-/// view of an unknown sheet, agrees with some place on the known sheets at least as well as the
-/// bits that were read. `bits` is the number of bits of each axis, `wrong` the number of wrong bits
-/// of each axis, and `lines` the number of columns or rows, whichever is larger.
+/// Returns an upper bound on the probability of a chance match if no known sheet is in view. A
+/// chance match agrees with some known place as well as the bits that were read. `bits` and `wrong`
+/// count bits and wrong bits per axis. `lines` is the number of columns or rows, whichever is
+/// larger.
 float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int, 2>& wrong,
                       int lines) {
     float places = 0;
@@ -108,9 +107,9 @@ float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int,
     const float trials = std::max(kTurns * places, 1024.0F);
     const float anywhere = trials * random_agreement(2 * bits, wrong[0] + wrong[1]);
     if (sheets.are_all()) return anywhere;
-    // An unknown sheet may have the same rows as a known sheet. In that case, all y bits agree, and
-    // determine the turn, and the roll and the position of the rows. Only the columns of one class
-    // modulo 63 remain possible. The same applies if columns and rows are exchanged.
+    // An unknown sheet may have the same rows as a known sheet. All y bits then agree, and they
+    // determine the turn, the roll and the row position. Only the columns in one class remain
+    // possible. The same holds with columns and rows exchanged.
     return anywhere + columns * random_agreement(bits, wrong[0]) +
            rows * random_agreement(bits, wrong[1]);
 }
@@ -128,7 +127,7 @@ struct CornerPlace {
     }
 };
 
-/// Returns the summed odds of all places of a region, given the odds of its columns and rows.
+/// Returns the summed odds of all places on a region.
 float sum_of_odds(const KnownRegion& region, const OddsByClass& columns, const OddsByClass& rows) {
     float sum = 0;
     visit_classes(region.section, [&](std::size_t column, std::size_t column_roll, std::size_t row,
@@ -138,8 +137,8 @@ float sum_of_odds(const KnownRegion& region, const OddsByClass& columns, const O
     return sum;
 }
 
-/// Returns the summed odds of all places of a region except `best`. `best` is on the region, and
-/// its odds are 1.
+/// Returns the summed odds of all places on a region except `best`. `best` must be on the region.
+/// Its odds are 1.
 float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const OddsOfBits& x_odds,
                     const OddsOfBits& y_odds, const CornerPlace& best) {
     const auto [x, column_roll] = best.column();
@@ -147,10 +146,9 @@ float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const Odd
     const OddsByClass columns(turn.columns, region.code, turn.columns_of(region), x_odds,
                               best.column());
     const OddsByClass rows(turn.rows, region.code, turn.rows_of(region), y_odds, best.row());
-    // `columns` and `rows` exclude the column and the row of `best`, whose odds are 1. The last two
-    // terms add the other places in the row of `best` whose column is in the same class as the
-    // column of `best`, and the other places in the column of `best` whose row is in the same class
-    // as the row of `best`.
+    // `columns` and `rows` exclude the column and the row at `best`, which have odds of 1. The last
+    // two terms combine this column with other rows in the same class, and this row with other
+    // columns in the same class.
     return sum_of_odds(region, columns, rows) + columns(class_of(x), column_roll) +
            rows(class_of(y), row_roll);
 }
@@ -159,7 +157,7 @@ float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const Odd
 
 float known_place_wrong(const Kernels& kernels, const BitBlock& block, const KnownSheets& sheets,
                         CodeVariant code, const Place& place) {
-    // Number of bits read per axis, the same for columns and rows.
+    // Number of bits per axis. Both axes have the same number.
     const int bits = number_of_bits(block.columns);
     const ScoredTurn upright(kernels, block);
     const CornerPlace best{code, moved(code, place, upright.columns_range.first - BitBlock::kMiddle,

@@ -9,8 +9,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of agreeing bits of one axis over all positions of a class, indexed by the class
-/// of the position modulo 63 and by the roll that is added to the rolls in section 0.
+/// Maximum number of agreeing bits on one axis, over all positions in a class. The first index is
+/// the class, which is the position modulo 63. The second index is the roll that is added to the
+/// rolls in section 0.
 class Peaks {
   public:
     Peaks(const ScoredAxis& axis, CodeVariant code, const PositionRange& range) {
@@ -22,15 +23,14 @@ class Peaks {
                 best[roll] = std::max(best[roll], sums[roll]);
         });
     }
-    /// Returns the maximum for a class and a roll, or 0 if the range contains no position of the
-    /// class.
+    /// Returns the maximum, or 0 if the range contains no position in the class.
     int operator()(std::size_t of_class, std::size_t roll) const { return best_[of_class][roll]; }
 
   private:
     std::array<RollSums, kSections> best_;
 };
 
-/// Returns the first position of a class where exactly `sum` bits agree if `roll` is added to the
+/// Returns the first position in a class where exactly `sum` bits agree. `roll` is added to the
 /// rolls in section 0.
 std::uint32_t position_with(const ScoredAxis& axis, CodeVariant code, const PositionRange& range,
                             std::size_t of_class, std::size_t roll, int sum) {
@@ -44,16 +44,15 @@ std::uint32_t position_with(const ScoredAxis& axis, CodeVariant code, const Posi
     return found;
 }
 
-/// Position of the first column and of the first row of a block on a region, with the number of
-/// agreeing bits on each axis.
+/// Positions of a block's first column and first row, and the number of agreeing bits on each axis.
 struct Peak {
     Cell corner;
     int x_agreeing = 0;
     int y_agreeing = 0;
 };
 
-/// Returns the place on a region that agrees with the most bits. Returns nullopt if no place agrees
-/// with more than `min_agreeing` bits.
+/// Returns the place on a region with the most agreeing bits. Returns nullopt if no place has more
+/// than `min_agreeing` agreeing bits.
 std::optional<Peak> peak_on(const KnownRegion& region, const ScoredTurn& turn, const Peaks& columns,
                             const Peaks& rows, int min_agreeing) {
     struct Classes {

@@ -10,15 +10,15 @@ namespace dotpose::core {
 
 namespace {
 
-/// Returns the Hamming distance between two substrings of the main sequence. The substrings begin
-/// at the bits `first` and `other`, and have `length` bits.
+/// Returns the Hamming distance between two substrings of the main sequence. They begin at the bits
+/// `first` and `other`, and have `length` bits.
 constexpr int distance_of(std::size_t first, std::size_t other, std::size_t length) {
     const std::uint32_t all = length == 0 ? 0 : ~std::uint32_t{0} >> (32 - length);
     return bits_in((code::kMainWords[first] ^ code::kMainWords[other]) & all);
 }
 
-/// Minimum Hamming distance between a substring of the main sequence and the other substrings of
-/// the same length, and the number of substrings at this distance.
+/// Minimum Hamming distance to another substring with the same length, and the number of substrings
+/// at this distance.
 struct NearestSubstrings {
     int distance = kMaxComparedLines + 1;
     int count = 0;
@@ -36,10 +36,9 @@ constexpr NearestSubstrings nearest_of(std::size_t first, std::size_t length) {
     return nearest;
 }
 
-/// Minimum distances of the substrings of the main sequence, indexed by the first bit of the
-/// substring. Bit i of an element is 1 if the minimum distance of the substring with i + 1 bits
-/// exceeds the minimum distance of the substring with i bits. The excess is at most one, so the
-/// number of ones among the first n bits is the minimum distance of the substring with n bits.
+/// Minimum distances for all lengths, by the first bit of the substring. Bit i is 1 if the minimum
+/// distance grows from i to i + 1 bits. It grows by at most 1. The minimum distance for n bits is
+/// therefore the number of ones in the first n bits.
 constexpr auto kGrowingDistances = [] {
     std::array<std::uint32_t, kSections> grows{};
     for (std::size_t first = 0; first < grows.size(); ++first) {
@@ -60,8 +59,7 @@ static_assert([] {
     return true;
 }());
 
-/// Upper bound on log2 of `NearestSubstrings::count` over all substrings of the same length, in
-/// units of 2^-8. Indexed by length.
+/// Upper bounds on log2 of `NearestSubstrings::count`, by length, in units of 2^-8.
 constexpr auto kLog2OfNearest = [] {
     std::array<std::uint16_t, kMaxComparedLines + 1> log2{};
     for (std::size_t length = 0; length < log2.size(); ++length) {
@@ -128,7 +126,7 @@ void LikelihoodRatios::set_min_losses_of_bits() {
 }
 
 int LikelihoodRatios::log2_of_nearest_q8(int line) const {
-    // All rolls farther away lose at least one bit more than the nearest rolls.
+    // All other rolls lose at least one bit more than the nearest rolls.
     const int log2_q8 = add_log2(log2_of_nearest_q8_[static_cast<std::size_t>(line)],
                                  kOtherRolls_q8 - odds_per_bit_q8_);
     return std::min(log2_q8, kOtherRolls_q8);
@@ -181,7 +179,7 @@ std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOff
     const int base = offsets[static_cast<std::size_t>(shared)];
     const int count = ratios.count();
     int lost = 0;
-    // Visits the lines after the shared line first, and then the lines before the shared line.
+    // Visits the later lines first, then the earlier lines.
     for (int i = 1, line = shared + 1; i < count; ++i, ++line) {
         if (line == count) line = 0;
         const int shift = offsets[static_cast<std::size_t>(line)] - base;

@@ -8,11 +8,10 @@ MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last) {
     const int count = ratios.count();
     const int max_shared = ratios.max_shared();
     MinLosses min_loss;
-    // Element n is the minimum loss, in the first n lines, of an alternative that does not share
-    // the last of these lines.
+    // Element n is the minimum loss in the first n lines if the last of them is not shared.
     MinLosses unshared_last;
     unshared_last[0] = 0;
-    int lowest = 0;  // index of the smallest of the last `max_shared` + 1 elements
+    int lowest = 0;  // index of the minimum among the last `max_shared` + 1 elements
     for (int n = 0;; ++n) {
         const int last = unshared_last[static_cast<std::size_t>(n)];
         if (last <= unshared_last[static_cast<std::size_t>(lowest)]) {

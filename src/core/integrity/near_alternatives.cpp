@@ -9,21 +9,19 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of periods of a sequence that are added to a place before the index of a line is
-/// subtracted. The difference is positive even for the shortest sequence, because kPeriods periods
-/// contain more than kMaxLines places.
+/// Number of periods added to a place before a line index is subtracted. The difference is then
+/// positive, because kPeriods periods of any sequence contain more than kMaxLines places.
 constexpr std::uint32_t kPeriods = kMaxLines / code::kA3.size() + 1;
 
-/// The places in one sequence that have the same digits as the reading in the steps between the
-/// lines of a run. Includes the place of the reading itself.
+/// The places in a sequence with the reading's digits in all steps of a run. A run is a group of
+/// adjacent lines. Includes the place of the reading.
 class TwinPlaces {
   public:
-    /// The run begins at line `run` and has `digits` + 1 lines.
+    /// The run has `digits` + 1 lines, from the line `run`.
     TwinPlaces(const RankedLines& lines, std::size_t sequence, std::uint32_t run, int digits) {
         const code::Secondary& a = lines.ratios.basis[sequence];
         const std::uint32_t own = (lines.ratios.places[sequence] + run) % a.length;
-        // Lists the place of the reading first, then the places after it, then the places before
-        // it.
+        // Lists the place of the reading first, then the later places, then the earlier places.
         for (const bool before : {false, true}) {
             const auto add = [&](std::uint32_t place) {
                 if ((place < own) != before) return;
@@ -37,7 +35,7 @@ class TwinPlaces {
 
     /// A place with its roll offsets.
     struct Twin {
-        /// Offsets of the lines of ranks 0 to 7, relative to `at_run`, modulo 63.
+        /// Offsets at the ranks 0 to 7, relative to `at_run`, modulo 63.
         EightOffsets first = 0;
         const RankedLines::Offsets* offsets;
         int at_run;  ///< offset in the first line of the run
@@ -62,8 +60,8 @@ class TwinPlaces {
 
 using OneOfEach = std::array<const TwinPlaces::Twin*, 4>;
 
-/// Returns the odds of an alternative that shares a run of lines. `twins` contains its place in
-/// each sequence, and `first` is the sum of `Twin::first` over these places.
+/// Returns the odds of an alternative that shares a run. `twins` contains its place in each
+/// sequence. `first` is the sum of `Twin::first` over these places.
 float odds_of_twins(const RankedLines& lines, EightOffsets first, const OneOfEach& twins) {
     int lost = lines.loss_of_first(first);
     for (int rank = 8; rank < lines.count() && !lines.ratios.is_hopeless(lost); ++rank) {
@@ -77,14 +75,14 @@ float odds_of_twins(const RankedLines& lines, EightOffsets first, const OneOfEac
     return lines.ratios.is_hopeless(lost) ? kNegligible : lines.ratios.odds(lost);
 }
 
-/// Returns the summed odds of the alternatives that share all lines of one run.
+/// Returns the summed odds of the alternatives that share a whole run.
 float sum_of_twins(const RankedLines& lines, const std::array<TwinPlaces, 4>& places) {
     float sum = 0;
     bool is_own = true;  // the first combination is the reading itself
     for (const auto& a : places[0].all()) {
         for (const auto& b : places[1].all()) {
             for (const auto& c : places[2].all()) {
-                // No byte of the sums overflows, because 4 * 62 = 248.
+                // No byte overflows, because 4 * 62 = 248.
                 const EightOffsets first = a.first + b.first + c.first;
                 for (const auto& d : places[3].all()) {
                     if (!is_own) sum += odds_of_twins(lines, first + d.first, {&a, &b, &c, &d});

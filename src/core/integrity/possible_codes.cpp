@@ -9,13 +9,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Summed odds of other places in other codes above which the fix is ambiguous. Smaller odds do not
-/// make the fix ambiguous, because a second attempt may reduce them.
+/// Summed odds of other places in other codes above which a fix is ambiguous. Smaller odds do not
+/// make it ambiguous, because a second attempt may reduce them.
 constexpr float kAmbiguousOdds = 1e-3F;
-/// Maximum odds, relative to the likeliest code, of a code that counts as ruled out by earlier
-/// frames. No attempt is made in such a code.
+/// Maximum odds of a code that earlier frames rule out, relative to the likeliest code. No attempt
+/// is made in such a code.
 constexpr float kRuledOutOdds = 1e-9F;
-/// Factors up to this value are treated as rounding errors.
+/// Factors up to this value count as rounding errors.
 constexpr float kRoundings = 1.01F;
 
 std::size_t index(CodeVariant code) {
@@ -34,7 +34,7 @@ PossibleCodes::PossibleCodes(const CodeEvidence& evidence) : is_known_(false) {
         order_[i] = static_cast<CodeVariant>(i);
         weights_[i] = power_of_two(evidence.log2_q8(order_[i]));
     }
-    // Insertion sort, which keeps the order of codes with equal odds.
+    // Insertion sort. Codes with equal odds keep their order.
     for (std::size_t i = 1; i < order_.size(); ++i) {
         for (std::size_t k = i; k > 0 && weight(order_[k]) > weight(order_[k - 1]); --k)
             std::swap(order_[k], order_[k - 1]);
@@ -88,8 +88,8 @@ CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others) {
     for (std::size_t i = 0; i < log2_q8.size(); ++i) {
         if (i == index(read)) continue;
         const float odds = others.of[i].here() + others.of[i].elsewhere();
-        // A frame is not evidence against a code that explains the frame equally well. Rounding
-        // errors must not accumulate over frames.
+        // A code that explains the frame equally well must not lose odds. Otherwise, rounding
+        // errors would accumulate over frames.
         const bool is_equal = odds <= kRoundings && odds * kRoundings >= 1;
         log2_q8[i] = is_equal ? 0 : log2_of_odds_q8(odds);
     }

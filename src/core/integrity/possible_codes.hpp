@@ -1,5 +1,5 @@
-// Possible codes: the certainty of a fix if the code of the sheet is not known. docs/integrity.md,
-// "Which code?", derives the probabilities.
+// Possible codes: the certainty of a fix if the sheet's code variant is not known.
+// docs/integrity.md, "Which code?", derives the probabilities.
 #pragma once
 
 #include <array>
@@ -12,39 +12,40 @@
 
 namespace dotpose::core {
 
-/// Certainty of a fix, given its alternatives in the other possible codes.
+/// Certainty of a fix over all possible codes.
 struct Judgement {
     bool is_certain = false;
     bool is_ambiguous = false;  ///< true if other places in other codes have summed odds above 1e-3
     /// log2 of an upper bound on the probability that the fix is wrong, over all codes.
     int p_wrong_log2 = 0;
-    CodeVariant other = CodeVariant::anoto;  ///< likeliest code other than the code that was read
+    CodeVariant other = CodeVariant::anoto;  ///< likeliest code except the code that was read
     float other_odds = 0;                    ///< odds of `other` relative to the code that was read
 };
 
-/// The codes that a sheet may have, and the odds of these codes before the current frame.
+/// The possible codes of a sheet, and their odds before the current frame.
 class PossibleCodes {
   public:
-    /// Only the code `only` is possible.
+    /// Allows only the code `only`.
     explicit PossibleCodes(CodeVariant only);
-    /// All codes are possible, weighted by their odds from earlier frames.
+    /// Allows all codes, weighted by their odds from earlier frames.
     explicit PossibleCodes(const CodeEvidence& evidence);
 
-    /// Returns the codes that earlier frames do not rule out, in order of decreasing odds.
+    /// Returns the codes that earlier frames do not rule out, by decreasing odds.
     std::span<const CodeVariant> in_order() const { return std::span(order_).first(count_); }
     CodeVariant likeliest() const { return order_[0]; }
     bool is_known() const { return is_known_; }
-    /// Returns true if earlier frames do not favour one code, that is, if the two likeliest codes
-    /// have the same odds.
+    /// Returns true if earlier frames favour no code, which means that the two likeliest codes have
+    /// equal odds.
     bool are_equal() const { return !is_known_ && weight(order_[1]) == 1; }
 
-    /// Returns the number of possible codes, each weighted by its odds relative to the code `read`.
+    /// Returns the weighted number of possible codes. A code's weight is its odds relative to the
+    /// code `read`.
     float number(CodeVariant read) const;
     /// Returns log2(2^log2 * factor), rounded up. Factors up to 1.01 count as 1.
     static int rounded_up(int log2, float factor);
 
-    /// Returns the certainty of a fix with status ok that was read in the code `read`. `others`
-    /// contains the odds of the other codes.
+    /// Returns the certainty of a fix that has the status ok and was read in the code `read`.
+    /// `others` contains the odds of the other codes.
     Judgement judge(CodeVariant read, const OtherCodes& others, const Fix& fix,
                     int max_p_wrong_log2) const;
 
@@ -57,8 +58,8 @@ class PossibleCodes {
     std::array<CodeVariant, kCodeVariantCount> order_{};
 };
 
-/// Returns log2 of the likelihood of the bits in each code, relative to their likelihood in the
-/// code `read`, in units of 2^-8. Likelihoods that differ by at most 1 % count as equal.
+/// Returns the likelihood of the bits in each code relative to the code `read`, as log2 in units of
+/// 2^-8. Likelihoods that differ by at most 1 % count as equal.
 CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others);
 
 }  // namespace dotpose::core

@@ -12,22 +12,22 @@
 namespace dotpose::core {
 namespace {
 
-/// log2 of the number of places of all four sequences (741), in units of 2^-8, rounded up.
+/// log2(741) in units of 2^-8, rounded up. The four sequences have 741 places.
 constexpr int kSingles_q8 = 2441;
-/// Odds of the far alternatives, as log2 in units of 2^-8, below which no tighter bound is
-/// computed.
+/// Odds of the far alternatives below which no tighter bound is computed, as log2 in units of 2^-8.
 constexpr int kSmallOdds_q8 = -36 * 256;
 /// Default limit, as log2 in units of 2^-8. Bounds are as tight as this limit requires, even if the
 /// caller permits larger odds.
 constexpr int kUsualLimit_q8 = -30 * 256;
-/// Upper bound on the odds of a single alternative that is not evaluated line by line, as log2 in
-/// units of 2^-8. The sums contain this bound instead of the odds.
+/// Odds counted for a single alternative that is skipped, as log2 in units of 2^-8. The true odds
+/// are never larger.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 
-/// Odds of an alternative in a line that it does not share, as log2 in units of 2^-8.
+/// Odds in a line that an alternative does not share, as log2 in units of 2^-8. The other rolls are
+/// all rolls except the reading's roll.
 struct LineOdds {
-    int best_q8;  ///< odds of the best roll except the roll of the reading
-    int sum_q8;   ///< summed odds of all rolls except the roll of the reading
+    int best_q8;  ///< odds of the best other roll
+    int sum_q8;   ///< summed odds of all other rolls
 };
 using AllLineOdds = std::array<LineOdds, kMaxLines>;
 
@@ -36,8 +36,8 @@ constexpr std::array<std::uint16_t, 26> kPowers{4096, 2897, 2048, 1449, 1024, 72
                                                 182,  128,  91,   64,   46,   32,  23,  16,  12,
                                                 8,    6,    4,    3,    2,    2,   1,   1};
 
-/// Returns log2 of a ratio of odds, in units of 2^-8, rounded up: the summed odds of all rolls
-/// except the roll of the reading, divided by the odds of the best of these rolls.
+/// Returns log2(sum / best) for a line, in units of 2^-8, rounded up. `sum` and `best` are the sum
+/// and the maximum of the odds at all other rolls.
 int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
     const std::int16_t* scores = ratios.lines[line].data();
     const int own = ratios.own_roll(line);
@@ -46,8 +46,8 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
         const auto half_bits = static_cast<std::size_t>(-ratios.log2_odds_q8(best - score) >> 7);
         return kPowers[std::min(half_bits, kPowers.size() - 1)];
     };
-    // The odds of most rolls are at least 2^12 times smaller than the odds of the best roll. Each
-    // of these rolls contributes the last element of kPowers.
+    // Most rolls have odds at least 2^12 times smaller than the best roll. Each of them contributes
+    // the last element of kPowers.
     const int min_power_score = best - ratios.loss_for(-12 * 256 - 8);
     std::uint32_t sum_q12 = 0;
     for (int roll = 0; roll < kSections; ++roll)
@@ -56,23 +56,22 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
     return log2_at_most_q8(sum_q12) - 12 * 256;
 }
 
-/// Returns log2 of an upper bound on the sum that `ExpectedAlternatives` computes for one set, in
-/// units of 2^-8. The computation merges all nonzero roll offsets into one state. The probability
-/// that a step leads to a given roll offset is at most the probability p that all digits of the
-/// step are equal. A line that is not shared therefore multiplies the odds by at most p times the
-/// summed odds of all other rolls, and by at most the odds of the best of these rolls.
+/// Returns an upper bound on the sum that `ExpectedAlternatives` computes for one set, as log2 in
+/// units of 2^-8. Merges all nonzero roll offsets into one state. Let p be the probability that all
+/// digits in a step are equal. A step leads to a given roll offset with a probability of at most p.
+/// A line that is not shared therefore multiplies the odds by at most p * `sum`, and by at most
+/// `best` (see `LineOdds`).
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
     const auto max_shared = static_cast<std::size_t>(ratios.max_shared());
     const int equal = set.equal_q8 + kUnevenness_q8;
-    // One element per line: the summed odds of the alternatives whose run of shared lines begins at
-    // this line and includes the newest line. All sums in this function are divided by the
-    // probability that the digits of all steps so far are equal, so the elements remain constant
-    // while the run continues.
+    // One element per line: the summed odds of alternatives that have shared all lines since this
+    // line. All sums in this function are divided by the probability that all digits so far are
+    // equal. An element therefore stays constant while its lines are shared.
     std::array<int, kMaxShared + kMaxLines> sharing;
-    // Element n is the sum of the elements n and n - 1 of `sharing`. Adding pairs halves the number
-    // of additions.
+    // pairs[n] is the sum of sharing[n] and sharing[n - 1]. Adding pairs halves the number of
+    // additions.
     std::array<int, kMaxShared + kMaxLines> pairs;
     std::fill_n(sharing.begin(), kMaxShared, kNever_q8);
     std::fill_n(pairs.begin(), kMaxShared, kNever_q8);
@@ -94,11 +93,14 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
     return sum + (ratios.count() - 1) * equal + set.alternatives_q8;
 }
 
-/// Returns log2 of an upper bound on the odds of the alternatives of all sets that share at most
-/// seven lines, in units of 2^-8. Such an alternative loses at least the sum of the minimum losses
-/// of all lines except the seven largest. The bound is the product of the odds of this loss, the
-/// number of alternatives, the number of rolls in the first line, the safety factor `kUnevenness`
-/// for each line, and the number of subsets of shared lines, which is at most 2^lines.
+/// Returns an upper bound on the odds of far alternatives that share at most seven lines. Covers
+/// all sets. The result is log2 in units of 2^-8. Such an alternative loses at least the sum of all
+/// minimum losses except the seven largest. The bound is the product of these factors:
+/// - the odds at this loss,
+/// - the number of alternatives,
+/// - the number of rolls in the first line,
+/// - the safety factor `kUnevenness` for each line,
+/// - 2^lines, which bounds the number of ways to choose the shared lines.
 int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
     constexpr std::size_t kFew = 7;
     std::array<int, kFew> largest{};  // the largest losses, in decreasing order
@@ -117,10 +119,10 @@ int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
            (256 + kUnevenness_q8) * ratios.count() + ratios.log2_odds_q8(lost);
 }
 
-/// Returns log2 of an upper bound on the odds of the far alternatives of all sets, in units of
-/// 2^-8. If `roughly` is true, replaces the sum over the rolls of a line by the number of rolls
-/// times the best odds. For hard bits, uses the bound `LikelihoodRatios::log2_of_nearest_q8` in
-/// either case. Stops adding sets as soon as the sum exceeds `max_log2_q8`.
+/// Returns an upper bound on the odds of the far alternatives in all sets, as log2 in units of
+/// 2^-8. If `roughly` is true, replaces the sum over a line's rolls by their number times the best
+/// odds. For hard bits, uses `LikelihoodRatios::log2_of_nearest_q8` instead. Stops as soon as the
+/// sum exceeds `max_log2_q8`.
 int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     AllLineOdds odds;
     odds[0] = {};
@@ -132,11 +134,10 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
         odds[static_cast<std::size_t>(line)] = {best, best + others};
     }
     int sum = far_log2_q8(ratios, kAlternativeSets.front(), odds);
-    // The other four sets contain more alternatives, but these alternatives share lines more rarely
-    // than those of the first set. In each of these sets, the alternatives that share more than
-    // seven lines have less than half of the odds of the first set. For all five sets together, the
-    // alternatives that share more than seven lines therefore have less than three times the odds
-    // of the first set.
+    // The other four sets contain more alternatives, but these share lines more rarely. Consider
+    // only alternatives that share more than seven lines. In each of the four sets, their odds are
+    // less than half as large as in the first set. In all five sets together, their odds are less
+    // than three times as large.
     constexpr int kThreeTimes_q8 = 406;
     if (sum + kThreeTimes_q8 < kSmallOdds_q8) {
         const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(ratios));
@@ -149,14 +150,13 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     return sum;
 }
 
-/// Adds up the odds of single alternatives, at every shift where an alternative may lose less than
-/// the limit.
+/// Adds up the odds of single alternatives, at every shift where the loss may be below the limit.
 class ByShift {
   public:
     ByShift(const LikelihoodRatios& ratios, int loss_limit);
 
-    /// Returns `sum` plus the odds of the single alternative with the place `place` in `sequence`.
-    /// `sum` and the result are log2 in units of 2^-8.
+    /// Returns `sum` plus the odds of the single alternative at `place` in `sequence`. `sum` and
+    /// the result are log2 in units of 2^-8.
     int add(std::size_t sequence, std::uint32_t place, int sum) {
         if (sequence != sequence_) begin(sequence);
         return may_matter(rolls_ + place) ? add_closely(place, sum) : sum;
@@ -164,9 +164,9 @@ class ByShift {
 
   private:
     struct Loss {
-        std::uint16_t least;  ///< minimum loss of an alternative that does not share the line
+        std::uint16_t least;  ///< minimum loss if the line is not shared
         std::uint8_t line;
-        /// Contribution of the sequence, at the place of the reading, to the roll of the line.
+        /// The sequence's contribution to the line's roll, at the reading's place.
         std::uint8_t own = 0;
     };
 
@@ -187,17 +187,17 @@ class ByShift {
     std::size_t count_ = 0;               ///< number of lines with a positive minimum loss
     std::array<Loss, kMaxLines> losses_;  ///< sorted by decreasing loss
     std::uint32_t in_all_ = 0;            ///< sum of all losses
-    /// Number of lines, in the order of `losses_`, that `may_matter` adds before it first checks
-    /// the limit, and the sum of their losses. In these lines alone, an alternative cannot reach
-    /// the limit at the shift where it shares the line with the largest loss.
+    /// Number of lines that `may_matter` adds before its first check, and their summed losses. The
+    /// lines are in the order of `losses_`. In these lines alone, an alternative that shares the
+    /// first line cannot reach the limit.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
-    /// For each shift, `none_` plus the losses that the current alternative avoids because it
-    /// shares lines at this shift. Values below `none_` are left over from earlier alternatives and
+    /// For each shift, `none_` plus the losses of the lines that the current alternative shares.
+    /// The alternative avoids these losses. Values below `none_` belong to earlier alternatives and
     /// count as `none_`.
     std::array<std::uint32_t, kSections> kept_{};
-    /// Value in `kept_` that represents no avoided loss. Increasing the value for each alternative
-    /// resets `kept_` without writing to it.
+    /// Value in `kept_` for no avoided loss. It increases with each alternative, which resets
+    /// `kept_` without writing to it.
     std::uint32_t none_;
 };
 
@@ -221,7 +221,7 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
 }
 
 /// Returns true if an alternative may lose less than the limit at some shift. `alternative` points
-/// to the rolls of the sequence, beginning at the place of the alternative.
+/// to the sequence's rolls at the alternative's place.
 // Not inlined, to keep all variables in registers on small processors.
 [[gnu::noinline]] bool ByShift::may_matter(const std::uint8_t* alternative) {
     std::uint32_t* const kept = kept_.data();
@@ -237,8 +237,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     const Loss* loss = losses_.data();
     for (const Loss* const end = loss + first_count_; loss != end; ++loss)
         keep(*loss);
-    // If `largest` is at most this value, the alternative loses at least the limit at every shift,
-    // in the lines visited so far.
+    // Up to this value of `largest`, the alternative loses at least the limit at every shift, in
+    // the lines so far.
     std::uint32_t max_to_keep = none - loss_limit_ + first_losses_;
     for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
         keep(*loss);
@@ -248,12 +248,12 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     return true;
 }
 
-/// Returns `sum` plus the odds of a place at all shifts that matter, computed line by line. Not
-/// inlined, to save registers.
+/// Returns `sum` plus the odds of a place at all shifts that matter, line by line. Not inlined, to
+/// save registers.
 [[gnu::noinline]] int ByShift::add_closely(std::uint32_t place, int sum) const {
     RollOffsets offsets;
     set_roll_offsets(ratios_, sequence_, place, offsets);
-    std::array<std::uint32_t, kSections> kept;  // avoided losses, indexed by shift
+    std::array<std::uint32_t, kSections> kept;  // avoided losses, by shift
     for (int line = 0; line < ratios_.count(); ++line)
         kept[offsets[static_cast<std::size_t>(line)]] = 0;
     for (std::size_t i = 0; i < count_; ++i)
@@ -265,17 +265,16 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
             const int odds = lost ? ratios_.log2_odds_q8(*lost) : kNever_q8;
             if (odds > kSkippedOdds_q8) sum = add_log2(sum, odds);
         }
-        // All lines that are shared at the same shift belong to the same alternative, which is
-        // counted only once.
+        // Lines that are shared at the same shift belong to the same alternative, which counts
+        // once.
         here = 0;
     }
     return sum;
 }
 
-/// Returns log2 of an upper bound on the odds of the single alternatives of one sequence that share
-/// a line, in units of 2^-8. The bound uses only the minimum loss of these alternatives. An
-/// alternative is included once per shift where it shares a line, so at most `ratios.count()`
-/// times.
+/// Returns an upper bound on the odds of one sequence's single alternatives, as log2 in units of
+/// 2^-8. Includes alternatives that share a line. Uses only their minimum loss. An alternative
+/// counts once for each shift where it shares a line, so at most `ratios.count()` times.
 int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
                      std::size_t sequence) {
     const int lost = unshared.min_loss(sequence, Sharing::at_one_shift) - ratios.max_gain();
@@ -288,9 +287,8 @@ int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshar
 using Sequences = unsigned;
 constexpr Sequences kAllSequences = 15;
 
-/// For each of the given sequences, adds the bound from a table to `sum` if the bound is below
-/// `little_q8`. Tries the table for the largest number of lines first. Returns the sequences for
-/// which no table gives such a bound.
+/// Adds a table bound to `sum` for each of the given sequences whose bound is below `little_q8`.
+/// Tries the table with the most lines first. Returns the sequences without such a bound.
 Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences sequences,
                         int& sum) {
     for (std::size_t table = code::kUnsharedOf.size(); table-- > 0 && sequences != 0;) {
@@ -307,9 +305,10 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
     return sequences;
 }
 
-/// Returns log2 of an upper bound on the odds of the single alternatives of the given sequences
-/// that share a line, in units of 2^-8. Adds kSkippedOdds_q8 for every alternative and every line.
-/// Evaluates one by one the few alternatives that may lose less than the limit.
+/// Returns an upper bound on the odds of single alternatives in the given sequences, as log2 in
+/// units of 2^-8. Includes alternatives that share a line. Counts kSkippedOdds_q8 for every
+/// alternative and every line. Evaluates one by one the few alternatives that may lose less than
+/// the limit.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();
@@ -330,8 +329,8 @@ int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     return sum;
 }
 
-/// Returns log2 of an upper bound on the odds of the same position in the other sections, in units
-/// of 2^-8. In these sections, the rolls of all lines differ from the rolls of the reading.
+/// Returns an upper bound on the odds of the other sections at the same position, as log2 in units
+/// of 2^-8. In another section, no line has the reading's roll.
 int other_sections_log2_q8(const LikelihoodRatios& ratios) {
     int lost = 0;
     for (int line = 0; line < ratios.count(); ++line)
@@ -342,8 +341,8 @@ int other_sections_log2_q8(const LikelihoodRatios& ratios) {
 }  // namespace
 
 int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
-    // For hard bits, no tighter bound is computed later, so sets are added until the sum exceeds
-    // the limit of the caller.
+    // For hard bits, no tighter bound is computed later. The sum therefore stops only at the
+    // caller's limit.
     const bool is_last = ratios.is_of_bits();
     int far = far_log2_q8(ratios, true, is_last ? limit_q8 : kSmallOdds_q8);
     if (far > kSmallOdds_q8 && !is_last) far = far_log2_q8(ratios, false, limit_q8);
@@ -353,13 +352,11 @@ int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
     Sequences sequences = kAllSequences;
     int singles = kNever_q8;
     if (is_last) {
-        // The bounds from tables exceed the odds that an enumeration yields, but avoid most of the
-        // work.
+        // Table bounds exceed the odds that an enumeration yields, but avoid most of the work.
         constexpr int kLittle_q8 = -5 * 256;
         const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
         sequences = add_by_tables(ratios, little_q8, sequences, singles);
-        // Single alternatives that share no line lose at least as much as the same position in
-        // another section.
+        // A single alternative without a shared line loses at least as much as another section.
         singles = add_log2(singles, kSingles_q8 + other_sections);
     }
     if (sequences != 0) singles = add_log2(singles, singles_log2_q8(ratios, sequences));

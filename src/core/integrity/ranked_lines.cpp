@@ -20,15 +20,15 @@ RankedLines::RankedLines(const LikelihoodRatios& of) : ratios(of) {
     set_offsets_of_places();
 }
 
-/// Sorts the lines by the summed odds of the alternatives that do not share the line. The line with
-/// the smallest sum has rank 0.
+/// Ranks the lines by their summed odds over all nonzero roll offsets. The line with the smallest
+/// sum has the most information and gets rank 0.
 void RankedLines::rank_lines() {
     std::array<float, kMaxLines> sums;
     for (std::size_t line = 0; line < static_cast<std::size_t>(count()); ++line) {
         const auto others = std::span(odds(static_cast<int>(line))).subspan(1);
         sums[line] = std::accumulate(others.begin(), others.end(), 0.0F);
-        // Insertion sort, because the machine code of `std::sort` would be larger than the rest of
-        // this file.
+        // Insertion sort, because `std::sort` would add more machine code than the rest of this
+        // file.
         std::size_t rank = line;
         for (; rank > 0 && sums[lines_[rank - 1]] > sums[line]; --rank)
             lines_[rank] = lines_[rank - 1];

@@ -1,17 +1,16 @@
-// Ranked lines: the lines of a view, sorted by decreasing information, and the roll offsets of all
-// places of the secondary sequences in these lines. If losses are added in this order, most
-// alternatives become hopeless after a few lines.
+// Ranked lines: the lines in view by decreasing information, with the roll offsets of all places.
+// If losses are added in this order, most alternatives become hopeless after a few lines.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
 
 namespace dotpose::core {
 
-/// Roll offsets in the eight lines with the most information, one byte each. The line of rank 0 is
-/// in the lowest byte.
+/// Roll offsets at the ranks 0 to 7, one byte each. Rank 0, the line with the most information, is
+/// the lowest byte.
 using EightOffsets = std::uint64_t;
 
-/// A word whose eight bytes are all 1.
+/// The byte 1, eight times.
 inline constexpr EightOffsets kInEach = 0x0101010101010101;
 
 /// Losses and roll offsets by rank, and odds by line. The line with the most information has rank
@@ -20,31 +19,30 @@ class RankedLines {
   public:
     explicit RankedLines(const LikelihoodRatios& ratios);
 
-    /// Roll offsets of one place of a sequence, from 0 to 62.
+    /// Roll offsets of a place in a sequence, from 0 to 62.
     struct Offsets {
-        EightOffsets first;  ///< offsets in the lines of ranks 0 to 7
-        RollOffsets all;     ///< indexed by rank
+        EightOffsets first;  ///< roll offsets at the ranks 0 to 7
+        RollOffsets all;     ///< roll offsets by rank
     };
 
     int count() const { return ratios.lines.count(); }
     int line(int rank) const { return lines_[static_cast<std::size_t>(rank)]; }
     int rank(std::uint32_t line) const { return ranks_[line]; }
-    /// Returns the odds of an alternative in a line, indexed by its roll offset. `line` is the
-    /// index of the line in the view, not its rank.
+    /// Returns the odds of an alternative in a line, by roll offset. `line` is an index in the
+    /// view, not a rank.
     const std::array<float, kSections>& odds(int line) const {
         return odds_[static_cast<std::size_t>(line)];
     }
     const Offsets& offsets(std::size_t sequence, std::uint32_t place) const {
         return offsets_[kFirsts[sequence] + place];
     }
-    /// Returns the loss of an alternative in the line with this rank. `further` is the roll offset
-    /// of the alternative plus a multiple of 63. Range: 0 to 255.
+    /// Returns the loss in the line with this rank. `further` is the roll offset plus a multiple of
+    /// 63, from 0 to 255.
     int loss(int rank, int further) const {
         return losses_[static_cast<std::size_t>(rank)][static_cast<std::size_t>(further)];
     }
-    /// Returns the loss of an alternative in the lines of ranks 0 to 7. Each byte of `further` is
-    /// an offset as in `loss`. If the loss in the first four of these lines is already hopeless,
-    /// returns the loss in these four lines only.
+    /// Returns the loss in the lines with the ranks 0 to 7. Each byte of `further` is an offset as
+    /// in `loss`. Stops after four lines if their loss is already hopeless.
     int loss_of_first(EightOffsets further) const {
         const int lost = loss_of_four(0, further);
         return ratios.is_hopeless(lost) ? lost : lost + loss_of_four(4, further >> 32);
@@ -71,8 +69,8 @@ class RankedLines {
     std::array<std::uint8_t, kMaxLines> lines_{};
     std::array<std::uint8_t, kMaxLines> ranks_{};
     std::array<std::array<float, kSections>, kMaxLines> odds_;
-    /// Losses, indexed by rank and by `further`. If there are fewer than eight lines, the losses of
-    /// the unused ranks below 8 are 0.
+    /// Losses by rank and by `further`. If there are fewer than eight lines, unused ranks below 8
+    /// have no loss.
     std::array<std::array<std::int16_t, 256>, kMaxLines> losses_;
     std::array<Offsets, kPlaces> offsets_;
 };

@@ -11,17 +11,17 @@
 namespace dotpose::core {
 namespace {
 
-/// Prior probability, as log2 in units of 2^-8, that a given border between two lines is a seam
-/// between two sections with a given difference of rolls. With this value and the default limit, a
-/// position is accepted if a seam explains the view equally well, and refused if a seam explains
-/// the view better by two bits.
+/// Prior probability that a given border between two lines is a seam with a given roll difference.
+/// It is log2 in units of 2^-8. With this prior and the default limit, a position is accepted if a
+/// seam explains the view equally well. It is refused if a seam explains the view better by two
+/// bits.
 constexpr int kSeam_q8 = -32 * 256;
-/// Minimum odds of the alternatives that are included in the sum, as log2 in units of 2^-8. The
-/// odds exclude the prior.
+/// Minimum odds, without the prior, for an alternative to be included in the sum, as log2 in units
+/// of 2^-8.
 constexpr int kMin_q8 = -8 * 256;
 
-/// Minimum losses of an alternative before and beyond each border, over all shifts. Ignores the
-/// shift of a side if the loss on this side alone reaches the limit.
+/// Minimum losses of an alternative before and after each border, over all shifts. Ignores a shift
+/// on one side if the loss on this side alone reaches the limit.
 class LossesByBorder {
   public:
     LossesByBorder(const LikelihoodRatios& ratios, const RollOffsets& offsets, int loss_limit)
@@ -29,8 +29,8 @@ class LossesByBorder {
         before_.fill(kNone);
         from_.fill(kNone);
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios.count()));
-        // For each shift, the sum of the minimum losses of the lines that the alternative shares.
-        // The alternative avoids these losses.
+        // Losses that the alternative avoids at each shift: the summed minimum losses of the lines
+        // that it shares.
         std::array<int, kSections> kept{};
         int in_all = 0;
         int max_kept = 0;
@@ -60,8 +60,8 @@ class LossesByBorder {
         const auto loss_in = [&](int line) {
             return ratios_.loss(line, offsets[static_cast<std::size_t>(line)] - shift);
         };
-        // Each loop stops when the loss on its side of the border reaches the limit. If the border
-        // is farther along, this loss alone excludes the alternative at this shift.
+        // Each loop stops when the loss on its side reaches the limit. Borders farther along then
+        // cannot matter at this shift.
         int lost = 0;
         for (int line = 0; line < count && lost < loss_limit_; ++line) {
             update_min(before_[static_cast<std::size_t>(line)], lost);
@@ -80,15 +80,15 @@ class LossesByBorder {
     std::array<int, kMaxLines> from_;    ///< minimum loss from each line to the last line
 };
 
-/// Adds up the odds of the seam alternatives that explain the lines about as well as the reading.
+/// Adds up the odds of the seam alternatives that explain the lines about as well as the reading
+/// does.
 class SeamAlternatives {
   public:
     SeamAlternatives(const LikelihoodRatios& ratios, int loss_limit)
         : ratios_(ratios), loss_limit_(loss_limit) {}
 
-    /// For each border between two lines, considers the alternative that has `place` in `sequence`
-    /// and a seam at this border. Adds the odds of the alternative if they exceed kMin_q8 without
-    /// the prior.
+    /// Adds the alternatives with `place` in `sequence` and a seam, one for each border between two
+    /// lines. Skips alternatives whose odds without the prior are at most kMin_q8.
     void add(std::size_t sequence, std::uint32_t place) {
         RollOffsets offsets;
         set_roll_offsets(ratios_, sequence, place, offsets);
@@ -106,16 +106,15 @@ class SeamAlternatives {
     int sum_q8_ = kNever_q8;
 };
 
-/// Returns the loss at which an alternative is too improbable to be included in the sum.
+/// Returns the loss at which an alternative is too improbable to be included.
 int loss_limit_of(const LikelihoodRatios& ratios) {
     return ratios.loss_for(kMin_q8) + ratios.max_gain();
 }
 
-/// Returns the loss of each step, in units of `part`, rounded down. A seam alternative does not
-/// incur the loss of the one step that crosses the border. Any step may be that step, so `part` is
-/// chosen such that kLimitParts * part >= loss_limit + (largest loss of a step). An alternative
-/// whose steps add up to kLimitParts units therefore reaches the limit even without its most
-/// expensive step.
+/// Returns the step losses in units of `part`, rounded down. A seam alternative avoids the loss in
+/// the step across the border, which may be any step. `part` is therefore the smallest integer with
+///     kLimitParts * part >= loss_limit + (largest step loss)
+/// A sum of kLimitParts units then reaches the limit even without the largest step loss.
 StepLosses losses_of_steps(const LikelihoodRatios& ratios, int loss_limit) {
     StepLosses steps;
     steps.count = ratios.count() - 1;

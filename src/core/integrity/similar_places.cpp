@@ -5,8 +5,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Losses of 32 alternatives, in 32 counters of four bits. Each word contains the same binary digit
-/// of all counters.
+/// Losses of 32 alternatives in four-bit counters. Each word contains the same binary digit of all
+/// counters.
 class Losses {
   public:
     explicit Losses(std::uint32_t excluded) : excluded_(excluded) {}
@@ -19,13 +19,13 @@ class Losses {
         add_digit(eights_, has_bit(parts, 3), alternatives, carry);
         excluded_ |= carry;
     }
-    /// Returns the alternatives whose loss has reached the limit, and the alternatives that were
-    /// excluded from the start.
+    /// Returns the alternatives whose loss has reached the limit, and the alternatives excluded
+    /// from the start.
     std::uint32_t excluded() const { return excluded_; }
 
   private:
-    /// Returns true if a bit is set. Shifts the bit to the sign bit, which takes fewer instructions
-    /// than masking.
+    /// Returns true if a bit is set. Shifting the bit to the sign bit takes fewer instructions than
+    /// masking.
     static bool has_bit(unsigned n, int bit) {
         return static_cast<std::int32_t>(n << (31 - bit)) < 0;
     }
@@ -57,23 +57,21 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
     };
     int needed = loss_limit;
     if (excused == Excused::any_one) {
-        // The loss of an alternative must reach the limit even if the step with its largest loss is
-        // ignored.
+        // The loss must reach the limit even without the step that loses the most.
         for (int step = 0; step < count; ++step)
             needed = std::max(needed, loss_limit + lost_at(step));
     }
     constexpr int kParts = kLimitParts;
     const int part = (needed + kParts - 1) / kParts;
-    // Maximum loss up to the current step, and up to the step before it, if no two adjacent steps
-    // are counted.
+    // Maximum loss up to the current step, and up to the step before it. Two adjacent steps are
+    // never both counted.
     int max_loss = 0;
     int max_loss_before = 0;
     for (int step = 0; step < count; ++step) {
         std::uint8_t parts = 0;
         for (int lost = lost_at(step); lost >= part; lost -= part)
             ++parts;
-        // A step with a loss of only one part of the limit excludes too few places to be worth the
-        // time.
+        // A step with only one part excludes too few places to be worth the time.
         if (parts == 1) parts = 0;
         losses[static_cast<std::size_t>(step)] = parts;
         const int with_this = max_loss_before + parts;
@@ -97,7 +95,7 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
 
 // Not inlined, to keep all variables in registers on small processors.
 [[gnu::noinline]] std::uint32_t SimilarPlaces::operator[](std::uint32_t word) const {
-    // Excludes the bits beyond the end of the sequence and the bit of the place of the reading.
+    // Excludes the bits beyond the end of the sequence, and the place of the reading.
     const std::uint32_t places = sequence_.length - 32 * word;
     std::uint32_t excluded = places < 32 ? ~std::uint32_t{0} << places : 0;
     if (own_ / 32 == word) excluded |= std::uint32_t{1} << own_ % 32;
@@ -107,8 +105,8 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
     for (const Step& step : std::span(steps_).first(count_)) {
         const std::uint32_t* here = step.places + word;
         const std::uint32_t equal = here[0] >> step.ahead | here[1] << 1 << (31 - step.ahead);
-        // A line must not be counted in both of its steps. A step is therefore counted only if the
-        // preceding step is not counted.
+        // A line must not count in both of its steps. A step therefore counts only if the preceding
+        // step does not.
         if (step.ahead != before + 1) counted = 0;
         before = step.ahead;
         counted = ~(equal | counted);

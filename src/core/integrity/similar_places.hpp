@@ -1,6 +1,5 @@
-// Similar places: the places of a sequence whose digits are so similar to the digits of the reading
-// that alternatives at these places may matter. The search processes 32 places at a time, one per
-// bit.
+// Similar places: the places in a sequence where alternatives may matter, because their digits are
+// similar to the reading's digits. The search tests 32 places at a time, one per bit.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -10,42 +9,42 @@ namespace dotpose::core {
 /// Maximum number of steps in which digits are compared. A step leads from one line to the next.
 inline constexpr int kMaxSteps = 18;
 
-/// Number of parts into which the loss limit is divided.
+/// Number of parts in the loss limit.
 inline constexpr unsigned kLimitParts = 15;
 
-/// Steps in which an alternative loses nothing, regardless of its digit: none, or any one step. For
-/// a seam alternative, this step is the step across the border.
+/// Steps in which an alternative loses nothing, whatever its digit: none, or any one step. For a
+/// seam alternative, this is the step across the border.
 enum class Excused : std::uint8_t { none, any_one };
 
-/// The steps in which digits are compared, and the loss of an alternative in each step where its
-/// digit differs from the digit of the reading. Such an alternative shares at most one of the two
-/// lines of the step, so it loses at least the smaller of the minimum losses of these lines.
+/// Steps in which digits are compared, and the loss if a digit differs from the reading's digit.
+/// Such an alternative shares at most one of the step's two lines. It therefore loses at least the
+/// smaller minimum loss.
 struct Steps {
     Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused);
 
     int count;       ///< number of steps, in the middle of the view
-    int first_line;  ///< line at which the first step begins
-    /// Lower bound on the loss in each step, in units of 1/kLimitParts of the loss that excludes a
-    /// place, rounded down. Losses of one unit count as 0.
+    int first_line;  ///< first line of the first step
+    /// Lower bound on the loss in each step, rounded down. The unit is 1/kLimitParts of the loss
+    /// that excludes a place. Losses of one unit count as 0.
     std::array<std::uint8_t, kMaxSteps> losses;
-    /// True if the losses in nonadjacent steps can add up to the loss that excludes a place.
+    /// True if the losses in nonadjacent steps can add up to enough to exclude a place.
     bool can_exclude = false;
 };
 
-/// The places of a sequence that may lose less than the limit. A place is the index, in the
-/// sequence, of the digit in the first step.
+/// The places in a sequence that may lose less than the limit. A place is the index of the first
+/// step's digit.
 class SimilarPlaces {
   public:
-    /// `own` is the place of the reading at the first step of `steps`.
+    /// `own` is the place of the reading at the first step.
     SimilarPlaces(const code::Secondary& a, std::uint32_t own, const Steps& steps);
 
-    /// Returns the similar places among the places 32 * word to 32 * word + 31, one bit per place.
-    /// Excludes the place of the reading.
+    /// Returns the similar places among 32 * word to 32 * word + 31, one bit per place. Excludes
+    /// the place of the reading.
     std::uint32_t operator[](std::uint32_t word) const;
 
   private:
     struct Step {
-        const std::uint32_t* places;  ///< bit set of the places with the digit of the reading
+        const std::uint32_t* places;  ///< places with the reading's digit, as a bit set
         std::uint8_t ahead;           ///< index of the step
         std::uint8_t parts;           ///< loss in the step, as in `Steps::losses`
     };
@@ -55,8 +54,7 @@ class SimilarPlaces {
     std::array<Step, kMaxSteps> steps_;
 };
 
-/// Calls `use(place)` for each bit that is set in `places`. `places` is the word with index `word`
-/// of a bit set of places.
+/// Calls `use(place)` for each bit in `places`, the word with index `word` in a bit set.
 template <typename Use>
 void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
     for (std::uint32_t place = 32 * word; places != 0; ++place, places >>= 1) {
@@ -64,8 +62,8 @@ void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
     }
 }
 
-/// Calls `use(k, place)` for each similar place of each sequence k. `place` is the place at the
-/// first line of the view. Skips the sequences for which `is_settled(k)` returns true.
+/// Calls `use(k, place)` for each similar place in each sequence k. `place` is the place at the
+/// first line of the view. Skips sequences for which `is_settled(k)` returns true.
 template <typename IsSettled, typename Use>
 void visit_similar_places(const LikelihoodRatios& ratios, const Steps& steps, IsSettled is_settled,
                           Use use) {

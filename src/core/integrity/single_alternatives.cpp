@@ -3,13 +3,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the odds of a single alternative at the shift where it shares the line of rank `shared`.
-/// Returns 0 if the alternative also shares a line of lower rank at this shift, because its odds
-/// are added for that line.
+/// Returns the odds of a single alternative at the shift where it shares the line with the rank
+/// `shared`. Returns 0 if it also shares a line with a lower rank. In that case, its odds are added
+/// there.
 float odds_of_single(const RankedLines& lines, const RankedLines::Offsets& alternative,
                      int shared) {
-    // `base` makes the offset in the shared line 126, which is 0 modulo 63. All other offsets
-    // remain positive.
+    // `base` makes the offset in the shared line 126, which is 0 modulo 63. All offsets remain
+    // positive.
     const int base = 2 * kSections - alternative.all[static_cast<std::size_t>(shared)];
     int lost = lines.loss_of_first(alternative.first + kInEach * static_cast<unsigned>(base));
     if (lines.ratios.is_hopeless(lost)) return kNegligible;

@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Upper bounds on the summed odds of the single alternatives that share a line, indexed by
-/// sequence. All bounds come from the table that `unshared` uses.
+/// Upper bounds on the odds of the single alternatives that share a line, by sequence. All bounds
+/// use the same table as `unshared`, which covers the table lines.
 class Bounds {
   public:
     explicit Bounds(const UnsharedLines& unshared) : unshared_(unshared) {
@@ -18,14 +18,13 @@ class Bounds {
             odds_[n] = ratios.odds(unshared.min_loss_of(n) - ratios.max_gain());
     }
     /// Returns the bound for a sequence. An alternative with n unshared table lines loses at least
-    /// the sum of the n smallest losses of the table lines. `kMaxPositionsWith` bounds the number
-    /// of such alternatives for each n, and `kUnshared` contains the minimum n at each place.
+    /// the n smallest losses. `kMaxPositionsWith` bounds the number of such alternatives, and
+    /// `kUnshared` gives the smallest n.
     float operator[](std::size_t sequence) const {
         const LikelihoodRatios& ratios = unshared_.ratios();
         const auto& max_with = code::kMaxPositionsWith[unshared_.tables() - 1][sequence];
-        // Bound for the alternatives with more than kMaxCounted unshared table lines. An
-        // alternative is included once per shift where it shares a line, so at most
-        // `ratios.count()` times.
+        // Alternatives with more than kMaxCounted unshared table lines. Each counts once for each
+        // shift where it shares a line, so at most `ratios.count()` times.
         float sum =
             static_cast<float>(ratios.count() * ratios.basis[sequence].length) * odds_.back();
         std::size_t n = unshared_.min_unshared(sequence, Sharing::at_one_shift);
@@ -37,7 +36,7 @@ class Bounds {
   private:
     const UnsharedLines& unshared_;
     /// Element n is an upper bound on the odds of an alternative with n unshared table lines. The
-    /// last element is also an upper bound for larger n.
+    /// last element also applies to larger n.
     std::array<float, code::kMaxCounted + 2> odds_;
 };
 

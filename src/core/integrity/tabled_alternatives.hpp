@@ -1,6 +1,6 @@
-// Tabled alternatives: upper bounds on the odds of the single alternatives of a sequence, from
-// tables that count the alternatives by their number of unshared lines. With these bounds, the
-// alternatives of most sequences need not be enumerated.
+// Tabled alternatives: upper bounds on the odds of single alternatives, from tables. The tables
+// count alternatives by their number of unshared lines. With these bounds, most sequences need no
+// enumeration.
 #pragma once
 
 #include "core/integrity/unshared_lines.hpp"
@@ -8,10 +8,9 @@
 namespace dotpose::core {
 
 /// Returns an upper bound on the summed odds of the single alternatives that share a line. Each bit
-/// set in `sequences` requests the bound of one sequence. For each of these sequences, tries the
-/// tables in order of decreasing number of lines, beginning with the table of `widest`. When a
-/// bound is at most `max_odds`, adds the bound to the result and clears the bit. Sequences whose
-/// bit is still set on return are not included in the result.
+/// in `sequences` requests one sequence. For each sequence, tries the tables by decreasing number
+/// of lines, from the table of `widest`. If a bound is at most `max_odds`, adds the bound and
+/// clears the bit. Sequences whose bit remains set are not included.
 float tabled_alternatives(const Kernels& kernels, const UnsharedLines& widest, float max_odds,
                           unsigned& sequences);
 

@@ -31,7 +31,7 @@ AxisReading reading_of(CodeVariant code, const Place& place, Axis axis) {
     }
 }
 
-/// Compares the bits of one axis with the code, in all lines of an upright grid.
+/// Compares all bits of one axis with the code.
 Confidence compare(CodeVariant code, const Upright& upright, Axis axis,
                    const AxisReading& reading) {
     Confidence confidence;
@@ -48,31 +48,31 @@ Confidence compare(CodeVariant code, const Upright& upright, Axis axis,
     return confidence;
 }
 
-/// Returns the place of the upper left symbol of an upright grid.
+/// Returns the place of the upper left symbol in an upright grid.
 Place corner_place(CodeVariant code, const Decoding& decoding, const Upright& upright) {
     const FixedVec corner = decoding.pattern_from_grid(upright.corner());
     return moved(code, decoding.place, corner.x, corner.y);
 }
 
-/// Result of the comparison of all bits in view with the code, before alternatives are evaluated.
+/// Comparison of all bits in view with the code, before alternatives are evaluated.
 struct Doubt {
     int odds_per_bit_q8 = 0;  ///< 0 if the bits carry no information or too many bits are wrong
-    /// For each axis, log2 of an upper bound on the probability that random bits agree with the
-    /// code at least as well as the bits that were read, in units of 2^-8.
+    /// For each axis, log2 of an upper bound on the probability of a chance match, in units of
+    /// 2^-8. In a chance match, random bits agree with the code as well as the bits that were read.
     std::array<int, 2> by_chance_q8{};
 };
 
-/// Returns the odds per bit and the bounds on chance, computed from the agreement of the bits of
-/// both axes with the code. Sets `bits` of the decoding and `bit_errors` of the fix.
+/// Returns the odds per bit and the bounds on chance. Computes them from the agreement of both axes
+/// with the code. Sets `decoding.bits` and `fix.bit_errors`.
 Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptions& options,
                Decoding& decoding, Fix& fix) {
     decoding.bits = agreements[0].bits() + agreements[1].bits();
     fix.bit_errors = agreements[0].wrong() + agreements[1].wrong();
     for (const Confidence& agreement : agreements) {
-        // A fraction of wrong bits above the limit indicates that two patterns are in view.
+        // Too many wrong bits indicate two patterns in view.
         if (agreement.wrong() > agreement.bits() * options.max_bit_error_q8 / 256) return {};
     }
-    // Both axes are read from the same dots and therefore have the same error rate.
+    // Both axes are read from the same dots, so they have the same error rate.
     Confidence both = agreements[0];
     both.add(agreements[1]);
     Doubt doubt{odds_per_bit_q8(both), {}};
@@ -92,9 +92,9 @@ Doubt compare_with_chance(const Grid& grid, CodeVariant code, const IntegrityOpt
     return doubt_of(agreements, options, decoding, fix);
 }
 
-/// Returns an upper bound on the probability that the position on one axis is wrong: the sum of the
-/// bounds on chance and on alternatives. If this sum is within the limit, adds the bound on seam
-/// alternatives. All probabilities are log2 in units of 2^-8.
+/// Returns an upper bound on the probability that one axis is wrong, from chance and alternatives.
+/// Adds seam alternatives only if the sum is within the limit. All probabilities are log2 in units
+/// of 2^-8.
 int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limit_q8,
                       int alternatives_q8) {
     int sum_q8 = add_log2(by_chance_q8, alternatives_q8);
@@ -102,10 +102,9 @@ int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limi
     return std::min(sum_q8, 0);
 }
 
-/// Returns, for each axis, an upper bound on the probability that the position is wrong, as log2 in
-/// units of 2^-8. `alternatives_q8(axis, ratios)` returns the odds of the alternatives of an axis.
-/// The result is 0 (probability 1) for an axis whose probability of a match by chance exceeds the
-/// limit.
+/// Returns an upper bound on the probability that an axis is wrong, for each axis, as log2 in units
+/// of 2^-8. `alternatives_q8(axis, ratios)` returns the odds of the alternatives. The result is 0
+/// (probability 1) for an axis whose bound on chance exceeds the limit.
 template <typename Alternatives>
 std::array<int, 2> with_alternatives(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                      std::span<ScoredLine> storage, const Doubt& doubt,
@@ -131,9 +130,8 @@ int sum(const std::array<int, 2>& p_wrong_q8) {
     return add_log2(p_wrong_q8[0], p_wrong_q8[1]);
 }
 
-/// Returns true if the position is refused regardless of its alternatives, because the bits carry
-/// no information, too many bits are wrong, or the probability of a match by chance exceeds the
-/// limit.
+/// Returns true if the position is refused whatever its alternatives. Reasons are bits without
+/// information, too many wrong bits, and a bound on chance above the limit.
 bool is_hopeless(const Doubt& doubt, int limit_q8) {
     return doubt.odds_per_bit_q8 == 0 || sum(doubt.by_chance_q8) > limit_q8;
 }
@@ -145,8 +143,8 @@ Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& deco
     return is_sure ? Status::ok : Status::not_certain;
 }
 
-/// Returns, for each axis, an upper bound on the probability that the position is wrong, as log2 in
-/// units of 2^-8. The odds of the alternatives come from quick_alternatives.hpp.
+/// Returns an upper bound on the probability that an axis is wrong, for each axis, as log2 in units
+/// of 2^-8. Bounds the alternatives as in quick_alternatives.hpp.
 std::array<int, 2> estimate_quickly(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                     int limit_q8, std::span<ScoredLine> storage,
                                     const Doubt& doubt) {
@@ -171,7 +169,7 @@ Status verify_quickly(const Grid& grid, CodeVariant code, Decoding& decoding,
 
 namespace {
 
-/// Lines of one axis of a tracked frame, from the first to the last line with bits.
+/// Lines of one axis in a tracked frame, from the first line with bits to the last.
 struct TrackedAxis {
     std::span<const ComparedLine> lines;
     AxisReading reading;
@@ -197,7 +195,7 @@ TrackedAxis tracked_axis(CodeVariant code, std::span<const ComparedLine> columns
         wrong += bits_in(line.wrong);
     }
     result.confidence = Confidence::of_hard_bits(seen, wrong);
-    // Reading of the first line that has bits, at the first cell of this line.
+    // Reading of the first line with bits, at its first cell.
     const auto ahead = static_cast<std::int32_t>(begin);
     result.reading = axis == Axis::x ? reading_of(code, moved(code, corner, ahead, 0), axis)
                                      : reading_of(code, moved(code, corner, 0, ahead), axis);
@@ -228,7 +226,7 @@ Status verify_tracked(CodeVariant code, std::span<const ComparedLine> lines, con
 
 namespace {
 
-/// Compares the bits of both axes with the code, in all lines of the grid.
+/// Compares all bits of both axes with the code.
 std::array<Confidence, 2> compare_both(const Grid& grid, CodeVariant code,
                                        const Decoding& decoding) {
     const Upright all(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
@@ -238,8 +236,8 @@ std::array<Confidence, 2> compare_both(const Grid& grid, CodeVariant code,
             compare(code, all, Axis::y, reading_of(code, corner, Axis::y))};
 }
 
-/// Replaces the upper bounds on chance for one code with the upper bounds for several possible
-/// codes. `log2_codes_q8` is log2 of the weighted number of codes, in units of 2^-8.
+/// Replaces the bounds on chance for one code by bounds for several possible codes. `log2_codes_q8`
+/// is log2 of the weighted number of codes, in units of 2^-8.
 void count_hypotheses_of(int log2_codes_q8, const Grid& grid, CodeVariant code,
                          const Decoding& decoding, Doubt& doubt) {
     const auto agreements = compare_both(grid, code, decoding);

@@ -1,6 +1,6 @@
-// Verify: compares all dots in view with the decoded position, which may have been decoded from
-// only some of the dots. Differs: the paper accepts every decoded position. See
-// docs/differs-from-paper.md.
+// Verify: compares all dots in view with the decoded position. The decoder may have used only some
+// of the dots. Unlike the paper, dotpose does not accept every decoded position
+// (docs/differs-from-paper.md).
 #pragma once
 
 #include "core/decode/grid.hpp"
@@ -14,30 +14,29 @@
 
 namespace dotpose::core {
 
-/// Sets `bit_errors` and `p_wrong_log2` of the fix, and `bits` and `p_wrong_log2_q8` of the
-/// decoding. The probability includes chance, alternatives and seams. First uses the odds of the
-/// alternatives from quick_alternatives.hpp. If the probability then exceeds min(limit, 2^-30),
-/// uses the odds from alternatives.hpp for each axis whose probability exceeds a sixteenth of this
-/// minimum. `others` contains the number of possible codes, and may be null if the code is given.
-/// Errors: not_certain, if the probability exceeds the limit or too many bits contradict the
-/// position.
+/// Verifies a decoded position. Sets `bits` and `p_wrong_log2_q8` in `decoding`, and `bit_errors`
+/// and `p_wrong_log2` in `fix`. The probability includes chance, alternatives and seams. The first
+/// bound on the alternatives is from quick_alternatives.hpp. It suffices if the probability is at
+/// most min(limit, 2^-30). Otherwise, alternatives.hpp gives a tighter bound for each axis above a
+/// sixteenth of this minimum. `others` contains the number of possible codes, and may be null if
+/// the code is given. Errors: not_certain, if the probability exceeds the limit or too many bits
+/// contradict the position.
 Status verify(const Grid& grid, CodeVariant code, const OtherCodes* others, Decoding& decoding,
               const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
-/// Variant of `verify` that uses only integers and takes bounded time. Uses only the odds of the
-/// alternatives from quick_alternatives.hpp, so it refuses more positions. Returns the same errors
-/// as `verify`.
+/// Verifies a decoded position in integers and in bounded time. Uses only quick_alternatives.hpp,
+/// so it refuses more positions than `verify`. Errors: as for `verify`.
 Status verify_quickly(const Grid& grid, CodeVariant code, Decoding& decoding,
                       const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
-/// Variant of `verify_quickly` for a tracked frame, in which all bits have the same weight. The
-/// first half of `lines` contains the columns, and the second half contains the rows. `corner` is
-/// the place where the first column and the first row cross.
+/// Verifies a tracked frame as `verify_quickly` does. All bits have the same weight. The first half
+/// of `lines` contains the columns, and the second half contains the rows. The first column and the
+/// first row cross at `corner`.
 Status verify_tracked(CodeVariant code, std::span<const ComparedLine> lines, const Place& corner,
                       const IntegrityOptions& options, Decoding& decoding, Fix& fix);
 
-/// Sets the odds of all codes other than `code`, the code in which the grid was read. Does nothing
-/// if `others` is null or if the bits carry no information.
+/// Sets the odds of all codes except `code`, in which the grid was read. Does nothing if `others`
+/// is null or if the bits carry no information.
 void weigh_other_codes(const Kernels& kernels, const Grid& grid, CodeVariant code,
                        const Decoding& decoding, std::span<ScoredLine> storage, OtherCodes* others);
 

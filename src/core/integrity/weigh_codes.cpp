@@ -14,14 +14,14 @@ namespace {
 
 /// Index of a4, the only sequence in which the codes differ.
 constexpr std::size_t kA4 = 3;
-/// Upper bound on the odds of a place that is not evaluated, as log2 in units of 2^-8 and as a
-/// number. The sums contain this bound instead of the odds of the place.
+/// Odds counted for a place that is skipped, as log2 in units of 2^-8 and as a number. The true
+/// odds are never larger.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Summed odds below which no tighter bound is computed.
 constexpr float kNegligibleOdds = 1e-12F;
 
-/// Minimum loss of a place in each line that it does not share.
+/// Minimum loss in each line that a place does not share.
 struct Losses {
     explicit Losses(const LikelihoodRatios& ratios)
         : loss_limit(ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain()) {
@@ -34,13 +34,12 @@ struct Losses {
         }
     }
 
-    /// Returns the loss in each step, in parts of the loss limit. A place that loses
+    /// Returns the step losses, in parts of the loss limit. A place that loses
     /// `StepLosses::kLimitParts` parts loses at least the limit.
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
-        // The quotients are below 16. Floats of this size are precise enough that a quotient is
-        // never rounded up to the next integer.
+        // The quotients are below 16. At this size, float rounding never reaches the next integer.
         const auto part = static_cast<float>((loss_limit + StepLosses::kLimitParts - 1) /
                                              StepLosses::kLimitParts);
         for (int step = 0; step < steps.count; ++step) {
@@ -51,17 +50,17 @@ struct Losses {
         return steps;
     }
 
-    /// Returns true if the loss of a place exceeds the limit. `shared` is an upper bound on the
-    /// summed losses of the lines that the place shares, in units of kUnit.
+    /// Returns true if a place loses more than the limit. `shared` is an upper bound on the summed
+    /// losses in its shared lines, in units of kUnit.
     bool exceed_limit(int shared) const { return kUnit * (all - shared) > loss_limit; }
 
-    /// Unit of `all` and `of`: 8 units of the score. Losses are rounded down to this unit, because
-    /// sums of losses must fit in 16 bits.
+    /// Unit of `all` and `of`, in score units. Losses are rounded down to this unit, because their
+    /// sums must fit in 16 bits.
     static constexpr int kUnit = 8;
-    int loss_limit;  ///< loss above which a place is skipped, in units of the score
-    int all = 0;     ///< loss of a place that shares no line, in units of kUnit
-    /// Minimum loss of a place at a shift where it shares no line, in units of the score: the sum
-    /// of the minimum losses of all lines, including negative losses (gains).
+    int loss_limit;  ///< loss above which a place is skipped, in score units
+    int all = 0;     ///< loss without any shared line, in units of kUnit
+    /// Minimum loss at a shift without any shared line, in score units. This is the sum of all
+    /// minimum losses, including negative losses (gains).
     int at_best = 0;
     std::array<std::uint16_t, kMaxLines> of;  ///< loss of each line, in units of kUnit
 };
@@ -77,7 +76,7 @@ class OtherPlaces {
           theirs_(code::basis(other)[kA4]),
           shift_here_(code::roll_further(read, other, ratios.position, ratios.places[kA4])),
           here_(offsets_of(ratios.places[kA4])) {
-        // A line where the place and the reading have the same roll has no loss.
+        // A line with the reading's roll loses nothing.
         const int shared = modulo(here_[0] - shift_here_);
         int lost = 0;
         for (std::size_t line = 0; line < count_ && !ratios_.is_hopeless(lost); ++line) {
@@ -88,48 +87,48 @@ class OtherPlaces {
         result_.here = ratios_.odds(lost);
     }
 
-    /// Returns the likelihood ratio of the place of the reading in the other code.
+    /// Returns the likelihood ratio of the same place in the other code.
     float here() const { return result_.here; }
-    /// Returns the summed likelihood ratios of all other places. Until the odds of these places are
-    /// added, returns an upper bound on the sum.
+    /// Returns the summed likelihood ratios of all other places. Before their odds are added,
+    /// returns an upper bound on the sum.
     float elsewhere() const { return result_.elsewhere; }
 
-    /// Sets the upper bound on the summed odds of all other places, computed from a table.
+    /// Sets a table bound on the summed odds of all other places.
     void bound(const UnsharedLines& unshared, CodeVariant read, CodeVariant other) {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
         const int lost = unshared.min_loss(table) - ratios_.max_gain();
-        // The bound includes a place once for each shift where the place shares a line, so at most
-        // `count_` times.
+        // A place counts once for each shift where it shares a line, so at most `count_` times.
         result_.elsewhere =
             static_cast<float>(theirs_.length * count_) * ratios_.odds(std::max(lost, 0)) +
             sharing_none();
     }
 
-    /// Removes the bound, before the odds of the places are added one by one.
+    /// Removes the bound before places are added one by one.
     void begin_count() { result_.elsewhere = 0; }
 
-    /// Adds the odds of the places that the search for similar places does not find: the place of
-    /// the reading in a4, at all shifts except `shift_here_`, and every place at each shift where
-    /// it shares no line.
+    /// Adds the odds that the search for similar places does not find. Adds the place of the
+    /// reading in a4, at all shifts except `shift_here_`. Adds every place at shifts without a
+    /// shared line.
     void add_unsimilar() {
-        // A place with the rolls of the reading shares all lines at one shift, and no line at any
-        // other shift.
+        // A place with the reading's rolls shares all lines at one shift, and no line at any other
+        // shift.
         if (!has_same_rolls_) add(ratios_.places[kA4], here_, shift_here_);
         add_sharing_none();
     }
 
-    /// Adds the odds of another place of a4 at all shifts where the place shares a line.
+    /// Adds the odds of another place in a4, at all shifts with a shared line.
     void add(std::uint32_t place) { add(place, offsets_of(place), kNoShift); }
-    /// Adds kSkippedOdds for each of `places` places and each line, because a place shares lines at
-    /// no more shifts than there are lines.
+    /// Adds kSkippedOdds for each of `places` places and each line. A place shares lines at no more
+    /// shifts than there are lines.
     void add_skipped(int places) {
         result_.elsewhere += static_cast<float>(places * ratios_.count()) * kSkippedOdds;
     }
-    /// Returns the sums, and the position of the likeliest other place if its odds are large enough
-    /// to be reported.
+    /// Returns the sums. Sets the position of the likeliest other place if its odds are large
+    /// enough to be reported.
     const OtherAxis& result() {
-        // A place with smaller odds is never reported.
+        // Minimum odds of a place whose position is computed. A place with smaller odds is never
+        // reported.
         constexpr float kMinReportedOdds = 1e-6F;
         if (result_.best < kMinReportedOdds) return result_;
         auto places = ratios_.places;
@@ -148,21 +147,21 @@ class OtherPlaces {
         RollOffsets offsets;
         const std::uint8_t* own = ratios_.basis[kA4].rolls + ratios_.places[kA4];
         const std::uint8_t* alternative = theirs_.rolls + place;
-        // Sets the offsets of kMaxLines lines, not only of the lines in view, because loops of
-        // constant length are faster.
+        // Sets the offsets of kMaxLines lines, even if fewer are in view. Loops of constant length
+        // are faster.
         for (std::size_t line = 0; line < offsets.size(); ++line)
             offsets[line] = roll_offset(own[line], alternative[line]);
         return offsets;
     }
 
-    /// Returns an upper bound on the summed odds of every place at each shift where it shares no
-    /// line. Assumes the maximum odds for every place and every shift.
+    /// Returns an upper bound on the summed odds at all shifts without a shared line. Assumes the
+    /// maximum odds for every place and shift.
     float sharing_none() const {
         return static_cast<float>(theirs_.length * (kSections - 1)) * ratios_.odds(losses_.at_best);
     }
 
-    /// Adds the odds of every place at each shift where the place shares no line with the reading.
-    /// Adds only the upper bound if the bound is negligible. Otherwise, evaluates each place.
+    /// Adds the odds of every place at all shifts without a shared line. If their bound is
+    /// negligible, adds only the bound.
     void add_sharing_none() {
         const float all = sharing_none();
         if (all <= kNegligibleOdds) {
@@ -175,8 +174,7 @@ class OtherPlaces {
         }
     }
 
-    /// Adds the odds of a place at all shifts where the place shares no line, except
-    /// `shift_left_out`.
+    /// Adds the odds of a place at all shifts without a shared line, except `shift_left_out`.
     void add_unshared(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios_.count()));
         for (int shift = 0; shift < kSections; ++shift) {
@@ -191,11 +189,10 @@ class OtherPlaces {
         }
     }
 
-    /// Adds the odds of a place at all shifts where the place shares a line, except
-    /// `shift_left_out`.
+    /// Adds the odds of a place at all shifts with a shared line, except `shift_left_out`.
     void add(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
-        // Summed losses of the lines that are shared at the same shift, in units of kUnit, indexed
-        // by the roll offset of these lines.
+        // Summed losses of the lines that are shared at the same shift, by their roll offset. In
+        // units of kUnit.
         std::array<std::uint16_t, kSections + 1> shared{};
         std::uint16_t most = 0;
         for (std::size_t line = 0; line < count_; ++line) {
@@ -224,8 +221,8 @@ class OtherPlaces {
         }
     }
 
-    /// Adds the odds of a place, and keeps the place if its odds are the highest so far. `shift` is
-    /// the roll of its first line minus the roll of the reading, modulo 63.
+    /// Adds the odds of a place. Keeps the place if its odds are the highest so far. `shift` is the
+    /// roll of its first line minus the reading's roll, modulo 63.
     void count(std::uint32_t place, int shift, float odds) {
         result_.elsewhere += odds;
         if (odds <= result_.best) return;
@@ -239,14 +236,14 @@ class OtherPlaces {
     const std::size_t count_;
     const code::Secondary& theirs_;
     const int shift_here_;
-    const RollOffsets here_;  ///< roll offsets at the place of the reading in the other code's a4
-    /// True if the place of the reading has the same rolls in both codes, in all lines.
+    const RollOffsets here_;  ///< roll offsets at the reading's place in the other a4
+    /// True if both codes have the same rolls in all lines, at the place of the reading.
     bool has_same_rolls_ = true;
     std::uint32_t best_place_ = 0;
     OtherAxis result_;
 };
 
-/// Computes the odds of the places in other codes along one axis.
+/// Computes the odds of the other codes along one axis.
 class AxisWeigher {
   public:
     AxisWeigher(const Kernels& kernels, const UnsharedLines& unshared, CodeVariant read)
@@ -256,29 +253,28 @@ class AxisWeigher {
           read_(read),
           losses_(ratios_) {}
 
-    /// Returns the odds of the places in the code `other`: the exact odds of the place of the
-    /// reading, and an upper bound, from a table, on the odds of all other places.
+    /// Returns the odds of the code `other`: exact odds for the place of the reading, and a table
+    /// bound for all other places.
     OtherPlaces bounded(CodeVariant other) const {
         OtherPlaces others(ratios_, losses_, read_, other);
         others.bound(unshared_, read_, other);
         return others;
     }
 
-    /// Replaces the bound on the odds of all other places with a sum over these places, unless the
-    /// bound is negligible. `across` is the sum of the odds of the other axis, by which the odds of
-    /// this axis are multiplied.
+    /// Replaces the bound by a sum over all other places, unless the bound is negligible. `across`
+    /// is the summed odds on the other axis, which multiply the odds on this axis.
     void look_closer(CodeVariant other, float across, OtherPlaces& others) {
         if (others.elsewhere() * across <= kNegligibleOdds) return;
         others.begin_count();
         others.add_unsimilar();
         if (!steps_) steps_ = losses_.of_steps(ratios_);
-        // Searches a4 of the other code for the digits of the reading in a4 of its own code.
+        // Searches the other code's a4 for the reading's digits in its own a4.
         code::Secondary a4 = code::basis(other)[kA4];
         a4.digits = ratios_.basis[kA4].digits;
         const PlaceBits similar = kernels_.find_similar_places(a4, ratios_.places[kA4], *steps_);
         int added = 0;
         for (std::uint32_t word = 0; word < similar.size(); ++word) {
-            // Few places are similar, so the loop visits only set bits.
+            // Visits only set bits, because few places are similar.
             for (std::uint32_t rest = similar[word]; rest != 0; rest &= rest - 1) {
                 others.add(32 * word + static_cast<std::uint32_t>(std::countr_zero(rest)));
                 ++added;
@@ -317,7 +313,7 @@ void weigh_other_codes(const Kernels& kernels, const UnsharedLines& columns,
         if (other == read) continue;
         OtherPlaces x = by_x.bounded(other);
         OtherPlaces y = by_y.bounded(other);
-        // An axis needs no enumeration if the bits of the other axis rule out the code.
+        // An axis needs no enumeration if the other axis rules out the code.
         by_x.look_closer(other, y.here() + y.elsewhere(), x);
         by_y.look_closer(other, x.here() + x.elsewhere(), y);
         others.of[i] = {x.result(), y.result()};

@@ -1,5 +1,5 @@
 // Weigh codes: the odds of places in the other codes, relative to the reading. The codes differ
-// only in a4, so only positions with the same places in a1, a2 and a3 as the reading are compared.
+// only in a4. Only positions with the reading's places in a1, a2 and a3 are therefore compared.
 // docs/integrity.md derives the sums.
 #pragma once
 
@@ -10,12 +10,12 @@
 
 namespace dotpose::core {
 
-/// Returns the odds of the places in the code variant `other` along one axis, relative to the
-/// reading. `ratios` are the likelihood ratios of the reading in the variant `read`.
+/// Returns the odds of the code `other` along one axis, relative to the reading in the code `read`.
+/// `ratios` are the likelihood ratios of the reading.
 OtherAxis weigh_other_code(const Kernels& kernels, const LikelihoodRatios& ratios, CodeVariant read,
                            CodeVariant other);
 
-/// Sets the odds of the places in all codes other than `read`, along both axes.
+/// Sets the odds of all codes except `read`, along both axes.
 void weigh_other_codes(const Kernels& kernels, const UnsharedLines& columns,
                        const UnsharedLines& rows, CodeVariant read, OtherCodes& others);
 

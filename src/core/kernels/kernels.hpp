@@ -1,7 +1,9 @@
-// Kernels: loops over pixels, dots and cells. The desktop attempts spend most of their time in
-// these loops. Each kernel has several implementations, one per kind of processor, with
-// bit-identical results. `select.hpp` selects one implementation. Floating-point numbers are in
-// single precision. Lengths in the image are in px.
+// Kernels: the inner loops over pixels, dots and cells. The desktop attempts spend most of their
+// time here. Each kernel has one implementation per vector width. All implementations return
+// bit-identical results, and `select.hpp` chooses the fastest. Image lengths are in px.
+//
+// A cell is a grid intersection with its dot. The *places* of a cell are the four points where its
+// dot may be printed: above, left, right and below the intersection.
 #pragma once
 
 #include <array>
@@ -16,72 +18,74 @@
 
 namespace dotpose::core {
 
-/// Two plane waves cos(2 pi (kx x + ky y) - phase). The wave vectors (kx, ky) have a positive cross
-/// product.
+/// A pair of plane waves cos(2 pi (kx x + ky y) - phase). The cross product of the two wave vectors
+/// is positive.
 struct Waves {
-    /// Components of the wave vectors of the first and of the second wave, in cycles per px.
+    /// Wave vectors (kx, ky), in cycles per px.
     std::array<float, 2> kx{};
     std::array<float, 2> ky{};
-    float power = 0;  ///< sum of the powers of both waves; about 2 n^2 for n dots on intersections
-    /// Sums of the cosine and of the sine of 2 pi (kx x + ky y) over all dots. The phase is
-    /// atan2(phase_sin, phase_cos).
+    float power = 0;  ///< total power of both waves; about 2 n^2 for n dots on intersections
+    /// Sums over all dots of cos(p) and sin(p), where p = 2 pi (kx x + ky y). The phase of a wave
+    /// is atan2(phase_sin, phase_cos).
     std::array<float, 2> phase_cos{};
     std::array<float, 2> phase_sin{};
 };
 
-/// Options of `sum_cells`, which assigns dots to cells in one pass.
+/// Options for `sum_cells`, which assigns dots to cells.
 struct CellPass {
-    float reach_px = 0;  ///< maximum distance of a dot from the origin along each axis
-    /// Maximum distance of a dot from the nearest place of its cell, in spacings. Dots at a larger
-    /// distance are not used.
+    float reach_px = 0;  ///< maximum distance from the origin to a dot, along each axis
+    /// Maximum distance from a dot to the nearest place of its cell, in spacings. Dots beyond this
+    /// limit are not used.
     float max_off = 0;
-    /// Distance of the four places of a cell from its intersection, in spacings. If it is 0, the
-    /// intersection is the only place.
+    /// Distance from the intersection to the four places, in spacings. If 0, the intersection is
+    /// the only place.
     float displacement = 0;
     bool with_perspective = false;
 };
 
-/// Sums over the used dots of one pass, for the least-squares plane with perspective: i (1 + g x +
-/// h y) = a x + b y + c, and j (1 + g x + h y) = d x + e y + f. (x, y) is the image point of a dot,
-/// and (i, j) is the nearest place of its cell. Without perspective, only the first three elements
-/// of `i` and `j` are set, and `square` is 0.
+/// Sums for a least-squares fit of a plane with perspective:
+///
+///     i (1 + g x + h y) = a x + b y + c
+///     j (1 + g x + h y) = d x + e y + f
+///
+/// (x, y) is the image point of a used dot, and (i, j) is the nearest place of its cell. Without
+/// perspective, `i` and `j` contain only their first three sums, and `square` is 0.
 struct CellSums {
     float seen = 0;  ///< number of dots within reach
-    float used = 0;  ///< number of `seen` dots within `max_off` of a place
-    /// Sum of the squared distances of the used dots from their places, in spacings^2.
+    float used = 0;  ///< number of `seen` dots closer than `max_off` to a place
+    /// Sum of squared distances from the used dots to their places, in spacings^2.
     float squares = 0;
     std::array<float, 6> one{};     ///< sums of 1, x, y, xx, xy, yy
-    std::array<float, 6> i{};       ///< the same six sums, with each term multiplied by i
-    std::array<float, 6> j{};       ///< the same six sums, with each term multiplied by j
-    std::array<float, 6> square{};  ///< the same six sums, with each term multiplied by i^2 + j^2
+    std::array<float, 6> i{};       ///< the same six sums, each term times i
+    std::array<float, 6> j{};       ///< the same six sums, each term times j
+    std::array<float, 6> square{};  ///< the same six sums, each term times i^2 + j^2
 };
 
-/// Maximum number of columns, and of rows, of cells in view, at any rotation of the image.
+/// Maximum number of columns in view, at any rotation. The same limit applies to rows.
 inline constexpr int kMaxLinesInView = 1024;
 
-/// Placement of the windows by `list_cells`: no windows, on intersections or on dots.
+/// Where `list_cells` places the measurement windows.
 enum class Windows : std::uint8_t { none, on_intersections, on_dots };
 
-/// Options of `list_cells`, which lists the cells whose dots are in view.
+/// Options for `list_cells`, which lists the cells with a visible dot.
 struct CellsInView {
-    /// Plane from the image to the upright pattern. Image points are relative to (centre_x,
+    /// Map from image points to the upright pattern. Image points are relative to (centre_x,
     /// centre_y).
     FloatPlane plane;
     FloatLens lens;
-    float centre_x = 0;  ///< origin of image points, in px relative to the first pixel of the image
+    float centre_x = 0;  ///< origin of image points, in px from the image's first pixel
     float centre_y = 0;
     float width_px = 0;
     float height_px = 0;
-    float margin_px = 0;  ///< minimum distance of a dot from the border of the image
-    /// Maximum distance of the undistorted image point of a dot from (centre_x, centre_y), along
-    /// each axis.
+    float margin_px = 0;  ///< minimum distance from a dot to the image border
+    /// Maximum |x| and |y| of a dot. (x, y) is its undistorted image point.
     float reach_px = 0;
-    float displacement = 0;  ///< distance of dots from their intersections, in spacings
+    float displacement = 0;  ///< distance from an intersection to its dot, in spacings
     Windows windows = Windows::on_intersections;
     int step = 1;  ///< row subsampling step: every `step`-th cell of a row is listed
-    /// For each column, the index in the main sequence of its cell in row `first_row`. `row_rolls`
-    /// contains, for each row, the index of its cell in column `first_column`.
+    /// Roll of each column: the main-sequence index of its cell in row `first_row`.
     const std::uint8_t* column_rolls = nullptr;
+    /// Roll of each row: the main-sequence index of its cell in column `first_column`.
     const std::uint8_t* row_rolls = nullptr;
     int first_column = 0;  ///< column of the first element of `column_rolls`
     int first_row = 0;
@@ -89,37 +93,37 @@ struct CellsInView {
     int rows = 0;
 };
 
-/// Options of `measure_windows`.
+/// Options for `measure_windows`.
 struct WindowOptions {
     float spacing_px = 11;  ///< spacing at the centre of the view
-    /// Half the side of a window, in spacings. The half side in px is limited to the range from 2
-    /// to kMaxHalfWindow_px.
+    /// Half the window side, in spacings. In px, the half side is clamped to [2,
+    /// kMaxHalfWindow_px].
     float reach = 0.36F;
-    /// Minimum contrast of a pixel of a dot, in 1/256 of the paper level.
+    /// Contrast threshold for dot pixels, in 1/256 of the paper level.
     int cut_q8 = 128;
-    /// Mass of a typical dot relative to the paper level, or 0 to determine this mass from the
-    /// windows.
+    /// Typical dot mass relative to the paper level. If 0, it is estimated from the windows.
     float typical_mass = 0;
 };
-/// Maximum half side of a window, and maximum radius of a centroid window.
+/// Maximum half side of a measurement window.
 inline constexpr int kMaxHalfWindow_px = 24;
+/// Maximum radius of a centroid window.
 inline constexpr float kMaxCentroidRadius_px = 24;
 /// Maximum radius of a small centroid window. Small windows take a tenth of the time of larger
-/// windows.
+/// ones.
 inline constexpr float kSmallCentroidRadius_px = 4;
-/// Radius of the centroid window for predicted dots. Small enough to limit noise, and large enough
-/// to include the edge of the dot at 8 to 13 px per spacing.
+/// Centroid window radius for predicted dots. Small enough to limit noise, and large enough to
+/// include the edge of a dot at 8 to 13 px per spacing.
 inline constexpr float kPredictedCentroidRadius_px = 3.65F;
 
-/// Sums over the inliers for the fit of nine parameters; see PlaneNormal. (u, v) is the place of a
-/// dot on the pattern, relative to `at` of the plane, in units of the `scale` of `sum_fit`. (x, y)
-/// is the residual of the dot, in spacings.
+/// Sums over the inliers for a nine-parameter fit (see PlaneNormal). (u, v) is a dot's pattern
+/// point relative to the plane's `at`, in units of `scale` (see `sum_fit`). (x, y) is the dot's
+/// residual, in spacings.
 struct FitSums {
     int points = 0;      ///< number of inliers
     int outliers = 0;    ///< number of measured dots that are not inliers
     float farthest = 0;  ///< largest squared residual of an inlier
-    /// Sum of the offsets from the intersections, each projected onto the direction of the
-    /// displacement in the code.
+    /// Sum of the dots' offsets from their intersections, in spacings. Each offset is projected
+    /// onto the direction of its coded displacement.
     float projected = 0;
     float squares = 0;  ///< sum of the squared residuals
     /// Sums of 1, u, v, uu, uv, vv, uuu, uuv, uvv, vvv, quu, quv, qvv, qqu, qqv and qqq, with q =
@@ -129,26 +133,26 @@ struct FitSums {
     std::array<float, 9> residuals{};
 };
 
-/// Sums over predicted dots. The place of a dot is its predicted image point, in px relative to the
-/// centre of the view. The offset of a dot is its measured centre minus its place, in px.
+/// Sums over predicted dots. A dot's predicted point (u, v) is relative to the view centre, in px.
+/// Its offset is the measured centre minus the predicted point.
 struct DotOffsets {
     int points = 0;
-    float u = 0;  ///< sum of places
+    float u = 0;  ///< sums of the predicted points
     float v = 0;
-    float squares = 0;  ///< sum of the squared distances of the places from the centre of the view
-    float squared = 0;  ///< sum of the squared offsets
-    float off_u = 0;    ///< sum of offsets
+    float squares = 0;  ///< sum of u^2 + v^2
+    float squared = 0;  ///< sum of squared offsets
+    float off_u = 0;    ///< sums of the offsets
     float off_v = 0;
-    /// Sum of the inner products of place and offset. `across` is the sum of their cross products.
+    /// Sum of dot((u, v), offset). `across` is the sum of cross((u, v), offset).
     float along = 0;
     float across = 0;
-    /// Sums of the offsets along u and along v, each times the x component of the displacement
-    /// direction of its dot. `of_y` contains the sums for the y component.
+    /// Sums of d_x * offset, along u and v. d is the direction of the dot's coded displacement.
+    /// `of_y` is the same with d_y.
     std::array<float, 2> of_x{};
     std::array<float, 2> of_y{};
 };
 
-/// Sums of residuals, in spacings, over the inliers in each square block of the image.
+/// Residual sums of the inliers in each image block, in spacings.
 struct BlockSums {
     static constexpr std::size_t kMaxAlong = 9;
     struct Block {
@@ -162,29 +166,30 @@ struct BlockSums {
     float squares = 0;   ///< sum of the squared residuals of the inliers, in spacings^2
 };
 
-/// Result of reading the bits of cells and comparing them with the code.
+/// Result of comparing cell bits with the code.
 struct BitsRead {
     int seen = 0;     ///< number of cells with a dark spot
-    int read = 0;     ///< number of `seen` cells whose spot is clearly at one of the four places
+    int read = 0;     ///< number of `seen` cells whose spot is clearly at one place
     int wrong_x = 0;  ///< number of `read` cells whose x bit contradicts the code
     int wrong_y = 0;
     int right = 0;  ///< number of `read` cells without a wrong bit
-    /// Sum, over the `right` dots, of the larger component of their offset from the intersection,
-    /// in spacings.
+    /// Sum of max(|x|, |y|) over the `right` dots, in spacings. (x, y) is a dot's offset from its
+    /// intersection.
     float projected = 0;
-    /// Sum of the squared distances of `right` dots from their places, in spacings^2.
+    /// Sum of squared distances from the `right` dots to their places, in spacings^2.
     float squares = 0;
 };
 
-/// A line, and the minimum loss, in bits, of an alternative that does not share this line with the
-/// reading.
+/// Minimum loss, in bits, of an alternative that does not share a line. An *alternative* is any
+/// position other than the reading. It *shares* a line with the reading if both give the line the
+/// same roll.
 struct LineLoss {
     std::uint8_t line = 0;
     std::uint8_t loss = 0;
 };
 
-/// List of places in the secondary sequences, each with a line that an alternative at this place
-/// shares with the reading.
+/// Places in the secondary sequences where an alternative may resemble the reading. Each entry
+/// names a line that this alternative shares with the reading.
 struct SimilarPlaceList {
     static constexpr int kMax = 256;
     struct Entry {
@@ -199,136 +204,132 @@ struct SimilarPlaceList {
 /// Set of places in a sequence, one bit per place. Bit 0 of the first word is the first place.
 using PlaceBits = std::array<std::uint32_t, 8>;
 
-/// For each step, which is a pair of adjacent lines, a lower bound on the loss of an alternative
-/// whose digit in this step differs from the digit of the reading. Such an alternative does not
-/// share at least one of the two lines. The unit is 1/kLimitParts of the loss limit.
+/// Lower bounds on an alternative's loss, one per step. A step leads from one line to the next. The
+/// bound applies if the alternative's digit in this step differs from the reading's digit. At most
+/// one of the two lines is shared then. The unit is 1/kLimitParts of the loss limit.
 struct StepLosses {
     static constexpr int kLimitParts = 8;
     int count = 0;
     std::array<std::uint8_t, 64> parts;  ///< loss of each step; at most kLimitParts
 };
 
-/// Groups of alternatives. The alternatives of a group differ from the reading in the same set of
-/// sequences. For each group, contains the probability that, in one step, all digits of an
-/// alternative equal the digits of the reading (`equal`), and the number of alternatives
-/// (`number`).
+/// Groups of alternatives. All alternatives in a group differ from the reading in the same
+/// sequences.
 struct FarAlternatives {
+    /// Probability that all digits of an alternative equal the reading's digits in one step.
     std::array<float, 8> equal{1, 1, 1, 1, 1, 1, 1, 1};
-    std::array<float, 8> number{};
+    std::array<float, 8> number{};  ///< number of alternatives in each group
 };
 
 /// Sums of the n smallest losses, indexed by n = 0 to 8.
 using SmallestSums = std::array<std::int32_t, 9>;
 
-/// Bits of 64 lines of 64 cells, one word per line. In `valid`, the bit of a cell is 1 if the cell
-/// was read.
+/// Bits for 64 lines with 64 cells each, one word per line. A bit in `valid` is 1 if its cell was
+/// read.
 struct BitLines {
     std::array<std::uint64_t, 64> bits{};
     std::array<std::uint64_t, 64> valid{};
 };
 
-/// Function table of one implementation of the kernels, such as portable or AVX2.
+/// Function table for one kernel implementation.
 struct Kernels {
     const char* name;
-    /// Copies the part of the image that the patch covers, reduced by the scale of the patch, and
-    /// adds a white margin.
+    /// Copies the patch's part of the image, downscaled by `Patch::scale`, and adds a white margin.
     void (*fill_patch)(const ImageView& image, Patch& patch);
-    /// Smooths the patch with a 1-2-1 filter along both axes, and determines the brightest and the
-    /// darkest smoothed pixel of each tile. Excludes the outermost pixels of the patch from the
-    /// brightest pixels, because the white margin brightens them.
+    /// Smooths the patch with a 1-2-1 filter along both axes. Stores the brightest and the darkest
+    /// level in each tile. The brightest level excludes the outermost patch pixels, because the
+    /// white margin brightens them.
     void (*smooth_patch)(Patch& patch);
-    /// Lists the dots: the minima of the smoothed patch that are not brighter than the threshold of
-    /// their tile. The place of a dot is the vertex of the parabolas through the minimum and its
-    /// neighbouring pixels, in px of the image relative to the middle of the patch. Ignores minima
-    /// in the two outermost rows or columns on each side of the patch.
+    /// Lists the dots: minima of the smoothed patch that are not brighter than their tile's
+    /// threshold. Parabolas through a minimum and its neighbours give its sub-pixel coordinates.
+    /// These are in image px, relative to the patch centre. Ignores minima in the two outermost
+    /// rows and columns on each side.
     void (*find_minima)(Patch& patch);
-    /// Evaluates a pair of perpendicular waves with a frequency of `per_px` cycles per px in each
-    /// of 12 directions (steps of 7.5 degrees). Returns the pair with the highest power.
+    /// Returns the strongest pair of perpendicular waves with frequency `per_px`, in cycles per px.
+    /// Tries 12 directions in steps of 7.5 degrees.
     Waves (*strongest_waves)(const float* x, const float* y, int count, float per_px);
-    /// Evaluates single waves in 40 directions (steps of 4.5 degrees), with frequencies from 0.6 to
-    /// 1.63 times `per_px`. Returns the strongest wave, paired with the strongest wave that forms
-    /// cells of about the area 1 / per_px^2 with the first wave. If there is no such pair, the
+    /// Returns the strongest wave, and the strongest second wave that forms plausible cells with
+    /// it. Plausible cells have an area near 1 / per_px^2. Tries 40 directions in steps of 4.5
+    /// degrees, and frequencies from 0.6 to 1.63 times `per_px`. If there is no such pair, the
     /// power is 0.
     Waves (*strongest_skewed_waves)(const float* x, const float* y, int count, float per_px);
-    /// Assigns the dots to cells. Returns the sums over the dots that are near a place of their
-    /// cell.
+    /// Assigns each dot to a cell. Returns the sums over the dots near one of the places.
     CellSums (*sum_cells)(const PatchDots& dots, const FloatPlane& plane, const CellPass& pass);
-    /// Sets the bits of the cells whose dots are clearly at one of the four places. The first
-    /// column and the first row are those of cell (-32, -32).
+    /// Sets the bits of cells whose dots are clearly at one of the four places. The first column
+    /// and row belong to cell (-32, -32).
     void (*read_cells)(const PatchDots& dots, const FloatPlane& plane, float displacement,
                        BitLines& columns, BitLines& rows);
     /// Scores a line of 64 cells at each roll. Each valid cell adds 127 if its bit agrees with the
-    /// main sequence, and subtracts 127 if it does not.
+    /// main sequence, and subtracts 127 otherwise.
     void (*score_line)(std::uint64_t bits, std::uint64_t valid, ScoredLine& line);
-    /// Sums the scores of all lines for each of `positions` consecutive positions of the first
-    /// line. `rolls` contains the rolls of consecutive lines, beginning with the line at the first
-    /// position.
+    /// Adds up the scores of all lines, for `positions` consecutive positions of the first line.
+    /// `rolls` contains the rolls of consecutive lines of the code, starting at the first position.
     void (*sum_rolls)(const RollScores& scores, const std::uint8_t* rolls, int positions,
                       RollSums* sums);
-    /// Lists the cells in view, with the centres of their windows and their symbols in the code.
-    /// Sets `x` and `y` to the expected image points of the dots, including lens distortion. Stops
-    /// when `dots` is full.
+    /// Lists the cells in view, with their window centres and coded symbols. Sets `x` and `y` to
+    /// the expected image points of the dots, including lens distortion. Stops when `dots` is full.
     void (*list_cells)(const CellsInView& view, MeasuredDots& dots);
-    /// Adds the images around the first 16 dots whose surroundings are completely in the image, and
-    /// finds the shift from the window centre to the darkest point of the sum. Tests shifts along
-    /// each axis up to `max_px`, in steps of `step_px`, but at most 6 steps in each direction. Sets
-    /// `cut_q8` to the contrast at this shift relative to the paper level, in 1/256. Returns false
-    /// if there are fewer than 8 dots with complete surroundings, or if these surroundings are
-    /// black.
+    /// Finds the shift from the window centres to the dots. Adds up the surroundings of the first
+    /// 16 dots that are far enough from the image border, and searches for the darkest point. The
+    /// search covers shifts up to `max_px` along each axis, in steps of `step_px`, with at most 6
+    /// steps per direction. Sets `cut_q8` to the contrast at this point, in 1/256 of the paper
+    /// level. Returns false if fewer than 8 dots can be added, or if the sum is black.
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int max_px, int step_px,
                        FixedVec& shift_px, int& cut_q8);
-    /// Sets `x` and `y` to the centroids of the dark pixels in the windows of the dots. Drops dots
-    /// whose mass is less than a quarter or more than 3.5 times the mass of a typical dot. Returns
-    /// the mass of a typical dot relative to the paper level.
+    /// Sets `x` and `y` to the centroids of the dark pixels in the dots' windows. Drops dots whose
+    /// mass is less than 1/4 or more than 3.5 times the typical mass. Returns the typical mass
+    /// relative to the paper level.
     float (*measure_windows)(const ImageView& image, const CellsInView& view,
                              const WindowOptions& options, MeasuredDots& dots);
-    /// Replaces the centres with weighted centroids, computed in centroid windows. Applies no
-    /// threshold, because a threshold would bias the centres. `radius_px` is at most
-    /// kMaxCentroidRadius_px. Windows at the border of the image are smaller. Ignores corrections
-    /// of 1 px or more. Does nothing if the windows do not fit in the image.
+    /// Replaces the centres with weighted centroids from centroid windows. Uses no threshold,
+    /// because a threshold would bias the centres. `radius_px` is at most kMaxCentroidRadius_px.
+    /// Windows near the image border are smaller. Ignores corrections of 1 px or more. Does nothing
+    /// if the image is too small for a window.
     void (*refine_centres)(const ImageView& image, const CellsInView& view, float radius_px,
                            MeasuredDots& dots);
-    /// Reads the bits of cells whose dots are predicted to within a fraction of their displacement.
-    /// The dot is assumed to be at the darkest of the four places of its cell. `depth_q8` is the
-    /// contrast of a typical dot relative to the paper level, in 1/256. Bits are compared and added
-    /// to lines as in `read_bits`. Drops dots that are not read or have a wrong bit. Does not
-    /// compute `projected` and `squares`.
+    /// Reads cell bits from the grey levels at the four places. Each dot must be predicted to
+    /// within a fraction of its displacement. The darkest place is taken as the dot. `depth_q8` is
+    /// the contrast of a typical dot, in 1/256 of the paper level. Compares the bits, and adds them
+    /// to lines, as `read_bits` does. Drops dots that are not read or have a wrong bit. Leaves
+    /// `projected` and `squares` at 0.
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int depth_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
-    /// Measures the centres of predicted dots as `refine_centres` does, in windows with a radius of
-    /// kPredictedCentroidRadius_px. Drops dots with an offset above `max_off_px`. `weight_px` is
-    /// the offset, in px, that corresponds to a moment-to-weight ratio of 1, or 0 to estimate this
-    /// offset from dots in the middle of the list. Returns the sums over the remaining dots.
+    /// Measures predicted dots as `refine_centres` does, with radius kPredictedCentroidRadius_px.
+    /// Drops dots whose offset exceeds `max_off_px`. `weight_px` is the factor from moment / weight
+    /// to an offset in px. If it is 0, the factor is estimated from dots in the middle of the list.
+    /// Returns the sums over the remaining dots.
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
                                float weight_px, MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with the code. Adds the bits to `columns`
-    /// and `rows`, unless one of these pointers is null. The first column and the first row are
-    /// those of cell (-32, -32). The lines must be empty, and no cell may have two dots.
+    /// and `rows`, unless either pointer is null. The first column and the first row belong to cell
+    /// (-32, -32). The lines must be empty, and no cell may have two dots.
     BitsRead (*read_bits)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                           BitLines* columns, BitLines* rows);
-    /// Returns the sums over the inliers, whose squared residuals are at most `limit` (in
-    /// spacings^2). `scale` is the unit of places, in spacings.
+    /// Returns the sums over the inliers. A dot is an inlier if its squared residual is at most
+    /// `limit`, in spacings^2. `scale` is the unit of (u, v) in FitSums, in spacings.
     FitSums (*sum_fit)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float scale, float limit);
-    /// Adds up the residuals of the inliers, whose squared residuals are at most `limit` (in
-    /// spacings^2), in `side` x `side` blocks. The blocks cover the image points up to `reach_px`
-    /// from the centre of the plane along both axes. Dots outside belong to the nearest block.
+    /// Adds up the residuals of the inliers in `side` x `side` blocks. Inliers are defined as in
+    /// `sum_fit`. The blocks cover `reach_px` on each side of the plane centre, along both axes.
+    /// Dots farther out count in the nearest block.
     void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float limit, float reach_px, int side, BlockSums& sums);
-    /// Returns the places of a sequence where the lower bound on the loss, computed from `steps`,
-    /// is below the loss limit. Excludes the place `own` of the reading.
+    /// Returns the places in a sequence where an alternative may lose less than the loss limit. The
+    /// losses in `steps` give a lower bound for each place. Excludes the reading's place, `own`.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);
-    /// Returns the expected odds of the far alternatives. `best` contains, for each line, the odds
-    /// of the best roll other than the roll of the reading. A far alternative shares at most
-    /// `max_shared` adjacent lines with the reading.
+    /// Returns an upper bound on the expected total odds of the far alternatives in `sets`.
+    /// `best[i]` is the odds of line i at the best roll other than the reading's roll. A far
+    /// alternative shares at most `max_shared` adjacent lines with the reading.
     float (*sum_far_alternatives)(std::span<const float> best, int max_shared,
                                   const FarAlternatives& sets);
     /// Lists the places where an alternative may lose less than `loss_limit` over the given lines.
-    /// Excludes the places of the reading (`own`). Searches the sequences whose bit is set in
-    /// `sequences`. The lines must be sorted by decreasing loss. Returns false if there are too
-    /// many places, if there are fewer than two lines, if the limit exceeds 200, or if an
-    /// alternative that shares none of the first four lines may lose less than the limit.
+    /// Searches the sequences whose bit is set in `sequences`, and skips the reading's places,
+    /// `own`. The lines must be sorted by decreasing loss. Returns false if
+    /// - there are too many places,
+    /// - there are fewer than two lines,
+    /// - the limit exceeds 200, or
+    /// - an alternative that shares none of the first four lines may lose less than the limit.
     bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,
                                 unsigned sequences, std::span<const LineLoss> lines, int loss_limit,
                                 SimilarPlaceList& list);

@@ -5,12 +5,11 @@
 
 namespace dotpose::core {
 
-/// Returns scalar kernels, for any processor. Tests compare all other kernels with these kernels.
+/// Returns scalar kernels for any processor. Tests use them as the reference for all other kernels.
 const Kernels& portable_kernels();
-/// Returns kernels with vectors of 16 bytes, for all x86-64 and 64-bit ARM processors and for
-/// WebAssembly with SIMD instructions.
+/// Returns kernels with 16-byte vectors, for x86-64, 64-bit ARM, and WebAssembly with SIMD.
 const Kernels& wide_kernels();
-/// Returns kernels for AVX2, or null if the processor does not support AVX2 and BMI2.
+/// Returns AVX2 kernels, or null if the processor lacks AVX2 or BMI2.
 const Kernels* avx2_kernels();
 
 /// Returns the fastest kernels for this processor.

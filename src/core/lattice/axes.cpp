@@ -10,18 +10,18 @@
 namespace dotpose::core {
 namespace {
 
-constexpr int kMaxIterations = 10;  // Fig. 5
+constexpr int kMaxIterations = 10;  // paper, Fig. 5
 constexpr std::size_t kMaxEdges = 2 * std::size_t{kMaxSeeds};
 constexpr std::size_t kMinEdges = 12;
 
 using Values = std::span<std::int32_t>;
 
-/// Returns the median length of the edges in units of 2^-8 px. Ignores edges of 128 px or more
-/// along either axis. Returns 0 if there are no other edges.
+/// Returns the median edge length, in 2^-8 px. Ignores edges of 128 px or more along an axis.
+/// Returns 0 if no other edges remain.
 std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
     std::size_t n = 0;
     for (const SeedEdge& edge : edges) {
-        // The limit of 128 px ensures that half of the squared length fits in 32 bits.
+        // Below 128 px, half the squared length fits in 32 bits.
         if (!is_within(edge.step_q8, (1 << 15) - 1)) continue;
         const auto x = static_cast<std::uint32_t>(edge.step_q8.x * edge.step_q8.x);
         const auto y = static_cast<std::uint32_t>(edge.step_q8.y * edge.step_q8.y);
@@ -31,9 +31,9 @@ std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
     return static_cast<std::int32_t>(square_root(half_square * 2));
 }
 
-/// Returns the direction of the grid, modulo a quarter turn, as a binary angle. `length_q8` is the
-/// median length of the edges. If edges are represented as complex numbers, the fourth powers of
-/// edges in all four directions of a grid have the same argument.
+/// Returns the grid direction modulo a quarter turn, as a binary angle. With edges as complex
+/// numbers, the fourth powers of all four grid directions have the same argument. `length_q8` is
+/// the median edge length.
 std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t length_q8) {
     const std::int32_t inverse_q16 = 1024 * 65536 / length_q8;
     std::int32_t sum_re = 0;
@@ -44,31 +44,31 @@ std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t 
         const std::int32_t x = (step.x * inverse_q16) >> 16;
         const std::int32_t y = (step.y * inverse_q16) >> 16;
         const std::int32_t squared_length = x * x + y * y;
-        // Uses only edges of 1/2 to 5/4 of the median length. This excludes diagonals, whose fourth
-        // powers have the opposite sign and four times the magnitude.
+        // Uses only edges with 1/2 to 5/4 of the median length. This excludes diagonals, whose
+        // fourth powers have the opposite sign and four times the magnitude.
         if (squared_length > 1280 * 1280 || squared_length < 512 * 512) continue;
         const std::int32_t re = (x * x - y * y) >> 10;
         const std::int32_t im = (2 * x * y) >> 10;
         sum_re += (re * re - im * im) >> 10;
         sum_im += (2 * re * im) >> 10;
     }
-    // The sums are at most 2^9 edges times (5/4)^4 * 2^10, which fits in 32 bits.
+    // Each sum is at most 2^9 edges times (5/4)^4 * 2^10, which fits in 32 bits.
     return angle_bam({sum_re, sum_im}) / 4;
 }
 
-/// Assignment of an edge to a cluster. The edge may be opposite to the mean of the cluster.
+/// Cluster of an edge. The edge may point opposite to the cluster mean.
 enum class Side : std::uint8_t { first, second, opposite_first, opposite_second, unknown };
 
 std::size_t cluster_of(Side side) {
     return static_cast<std::size_t>(side) & 1;
 }
-/// Returns the edge, reversed if it is opposite to the mean of its cluster.
+/// Returns the edge, reversed if it points opposite to its cluster mean.
 FixedVec turned(FixedVec edge, Side side) {
     return side >= Side::opposite_first ? -edge : edge;
 }
 using Sides = std::array<Side, kMaxEdges>;
 
-/// Sum and number of the edges that have the same Side.
+/// Sum and number of the edges with the same Side.
 struct Sum {
     FixedVec total;
     std::int32_t count = 0;
@@ -80,8 +80,8 @@ struct Sum {
 };
 using Sums = std::array<Sum, 5>;  ///< indexed by Side
 
-/// Two of the four clusters. The other two clusters are constrained to be the opposites of these
-/// two clusters (Fig. 5).
+/// Two of the four clusters. The other two clusters are constrained to be their opposites (paper,
+/// Fig. 5).
 class Clusters {
   public:
     explicit Clusters(const std::array<FixedVec, 2>& means_q8) : means_q8_(means_q8) {
@@ -102,7 +102,7 @@ class Clusters {
             *side++ = now;
         }
     }
-    /// Returns the means of the clusters from the sums. A cluster without edges keeps its mean.
+    /// Returns the cluster means. A cluster without edges keeps its mean.
     std::array<FixedVec, 2> means_q8(const Sums& sums) const {
         std::array<FixedVec, 2> means = means_q8_;
         for (std::size_t k = 0; k < 2; ++k) {
@@ -119,8 +119,8 @@ class Clusters {
         const FixedVec e{edge_q8.x >> 2, edge_q8.y >> 2};
         const std::int32_t along_0 = e.x * means_q6_[0].x + e.y * means_q6_[0].y;
         const std::int32_t along_1 = e.x * means_q6_[1].x + e.y * means_q6_[1].y;
-        // Compares, for both means, min(|edge - mean|^2, |edge + mean|^2) / 2 without the common
-        // term |edge|^2 / 2: |mean|^2 / 2 - |edge . mean|.
+        // Compares |mean|^2 / 2 - |edge . mean| for both means. This is min(|edge - mean|^2, |edge
+        // + mean|^2) / 2 without the common term |edge|^2 / 2.
         if (magnitude(along_1) - magnitude(along_0) > farther_)
             return along_1 < 0 ? Side::opposite_second : Side::second;
         return along_0 < 0 ? Side::opposite_first : Side::first;
@@ -132,11 +132,11 @@ class Clusters {
 
     std::array<FixedVec, 2> means_q8_;
     std::array<FixedVec, 2> means_q6_;  ///< in 2^-6 px, so that products fit in 32 bits
-    /// Half the difference of the squared lengths of the means, second minus first.
+    /// (|mean 1|^2 - |mean 0|^2) / 2.
     std::int32_t farther_;
 };
 
-/// Determines the Side of each edge by constrained k-means (Fig. 5).
+/// Determines the Side of each edge by constrained k-means (paper, Fig. 5).
 void constrained_k_means(std::span<const SeedEdge> edges, Clusters clusters, Sides& sides) {
     std::fill_n(sides.begin(), edges.size(), Side::unknown);
     Sums sums{};
@@ -148,7 +148,7 @@ void constrained_k_means(std::span<const SeedEdge> edges, Clusters clusters, Sid
     }
 }
 
-/// Returns the medians of x and of y of the edges of one cluster (last lines of Fig. 5).
+/// Returns the median edge of a cluster, separately in x and y (paper, Fig. 5, last lines).
 FixedVec cluster_median(std::span<const SeedEdge> edges, const Sides& sides, std::size_t cluster,
                         Values memory) {
     const Values x = memory.first(edges.size());
@@ -163,7 +163,7 @@ FixedVec cluster_median(std::span<const SeedEdge> edges, const Sides& sides, std
     return {median(x.first(n)), median(y.first(n))};
 }
 
-/// Returns the medians of the edges of both clusters.
+/// Returns the median edge of each cluster.
 std::array<FixedVec, 2> medians(std::span<const SeedEdge> edges, const Clusters& clusters,
                                 Values memory) {
     Sides sides;
@@ -182,13 +182,12 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
                          shift_rounded(std::int64_t{unit.y} * length_q8, 30)};
     const Clusters clusters({along, FixedVec{-along.y, along.x}});
     const auto [u, v] = medians(edges, clusters, memory);
-    // Symmetric edges are on average 4 % shorter than the spacing, because a dot is more often the
-    // nearest neighbour of another dot if it is displaced towards that dot.
+    // Correction factor for the axis lengths, in 1/256. Symmetric edges are on average 4 % shorter
+    // than the spacing. A dot displaced towards another dot is more often its nearest neighbour.
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;
-    // Differs: the paper keeps both medians as axes. The deviation of the medians from a square is
-    // mostly scatter, not tilt. Averaging the two medians under the assumption of a square grid
-    // halves the variance.
+    // Unlike the paper, does not keep both medians as axes, but averages them into a square grid.
+    // Their deviation from a square is mostly scatter, not tilt. Averaging halves the variance.
     const FixedVec twice_u{u.x + v.y, u.y - v.x};
     lattice.u_q16 = {twice_u.x * kLengthening_q8 / 2, twice_u.y * kLengthening_q8 / 2};
     lattice.v_q16 = {-lattice.u_q16.y, lattice.u_q16.x};
@@ -196,8 +195,8 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
 }
 
 bool is_nearly_square(FixedVec u, FixedVec v) {
-    // Keeps only the fourteen most significant bits of the largest component, which are sufficient.
-    // Products of four components then fit in 64 bits.
+    // Keeps only the fourteen most significant bits, which are sufficient. Products of four
+    // components then fit in 64 bits.
     const auto longest =
         static_cast<std::uint32_t>(std::max(larger_component(u), larger_component(v)));
     const int shift = std::max(static_cast<int>(std::bit_width(longest)) - 14, 0);

@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kDistanceBins = 64;
 
-/// The seeds, sorted into square buckets, row by row. Seeds that are near each other in the image
-/// are then near each other in memory.
+/// The seeds, sorted into square buckets in row-major order. Seeds that are close in the image are
+/// then close in memory.
 class Buckets {
   public:
     Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
@@ -24,7 +24,7 @@ class Buckets {
     int row(FixedVec at_q8) const { return at_q8.y >> shift_; }
     std::span<const BucketedSeed> all() const { return memory_.first(count_); }
     /// Returns the first seed in the bucket at this row and column. If the bucket is empty, returns
-    /// the first seed after it in the array of seeds.
+    /// the next seed in the array.
     const BucketedSeed* in_row(int row, int column) const {
         return &memory_[memory_[static_cast<std::size_t>(row * columns_ + column)].begin];
     }
@@ -48,16 +48,16 @@ Buckets::Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_
         corner = {std::min(corner.x, p.x), std::min(corner.y, p.y)};
         end = {std::max(end.x, p.x), std::max(end.y, p.y)};
     }
-    // On average, a bucket contains one to four seeds. The four nearest seeds of a seed are then
-    // usually in the 3 x 3 buckets around it.
+    // A bucket contains one to four seeds on average. The four nearest neighbours of a seed are
+    // then usually in the 3 x 3 buckets around it.
     const int max_buckets = static_cast<int>(seeds.size());
     do {
         ++shift_;
         columns_ = ((end.x - corner.x) >> shift_) + 1;
         rows_ = ((end.y - corner.y) >> shift_) + 1;
     } while (columns_ > max_buckets || rows_ > max_buckets || columns_ * rows_ > max_buckets);
-    // Counting sort: counts the seeds of each bucket, sets the ends of the buckets, then fills the
-    // buckets backwards.
+    // Counting sort: counts the seeds of each bucket, sets the bucket ends, then fills the buckets
+    // backwards.
     const auto buckets = static_cast<std::size_t>(columns_ * rows_);
     for (BucketedSeed& bucket : memory_.first(buckets + 1))
         bucket.begin = 0;
@@ -76,20 +76,20 @@ Buckets::Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_
     }
 }
 
-/// Upper limit on the distance of a neighbour along each axis: 128 px, in units of 2^-8 px. No grid
-/// has a larger spacing.
+/// Limit for the distance of a neighbour along each axis: 128 px, in 2^-8 px. No grid has a larger
+/// spacing.
 constexpr std::int32_t kFarthest_q8 = 1 << 15;
 
-/// Returns the square of a, modulo 2^32.
+/// Returns a^2 modulo 2^32.
 std::uint32_t wrapped_square(std::int32_t a) {
     return static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(a);
 }
 
-/// The four nearest seeds of one seed among the seeds tested so far, nearest first.
+/// The four nearest seeds found so far, nearest first.
 class Nearest {
   public:
-    /// Keeps only seeds whose squared distance from `self` is below `within_q16`. `may_be_far` is
-    /// true if `search` may test seeds that are 128 px or more away from `self`.
+    /// Keeps only seeds with a squared distance from `self` below `within_q16`. `may_be_far` must
+    /// be true if `search` may test seeds that are 128 px or more away.
     Nearest(const BucketedSeed& self, std::uint32_t within_q16, bool may_be_far)
         : self_(self), may_be_far_(may_be_far) {
         for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -102,23 +102,23 @@ class Nearest {
         const auto [x, y] = self_.at_q8;
         std::uint32_t farthest_q16 = squared_q16_[3];
         for (; p != end; ++p) {
-            // The squared distance of a far seed may overflow and appear small, but `consider`
-            // rejects such seeds.
+            // The squared distance of a far seed may overflow and look small. `consider` rejects
+            // such seeds.
             const std::uint32_t squared_q16 =
                 wrapped_square(p->at_q8.x - x) + wrapped_square(p->at_q8.y - y);
             if (squared_q16 < farthest_q16) farthest_q16 = consider(p, squared_q16);
         }
     }
     bool has_four() const { return points_[3] != nullptr; }
-    /// Writes the indices of the four seeds, or -1 for each missing seed.
+    /// Writes the indices of the four seeds, with -1 for each missing seed.
     void write(std::array<std::int16_t, 4>& seeds) const {
         for (std::size_t k = 0; k < seeds.size(); ++k)
             seeds[k] = points_[k] == nullptr ? -1 : static_cast<std::int16_t>(points_[k]->seed);
     }
 
   private:
-    /// Keeps the seed `p` if it is not `self` and less than 128 px away along each axis. Returns
-    /// the squared distance below which the next seed is kept.
+    /// Keeps seed `p` if it is not `self` and is less than 128 px away along each axis. Returns the
+    /// squared distance below which the next seed is kept.
     DOTPOSE_NOINLINE std::uint32_t consider(const BucketedSeed* p, std::uint32_t squared_q16) {
         const bool is_far = may_be_far_ && larger_component(p->at_q8 - self_.at_q8) >= kFarthest_q8;
         if (p != &self_ && !is_far) insert<3>(p, squared_q16);
@@ -156,8 +156,8 @@ void widen(std::array<std::uint16_t, kDistanceBins>& histogram) {
 
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds) {
-    // Histogram of the distances, with bins that are as narrow as possible. The last bin must still
-    // contain the farthest dot.
+    // Histogram of the distances from the centre. The bins are as narrow as possible, but the last
+    // bin must contain the farthest dot.
     std::array<std::uint16_t, kDistanceBins> histogram{};
     int shift = 0;
     for (const DetectedDot& dot : dots) {
@@ -197,8 +197,8 @@ void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uin
             const bool is_last = reach >= max_reach || sure_q8 >= kFarthest_q8;
             const auto within_q16 =
                 is_last ? UINT32_MAX : static_cast<std::uint32_t>(sure_q8 * sure_q8);
-            // The searched buckets contain all seeds within sure_q8 of p, and no seeds that are
-            // more than 2 * sure_q8 away from p along either axis.
+            // The searched buckets contain all seeds within sure_q8 of p. They contain no seeds
+            // more than 2 * sure_q8 away along either axis.
             Nearest nearest(p, within_q16, 2 * sure_q8 > kFarthest_q8);
             const int left = std::max(column - reach, 0);
             const int right = std::min(column + reach, buckets.columns() - 1);
@@ -214,7 +214,7 @@ void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uin
 
 namespace {
 
-/// Indices of a pair of seeds. `from` is the lower index.
+/// Indices of two seeds. `from` is the lower index.
 struct Pair {
     std::int16_t from;
     std::int16_t to;

@@ -14,7 +14,7 @@ namespace {
 namespace tuned = tuning::outwards;
 
 /// Returns the strongest waves through the central dots. Returns nullopt if the waves are too weak,
-/// if the spacing is out of range, or if the number of central dots is too small.
+/// the spacing is out of range, or there are too few central dots.
 std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, const PatchView& view) {
     const float spacing = view.spacing_px;
     const PatchDots& dots = patch.dots;
@@ -41,8 +41,8 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
         return waves.power < tuned::kFaintWaves * unit ? std::nullopt : std::optional(waves);
     }
     Waves best;
-    // Missing dots increase the estimated spacing, and false dots reduce it, so other spacings are
-    // tried as well.
+    // Also tries other spacings. Missing dots increase the estimated spacing, and false dots reduce
+    // it.
     for (const float by : {1.0F, 0.93F, 1.07F, 0.87F, 1.14F, 0.81F}) {
         const Waves waves =
             kernels.strongest_waves(x.data(), y.data(), static_cast<int>(count), by / spacing);
@@ -53,7 +53,7 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
     return best;
 }
 
-/// Returns the phase of wave i in cycles, from -1/2 to 1/2, with an error of at most 1/1000.
+/// Returns the phase of wave i in cycles, in [-1/2, 1/2]. The error is at most 1/1000.
 float phase_in_cycles(const Waves& waves, std::size_t i) {
     const float x = std::abs(waves.phase_cos[i]);
     const float y = std::abs(waves.phase_sin[i]);
@@ -75,8 +75,8 @@ FloatPlane plane_from_waves(const Waves& waves) {
     return plane;
 }
 
-/// Inverse of the 3 x 3 matrix of sums in the normal equations. Each element is the sum, over the
-/// used dots, of the product of two of x, y and 1.
+/// Inverse of the 3 x 3 normal matrix. Its elements are sums over the used dots. Each sums the
+/// products of two of x, y and 1.
 struct Inverse {
     std::array<std::array<float, 3>, 3> m;
     bool is_regular = false;
@@ -106,18 +106,18 @@ float inner(const std::array<float, 3>& a, const std::array<float, 3>& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Fits a plane to cells (i, j) at image points (x, y) by least squares: i (1 + g x + h y) = a x +
-/// b y + c, and j (1 + g x + h y) = d x + e y + f. Eliminates a to f, which leaves two equations
-/// for g and h. Without perspective, g = h = 0. Returns false if the dots do not determine the
-/// plane.
+/// Fits a plane to cells (i, j) at image points (x, y) by least squares:
+///   i (1 + g x + h y) = a x + b y + c
+///   j (1 + g x + h y) = d x + e y + f
+/// Eliminating a to f leaves two equations for g and h. Without perspective, g = h = 0. Returns
+/// false if the dots do not determine the plane.
 bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane) {
     const Inverse inverse(sums.one);
     if (!inverse.is_regular) return false;
     const auto right_of = [](const std::array<float, 6>& s) {
         return std::array{s[1], s[2], s[0]};
     };
-    // Extract the sums of x (x, y, 1) and of y (x, y, 1), with each term multiplied by the column
-    // or the row of the cell.
+    // Extract the sums of x (x, y, 1) and y (x, y, 1), multiplied by each cell's column or row.
     const auto with_x = [](const std::array<float, 6>& s) { return std::array{s[3], s[4], s[1]}; };
     const auto with_y = [](const std::array<float, 6>& s) { return std::array{s[4], s[5], s[2]}; };
     std::array<float, 3> i = inverse(right_of(sums.i));
@@ -152,8 +152,8 @@ bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane)
     return true;
 }
 
-/// Returns true if the spacing of the fitted plane is near `first_spacing`, and the perspective
-/// changes the scale by less than kMaxFold within the reach.
+/// Returns true if the spacing is near `first_spacing`, and perspective changes the scale by less
+/// than kMaxFold within the reach.
 bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
     const float spacing = spacing_px(plane);
     const float fold = (std::abs(plane.tilt_x) + std::abs(plane.tilt_y)) * reach;
@@ -161,15 +161,14 @@ bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
            spacing < tuned::kMaxSpacing * first_spacing && fold < tuned::kMaxFold;
 }
 
-/// Returns the factor by which the reach grows or shrinks for the next round. `fraction` is the
-/// fraction of the dots within reach that are near a place of their cell.
+/// Returns the factor by which the reach changes for the next round. `fraction` is the fraction of
+/// dots within reach that are near one of their cell's places.
 float growth(float fraction) {
     if (fraction > tuned::kGoodFraction) return tuned::kGoodGrowth;
     return fraction > tuned::kFairFraction ? tuned::kFairGrowth : tuned::kPoorGrowth;
 }
 
-/// Rank of the neighbour from whose distance the spacing is estimated: the 20th nearest neighbour
-/// of a dot.
+/// Rank of the neighbour whose distance gives the spacing: the 20th nearest neighbour.
 constexpr std::size_t kNearest = 20;
 
 /// Returns the squared distance from the dot at `of` to its kNearest-th nearest neighbour, in px^2.
@@ -200,8 +199,8 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
     PatchDots& dots = patch.dots;
     const int count = dots.count;
     if (count < tuned::kMinDots) return false;
-    // Tests a sample of the dots as possible origins. The sample is smaller if there are many dots,
-    // for example due to noise.
+    // Limits for the dots tested as origins and for the distances computed. If noise adds many
+    // dots, fewer of them are tested.
     constexpr int kMaxCandidates = 64;
     constexpr int kMinCandidates = 16;
     constexpr int kMaxDistances = 32768;
@@ -214,8 +213,7 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
         const float reach_2 = squared_reach_of_nearest(dots, candidate);
         if (reach_2 >= min_reach_2) continue;
         min_reach_2 = reach_2;
-        // The origin is in whole px, so planes can be moved to this origin without loss of
-        // precision.
+        // In whole px, so planes can be moved to this origin without loss of precision.
         from_middle_px = {std::floor(candidate.x), std::floor(candidate.y)};
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
@@ -224,7 +222,7 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
     }
     view = whole_view(patch);
     view.full_reach_px += std::max(std::abs(from_middle_px.x), std::abs(from_middle_px.y));
-    // A disc that contains n dots has approximately the area of n cells.
+    // A disc with n dots has about the area of n cells.
     view.spacing_px = std::sqrt(3.14159265F * min_reach_2 / (kNearest + 0.5F));
     return true;
 }
@@ -237,8 +235,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     plane = plane_from_waves(*waves);
     const float spacing = spacing_px(plane);
     const float full = view.full_reach_px;
-    // The first rounds fit the plane to the intersections. The displacements of the dots count as
-    // noise.
+    // The first rounds fit the plane to the intersections. Displacements count as noise.
     CellPass pass{tuned::kFirstReach * spacing, tuned::kFirstMaxOffset, 0};
     CellSums sums;
     for (int round = 0; round < 2; ++round) {
@@ -250,8 +247,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     if (mean_square < kUndisplaced) return false;
     grid.displacement =
         std::clamp(std::sqrt(mean_square), tuned::kMinDisplacement, tuned::kMaxDisplacement);
-    // The following rounds assign each dot to the nearest of the four places of its cell, which
-    // reduces the noise to a fifth of the noise in the first rounds.
+    // Further rounds assign each dot to the nearest of its cell's four places. This reduces the
+    // noise to a fifth.
     pass.displacement = grid.displacement;
     pass.max_off = std::min(tuned::kMaxOffsetPart * grid.displacement, tuned::kMaxOffset);
     for (int round = 0; round < tuned::kMaxRounds; ++round) {
@@ -267,8 +264,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
             break;
         pass.reach_px = std::min(std::max(pass.reach_px * growth(fraction), 4 * spacing), full);
     }
-    // Graphics may stop the growth of the reach before the reach includes the whole patch. Bits can
-    // still be read if the final reach is at least 5 spacings.
+    // Graphics may stop the reach before it includes the whole patch. A reach of 5 spacings is
+    // enough to read bits.
     if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
     return true;

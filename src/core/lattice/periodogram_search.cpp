@@ -12,7 +12,7 @@ namespace {
 
 namespace tuned = tuning::periodogram_search;
 
-/// A plane wave whose crests are the columns or the rows of a grid.
+/// A plane wave whose crests are the columns or rows of a grid.
 struct Wave {
     std::int32_t direction_bam = 0;
     std::int32_t spacing_q16 = 0;  ///< in 2^-16 px
@@ -32,7 +32,7 @@ struct Wave {
 
 constexpr std::int32_t kQuarter_bam = 1 << 30;
 
-/// Periodogram of the seeds within `reach_q8` of the centre along both axes.
+/// Periodogram of the seeds within `reach_q8` of the centre, per axis.
 class Periodogram {
   public:
     Periodogram(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
@@ -43,7 +43,7 @@ class Periodogram {
         }
     }
 
-    /// Returns the sums, over the seeds, of the cosine and of the sine of the phase of the wave.
+    /// Returns the summed cosine and sine of the wave's phase over the seeds.
     FixedVec sum(const Wave& wave) const {
         const FixedVec wave_q30 = wave.vector_q30();
         FixedVec total;
@@ -56,7 +56,7 @@ class Periodogram {
     }
 
     std::int64_t power(const Wave& wave) const { return squared(sum(wave)); }
-    /// Returns the sum of the powers of the wave and of the perpendicular wave.
+    /// Returns the total power of the wave and the perpendicular wave.
     std::int64_t power_of_square(const Wave& wave) const {
         return power(wave) + power(wave.turned(kQuarter_bam));
     }
@@ -68,8 +68,8 @@ class Periodogram {
 
 constexpr std::int32_t kDegree_bam = 11930465;
 
-/// A raster of waves around a given wave, defined by the step sizes in direction and spacing and
-/// the numbers of steps to each side.
+/// A raster around a given wave: step sizes in direction and spacing, and the number of steps to
+/// each side.
 struct Raster {
     std::int32_t turn_bam;
     std::int32_t stretch_q16;
@@ -77,7 +77,7 @@ struct Raster {
     int stretches;
 };
 
-/// Returns the wave with the maximum power in a raster around `around`.
+/// Returns the strongest wave in a raster around `around`.
 template <typename Power>
 Wave best_around(const Wave& around, const Raster& raster, Power power) {
     Wave best = around;
@@ -96,8 +96,7 @@ Wave best_around(const Wave& around, const Raster& raster, Power power) {
     return best;
 }
 
-/// Returns the wave near `wave` at which the power has a local maximum. Searches rasters with
-/// decreasing step sizes.
+/// Returns a local maximum of the power near `wave`. Searches rasters with decreasing step sizes.
 template <typename Power>
 Wave ascend(Wave wave, Power power) {
     const std::int32_t spacing_q16 = wave.spacing_q16;
@@ -110,15 +109,15 @@ Wave ascend(Wave wave, Power power) {
     return wave;
 }
 
-/// Returns the lattice whose columns are the crests of `first` and whose rows are the crests of
-/// `second`. The origin of the lattice is near the centre.
+/// Returns the lattice whose columns are the crests of `first` and whose rows are those of
+/// `second`. Its origin is near the centre.
 Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave& second,
                    FixedVec centre_q8) {
     const FixedVec a = first.vector_q30();
     const FixedVec b = second.vector_q30();
     const std::int64_t area_q44 = std::max<std::int64_t>(cross(a, b) >> 16, 1);
-    // Two waves in the same direction do not determine a grid. The caller rejects the result later,
-    // but the computation must not overflow.
+    // Limit for the axis components, in 2^-16 px. Two waves in the same direction do not determine
+    // a grid. The caller rejects such a result later, but it must not overflow here.
     constexpr std::int32_t kLongest_q16 = 4096 << 16;
     const auto entry = [&](std::int32_t part_q30) {
         return limited((std::int64_t{part_q30} << 30) / area_q44, kLongest_q16);
@@ -126,8 +125,7 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
     Lattice lattice;
     lattice.u_q16 = {entry(b.y), entry(-b.x)};
     lattice.v_q16 = {entry(-a.y), entry(a.x)};
-    // At each intersection, the phase of each wave equals the phase of its sum over all dots, plus
-    // a whole number of cycles.
+    // At an intersection, each wave has the phase of its sum over all dots, modulo one cycle.
     const std::int64_t i_q16 = angle_bam(periodogram.sum(first)) >> 16;
     const std::int64_t j_q16 = angle_bam(periodogram.sum(second)) >> 16;
     lattice.origin_q16 = {
@@ -145,8 +143,7 @@ void search_periodogram(std::span<const DetectedDot> dots, std::span<const std::
     Wave wave{angle_bam({lattice.u_q16.x / 2 + lattice.v_q16.y / 2,
                          lattice.u_q16.y / 2 - lattice.v_q16.x / 2}),
               static_cast<std::int32_t>(length_q16)};
-    // The periodogram of the dots within kNear_cells of the centre has a peak that is wide enough
-    // for a coarse raster.
+    // Dots within kNear_cells of the centre give a peak that is wide enough for a coarse raster.
     const Periodogram near(dots, seeds, centre_q8, wave.spacing_q16 / 256 * tuned::kNear_cells);
     wave = best_around(wave,
                        {tuned::kTurn_deg * kDegree_bam, wave.spacing_q16 / tuned::kStretchPart,

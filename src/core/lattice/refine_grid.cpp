@@ -13,15 +13,14 @@ namespace {
 
 namespace tuned = tuning::refine_grid;
 
-/// Maximum distance of a cell from cell (0, 0), along either axis, in cells. Dots in farther cells
-/// are ignored.
+/// Maximum distance from cell (0, 0) along either axis, in cells. Dots in farther cells are
+/// ignored.
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
-/// Corrects the origin by eq. 6, with the median offset of the dots near the origin. Differs: eq. 6
-/// subtracts the median from the origin, which is a sign error, because offsets are measured from
-/// the estimated origin. Adding the median to the origin reduces the grid coordinates of all points
-/// by the median.
+/// Moves the origin by the median offset of the dots near it (paper, eq. 6). Unlike the paper, adds
+/// the median to the origin. The subtraction in eq. 6 is a sign error, because offsets are measured
+/// from the estimated origin. A larger origin gives smaller grid coordinates.
 void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     std::array<std::int32_t, kMedianSample> x;
     std::array<std::int32_t, kMedianSample> y;
@@ -38,7 +37,7 @@ void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
 
 /// Agreement of the dots within reach with the grid.
 struct Judged : Regularity {
-    std::int64_t squared_offsets_q20 = 0;  ///< sum of the squared offsets of the dots
+    std::int64_t squared_offsets_q20 = 0;  ///< sum of squared dot offsets
 };
 
 Judged judge(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
@@ -57,14 +56,13 @@ Judged judge(std::span<const DetectedDot> dots, int reach_cells, const LatticeOp
     return found;
 }
 
-/// Place in the grid to which a dot is assigned.
+/// Place in the grid to which a dot is fitted.
 struct Target {
     bool is_used = false;
     FixedVec place_q16;
 };
 
-/// Returns an upper bound on the distance of the dots from `centre_q8` along either axis: the
-/// largest distance in px, rounded down, plus 1.
+/// Returns an upper bound of a dot's distance from `centre_q8`, per axis, in whole px.
 int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
     std::int32_t reach = 1;
     for (const DetectedDot& dot : dots)
@@ -72,8 +70,8 @@ int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
     return reach;
 }
 
-/// Fits the plane to the targets of the dots with one Gauss-Newton step. `target_of(g)` returns the
-/// target of a dot at the grid point g. Does not change the plane if the dots do not determine the
+/// Fits the plane to the dots' targets with one Gauss-Newton step. `target_of(g)` returns the
+/// target of a dot at grid point g. Does not change the plane if the dots do not determine the
 /// step.
 template <typename TargetOf>
 void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, TargetOf target_of) {
@@ -107,8 +105,8 @@ void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, Ta
         plane = stepped(plane, scaled, step);
 }
 
-/// Fits the plane to the intersections of the dots within reach. Differs: the paper continues after
-/// eq. 6 with median lengths between neighbours. Here, a least-squares fit determines all terms.
+/// Fits the plane to the intersections of the dots within reach. Unlike the paper, does not
+/// continue with median lengths after eq. 6, but determines all terms by least squares.
 /// Displacements count as noise, and the reach grows from round to round.
 void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
@@ -119,8 +117,8 @@ void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOption
     });
 }
 
-/// Fits the plane to the places of displaced dots. Each dot is assigned to the nearest of the four
-/// places of its cell. Dots farther than kFar_q16 from this place are ignored.
+/// Fits the plane to displaced dots, each at the nearest of its cell's four places. Ignores dots
+/// farther than kFar_q16 from this place.
 void fit_places(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     constexpr std::int32_t kFar_q16 = tuned::kFar_q16;
     fit_to_targets(dots, plane, [](const GridPoint& g) {

@@ -1,5 +1,5 @@
-// Refine grid: extends the first estimate of the grid to all dots, with perspective and lens
-// distortion. Paper section II-B.3, eq. 6.
+// Refine grid: extends the first grid estimate to all dots, with perspective and lens distortion
+// (paper, section II-B.3, eq. 6).
 #pragma once
 
 #include "dotpose/device_options.hpp"
@@ -8,10 +8,10 @@
 
 namespace dotpose::core {
 
-/// Computes the map from the image to the grid, including perspective and, if the dots determine
-/// it, the distortion of an unknown lens. `first` is the first estimate of the grid. Errors:
-/// no_grid, if too few dots are near the intersections, or if the axes are not nearly perpendicular
-/// and equally long; no_displacement, if the dots are on the intersections (a plain dot grid).
+/// Computes the map from the image to the grid, with perspective. Includes the distortion of an
+/// unknown lens if the dots determine it. `first` is the first grid estimate. Returns no_grid if
+/// too few dots are near the intersections, or if the axes are not nearly perpendicular and equally
+/// long. Returns no_displacement if the dots are on the intersections (a plain dot grid).
 Status refine_grid(std::span<const DetectedDot> dots, const LatticeOptions& options,
                    FixedVec image_centre_q8, const Lattice& first, PlaneFromImage& grid_from_image);
 

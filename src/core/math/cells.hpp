@@ -1,5 +1,5 @@
-// Cells: maps many points to grid cells in 32-bit arithmetic, with a plane without perspective or
-// lens distortion.
+// Cells: maps many image points to grid cells in 32-bit arithmetic, for a plane without perspective
+// or lens distortion.
 #pragma once
 
 #include "core/math/plane.hpp"
@@ -14,25 +14,24 @@ class Cells {
           du_q18_{plane.du_q24.x >> 6, plane.du_q24.y >> 6},
           dv_q18_{plane.dv_q24.x >> 6, plane.dv_q24.y >> 6} {}
 
-    /// Returns the offset of an image point from the centre of the plane, in 1/8 px. The rounding
-    /// error is at most 1/16 px, about 1/100 of the smallest spacing.
+    /// Returns the offset of an image point from the plane centre, in 1/8 px. The rounding error is
+    /// at most 1/16 px, about 1/100 of the smallest spacing.
     FixedVec from_centre_q3(FixedVec image_point_q8) const {
         const FixedVec p = image_point_q8 - rounding_centre_q8_;
         return {p.x >> 5, p.y >> 5};
     }
-    /// Returns the plane point, in units of 2^-16 spacings. Valid within 512 spacings of the
-    /// centre.
+    /// Returns the plane point in 2^-16 spacings. Valid within 512 spacings of the centre.
     FixedVec plane_point_q16(FixedVec from_centre_q3) const {
         return rounding_plane_point_q16(from_centre_q3) - FixedVec{kHalf_q16, kHalf_q16};
     }
-    /// Returns the plane point plus half a spacing along both axes. The integer part of the result
-    /// is the nearest cell.
+    /// Returns the plane point plus half a spacing along both axes. Its integer part is the nearest
+    /// cell.
     FixedVec rounding_plane_point_q16(FixedVec p) const {
         return {rounding_at_centre_q16_.x + ((du_q18_.x * p.x + dv_q18_.x * p.y) >> 5),
                 rounding_at_centre_q16_.y + ((du_q18_.y * p.x + dv_q18_.y * p.y) >> 5)};
     }
-    /// Returns the nearest cell of a point and the offset of the point from the centre of this
-    /// cell, by eq. 3-5.
+    /// Returns the cell nearest to a point, and the point's offset from the cell centre in 2^-16
+    /// spacings (paper, eq. 3-5).
     GridPoint operator()(FixedVec from_centre_q3) const {
         const FixedVec c = rounding_plane_point_q16(from_centre_q3);
         return {{c.x >> 16, c.y >> 16}, {(c.x & 0xFFFF) - kHalf_q16, (c.y & 0xFFFF) - kHalf_q16}};
@@ -41,8 +40,8 @@ class Cells {
   private:
     static constexpr std::int32_t kHalf_q16 = 1 << 15;
 
-    // The constructor subtracts half a unit from the centre, and adds half a cell to the plane
-    // point. Truncation then rounds to nearest.
+    // The centre minus 1/16 px, and its plane point plus half a spacing. The right shifts then
+    // round to the nearest 1/8 px and to the nearest cell.
     FixedVec rounding_centre_q8_;
     FixedVec rounding_at_centre_q16_;
     FixedVec du_q18_;

@@ -1,5 +1,5 @@
-/// Exponential function and logarithm in single precision, with the same bits on every platform.
-/// The corresponding functions of C libraries may differ in the last bit.
+/// Exponential function and logarithm in single precision, with identical bits on every platform.
+/// The functions of C libraries may differ in the last bit.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ inline float natural_exp(float x) {
     return sum * power_of_two_exactly(exponent);
 }
 
-/// Returns the natural logarithm of a normal number x > 0, with an error of at most 2^-22 times the
-/// larger of 1 and the magnitude of the result.
+/// Returns the natural logarithm of a normal number x > 0. The error is at most 2^-22 max(1,
+/// |result|).
 inline float natural_log(float x) {
     constexpr float kRootHalf = 0.7071067812F;
     const auto bits = __builtin_bit_cast(std::int32_t, x);

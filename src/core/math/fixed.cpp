@@ -13,8 +13,8 @@ constexpr std::array<std::int32_t, 30> kAtan{
     10430,     5215,      2608,      1304,     652,      326,      163,      81,
     41,        20,        10,        5,        3,        1};
 
-/// 2^30 times the product of all cos(atan(2^-i)). The rotations of `angle_bam` lengthen a vector by
-/// the inverse of this product.
+/// 2^30 times the product of all cos(atan(2^-i)). The CORDIC rotations lengthen a vector by the
+/// inverse of this product.
 constexpr std::int32_t kCordicGain_q30 = 652032874;
 
 constexpr std::int32_t kHalfTurn = INT32_MIN;
@@ -23,8 +23,7 @@ std::int32_t middle(std::int32_t a, std::int32_t b, std::int32_t c) {
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
-/// Returns the element that would be at index `rank` after sorting (Hoare's FIND, 1961). Reorders
-/// the values.
+/// Returns the value at index `rank` in sorted order (Hoare's FIND, 1961). Reorders the values.
 std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
     std::int32_t* const wanted = &values[rank];
     std::int32_t* first = values.data();
@@ -70,7 +69,7 @@ std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
 std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift) {
     if (shift > 0) {
         // Shifts the numerator left by at most `shift` bits, to at most 62 bits. Shifts the
-        // denominator right by the rest of `shift`.
+        // denominator right by the remaining bits.
         const auto bits = std::bit_width(static_cast<std::uint64_t>(magnitude(numerator)));
         const int up = std::clamp(62 - static_cast<int>(bits), 0, shift);
         numerator *= std::int64_t{1} << up;
@@ -120,8 +119,8 @@ std::int32_t angle_bam(FixedVec direction) {
         y = -y;
         angle = static_cast<std::uint32_t>(kHalfTurn);
     }
-    // Scales the vector to 41 bits. The sum of the truncation errors is then far smaller than the
-    // last angle of the table.
+    // Scales the vector to 41 bits. The truncation errors then add up to far less than the last
+    // angle in the table.
     const auto bits = std::bit_width(static_cast<std::uint64_t>(x + magnitude(y)));
     x <<= 41 - static_cast<int>(bits);
     y *= std::int64_t{1} << (41 - bits);
@@ -136,9 +135,9 @@ std::int32_t angle_bam(FixedVec direction) {
             angle -= static_cast<std::uint32_t>(kAtan[i]);
         }
     };
-    // Before step i, |y| is at most 2^(1 - i) times the length of the vector. The rotations
-    // increase the length to at most 1.65 * 2^41. From step 12 on, |y| and the amount subtracted
-    // from it fit in 32 bits.
+    // First step in which |y| fits in 32 bits. The rotations increase the length to at most 1.65 *
+    // 2^41. Before step i, |y| is at most 2^(1 - i) times the length. From step 12 on, |y| and the
+    // amount subtracted from it fit in 32 bits.
     constexpr std::size_t kNarrow = 12;
     for (std::size_t i = 0; i < kNarrow; ++i)
         turn(x, y, x >> i, i);

@@ -1,4 +1,4 @@
-// Fixed: integer arithmetic shared by the stages. Angles are binary: 2^32 is a full turn.
+// Fixed: integer arithmetic for all stages. Angles are binary: 2^32 is a full turn.
 #pragma once
 
 #include <algorithm>
@@ -52,8 +52,8 @@ constexpr std::int64_t divide_rounded(std::int64_t n, std::int64_t d) {
     return (n >= 0 ? n + d / 2 : n - d / 2) / d;
 }
 
-/// Returns n / d, rounded towards zero. Requires d > 0 and a quotient of at most 31 bits. Takes
-/// half the time of a 64-bit division on processors without a divide instruction.
+/// Returns n / d, rounded towards zero. Requires d > 0 and a quotient of at most 31 bits. Without a
+/// divide instruction, this takes half the time of a 64-bit division.
 std::int32_t short_quotient(std::int64_t n, std::int64_t d);
 
 /// Returns numerator * 2^shift / denominator, rounded to nearest. Requires |numerator| < 2^62, 0 <
@@ -68,8 +68,8 @@ constexpr FixedVec divided_q30(FixedVec n, std::int64_t d_q30) {
             static_cast<std::int32_t>(divide_rounded(n.y * kOne_q30, d_q30))};
 }
 
-/// Returns the number of set bits. Counts in parallel in fields of two, four and eight bits, which
-/// is the fastest method on small processors.
+/// Returns the number of set bits. Counts in parallel in fields of two, four and eight bits, the
+/// fastest method on small processors.
 constexpr int bits_in(std::uint32_t word) {
     word -= word >> 1 & 0x55555555;
     word = (word & 0x33333333) + (word >> 2 & 0x33333333);
@@ -105,12 +105,11 @@ constexpr std::uint32_t square_root(Unsigned n) {
 /// Returns log2(n) in units of 2^-16, rounded down, for n >= 1.
 std::int64_t log2_q16(std::uint32_t n);
 
-/// Returns 2^(n / 256) in units of 2^-16 with an error of at most 2 %, for 0 <= n < 47 * 256.
-/// Interpolates linearly between whole powers and subtracts a correction.
+/// Returns 2^(n / 256) in units of 2^-16, for 0 <= n < 47 * 256. The error is at most 2 %.
+/// Interpolates linearly between powers of two and subtracts a correction.
 constexpr std::int64_t exp2_q16(int n_q8) {
     const std::int32_t fraction_q8 = n_q8 & 255;
-    // 1 + f exceeds 2^f by about f (1 - f) / 3, which is at most 0.086. The factor 21846 / 2^16 is
-    // about 1/3.
+    // 1 + f exceeds 2^f by about f (1 - f) / 3, which is at most 0.086. 21846 / 2^16 is about 1/3.
     const std::int32_t mantissa_q16 =
         65536 + fraction_q8 * 256 - (fraction_q8 * (256 - fraction_q8) * 21846 >> 16);
     return std::int64_t{mantissa_q16} << (n_q8 >> 8);
@@ -121,8 +120,7 @@ inline constexpr int kNever_q8 = -(1 << 20);
 
 /// log2(1 + 2^-d) in units of 2^-8, for d = 0, 1, ..., rounded up. The first value is 255 instead
 /// of 256 to fit in a byte, and `add_log2` adds 1. The function is convex, so linear interpolation
-/// gives an upper bound. The table is not local to `add_log2`, because each inlined call would copy
-/// it.
+/// gives an upper bound. Not local to `add_log2`, because each inlined call would copy the table.
 inline constexpr std::array<std::uint8_t, 12> kGain{255, 150, 83, 44, 23, 12, 6, 3, 2, 1, 1, 1};
 
 /// Returns an upper bound on log2(n) in units of 2^-8, for 0 < n < 2^24. Uses the bound log2(1 + f)
@@ -150,8 +148,8 @@ std::int32_t median(std::span<std::int32_t> values);
 /// Returns the upper quartile, or 0 if there are no values. Reorders the values.
 std::int32_t upper_quartile(std::span<std::int32_t> values);
 
-/// Returns the sine of a phase, times 2^14, approximated by two parabolas. The error is at most 6
-/// %. Phases are in units of 2^-16 turns.
+/// Returns the sine of a phase, times 2^14. Phases are in units of 2^-16 turns. The sine is
+/// approximated by two parabolas, with an error of at most 6 %.
 constexpr std::int32_t rough_sine(std::int32_t phase_q16) {
     const std::int32_t x = static_cast<std::int16_t>(phase_q16 & 0xFFFF);
     return x * (32768 - magnitude(x)) >> 14;
@@ -160,7 +158,7 @@ constexpr std::int32_t rough_cosine(std::int32_t phase_q16) {
     return rough_sine(phase_q16 + 16384);
 }
 
-/// Returns the binary angle of a vector, from +x towards +y, with an error of about 1e-9 turns. The
+/// Returns the binary angle of a vector, from +x towards +y. The error is about 1e-9 turns. The
 /// angle of (0, 0) is 0. Requires |x|, |y| < 2^29.
 std::int32_t angle_bam(FixedVec direction);
 

@@ -7,8 +7,9 @@
 
 namespace dotpose::core {
 
-/// PlaneFromImage in single precision. Maps a point (x, y) in px to spacings: pattern = at + (du x
-/// + dv y) / (1 + tilt . (x, y) + bend (x^2 + y^2)).
+/// PlaneFromImage in single precision. Maps an image point (x, y) in px to a pattern point in
+/// spacings:
+///   pattern = at + (du x + dv y) / (1 + tilt . (x, y) + bend (x^2 + y^2))
 struct FloatPlane {
     float at_x = 0;
     float at_y = 0;
@@ -21,7 +22,8 @@ struct FloatPlane {
     float bend = 0;
 };
 
-/// The lens of eq. 1-2. The distortion centre is relative to the centre of the plane, in px.
+/// A lens with distortion (paper, eq. 1-2). The distortion centre is relative to the plane centre,
+/// in px.
 struct FloatLens {
     float k = 0;  ///< per px^2
     float centre_x = 0;
@@ -33,12 +35,12 @@ struct FloatVec {
     float y = 0;
 };
 
-/// Returns the plane point, in spacings, of an image point in px relative to the centre. The
-/// divisor is clamped to at least 1/4, because the map folds if the divisor reaches 0.
+/// Returns the plane point of an image point, in spacings. `px` is relative to the plane centre.
+/// The divisor is at least 1/4, because the map folds where it reaches 0.
 FloatVec plane_point(const FloatPlane& plane, FloatVec px);
 
-/// Returns the same plane relative to the image point `to_px`. The result is an approximation if
-/// the plane has a lens term.
+/// Returns the same plane relative to the image point `to_px`. Approximate if the plane has a lens
+/// term.
 FloatPlane recentred(const FloatPlane& plane, FloatVec to_px);
 
 /// Returns the spacing at the centre, in px.
@@ -46,9 +48,9 @@ inline float spacing_px(const FloatPlane& plane) {
     return 1 / std::sqrt(std::abs(plane.du_x * plane.dv_y - plane.dv_x * plane.du_y));
 }
 
-/// Returns true if the plane is a plausible view of paper: the spacing is measurable, the paper
-/// faces the camera and is not seen at a grazing angle, perspective does not fold the map within
-/// the image, and the coordinates are in the range of PlaneFromImage. Returns false if any value is
+/// Returns true if the plane is a plausible view of paper. The spacing must be measurable, and the
+/// paper must face the camera at an angle that is not grazing. Perspective must not fold the map
+/// within the image, and the coordinates must fit in PlaneFromImage. Returns false if a value is
 /// NaN.
 bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px);
 

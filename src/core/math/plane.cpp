@@ -52,10 +52,10 @@ GridPoint grid_point(const PlaneFromImage& plane, FixedVec image_point_q8) {
 }
 
 FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point) {
-    // Newton's method, with the slope at the current point. For an affine plane, one round is exact
-    // except for the truncation in the division.
+    // Maximum number of Newton steps, each with the slope at the current point. For an affine
+    // plane, one step is exact up to truncation.
     constexpr int kMaxRounds = 12;
-    // Limit of the coordinates of the result. Where the map folds, the iteration may not converge.
+    // Limit for the coordinates. The iteration may not converge where the map folds.
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
     FixedVec point_q8 = plane.centre_q8;
     for (int round = 0; round < kMaxRounds; ++round) {
@@ -90,7 +90,7 @@ PlaneFromImage tangent(const PlaneFromImage& plane, FixedVec image_point_q8) {
     const FixedVec p = image_point_q8 - plane.centre_q8;
     const std::int64_t divisor = divisor_q30(plane, p);
     const FixedVec from_centre_q16 = result.at_centre_q16 - plane.at_centre_q16;
-    // Quotient rule, with the derivative of the divisor, perspective + 2 lens (x, y).
+    // Quotient rule. The derivative of the divisor is perspective + 2 lens (x, y).
     const auto slope = [&](FixedVec linear_q24, std::int32_t perspective_q30,
                            std::int32_t along_q8) {
         const std::int64_t bend_q30 = (std::int64_t{plane.lens_q40} * along_q8) >> 17;

@@ -1,4 +1,4 @@
-// Plane units: conversion between the fixed-point numbers of planes and floating point.
+// Plane units: conversion of planes between fixed point and floating point.
 #pragma once
 
 #include <algorithm>

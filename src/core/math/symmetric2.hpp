@@ -5,7 +5,7 @@
 
 namespace dotpose::core {
 
-/// A symmetric 2 x 2 matrix. The caller ensures that products of two elements do not overflow.
+/// A symmetric 2 x 2 matrix. Products of two elements must not overflow.
 template <typename Number>
 struct Symmetric2 {
     Number xx;
@@ -13,7 +13,8 @@ struct Symmetric2 {
     Number yy;
 
     constexpr Number determinant() const { return xx * yy - xy * xy; }
-    /// Returns the solution of matrix * solution = (x, y), times the determinant, by Cramer's rule.
+    /// Solves matrix * solution = (x, y) by Cramer's rule. Returns the solution times the
+    /// determinant.
     constexpr std::array<Number, 2> solve_scaled(Number x, Number y) const {
         return {x * yy - y * xy, y * xx - x * xy};
     }

@@ -1,4 +1,4 @@
-// Vectors: vectors of four numbers. Arithmetic uses the vector instructions of the processor, if
+// Vectors: arithmetic on four numbers at a time, with the processor's vector instructions if
 // available.
 #pragma once
 
@@ -10,7 +10,7 @@ namespace dotpose::core {
 using Four = float __attribute__((vector_size(16)));
 using FourInts = std::int32_t __attribute__((vector_size(16)));
 
-/// Loads a vector of adjacent numbers from any address.
+/// Loads adjacent numbers into a vector. The address does not have to be aligned.
 template <typename Vector, typename Number>
 Vector vector_at(const Number* first) {
     static_assert(sizeof(Vector{}[0]) == sizeof(Number));
@@ -25,8 +25,8 @@ inline FourInts four_at(const std::int32_t* first) {
     return vector_at<FourInts>(first);
 }
 
-/// Adds the four elements of a to the first sum, the four elements of b to the second sum, and so
-/// on. The elements are added in order.
+/// Adds the elements of a to the first sum, the elements of b to the second sum, and so on. The
+/// elements are added in order.
 inline void add_each(Four& sums, Four a, Four b, Four c, Four d) {
     const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
     const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);

@@ -6,8 +6,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the gradient, with respect to the parameters, of the angle (in rad) of the vector from
-/// the place `from` to the place `to`. `scale` is the unit of the places, in spacings.
+/// Returns the gradient of the direction from place `from` to place `to`, in rad, with respect to
+/// the parameters. `scale` is the length unit of places, in spacings.
 Parameters direction_gradient(const FourVecs& places, float scale, std::size_t from,
                               std::size_t to) {
     const float x = (places.x[to] - places.x[from]) * scale;
@@ -23,8 +23,7 @@ Parameters direction_gradient(const FourVecs& places, float scale, std::size_t f
     return gradient;
 }
 
-/// Returns the product of a tridiagonal covariance and a vector. Only neighbouring parameters are
-/// correlated.
+/// Multiplies a tridiagonal covariance by a vector. Only neighbouring parameters are correlated.
 Parameters times(const std::array<Parameters, kPoseParameters>& covariance, const Parameters& a) {
     Parameters product;
     for (std::size_t k = 0; k < kPoseParameters; ++k) {
@@ -48,13 +47,13 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
                          FixedVec reference_q8, Fix& fix) {
     fix.dots_used = fit.dots;
     fix.surface = fit.surface;
-    // Dots are also measured where the code predicts them, even if they were not found as blobs.
-    // `dots_used` may therefore exceed `dots_seen`.
+    // Predicted dots are measured even if they were not found as blobs, so `dots_used` may exceed
+    // `dots_seen`.
     fix.dots_seen = std::max(fix.dots_seen, fix.dots_used);
     fix.residual_px = std::sqrt(fit.variance) * static_cast<float>(fix.spacing_px_q16) / 65536.0F;
     const ScaledPlane plane(float_plane(pattern_from_image), static_cast<float>(fit.reach_px));
-    // Theta is the direction, in the pattern, of the x axis of the image. Its gradient is computed
-    // from two points on this axis, 16 px apart.
+    // Theta is the direction of the image's x axis in the pattern. Its gradient is computed from
+    // two points, kStep_px to the left and to the right of the reference point.
     constexpr float kStep_px = 8;
     const FixedVec from_centre_q8 = reference_q8 - pattern_from_image.centre_q8;
     const float x = static_cast<float>(from_centre_q8.x) / 256;

@@ -1,4 +1,4 @@
-// Covariance: computes the covariance of the pose from the covariance of the fitted plane.
+// Covariance: propagates the uncertainty of the fitted plane to the pose.
 #pragma once
 
 #include "core/pose/refine_pose.hpp"

@@ -9,19 +9,18 @@ namespace {
 
 constexpr auto kSide = DotPixels::kSide;
 
-/// cos(a) for the chords of one half of the ellipse, from the outermost chord to the innermost. The
-/// chord with the parametric angle a is at v = radius.y cos(a). Its ends are at u = radius.x sin(a)
-/// and at u = -radius.x sin(a). The other half of the ellipse is symmetric. Neighbouring chords are
-/// less than a pixel apart. kChordsOfSmall is for small ellipses.
+/// Chords of a half ellipse, as cos(a), from the outermost chord to the innermost. The chord at
+/// parametric angle a is at v = radius.y cos(a), and its ends are at u = +-radius.x sin(a). The
+/// other half is symmetric. Neighbouring chords are less than a pixel apart. kChordsOfSmall is for
+/// small ellipses.
 constexpr float kChordsOfSmall[] = {0.99144486F, 0.92387953F, 0.79335334F,
                                     0.60876143F, 0.38268343F, 0.13052619F};
 constexpr float kChords[] = {0.99691733F, 0.97236992F, 0.92387953F, 0.85264016F, 0.76040597F,
                              0.64944805F, 0.52249856F, 0.38268343F, 0.23344536F, 0.07845910F};
-// An ellipse is small if its squared half axes are both below this value.
+// An ellipse is small if both squared half axes are below this value.
 constexpr float kSmall_px2 = 4;
 
-/// Returns exp(-x) for x >= 0. Unlike the result of std::exp, the result is bit-identical on every
-/// platform.
+/// Returns exp(-x) for x >= 0. Unlike std::exp, the result is bit-identical on every platform.
 float exp_of_minus(float x) {
     constexpr float kLog2 = 0.693147181F;
     if (!(x < 80)) return 0;
@@ -33,14 +32,15 @@ float exp_of_minus(float x) {
     return std::ldexp(power, -static_cast<int>(halvings));
 }
 
-/// A normal distribution with mean 0, evaluated at x.
+/// Normal distribution with mean 0, evaluated at x.
 struct Normal {
     float density;
     float cumulative;
-    float integral;  ///< integral of the cumulative distribution from -infinity to x
+    float integral;  ///< integral of `cumulative` from -infinity to x
 
     Normal(float x, float sigma) {
-        // Abramowitz and Stegun, Handbook of Mathematical Functions, 26.2.17: error below 1e-7.
+        // Abramowitz and Stegun, Handbook of Mathematical Functions, 26.2.17. The error is below
+        // 1e-7.
         const float z = x / sigma;
         const float density_of_z = 0.39894228F * exp_of_minus(z * z / 2);
         const float t = 1 / (1 + 0.2316419F * std::abs(z));
@@ -54,15 +54,14 @@ struct Normal {
     }
 };
 
-/// Responses of the pixels along one axis to a blurred step and to a blurred point, both at the
-/// coordinate `place`.
+/// Pixel responses along one axis to a blurred step and to a blurred point, both at `place`.
 struct PixelLine {
-    /// Response to a step: the darkness is 1 beyond `place` and 0 before.
+    /// Response to a step. The darkness is 1 beyond `place` and 0 before it.
     std::array<float, kSide> step;
-    /// Response to a point: negative derivative of `step` with respect to `place`.
+    /// Response to a point: the negative derivative of `step` with respect to `place`.
     std::array<float, kSide> point;
     std::array<float, kSide> slope;  ///< negative derivative of `point` with respect to `place`
-    /// Derivative of `point` with respect to the variance of the blur.
+    /// Derivative of `point` with respect to the blur variance.
     std::array<float, kSide> point_by_blur;
 
     PixelLine(float place, float blur_2, int half_px) {
@@ -79,7 +78,7 @@ struct PixelLine {
             before = after;
         }
     }
-    /// Returns the derivative of `step` with respect to the variance of the blur.
+    /// Returns the derivative of `step` with respect to the blur variance.
     float step_by_blur(std::size_t i) const { return slope[i] / 2; }
 };
 
@@ -101,7 +100,7 @@ DotImages draw(const ModelDot& dot, int half_px) {
         const PixelLine right(dot.centre.x + radius.x * sine, dot.blur_2.x, half_px);
         const PixelLine above(dot.centre.y - radius.y * cosine, dot.blur_2.y, half_px);
         const PixelLine below(dot.centre.y + radius.y * cosine, dot.blur_2.y, half_px);
-        // Fraction of the area of the dot that one chord represents, per px of its length.
+        // Area fraction that the chord represents, divided by the chord length in px.
         const float fraction = sine / (2 * static_cast<float>(cosines.size()) * radius.x);
         for (std::size_t v = begin; v < end; ++v) {
             const float down = fraction * (below.point[v] + above.point[v]);
@@ -122,9 +121,9 @@ DotImages draw(const ModelDot& dot, int half_px) {
     }
     for (std::size_t v = begin; v < end; ++v) {
         for (std::size_t u = begin; u < end; ++u) {
-            // `fraction` is proportional to 1 / radius.x, which adds -dot / radius.x to the
-            // derivative with respect to radius.x. The divisors 2 * radius convert derivatives with
-            // respect to a half axis to derivatives with respect to its square.
+            // `fraction` is proportional to 1 / radius.x, so the derivative with respect to
+            // radius.x includes -dot / radius.x. Dividing by 2 * radius converts a derivative with
+            // respect to a half axis to a derivative with respect to its square.
             float& by = by_radius_u.all[v][u];
             by = (by - images.dot.all[v][u] / radius.x) / (2 * radius.x);
             by_radius_v.all[v][u] /= 2 * radius.y;

@@ -1,5 +1,5 @@
-// Dot model: the image of a dot and its derivatives with respect to the parameters of the model.
-// The dot is an ellipse, blurred by a Gaussian and averaged over square pixels.
+// Dot model: the image of a dot, and its derivatives with respect to the model parameters. The dot
+// is an ellipse, blurred by a Gaussian and averaged over square pixels.
 #pragma once
 
 #include <array>
@@ -9,16 +9,16 @@
 
 namespace dotpose::core {
 
-/// An ellipse in the image. Lengths are in px, and squares are in px^2.
+/// An ellipse in the image, with lengths in px and squares in px^2.
 struct ModelDot {
     FloatVec centre;    ///< relative to the middle of the central pixel
     FloatVec radius_2;  ///< squared half axes along u and v
-    FloatVec blur_2;    ///< variance of the blur along u and v
+    FloatVec blur_2;    ///< blur variance along u and v
 };
 
-/// The darkness of a square of pixels, by row and column.
+/// Darkness of a square block of pixels, by row and column.
 struct DotPixels {
-    /// Distance from the central pixel to the outermost pixels, along each axis.
+    /// Distance from the central pixel to the outermost pixels along each axis.
     static constexpr int kHalf_px = 6;
     static constexpr std::size_t kSide = 2 * kHalf_px + 1;
 
@@ -32,16 +32,16 @@ struct DotPixels {
     std::array<std::array<float, kSide>, kSide> all{};
 };
 
-/// Image of a model dot, and its derivatives. The total darkness of the dot is 1.
+/// Image of a model dot, and its derivatives. The total darkness is 1.
 struct DotImages {
     DotPixels dot;
-    /// Derivatives of the image with respect to the centre, the squared half axis and the variance
-    /// of the blur, each along u and then along v.
+    /// Derivatives with respect to the centre, the squared half axes and the blur variance, each
+    /// along u and then along v.
     std::array<DotPixels, 6> derivatives;
 };
 
-/// Returns the images of a dot. Computes only the pixels that are at most `half_px` from the
-/// central pixel along each axis. All other pixels are 0.
+/// Draws a dot. Computes only the pixels within `half_px` of the central pixel along each axis. All
+/// other pixels are 0.
 DotImages draw(const ModelDot& dot, int half_px);
 
 }  // namespace dotpose::core

@@ -1,4 +1,4 @@
-// Dot offsets: the measured places of dots in the pattern, and their residuals.
+// Dot offsets: measured dots in the pattern, and their distances from the printed places.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -12,8 +12,8 @@ struct DotOffset {
     float squared() const { return residual.x * residual.x + residual.y * residual.y; }
 };
 
-/// Returns the place and the residual of a measured dot, which `plane` maps to the pattern.
-/// `displacement` is the distance of the printed dots from their intersections, in spacings.
+/// Returns the place and the residual of dot `k`. `plane` maps the measured centre to the pattern.
+/// `displacement` is the distance between a printed dot and its intersection, in spacings.
 inline DotOffset dot_offset(const MeasuredDots& dots, std::size_t k, const FloatPlane& plane,
                             float displacement) {
     const FloatVec at = plane_point(plane, {dots.x[k], dots.y[k]});

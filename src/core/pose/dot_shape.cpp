@@ -55,14 +55,14 @@ DotShape::Normal DotShape::equations(const StackedDots& stacks, const Terms& ter
     normal.expect(radius_u, first[radius_u], first[radius_u], terms);
     normal.expect(blur_u, tuned::kBlur_2, tuned::kBlur_2, terms);
     normal.expect(blur_v, tuned::kBlur_2, tuned::kBlur_2, terms);
-    // Prior: the width and the height of a dot are about equal.
+    // Prior: dots are about as wide as they are high.
     Terms by_width{};
     by_width[radius_u] = 1 / first[radius_u];
     by_width[radius_v] = -by_width[radius_u];
     normal.add(by_width, (terms[radius_v] - terms[radius_u]) / first[radius_u],
                1 / (tuned::kSigmaOfWidth * tuned::kSigmaOfWidth));
-    // Prior: the contrast of the ink has a typical value. The image of a small dot determines the
-    // product of area and contrast, but not each factor separately.
+    // Prior: ink has a typical contrast. The image of a small dot determines only the product of
+    // area and contrast.
     const float area = kPi * std::sqrt(terms[radius_u] * terms[radius_v]);
     const float contrast = terms[mass] / area;
     Terms by_contrast{};
@@ -78,8 +78,8 @@ DotShape::Terms DotShape::changed(const Terms& terms, const Terms& step) {
     Terms result = terms;
     for (std::size_t i = 0; i < Term::count; ++i)
         result[i] += step[i];
-    // The half axes and the blur must remain positive. A step therefore reduces each of these terms
-    // to no less than a quarter of its value, and to no less than kMin_px2.
+    // Half axes and blur must remain positive. A step reduces each term at most to a quarter, and
+    // never below kMin_px2.
     for (const std::size_t i : {radius_u, radius_v, blur_u, blur_v})
         result[i] = std::max({result[i], terms[i] / 4, tuned::kMin_px2});
     return result;

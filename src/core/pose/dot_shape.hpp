@@ -1,5 +1,4 @@
-// Dot shape: the size and the blur of the dots of a frame, estimated by fitting a model dot to the
-// stacked images of the dots.
+// Dot shape: the size and blur of the dots in a frame, fitted to their stacked images.
 #pragma once
 
 #include "core/fit/normal_equations.hpp"
@@ -7,11 +6,12 @@
 
 namespace dotpose::core {
 
-/// The model dot of a frame, with its uncertainty.
+/// A model dot fitted to a frame, with its uncertainty.
 class DotShape {
   public:
-    /// Terms of the fit: common offset of all dots along u and v; squared half axes, blur and total
-    /// darkness of the model dot; darkness of the paper.
+    /// Terms of the fit. The offsets are common to all dots. The radii are squared half axes, and
+    /// the blurs are variances. `mass` is the total darkness of a dot, and `paper` is the darkness
+    /// of the paper.
     enum Term : std::size_t {
         offset_u,
         offset_v,
@@ -25,31 +25,29 @@ class DotShape {
     };
     using Terms = std::array<float, Term::count>;
 
-    /// Fits the model to the stacks. Returns false if there are too few dots or if the stacks do
+    /// Fits the model to the stacks. Returns false if there are too few dots, or if the stacks do
     /// not determine the model.
     bool fit(const StackedDots& stacks);
 
-    /// Returns the images of the fitted model dot. `centre` is in px, relative to the central
-    /// pixel.
+    /// Draws the fitted dot. `centre` is in px relative to the central pixel.
     DotImages drawn_at(FloatVec centre) const {
         return draw(dot(terms_, centre), DotPixels::kHalf_px);
     }
-    /// Returns the variance of the blur along each axis, in px^2.
+    /// Returns the blur variance along each axis, in px^2.
     FloatVec blur_2() const { return {terms_[blur_u], terms_[blur_v]}; }
     /// Returns the mean offset of the dots from their expected places, in px.
     FloatVec offset() const { return {terms_[offset_u], terms_[offset_v]}; }
     /// Returns the variance of a quantity, given its derivatives with respect to the terms. The
-    /// variance is scaled by the misfit of the model.
+    /// variance is scaled by the misfit.
     float variance(const Terms& derivatives) const;
-    /// Returns the reduced chi-squared of the images: the sum of the squared residuals, in units of
-    /// the noise variance, divided by the degrees of freedom. The result is at least 1. If only
-    /// noise remains, the result is about 1.
+    /// Returns the reduced chi-squared of the fit, but at least 1. It is about 1 if only noise
+    /// remains.
     float misfit() const { return misfit_; }
 
   private:
-    /// Normal equations for a step of the terms, and the cost of the current terms.
+    /// Normal equations for a step, and the cost of the current terms.
     struct Normal : NormalEquations<Term::count> {
-        /// Sum of the squared residuals of the images, in units of the noise variance.
+        /// Sum of squared image residuals, without the priors, in units of the noise variance.
         float squares = 0;
         float pixels = 0;
         float cost = 0;
@@ -68,7 +66,7 @@ class DotShape {
     static Terms changed(const Terms& terms, const Terms& step);
 
     Terms terms_{};
-    Normal normal_;  ///< decomposed normal equations of the fitted terms
+    Normal normal_;  ///< normal equations at the fitted terms, decomposed
     float misfit_ = 1;
 };
 

@@ -9,7 +9,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Calls use(first, second, direction) for all pairs of facing dots. `direction` is the unit vector
+/// Calls use(first, second, direction) for each pair of facing dots. `direction` is the unit vector
 /// from the first dot to the second.
 template <typename Use>
 void visit_facing(const MeasuredDots& dots, Use use) {

@@ -22,7 +22,7 @@ FixedVec rounded_px(FixedVec point_q8) {
     return {(point_q8.x + 128) >> 8, (point_q8.y + 128) >> 8};
 }
 
-/// A box of pixels. All four bounds are inclusive.
+/// A box of pixels. All bounds are inclusive.
 struct Box {
     int left;
     int right;
@@ -32,13 +32,13 @@ struct Box {
     bool operator==(const Box&) const = default;
 };
 
-/// Size of the window in which a dot is measured, and width of the fitted dot.
+/// Size of the measuring window, and width of the fitted dot.
 struct Window {
     int half_px = 0;
     std::int32_t sigma_q8 = 0;
 
-    /// Computes both sizes from the spacing. `sigma_q8` is about a tenth of the spacing, which is
-    /// the standard deviation of a blurred dot.
+    /// Derives both sizes from the spacing. `sigma_q8` is the standard deviation of a blurred dot,
+    /// about a tenth of the spacing.
     explicit Window(std::int32_t spacing_q8)
         : half_px(std::min<std::int32_t>(
               std::max<std::int32_t>(spacing_q8 * tuned::kHalf_32nds / 32 + 255,
@@ -48,10 +48,9 @@ struct Window {
           sigma_q8(std::max<std::int32_t>(spacing_q8 * tuned::kSigma_128ths / 128,
                                           tuned::kMinSigma_q8)) {}
 
-    /// Crops the window around a pixel to the pixels whose neighbours are all in the image. Returns
-    /// nullopt if the pixel itself lacks a neighbour. Windows at the border of the image are
-    /// cropped instead of rejected, because the dots at the border contribute most to angle and
-    /// tilt.
+    /// Crops a window to the pixels that have all neighbours in the image. Returns nullopt if the
+    /// central pixel is not one of them. Windows at the image border are cropped instead of
+    /// rejected, because border dots contribute most to angle and tilt.
     std::optional<Box> box_around(const ImageView& image, int u, int v) const {
         const int last_u = image.width_px - 2;
         const int last_v = image.height_px - 2;
@@ -65,7 +64,7 @@ constexpr int kMaxSide_px = 2 * kMaxHalf_px + 1;
 /// Maximum number of columns, padded to a multiple of four.
 constexpr std::size_t kMaxInFours = kMaxSide_px + 3;
 
-/// Grey levels of the pixels of a box, with defective pixels replaced.
+/// Grey levels of a box, with defective pixels replaced.
 class Patch {
   public:
     /// Loads the grey levels of a box, unless they are already loaded.
@@ -80,7 +79,7 @@ class Patch {
         }
     }
     const Box& box() const { return box_; }
-    /// Returns a row, beginning at the left side of the box. At least three zeros follow its last
+    /// Returns a row, starting at the left side of the box. At least three zeros follow its last
     /// pixel.
     const float* row(int v) const { return levels_[static_cast<std::size_t>(v - box_.top)].data(); }
     float at(int u, int v) const { return row(v)[u - box_.left]; }
@@ -90,17 +89,16 @@ class Patch {
     std::array<std::array<float, kMaxInFours>, kMaxSide_px> levels_;
 };
 
-/// Linear model of the paper level around a dot, in grey levels, computed from the border of the
-/// window.
+/// Linear model of the paper level around a dot, in grey levels, computed from the window border.
 struct BorderBackground {
     float middle = 0;
     float slope_u = 0;  ///< grey levels per px
     float slope_v = 0;
 };
 
-/// Computes the paper level from the means of the sides of the window that are in the image. At
-/// least two sides are in the image, because no image is smaller than a window. If one of two
-/// opposite sides is missing, the slope in that direction is 0.
+/// Computes the paper level from the window sides that are in the image. There are at least two
+/// such sides, because no image is smaller than a window. If one of two opposite sides is missing,
+/// the slope between them is 0.
 BorderBackground border_background(const Patch& patch, FixedVec pixel, int half) {
     const auto side = [](bool is_inside, int first, int last, auto level) -> std::optional<float> {
         if (!is_inside) return {};
@@ -131,13 +129,13 @@ BorderBackground border_background(const Patch& patch, FixedVec pixel, int half)
     return {sum / count, slope(sides[0], sides[1]), slope(sides[2], sides[3])};
 }
 
-/// Fits a Gaussian dot to a window by one Gauss-Newton step. The darkness of a dot that has the
-/// same width as the window, at a small `offset` from the centre of the window, is
+/// Fits a Gaussian dot to a window by one Gauss-Newton step. The dot is as wide as the window, and
+/// at a small `offset` from its centre. With d and offset in units of sigma, the darkness is
 ///
-///     darkness(d) = height exp(-d^2 / 2) (1 + offset . d), with d and offset in units of sigma.
+///     darkness(d) = height exp(-d^2 / 2) (1 + offset . d).
 ///
-/// In a complete window, the result is the windowed centroid. In a window that is cropped by the
-/// border of the image, the result is still unbiased.
+/// In a complete window, the result is the windowed centroid. In a window cropped by the image
+/// border, the result is still unbiased.
 class DotFit {
   public:
     /// Adds four pixels of a row. `profile` is exp(-d^2 / 2) at each pixel.
@@ -154,8 +152,8 @@ class DotFit {
         float offset_x;
         float offset_y;
     };
-    /// Returns the fitted height and offset. Returns nullopt if the height is not positive, that
-    /// is, if the window contains no dark spot.
+    /// Returns the fitted height and offset. Returns nullopt if the height is not positive, because
+    /// the window then contains no dark spot.
     std::optional<Result> solve() const {
         const float one = one_x_y_xx_[0];
         const float sum_x = one_x_y_xx_[1];
@@ -177,15 +175,15 @@ class DotFit {
     }
 
   private:
-    // Sums of 1, x, y, x^2, xy and y^2, weighted by the squared profile, and sums of the darkness,
-    // and of the darkness times x and y, weighted by the profile.
+    // Sums of 1, x, y, x^2, xy and y^2, weighted by the squared profile. Sums of the darkness, and
+    // of the darkness times x and y, weighted by the profile.
     Four one_x_y_xx_{};
     Four xy_yy_dark_{};
     Four dark_y_{};
 };
 
-/// Profile of the window along one axis: distances d from its centre, in units of sigma, and
-/// exp(-d^2 / 2). Padded with zeros to a multiple of four.
+/// Window profile along one axis. `distance` is the distance d from the window centre, in units of
+/// sigma. `profile` is exp(-d^2 / 2). The arrays are padded with zeros to a multiple of four.
 struct AxisProfile {
     using Values = std::array<float, kMaxInFours>;
     Values distance;
@@ -227,8 +225,8 @@ DotFit fit_dot(const Patch& patch, const BorderBackground& light, std::int32_t s
     return fit;
 }
 
-/// Measures and returns the dot near a point. Returns nullopt if the point is outside the image, if
-/// there is no dark spot, or if the dot is too far from the point.
+/// Measures the dot near a point. Returns nullopt if the point is outside the image, if there is no
+/// dark spot, or if the dot is too far from the point.
 std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
                                    FixedVec start_q8) {
     const std::int64_t farthest =
@@ -251,7 +249,7 @@ std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
         };
         const FixedVec step{step_q8(fit->offset_x), step_q8(fit->offset_y)};
         dot.centre_q8 = dot.centre_q8 + step;
-        // Darkness divided by the paper level does not depend on the illumination.
+        // Dividing by the paper level makes the mass independent of the illumination.
         const float mass = 16384 * fit->height / std::max(light.middle, 1.0F);
         dot.mass = static_cast<std::uint16_t>(std::min(mass, 65535.0F));
         if (squared(dot.centre_q8 - start_q8) > farthest) return {};
@@ -260,7 +258,7 @@ std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
     return dot;
 }
 
-/// Rejects dots whose mass is below half of the typical mass, or above kTooDark_halves / 2 times
+/// Unlinks dots if their mass is below half the typical mass, or above kTooDark_halves / 2 times
 /// the typical mass. Such dots are dirt, graphics, or bare paper where a dot is missing.
 void reject_mass_outliers(Grid& grid, std::span<DetectedDot> dots) {
     constexpr std::size_t kSample = tuned::kMedianSample;

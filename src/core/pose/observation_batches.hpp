@@ -1,5 +1,5 @@
-// Observation batches: splits the observations into batches. Each iteration of a fit visits all
-// batches.
+// Observation batches: splits observations into batches, for fits that visit all dots in each
+// iteration.
 #pragma once
 
 #include <array>
@@ -9,20 +9,20 @@
 
 namespace dotpose::core {
 
-/// Dots, stored as a structure of arrays for vector instructions.
+/// Dots as a structure of arrays, for vector instructions.
 struct ObservationBatch {
     static constexpr std::size_t kMax = 256;
     template <typename Value>
     using Values = std::array<Value, kMax>;
 
     std::size_t count = 0;
-    Values<std::int32_t> x_q8;  ///< image point relative to the centre of the plane, in 2^-8 px
+    Values<std::int32_t> x_q8;  ///< image point relative to the plane's centre, in 2^-8 px
     Values<std::int32_t> y_q8;
-    Values<std::int32_t> step_x_q16;  ///< place of the intersection, in 2^-16 spacings
+    Values<std::int32_t> step_x_q16;  ///< intersection, in 2^-16 spacings
     Values<std::int32_t> step_y_q16;
-    Values<std::int32_t> dx;  ///< direction of the displacement: -1, 0 or 1
+    Values<std::int32_t> dx;  ///< displacement direction: -1, 0 or 1
     Values<std::int32_t> dy;
-    Values<float> noise;  ///< Observations::noise, or 0 if the noise is not known
+    Values<float> noise;  ///< `Observations::noise`, or 0 if unknown
 
     void add(FixedVec from_centre_q8, FixedVec pattern_step, Symbol symbol, float its_noise) {
         x_q8[count] = from_centre_q8.x;
@@ -33,8 +33,8 @@ struct ObservationBatch {
         dy[count] = dotpose::dy(symbol);
         noise[count++] = its_noise;
     }
-    /// Pads the batch to a multiple of four dots. `count` does not include the padding. The dots of
-    /// the padding are too far away to be inliers.
+    /// Pads the batch to a multiple of four dots. `count` excludes the padding. Padding dots are
+    /// too far away to be inliers.
     void fill_up();
 };
 
@@ -43,12 +43,12 @@ class ObservationBatches {
   public:
     ObservationBatches(const Observations& observations, FixedVec centre_q8);
 
-    /// Returns an upper bound on the distance of the dots from the centre, along each axis.
+    /// Returns an upper bound on the distance between dots and the centre, along each axis.
     int reach_px() const { return reach_px_; }
-    /// Returns an evenly spaced subsample of the dots, or all dots if they fit in one batch.
+    /// Returns an evenly spaced sample of the dots, or all dots if they fit in one batch.
     const ObservationBatch& sample() const { return sample_; }
 
-    /// Calls `use` for all dots, in padded batches.
+    /// Calls `use` with all dots, in padded batches.
     template <typename Use>
     void visit(Use use) const {
         if (sample_is_all_) return use(sample_);

@@ -1,4 +1,4 @@
-// Observations: the dots that were read, each with its printed place in the code.
+// Observations: the dots that were read, with their intersections and symbols in the code.
 #pragma once
 
 #include "core/decode/nominal.hpp"
@@ -9,36 +9,35 @@ namespace dotpose::core {
 
 struct Observation {
     FixedVec image_point_q8;
-    FixedVec pattern_step;  ///< intersection of the dot, in spacings relative to `Decoding::place`
+    FixedVec pattern_step;  ///< intersection, in spacings relative to `Decoding::place`
     Symbol symbol;
 };
 
-/// Returns the printed place of the dot, in units of 2^-16 spacings relative to `Decoding::place`.
+/// Returns the printed place of a dot, in 2^-16 spacings relative to `Decoding::place`.
 inline FixedVec nominal_place_q16(const Observation& o, std::int32_t displacement_q16) {
     return {o.pattern_step.x * 65536 + dx(o.symbol) * displacement_q16,
             o.pattern_step.y * 65536 + dy(o.symbol) * displacement_q16};
 }
 
-/// The dots of the cells of a grid, with their symbols in the code.
+/// The dots of a grid, with their symbols in the code.
 class Observations {
   public:
-    /// `paper` contains the paper levels of the image, from which `noise` is computed. If `paper`
-    /// is null, the noise is not known, and `noise` must not be called.
+    /// `paper` contains the paper levels for `noise`. If `paper` is null, `noise` must not be
+    /// called.
     Observations(std::span<const DetectedDot> dots, const Grid& grid, const Nominal& nominal,
                  const PaperMap* paper = nullptr)
         : dots_(dots), grid_(grid), nominal_(nominal), paper_(paper) {}
 
     bool know_noise() const { return paper_ != nullptr; }
-    /// Returns the variance of a centre due to pixel noise, divided by the variance for a dot on
-    /// white paper (level 255). Assumes that pixel noise is constant over the image, and that the
-    /// contrast of a dot is proportional to the paper level.
+    /// Returns the variance of a dot's centre due to pixel noise, relative to a dot on white paper
+    /// (level 255). Assumes constant pixel noise, and a contrast proportional to the paper level.
     float noise(const Observation& o) const {
         const float light =
             static_cast<float>(paper_at(*paper_, o.image_point_q8.x >> 8, o.image_point_q8.y >> 8));
         return 255.0F * 255.0F / (light * light);
     }
 
-    /// Returns an upper bound on the number of observations that `visit` visits.
+    /// Returns an upper bound on the number of observations.
     int count() const { return static_cast<int>(dots_.size()); }
 
     /// Calls `use` for every `every`-th observation.

@@ -16,20 +16,20 @@ namespace tuned = tuning::paper_step;
 
 constexpr float kOnPlane = tuned::kOnPlane;
 constexpr std::size_t kMaxDots = 1024;
-constexpr std::size_t kLines = 48;  ///< maximum number of lines that are tried per direction
+constexpr std::size_t kLines = 48;  ///< maximum number of lines per direction
 constexpr float kLinesPerSpacing = 2;
 constexpr int kDirections = 8;
 constexpr float kBehind = tuned::kBehind;
 
-/// Sums over the dots of one part of the sheet. A dot is coherent if its residual is small enough
-/// to be due to a displacement of the whole part.
+/// Sums over the dots in one part of the sheet. A dot is coherent if a displacement of the whole
+/// part can explain its residual.
 struct PartSums {
-    /// Number of dots; sum of the log odds of these dots for the single plane; number of coherent
-    /// dots; sum of the squared residuals of the coherent dots.
+    /// Four values: number of dots, their summed log odds for the single plane, number of coherent
+    /// dots, and their summed squared residuals.
     Four counts;
-    Four places;  ///< coherent dots: sums of x and y, and of the residuals along x and y
-    /// Coherent dots: sums of xx, xy and yy, and of the cross product of the place and the
-    /// residual. Places are relative to the reference point.
+    Four places;  ///< coherent dots: summed x and y, and summed residuals along x and y
+    /// Coherent dots: summed xx, xy and yy, and summed cross products of place and residual. Places
+    /// are relative to the reference point.
     Four moments;
 
     PartSums& operator+=(const PartSums& o) {
@@ -46,8 +46,8 @@ struct PartSums {
     float dots() const { return counts[2]; }
     float squares() const { return counts[3]; }
 
-    /// Returns the sum of the squared residuals of the coherent dots after subtraction of the best
-    /// common displacement and rotation.
+    /// Returns the summed squared residuals of the coherent dots, after subtracting the best common
+    /// displacement and rotation.
     float remaining() const {
         if (dots() < 3) return squares();
         const float by = 1 / dots();
@@ -68,7 +68,7 @@ float inner_product(const Triple& a, const Triple& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Symmetric 3 x 3 matrix: xx, xy, xz, yy, yz, zz.
+/// Symmetric 3 x 3 matrix.
 struct Symmetric3 {
     float xx, xy, xz, yy, yz, zz;
 
@@ -76,7 +76,7 @@ struct Symmetric3 {
         return {xx * a[0] + xy * a[1] + xz * a[2], xy * a[0] + yy * a[1] + yz * a[2],
                 xz * a[0] + yz * a[1] + zz * a[2]};
     }
-    /// Returns the adjugate, which is the inverse times the determinant.
+    /// Returns the adjugate: the inverse times the determinant.
     Symmetric3 adjugate() const {
         return {yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy,
                 xx * zz - xz * xz, xy * xz - xx * yz, xx * yy - xy * xy};
@@ -84,7 +84,7 @@ struct Symmetric3 {
     Symmetric3 times(float by) const {
         return {by * xx, by * xy, by * xz, by * yy, by * yz, by * zz};
     }
-    /// Returns the inverse, or 0 if the matrix has no inverse.
+    /// Returns the inverse, or 0 if the determinant is not positive.
     Symmetric3 inverse() const {
         const Symmetric3 a = adjugate();
         const float determinant = xx * a.xx + xy * a.xy + xz * a.xz;
@@ -92,15 +92,14 @@ struct Symmetric3 {
     }
 };
 
-/// Least-squares affine map from the places of all coherent dots to their residuals. The gain of a
-/// step at a line is computed relative to this map, because an affine map absorbs most of a step in
-/// the middle of the view.
+/// Least-squares affine map from the places of all coherent dots to their residuals. Gains are
+/// computed relative to this map, because it absorbs most of a step in the middle of the view.
 class AffineFit {
   public:
     AffineFit() = default;
-    /// `x_off` contains the sums of r, x r and y r over all coherent dots, where r is the residual
-    /// along x and (x, y) is the place of a dot. `y_off` contains the same sums for the residual
-    /// along y.
+    /// `x_off` contains the sums of r, x r and y r over all coherent dots. Here, (x, y) is the
+    /// place of a dot, and r is its residual along x. `y_off` contains the same sums for the
+    /// residual along y.
     AffineFit(const PartSums& all, const Triple& x_off, const Triple& y_off)
         : inverse_(Symmetric3{all.dots(), all.places[0], all.places[1], all.moments[0],
                               all.moments[1], all.moments[2]}
@@ -109,11 +108,9 @@ class AffineFit {
           y_(inverse_ * y_off),
           squares_(all.squares() - inner_product(x_, x_off) - inner_product(y_, y_off)) {}
 
-    /// Returns the sum of the squared residuals of all coherent dots after subtraction of the
-    /// affine map.
+    /// Returns the summed squared residuals of all coherent dots, after subtracting the map.
     float squares() const { return squares_; }
-    /// Returns the amount by which a displacement of the part beyond a line reduces the sum of
-    /// squared residuals.
+    /// Returns how much a displacement of the part `beyond` reduces the summed squared residuals.
     float explained_by_displacement(const PartSums& beyond) const {
         const Triple step{beyond.dots(), beyond.places[0], beyond.places[1]};
         const float spread = step[0] - inner_product(step, inverse_ * step);
@@ -122,8 +119,8 @@ class AffineFit {
         const float y = beyond.places[3] - inner_product(step, y_);
         return (x * x + y * y) / spread;
     }
-    /// Returns the amount by which a displacement and rotation of the part beyond a line reduce the
-    /// sum of squared residuals.
+    /// Returns how much a displacement and rotation of the part `beyond` reduce the summed squared
+    /// residuals.
     float explained_by_step(const PartSums& beyond) const {
         const float xx = beyond.moments[0];
         const float xy = beyond.moments[1];
@@ -150,9 +147,9 @@ class AffineFit {
     }
 
   private:
-    /// Minimum spread at which the dots determine a step. The spread is the squared norm of the
-    /// indicator function of the part (1 for each dot beyond the line, 0 for all other dots) minus
-    /// its least-squares affine fit.
+    /// Minimum spread at which the dots determine a step. The part's indicator function is 1 for
+    /// dots beyond the line, and 0 for all other dots. The spread is the squared norm of this
+    /// function after subtracting an affine fit.
     static constexpr float kMinSpread = 1;
 
     Symmetric3 inverse_{};
@@ -171,7 +168,7 @@ class Search {
         const std::size_t every = count / kMaxDots + 1;
         weight_ = static_cast<float>(every);
         float outliers = 0;
-        float reach = 0;  // squared distance of the farthest dot from the reference point
+        float reach = 0;  // squared distance of the farthest dot
         for (std::size_t k = 0; k < count; k += every) {
             if (all.x[k] >= kNoDot_px) continue;
             DotOffset dot = dot_offset(all, k, plane, fit.displacement);
@@ -185,16 +182,15 @@ class Search {
         const auto wanted = static_cast<std::size_t>(kLinesPerSpacing * length);
         lines_ = std::clamp(wanted, std::size_t{4}, kLines);
         per_spacing_ = static_cast<float>(lines_) / length;
-        // If outliers are frequent, for example in printed text, outliers beyond a line are only
-        // weak evidence of a displacement of the paper.
+        // Frequent outliers, for example in printed text, are only weak evidence that the paper is
+        // displaced.
         off_plane_ = natural_log((outliers + 1) / static_cast<float>(count_ + 1));
         for (std::size_t k = 0; k < count_; ++k)
             sums_[k] = sums_of(dots_[k]);
         fit_affine();
     }
 
-    /// Replaces `best` with the best line perpendicular to a direction if that line has a larger
-    /// gain than `best`.
+    /// Replaces `best` if a line perpendicular to `direction` has a larger gain.
     void try_direction(FloatVec direction, PaperStep& best) const {
         std::array<PartSums, kLines> beyond = strips_along(direction);
         const auto consider = [&](std::size_t line, float gain) {
@@ -214,8 +210,8 @@ class Search {
             if (max_gain_of(part, here) > best.gain) consider(line, gain_of(part, here));
         }
         if (likeliest == 0) return;
-        // Tests a rotation of the part only near the line at which a pure displacement reduces the
-        // sum of squared residuals the most.
+        // A pure displacement explains most at the line `likeliest`. Rotations are tested only
+        // within kNear lines of this line.
         constexpr std::size_t kNear = 2;
         const std::size_t last = std::min(likeliest + kNear, lines_ - 1);
         for (std::size_t line = std::max(likeliest, kNear + 1) - kNear; line <= last; ++line) {
@@ -225,7 +221,7 @@ class Search {
     }
 
   private:
-    /// Returns the sums of the dots in strips perpendicular to a direction.
+    /// Returns the sums of the strips perpendicular to a direction.
     std::array<PartSums, kLines> strips_along(FloatVec direction) const {
         std::array<PartSums, kLines> strips{};
         const auto last = static_cast<std::int32_t>(lines_) - 1;
@@ -263,9 +259,9 @@ class Search {
         affine_ = AffineFit(all_, x_off, y_off);
     }
 
-    /// Returns the gain of a step at the line relative to the best affine map, as a log likelihood
-    /// ratio: n ln(s / r) for n coherent dots, where s and r are the sums of squared residuals
-    /// without and with the step. Returns 0 if the upper bound n (s - r) / r is at most `min_gain`.
+    /// Returns the gain of a step relative to the affine map, as a log likelihood ratio. For n
+    /// coherent dots, the gain is n ln(s / r). s and r are the summed squared residuals without and
+    /// with the step. Returns 0 if the upper bound n (s - r) / r is at most `min_gain`.
     float gain_of_step(const PartSums& beyond, float min_gain) const {
         const float explained = affine_.explained_by_step(beyond);
         const float remaining = affine_.squares() - explained;
@@ -274,14 +270,14 @@ class Search {
         return dots * natural_log(affine_.squares() / remaining);
     }
 
-    /// Returns the log odds of the dots of a part, for a plane fitted to this part alone.
+    /// Returns the log odds of a part's dots, for a plane fitted to this part alone.
     float on_own_plane(const PartSums& part) const {
         return kOnPlane * part.dots() - part.remaining() / (2 * variance_) +
                off_plane_ * (part.seen() - part.dots());
     }
 
-    /// Returns an upper bound on `gain_of`: the gain if the separate planes explained all coherent
-    /// dots exactly.
+    /// Returns an upper bound on `gain_of`, as if separate planes explained all coherent dots
+    /// exactly.
     float max_gain_of(const PartSums& beyond, const PartSums& here) const {
         const auto max_of = [this](const PartSums& part) {
             return kOnPlane * part.dots() + off_plane_ * (part.seen() - part.dots());
@@ -290,10 +286,9 @@ class Search {
                           std::max(max_of(here) - here.on_plane(), 0.0F));
     }
 
-    /// Returns the gain of separate planes for the two parts relative to the single plane, as a log
-    /// likelihood ratio. The part on the side of the reference point also has its own plane,
-    /// because the single plane may be a compromise between the parts. If the dots beyond the line
-    /// have no common plane, their log odds are 0.
+    /// Returns the gain of separate planes over the single plane, as a log likelihood ratio. The
+    /// part with the reference point also has its own plane, because the single plane may be a
+    /// compromise. If the dots beyond the line have no common plane, their log odds are 0.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));
@@ -306,7 +301,7 @@ class Search {
     AffineFit affine_;
     float variance_;
     float off_plane_;   ///< log odds of a dot that is not on the plane
-    float weight_ = 1;  ///< number of dots that each sampled dot represents
+    float weight_ = 1;  ///< number of dots that each sample represents
     std::size_t lines_ = 0;
     float per_spacing_ = 0;  ///< number of lines per spacing
 };
@@ -321,7 +316,7 @@ PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, con
                           FloatVec reference_px) {
     const Search search(dots, plane, fit, reference_px);
     PaperStep best;
-    constexpr float kSin = 0.70710678F;  // sine and cosine of an eighth of a turn
+    constexpr float kSin = 0.70710678F;  // sine and cosine of 45 degrees
     FloatVec direction{1, 0};
     for (int i = 0; i < kDirections; ++i) {
         search.try_direction(direction, best);

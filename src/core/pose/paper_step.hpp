@@ -1,5 +1,5 @@
-// Paper step: finds a line beyond which the print is displaced, because a printer fed the paper
-// badly or because two sheets adjoin at the line. Differs: the method of the paper fits a single
+// Paper step: finds a line where the print is displaced, because a printer fed the sheet badly or
+// because two sheets meet. Unlike the paper, dotpose does not assume that all dots are in one
 // plane.
 #pragma once
 
@@ -10,21 +10,21 @@ namespace dotpose::core {
 
 /// A line in the pattern that divides the sheet.
 struct PaperStep {
-    /// Limits of `gain`. On 1 in 100 flat sheets, the gain exceeds kPossible by chance. A gain
-    /// above kCertain is not due to chance. Both limits are high because many lines are tried, each
-    /// with three parameters for the part beyond the line, and because steps are rare.
+    /// Thresholds for `gain`. By chance, 1 in 100 flat sheets exceeds kPossible. A gain above
+    /// kCertain is not due to chance. The thresholds are high because steps are rare, and because
+    /// the search tries many lines, each with three parameters.
     static constexpr float kPossible = 12;
     static constexpr float kCertain = 23;
 
-    FloatVec direction{1, 0};  ///< unit vector perpendicular to the line, pointing beyond the line
-    /// Distance from the reference point to the line, in spacings. Negative if the reference point
-    /// is beyond the line.
+    FloatVec direction{1, 0};  ///< unit normal of the line, pointing beyond it
+    /// Distance from the reference point to the line, in spacings. Negative if the point is beyond
+    /// the line.
     float distance = 0;
-    float gain = 0;  ///< log likelihood ratio (natural) relative to a single plane
+    float gain = 0;  ///< natural log of the likelihood ratio, relative to a single plane
 };
 
-/// Returns the line with the largest gain among the lines that are tried. If no line has a positive
-/// gain, the gain of the result is 0. `fit` is the result of the fit of `plane`.
+/// Returns the line with the largest gain. If no line has a positive gain, the returned gain is 0.
+/// `fit` is the result of fitting `plane`.
 PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, const PoseFit& fit,
                           FloatVec reference_px);
 

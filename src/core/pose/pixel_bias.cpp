@@ -12,7 +12,7 @@ namespace {
 
 namespace tuned = tuning::bias;
 
-/// Returns sin(2 pi x). The error is at most 0.0011, and the result is bit-identical on every
+/// Returns sin(2 pi x) with an error of at most 0.0011. The result is bit-identical on every
 /// platform.
 float sine_of_turns(float x) {
     const float turn = x - std::floor(x + 0.5F);
@@ -20,17 +20,17 @@ float sine_of_turns(float x) {
     return 0.775F * y + 0.225F * y * std::abs(y);
 }
 
-/// Returns the centre of the centroid window of a dot along one axis, in px. The kernels round the
-/// centre to a multiple of 1/4 px.
+/// Returns the centre of a centroid window along one axis, in px. The kernels round it to a
+/// multiple of 1/4 px.
 float place_of_window(std::int32_t window, std::int32_t sum, std::int32_t mass) {
     const float quarters =
         4 * static_cast<float>(sum) / static_cast<float>(std::max<std::int32_t>(mass, 1));
     return static_cast<float>(window) + std::floor(quarters + 0.5F) / 4;
 }
 
-/// Weights of a centroid window at the pixels along one axis: w(t) = (1 - t^2)^4, the moment
-/// weights m(t) = t w(t), and their derivatives m'(t). t is the signed distance from the centre of
-/// the window, in radii. See kernels/loops/centroid_windows.inc.
+/// Weights of a centroid window along one axis. The weights are w(t) = (1 - t^2)^4, and the moment
+/// weights are m(t) = t w(t). `slope` is m'(t). t is the signed distance from the window centre, in
+/// radii. See kernels/loops/centroid_windows.inc.
 struct WindowWeights {
     std::array<float, DotPixels::kSide> weight;
     std::array<float, DotPixels::kSide> moment;
@@ -49,7 +49,7 @@ struct WindowWeights {
 };
 
 /// Returns the weighted sum of the pixels. The weight of a pixel is the product of its weights
-/// along the two axes.
+/// along u and v.
 float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide>& along_u,
                const std::array<float, DotPixels::kSide>& along_v) {
     float sum = 0;
@@ -62,18 +62,17 @@ float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide
     return sum;
 }
 
-/// Error of the centroid of a model dot.
+/// Centroid error of a model dot.
 struct CentroidError {
-    float px;                  ///< offset of the centroid from the true centre
-    DotShape::Terms by_shape;  ///< derivatives of `px` with respect to the terms of the shape
-    float slopes;              ///< slope of the moment along the axis, divided by the slope along u
+    float px;                  ///< centroid minus true centre
+    DotShape::Terms by_shape;  ///< derivatives of `px` with respect to the shape terms
+    float slopes;              ///< slope of the moment, relative to the slope along u
 };
 
 enum class Along : std::uint8_t { u, v };
 
-/// Returns the error of a centroid along an axis. `dot_px` and `window_px` are the coordinates of
-/// the dot and of the window along this axis, relative to the centre of a pixel. The slope along u
-/// is used for both axes, as in the kernels.
+/// Returns the centroid error along one axis. `dot_px` and `window_px` are coordinates along this
+/// axis, relative to a pixel centre. Like the kernels, uses the slope along u for both axes.
 CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, float window_px,
                              float radius_px) {
     const bool is_u = axis == Along::u;
@@ -95,8 +94,8 @@ CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, fl
     return error;
 }
 
-/// Centroid bias, along one axis, of windows that are centred on their dots: amplitude * sin(2 pi
-/// phase).
+/// Centroid bias along one axis: amplitude * sin(2 pi phase). Applies to windows that are centred
+/// on their dots.
 class AxisBias {
   public:
     AxisBias(const DotShape& shape, Along axis, float radius_px) {
@@ -113,18 +112,17 @@ class AxisBias {
     }
 
     float amplitude_px() const { return amplitude_px_; }
-    /// Returns the slope of the moment along this axis, divided by the slope along u. The ratio is
-    /// shrunk towards 1 if noise can explain its difference from 1.
+    /// Returns the slope of the moment along this axis, relative to the slope along u. The ratio is
+    /// shrunk towards 1 if noise can explain the difference.
     float slopes() const { return slopes_; }
-    /// Returns the bias of a dot, in px, and adds the sine of its phase to the mean.
+    /// Returns the bias of a dot, in px. Also adds the sine of its phase to the mean.
     float of(float phase) {
         const float sine = sine_of_turns(phase);
         sines_ += sine;
         dots_ += 1;
         return amplitude_px_ * sine;
     }
-    /// Returns the variance of the mean centre of the dots that remains after the correction, in
-    /// px^2.
+    /// Returns the remaining variance of the mean centre after the correction, in px^2.
     float variance_of_mean() const {
         const float mean = sines_ / std::max(dots_, 1.0F);
         return variance_ * mean * mean;
@@ -138,11 +136,10 @@ class AxisBias {
     float dots_ = 0;
 };
 
-/// Returns the error, in px, of the centroid of a dot at the offset `d` from the centre of its
-/// window. The kernels compute the offset by one Newton step, as if the moment were linear in d.
-/// The moment is proportional to d - bend d^3. The kernels divide the moments along both axes by
-/// the slope along u at the centre of the window. `slopes` is the slope along v divided by the
-/// slope along u.
+/// Returns the centroid error, in px, of a dot at offset `d` from its window centre. The moment is
+/// proportional to d - bend d^3. The kernels take a single Newton step, as if the moment were
+/// linear in d. They divide the moments of both axes by the slope along u at the window centre.
+/// `slopes` is the slope along v divided by the slope along u.
 FloatVec error_off_centre(float bend, float slopes, FloatVec d) {
     return {2 * bend * d.x * d.x * d.x,
             d.y * (slopes * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1)};
@@ -155,7 +152,7 @@ float bend_of_moment(const DotShape& shape, float amplitude_px, float radius_px)
     return error / (2 * kBeside_px * kBeside_px * kBeside_px);
 }
 
-/// Expected places of the dots in the image, for the inliers of a plane.
+/// Expected image points of the dots that are inliers of a plane.
 class ExpectedDots {
   public:
     ExpectedDots(const FloatPlane& plane, const PoseFit& fit, FloatVec centre_px,
@@ -167,8 +164,8 @@ class ExpectedDots {
           centre_px_(centre_px),
           dots_(dots) {}
 
-    /// Visits every `every`-th dot, and calls `use` for each inlier, with its index and its
-    /// sub-pixel phase.
+    /// Visits every `every`-th dot. Calls `use` with the index and the sub-pixel phase of each
+    /// inlier.
     template <typename Use>
     void visit(std::size_t every, Use use) const {
         for (std::size_t k = 0; k < static_cast<std::size_t>(dots_.count); k += every) {
@@ -183,7 +180,7 @@ class ExpectedDots {
 
   private:
     const FloatPlane& plane_;
-    const float by_;  ///< area of a cell, in px^2
+    const float by_;  ///< cell area, in px^2
     const float displacement_;
     const float limit_;
     const FloatVec centre_px_;
@@ -219,7 +216,7 @@ FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window
                    });
     DotShape shape;
     if (!shape.fit(stacks)) return {};
-    // Strong blur removes the bias, and makes the dots larger than the image of a model dot.
+    // Strong blur removes the bias. It also makes the dots larger than the model image.
     if (std::min(shape.blur_2().x, shape.blur_2().y) > tuned::kBlurred_px2) return {};
     AxisBias along_u(shape, Along::u, window.radius_px);
     AxisBias along_v(shape, Along::v, window.radius_px);

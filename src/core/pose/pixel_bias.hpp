@@ -1,7 +1,7 @@
-// Pixel bias: corrects the bias of the centroids due to the sub-pixel phase of the dots. If the
-// phases of the dots are evenly distributed, the bias averages out. If all dots have the same
-// phase, the bias is computed from a model dot and subtracted. Differs: the paper needs no such
-// correction, because its frames contain all phases.
+// Pixel bias: corrects the centroid bias due to the sub-pixel phase of the dots. The bias averages
+// out if the phases are evenly distributed. If all dots have the same phase, the bias is computed
+// from a model dot and subtracted. Unlike the paper, whose frames contain all phases, dotpose needs
+// this correction.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -11,21 +11,21 @@
 
 namespace dotpose::core {
 
-/// The centroid window with which the centres of the dots were measured.
+/// The centroid window in which the dots were measured.
 struct CentroidWindow {
-    float radius_px = 0;      ///< distance from the centre at which the weight becomes 0, in px
-    float dot_radius_px = 0;  ///< approximate radius of the dots, in px
-    /// Origin of the coordinates of the dots, in px relative to the first pixel of the image.
+    float radius_px = 0;      ///< distance from the centre at which the weight becomes 0
+    float dot_radius_px = 0;  ///< approximate dot radius
+    /// Origin of the dot coordinates, in px relative to the first pixel of the image.
     FloatVec centre_px;
 };
 
-/// Moves the centroid windows to the current centres, before the dots are measured again. Drops
-/// dots whose window is not completely in the image.
+/// Moves the windows to the current centres, before the dots are measured again. Drops dots if
+/// their window is not completely in the image.
 void recentre_windows(const ImageView& image, const CentroidWindow& window, MeasuredDots& dots);
 
-/// Subtracts the bias from the centres of all inliers of the plane. Returns the variance of the
-/// mean of all centres that is due to the remaining bias, along u and v, in px^2. If the bias is
-/// negligible or cannot be determined, changes no centre and returns 0.
+/// Subtracts the bias from the centres of all inliers. Returns the variance of the mean centre due
+/// to the remaining bias, along u and v, in px^2. Returns 0 without any change if the bias is
+/// negligible or cannot be determined.
 FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window,
                             const FloatPlane& plane, const PoseFit& fit, MeasuredDots& dots);
 

@@ -13,10 +13,10 @@ namespace tuned = tuning::fit;
 
 constexpr float kPower30 = 1073741824.0F;
 
-/// Linear model of the squared residual of a dot as a function of its pixel noise
+/// Linear model of a dot's squared residual as a function of its pixel noise
 /// (`Observations::noise`). The constant term is due to print errors, which do not depend on the
-/// illumination. The linear term is due to pixel noise, which increases, relative to the contrast,
-/// as the illumination decreases.
+/// illumination. The linear term is due to pixel noise, which is larger relative to the contrast in
+/// dim light.
 class Scatter {
   public:
     void add(float noise, float squared_residual) {
@@ -36,7 +36,7 @@ class Scatter {
         by_noise_ = std::clamp(slope / mean_square, 0.0F, tuned::kMaxByNoise / mean_noise);
         always_ = 1 - by_noise_ * mean_noise;
     }
-    /// Returns the mean variance of all dots divided by the variance of a dot with this noise.
+    /// Returns the mean variance of all dots, divided by the variance at this noise.
     Four weight(Four noise) const { return 1.0F / (always_ + by_noise_ * noise); }
 
   private:
@@ -49,7 +49,7 @@ class Scatter {
     float by_noise_ = 0;
 };
 
-/// One Gauss-Newton iteration: computes the normal equations at the current pose and solves them.
+/// One Gauss-Newton iteration. Computes the normal equations at the current pose, and solves them.
 class Round {
   public:
     Round(const ObservationBatches& batches, const PlaneFromImage& pose)
@@ -65,7 +65,7 @@ class Round {
             y_q16[i] = offset.y;
             values[i] = offset.x * sample.dx[i] + offset.y * sample.dy[i];
         }
-        // Measures the displacement in each frame, because ink spread and blur vary.
+        // The displacement is measured in each frame, because ink spread and blur vary.
         displacement_q16_ = median(std::span(values).first(sample.count));
         for (std::size_t i = 0; i < sample.count; ++i) {
             values[i] = squared_q30({x_q16[i] - sample.dx[i] * displacement_q16_,
@@ -142,7 +142,7 @@ class Round {
     const PlaneFromImage& pose_;
     ScaledPlane plane_;
     std::int32_t displacement_q16_ = 0;
-    float limit_ = 0;  ///< squared residual beyond which a dot is an outlier, in spacings^2
+    float limit_ = 0;  ///< outlier limit of squared residuals, in spacings^2
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
-// Refine: fits the pose to all dots. Once the position is known, the printed place of every dot is
-// known, including its displacement. The pose is the least-squares map from the centres of the dots
-// to these places. Uses single precision. Differs: the paper computes the pose from the grid (eq.
-// 10-12), whose fit treats displacements as noise.
+// Refine: fits the pose to all dots. A known position determines where each dot is printed,
+// including its displacement. The pose is the least-squares map from the measured centres to these
+// places. Uses single precision. Unlike the paper, which computes the pose from the grid (eq.
+// 10-12), this fit does not treat displacements as noise.
 #pragma once
 
 #include "core/fit/solve_plane.hpp"
@@ -10,8 +10,8 @@
 
 namespace dotpose::core {
 
-/// Improves the pose and rejects outliers. Shrinks the distortion terms to their posterior means
-/// (fit/posterior), because each fitted term costs accuracy, and the terms are 0 for a camera that
+/// Improves the pose, and rejects outliers. Shrinks the distortion terms to their posterior means
+/// (fit/posterior), because each fitted term costs accuracy. The true terms are 0 for a camera that
 /// looks straight at flat paper. Returns false if the dots do not determine the pose.
 bool refine_pose(const Observations& observations, PlaneFromImage& pattern_from_image,
                  PoseFit& fit);

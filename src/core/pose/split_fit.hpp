@@ -1,16 +1,16 @@
-// Split fit: fits one plane to each of the two parts of a sheet that a line divides.
+// Split fit: fits a plane to each side of a line that divides a sheet.
 #pragma once
 
 #include "core/pose/paper_step.hpp"
 
 namespace dotpose::core {
 
-/// Restricts fits to the dots on one side of a line during the lifetime of the object. Moves the
-/// cells of all other dots far away, so fits reject these dots as outliers. Dots near the line
-/// belong to neither side.
+/// Restricts fits to one side of a line during the lifetime of the object. Moves the cells of all
+/// other dots far away, so fits reject these dots as outliers. Dots near the line belong to neither
+/// side.
 class HalfPlane {
   public:
-    /// The side that fits use: the side of the reference point, or the side beyond the line.
+    /// The side to fit: the side of the reference point, or the side beyond the line.
     enum class Side : std::uint8_t { here, beyond };
 
     HalfPlane(Side side, MeasuredDots& dots, const FloatPlane& plane, FloatVec reference_px,
@@ -24,22 +24,22 @@ class HalfPlane {
     MeasuredDots& dots_;
 };
 
-/// Result of a split fit: the most likely dividing line (`step`), and the plane fitted to the dots
-/// on the same side of this line as the reference point.
+/// Result of a split fit: the likeliest dividing line, and the plane fitted to the reference
+/// point's side.
 struct SplitFit {
     FloatPlane plane;
     PoseFit fit;
     PaperStep step = {};
 };
 
-/// Finds the most likely dividing line and fits the plane to the dots on the side of the reference
-/// point. On entry, `split` contains the fit to all dots. Returns false if no line is likely
-/// enough, or if the dots on this side do not determine a plane.
+/// Finds the likeliest dividing line, and fits the plane to the reference point's side. On entry,
+/// `split` contains the fit to all dots. Returns false if no line is likely enough, or if the dots
+/// on this side do not determine a plane.
 bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    SplitFit& split);
 
-/// Fits a plane to the dots beyond the line. Returns false if too few of these dots share a
-/// displacement, or if these dots do not determine a plane.
+/// Fits a plane to the dots beyond the line. Returns false if too few dots share a displacement, or
+/// if they do not determine a plane.
 bool fit_far_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                   const SplitFit& split, FloatPlane& beyond);
 

@@ -1,4 +1,4 @@
-// Stacked dots: sums of the images of the dots, grouped by their sub-pixel phase.
+// Stacked dots: summed dot images, grouped by sub-pixel phase.
 #pragma once
 
 #include "core/pose/dot_model.hpp"
@@ -6,43 +6,42 @@
 
 namespace dotpose::core {
 
-/// Pixel and sub-pixel phase of a point of the image.
+/// Pixel and sub-pixel phase of an image point.
 struct Phase {
     int u = 0;  ///< pixel that contains the point
     int v = 0;
-    FloatVec rest;  ///< offset from the centre of that pixel, in [-0.5, 0.5] px
+    FloatVec rest;  ///< offset from the pixel centre, in [-0.5, 0.5] px
 
     explicit Phase(FloatVec point_px);
 };
 
-/// Sums of the images of dots. Dots are grouped by the quarter of a pixel, along u and v, that
-/// contains their centre.
+/// Sums of dot images. Each pixel is divided into 4 x 4 parts. Dots are stacked if their centres
+/// are in the same part.
 class StackedDots {
   public:
-    /// Sums over the dots of one stack.
+    /// Sums over one stack.
     struct Stack {
         float dots = 0;
         FloatVec rest;  ///< sum of `Phase::rest`
-        /// Sum of the darkness, as a fraction of the paper level around each dot.
+        /// Summed darkness, as a fraction of the paper level around each dot.
         DotPixels darkness;
     };
 
-    /// Uses the pixels within `reach_px` of the central pixel, but at most kHalf_px along each
+    /// Uses the pixels within `reach_px` of the central pixel, but at most kHalf_px away along each
     /// axis.
     explicit StackedDots(float reach_px);
 
     /// Adds a dot if all its pixels are in the image.
     void add(const ImageView& image, const Phase& phase, float paper);
 
-    /// Calls `use` for each stack that has dots.
+    /// Calls `use` for each stack that contains dots.
     template <typename Use>
     void visit(Use use) const {
         for (const Stack& stack : stacks_) {
             if (stack.dots > 0) use(stack);
         }
     }
-    /// Calls `use(u, v)` for each pixel that is used. `u` and `v` are relative to the central
-    /// pixel.
+    /// Calls `use(u, v)` for each used pixel. `u` and `v` are relative to the central pixel.
     template <typename Use>
     void visit_pixels(Use use) const {
         for (int v = -half_px_; v <= half_px_; ++v) {
@@ -51,22 +50,22 @@ class StackedDots {
             }
         }
     }
-    /// Returns the distance from the central pixel to the outermost pixels, along each axis, in px.
+    /// Returns the distance from the central pixel to the outermost pixels along each axis, in px.
     int half_px() const { return half_px_; }
-    /// Returns true if the number of dots exceeds the number of stacks by enough to estimate the
-    /// noise from the differences between the dots of a stack.
+    /// Returns true if there are enough dots to estimate the noise from differences within the
+    /// stacks.
     bool are_enough() const;
-    /// Returns the sum of the darkness of all pixels of a dot, averaged over all dots.
+    /// Returns the total darkness of a dot, averaged over all dots.
     float mass() const;
-    /// Returns the variance of the darkness of a pixel between the dots of a stack, plus a constant
-    /// for the quantization of grey levels.
+    /// Returns the variance of a pixel's darkness within a stack, plus a constant for the
+    /// quantization of grey levels.
     float noise_2() const;
 
   private:
     static constexpr int kAlong = 4;  ///< number of stacks along each axis
 
     std::array<Stack, kAlong * kAlong> stacks_{};
-    float squares_ = 0;  ///< sum of the squared darkness of the used pixels of all dots
+    float squares_ = 0;  ///< summed squared darkness of all used pixels
     float dots_ = 0;     ///< number of dots in all stacks
     int half_px_;
     int reach_2_;

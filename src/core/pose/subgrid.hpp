@@ -1,5 +1,5 @@
-// Subgrid: the place of the reference point between the intersections, and the angle. Implements
-// paper section II-B.8, eq. 10-12, and the angle at the end of II-B.6.
+// Subgrid: computes the angle, and the place of the reference point between intersections.
+// Implements section II-B.8 of the paper (eq. 10-12), and the angle at the end of section II-B.6.
 #pragma once
 
 #include "dotpose/fix.hpp"
@@ -7,15 +7,15 @@
 
 namespace dotpose::core {
 
-/// Returns the plane of the grid, rotated upright. The origin of the result is `Decoding::place`.
+/// Returns the plane of the grid, rotated upright. Its origin is `Decoding::place`.
 PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn pattern_from_grid);
 
-/// Writes the plane, its place, and the position, section, angle and spacing at the reference point
-/// into the fix.
+/// Writes the plane and the place of its origin into the fix. Also writes the position, section,
+/// angle and spacing at the reference point.
 void write_pose(const PlaneFromImage& pattern_from_image, FixedVec reference_q8, CodeVariant code,
                 const Place& place, Fix& fix);
 
-/// Faster variant of `write_pose` for a plane that has neither perspective nor lens terms.
+/// Faster variant of `write_pose` for planes without perspective and lens terms.
 void write_affine_pose(const PlaneFromImage& pattern_from_image, FixedVec reference_q8,
                        CodeVariant code, const Place& place, Fix& fix);
 

@@ -1,191 +1,184 @@
-// Tuning: empirical constants of the pose fit. The constants of the second attempt were determined
-// on the hard frames that decode/tuning.hpp names. Comments that compare values state the number of
-// frames that `dotpose evaluate --preset hard --frames 2000 --seed 404` locates, and the median and
-// the 95 % quantile of their errors. With the values in this file, these numbers are 1,994 frames,
-// 2.21 µm and 5.42 µm.
+// Tuning: empirical constants of the pose fit. Constants of the second attempt were tuned on the
+// hard frames listed in decode/tuning.hpp. Comments that compare values give the number of located
+// frames, and the median and 95 % quantile of their errors. These numbers are from
+//
+//     dotpose evaluate --preset hard --frames 2000 --seed 404
+//
+// The values in this file give 1,994 frames, 2.21 µm and 5.42 µm.
 #pragma once
 
 namespace dotpose::core::tuning {
 
-/// Centres of dots in a window (pose/measure).
+/// Measurement of dots in a window (pose/measure).
 namespace measure {
-/// Half the side of the window, in 1/32 of the spacing, and its minimum, in 1/256 px. At this size,
-/// the border of the window is on paper even if the dot is not in the middle of the window, and the
-/// window contains no part of another dot.
+/// Half the window side, in 1/32 of the spacing, and its minimum, in 1/256 px. At this size, the
+/// window border is on paper even if the dot is off centre, and the window contains no other dot.
 inline constexpr int kHalf_32nds = 9;
 inline constexpr int kMinHalf_q8 = 768;
 /// Standard deviation of the fitted dot, in 1/128 of the spacing, and its minimum, in 1/256 px.
-/// kSigma_128ths is the width of a blurred dot. With kSigma_128ths = 6, 1,994 of the 2,000 frames
-/// are located, with a median error of 2.19 µm and a 95 % quantile of 5.36 µm. With kSigma_128ths =
-/// 24, only 1,904 frames are located, with 3.58 µm and 9.19 µm.
+/// kSigma_128ths is the width of a blurred dot. A value of 6 gives 1,994 frames, 2.19 µm and 5.36
+/// µm. A value of 24 gives only 1,904 frames, 3.58 µm and 9.19 µm.
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
-/// Maximum squared distance of a dot from its place, in units of sigma^2. The pose fit rejects dirt
-/// as outliers, so the limit can be large. A smaller limit would also reject badly printed dots,
-/// which costs accuracy and hides print errors.
+/// Maximum squared distance between a dot and its place, in units of sigma^2. The limit can be
+/// large, because the pose fit rejects dirt as outliers. A smaller limit would also reject badly
+/// printed dots. This would cost accuracy and hide print errors.
 inline constexpr int kFarthest_2 = 9;
-/// Maximum number of Gauss-Newton iterations. The fit also ends after a step that is shorter than
+/// Maximum number of Gauss-Newton iterations. The fit ends early after a step shorter than
 /// kSettled_q8, in 1/256 px.
 inline constexpr int kMaxIterations = 5;
 inline constexpr int kSettled_q8 = 4;
-/// Maximum darkness of a dot, in halves of the darkness of a typical dot. The minimum is half the
-/// darkness of a typical dot. These limits reject dirt, graphics, and bare paper where a dot is
-/// missing.
+/// Maximum darkness of a dot, in halves of the typical darkness. The minimum is half the typical
+/// darkness. These limits reject dirt, graphics, and bare paper where a dot is missing.
 inline constexpr int kTooDark_halves = 3;
-/// Maximum number of dots in the sample whose median is used as the darkness of a typical dot.
+/// Maximum sample size for the typical darkness, which is the sample median.
 inline constexpr int kMedianSample = 256;
 }  // namespace measure
 
-/// The pose from all dots (pose/refine_pose, pose/float_fit).
+/// Pose fit to all dots (pose/refine_pose, pose/float_fit).
 namespace fit {
-/// Maximum number of Gauss-Newton iterations in `refine_pose` and in `fit_plane`, respectively.
+/// Maximum number of Gauss-Newton iterations in `refine_pose` and `fit_plane`, respectively.
 inline constexpr int kMaxRounds = 4;
 inline constexpr int kMaxRoundsOfFloats = 5;
-/// Squared step length, in units of the standard deviation of the pose, at or below which
-/// `refine_pose` stops. The next step would be much smaller.
+/// Squared step length at which `refine_pose` stops, in units of the pose's standard deviation. The
+/// next step would be much smaller.
 inline constexpr float kSettled = 0.01F;
-/// Outlier limit of squared residuals, in units of their median. The median is 1.39 sigma^2, so the
-/// limit is 4.1 sigma. By chance, 1 dot in 4,000 exceeds the limit.
+/// Outlier limit for squared residuals, in units of their median. The median is 1.39 sigma^2, so
+/// the limit is 4.1 sigma. By chance, 1 dot in 4,000 exceeds it.
 inline constexpr int kOutlier_medians = 12;
-/// Outlier limit of squared residuals, in units of the variance, if the variance is known. The
-/// limit is 4.1 sigma. By chance, 1 dot in 4,000 exceeds the limit.
+/// Outlier limit for squared residuals, in units of a known variance. The limit is 4.1 sigma. By
+/// chance, 1 dot in 4,000 exceeds it.
 inline constexpr float kOutlier = 16.6F;
-/// Relative change of the limit below which the inliers count as unchanged.
+/// Relative change of the outlier limit below which the inliers count as unchanged.
 inline constexpr float kSameLimit = 0.04F;
 /// Maximum fraction of the scatter that is attributed to pixel noise.
 inline constexpr float kMaxByNoise = 0.9F;
 /// Minimum number of dots for `fit_plane`.
 inline constexpr int kMinDots = 20;
-/// Squared length of a step, in units of the standard deviation of the pose, below which the fit
-/// has converged: kNonlinearSettled / n^2, where n is the nonlinearity of the plane (`settled` in
-/// float_fit.cpp), clamped to [kMinSettled, kMaxSettled]. After the last step, the remaining error
+/// Squared step length below which the fit has converged, in units of the pose's standard
+/// deviation. The limit is kNonlinearSettled / n^2, clamped to [kMinSettled, kMaxSettled]. n is the
+/// nonlinearity of the plane (`settled` in float_fit.cpp). After the last step, the remaining error
 /// is about a fifth of a standard deviation.
 inline constexpr float kMinSettled = 0.2F;
 inline constexpr float kMaxSettled = 30;
 inline constexpr float kNonlinearSettled = 0.04F;
 }  // namespace fit
 
-/// Fit of the model dot of a frame (pose/dot_shape).
+/// Fit of the model dot (pose/dot_shape).
 namespace shape {
-/// Prior: standard deviation of the common offset of all dots along each axis.
+/// Prior: standard deviation of the common offset of all dots, along each axis.
 inline constexpr float kOff_px = 0.1F;
-/// Prior: mean and standard deviation of the variance of the blur, in px^2.
+/// Prior: mean and standard deviation of the blur variance, in px^2.
 inline constexpr float kBlur_2 = 0.25F;
-/// Prior: standard deviation of the relative difference of the squared half axes.
+/// Prior: standard deviation of the relative difference between the squared half axes.
 inline constexpr float kSigmaOfWidth = 0.3F;
-/// Prior: mean and standard deviation of the contrast of ink.
+/// Prior: mean and standard deviation of the ink contrast.
 inline constexpr float kContrast = 0.8F;
 inline constexpr float kSigmaOfContrast = 0.15F;
-/// Minimum of the squared half axes and of the variance of the blur.
+/// Minimum of the squared half axes and the blur variance.
 inline constexpr float kMin_px2 = 0.005F;
 /// Damping of the steps: initial value, maximum, and factor after a rejected step.
 inline constexpr float kFirstDamping = 0.01F;
 inline constexpr float kMaxDamping = 1e4F;
 inline constexpr float kDampingGrows = 10;
 /// The fit ends after kMaxRounds iterations, or after a step that reduces the cost by less than
-/// kSettled. The cost is the sum of the squared residuals, in units of their variances.
+/// kSettled. The cost is the sum of squared residuals in units of their variances.
 inline constexpr float kSettled = 0.3F;
 inline constexpr int kMaxRounds = 30;
 }  // namespace shape
 
-/// The bias of facing dots (pose/facing_dots).
+/// Bias of facing dots (pose/facing_dots).
 namespace facing {
-/// Minimum significance, in standard deviations, at which the bias of facing dots is corrected.
+/// Minimum significance of a corrected bias, in standard deviations.
 inline constexpr float kSure = 4;
 }  // namespace facing
 
-/// The pixel bias of dots with the same sub-pixel phase (pose/pixel_bias).
+/// Pixel bias of dots with the same sub-pixel phase (pose/pixel_bias).
 namespace bias {
-/// Maximum number of dots whose images are stacked. This number suffices to determine the shape of
-/// the dots.
+/// Maximum number of stacked dots. More dots are not needed to determine the dot shape.
 inline constexpr int kDots = 256;
-/// Width of the border around a dot that is also stacked. The border contains the blur of the edge
-/// of the dot.
+/// Width of the stacked border around a dot. The border contains the blurred edge.
 inline constexpr float kBeyondEdge_px = 1.5F;
-/// Variance of the blur above which the bias is negligible.
+/// Blur variance above which the bias is negligible.
 inline constexpr float kBlurred_px2 = 0.7F * 0.7F;
-/// Variance of the bias that remains after correction with a model dot, divided by the squared
-/// bias: kOfModel + kOfMisfit * max(misfit - kMisfit, 0), where misfit is `DotShape::misfit()`.
-/// Round dots need only kOfModel.
+/// Variance of the remaining bias after a correction, divided by the squared bias: kOfModel +
+/// kOfMisfit * max(misfit - kMisfit, 0). misfit is `DotShape::misfit()`. Round dots need only
+/// kOfModel.
 inline constexpr float kOfModel = 0.01F;
 inline constexpr float kMisfit = 2.5F;
 inline constexpr float kOfMisfit = 0.025F;
-/// Relative difference between the slopes along the two axes that noise alone causes for round
-/// dots.
+/// Relative difference between the slopes along u and v that noise alone causes for round dots.
 inline constexpr float kSlopes = 0.03F;
 }  // namespace bias
 
 /// Correlation of residuals (pose/uneven).
 namespace uneven {
-/// Limits of the excess of the scatter between blocks over chance, in standard deviations:
-/// - kMaybeLine: above this limit, the second attempt searches for a line that divides the sheet.
-///   The limit is low because the plane absorbs most of a step at a line. The dots of the second
-///   attempt are noisier than the dots of fast attempts.
-/// - kShared: above this limit, the common residuals increase the covariance. For 1 in 20 flat
-///   sheets, the excess is above this limit.
-/// - kSuspect: above this limit, fast attempts search for a line. Up to this limit, one side of a
-///   line counts as even.
-/// - kUneven: above this limit, a sheet without a line counts as uneven. For at most about 1 in
-///   1,000 flat sheets, the excess is above this limit.
+/// Limits for the scatter between blocks. The scatter is measured as its excess over chance, in
+/// standard deviations.
+/// - kMaybeLine: above it, the second attempt searches for a line that divides the sheet. The limit
+///   is low because the plane absorbs most of a step. The dots of the second attempt are also
+///   noisier than those of fast attempts.
+/// - kShared: above it, the mean block residuals increase the covariance. 1 in 20 flat sheets
+///   exceeds it.
+/// - kSuspect: above it, fast attempts search for a line. Up to this limit, one side of a line
+///   counts as even.
+/// - kUneven: above it, a sheet without a line counts as uneven. At most about 1 in 1,000 flat
+///   sheets exceeds it.
 ///
 /// `dotpose_tables slips` measures these fractions.
 inline constexpr float kMaybeLine = 0.9F;
-/// Number of dots up to which kMaybeLine applies. With more dots, the limit increases with the
-/// square root of their number, because the common residuals of any sheet are more significant.
+/// Number of dots up to which kMaybeLine applies. Beyond it, the limit grows with the square root
+/// of the number, because block residuals become more significant on any sheet.
 inline constexpr float kMaybeLineDots = 200;
 inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
 inline constexpr float kUneven = 5;
-/// Number of outliers that chance explains: a constant plus a fraction of the dots.
+/// Number of outliers that chance explains: a constant, plus a fraction of the dots.
 inline constexpr float kFewOutliers = 3;
 inline constexpr float kOutlierFraction = 0.02F;
-/// Maximum number of dots for which each side of the image is divided into kFewAlong blocks. With
-/// more dots, each side is divided into nine blocks.
+/// Number of dots above which each image side is divided into nine blocks instead of kFewAlong.
 inline constexpr int kManyDots = 1000;
-/// Number of blocks along each side of the image for at most kManyDots dots. With 170 dots, each
-/// block contains five dots.
+/// Number of blocks along each image side, for up to kManyDots dots. With 170 dots, each block
+/// contains five dots.
 inline constexpr int kFewAlong = 6;
-/// Factors by which the variance of the displacement of a block, along one axis, is added to the
-/// covariance of the pose: kOfPlace * variance for x and for y, and kOfTurn * variance / side^2 for
-/// the angle, where side is the side of a block. docs/integrity.md compares the result with the
-/// errors on bent sheets.
+/// Factors for adding a block's displacement variance to the pose covariance: kOfPlace * variance
+/// for x and y, and kOfTurn * variance / side^2 for the angle. The variance is along one axis, and
+/// side is the side of a block. docs/integrity.md compares the result with errors on bent sheets.
 inline constexpr float kOfPlace = 2;
 inline constexpr float kOfTurn = 8;
-/// Standard deviation of the common residuals of blocks that is not attributed to the sheet. These
-/// residuals are due to the pixel bias of dots whose phase drifts slowly over the view. The bias
-/// averages out over the view.
+/// Standard deviation of mean block residuals due to pixel bias. If the phase drifts slowly over
+/// the view, this bias differs between blocks and averages out over the view. It is not evidence of
+/// an uneven sheet.
 inline constexpr float kPixelBias_px = 0.004F;
-/// Distance from the line, in spacings, within which the reference point may be on either side of
-/// the line.
+/// Distance from the line, in spacings, within which the reference point may be on either side.
 inline constexpr float kNearLine = 1.2F;
 }  // namespace uneven
 
-/// Search for the line that divides a sheet (pose/paper_step, pose/split_fit).
+/// Search for a line that divides a sheet (pose/paper_step, pose/split_fit).
 namespace paper_step {
-/// Maximum evidence of one dot for a plane that predicts its place: natural logarithm of the odds
-/// relative to a dot at a random place in its cell.
+/// Maximum evidence of one dot for a plane that predicts its place. The evidence is the natural log
+/// of the odds relative to a random place in the cell.
 inline constexpr float kOnPlane = 5;
-/// Maximum squared residual of a dot, in units of the variance, that a common displacement of its
-/// part of the sheet may explain.
+/// Maximum squared residual that a displaced part of the sheet can explain, in units of the
+/// variance.
 inline constexpr float kTogether = 36;
 /// Maximum distance, in spacings, by which the reference point may be beyond the line.
 inline constexpr float kBehind = 0.5F;
 /// Minimum number of dots beyond the line.
 inline constexpr float kMinBeyond = 12;
-/// Outlier limit, in spacings^2, in the first iteration of a fit to one side. This iteration starts
+/// Outlier limit in the first iteration of a fit to one side, in spacings^2. This iteration starts
 /// from a plane fitted to both sides.
 inline constexpr float kFarOff = 0.04F;
-/// Distance from the line, in spacings, within which dots belong to neither side. The distance is
-/// the uncertainty of the line.
+/// Distance from the line, in spacings, within which dots belong to neither side. It is the
+/// uncertainty of the line.
 inline constexpr float kMargin = 0.8F;
-/// Search for the common residual of the dots beyond the line. Uses the dots within kReach spacings
-/// of the reference point. At least kMinAgreeing of these dots must agree within kAgreement
-/// (spacings^2).
+/// Search for a residual that the dots beyond the line share. Uses dots within kReach spacings of
+/// the reference point. At least kMinAgreeing dots must agree within kAgreement (spacings^2).
 inline constexpr float kReach = 10;
 inline constexpr int kMinAgreeing = 8;
 inline constexpr float kAgreement = 0.08F * 0.08F;
-/// Number of iterations. Each iteration fits a plane to the dots on the side of the reference
-/// point. Each iteration except the last then searches for the line again.
+/// Number of iterations. Each iteration fits a plane to the dots on the reference point's side. All
+/// iterations except the last then search for the line again.
 inline constexpr int kRounds = 3;
 }  // namespace paper_step
 

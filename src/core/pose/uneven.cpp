@@ -13,7 +13,7 @@ namespace {
 
 namespace tuned = tuning::uneven;
 
-/// Scatter of the residuals between and within the blocks of the image.
+/// Scatter of the residuals between and within image blocks.
 class Blocks {
   public:
     Blocks(const Kernels& kernels, const MeasuredDots& dots, const FloatPlane& plane,
@@ -43,8 +43,7 @@ class Blocks {
     const GroupScatter& scatter() const { return scatter_; }
     float outliers() const { return outliers_; }
     float side() const { return side_; }  ///< side of a block, in spacings
-    /// Returns the variance, along one axis, of the displacement of the sheet at a block, in
-    /// spacings^2.
+    /// Returns the variance of the sheet's displacement at a block, along one axis, in spacings^2.
     float variance_of_sheet() const {
         return std::max(scatter_.variance_between() - variance_of_bias_, 0.0F);
     }
@@ -56,7 +55,7 @@ class Blocks {
     float variance_of_bias_;
 };
 
-/// Returns the blocks of the dots on the side of the reference point.
+/// Returns the blocks on the reference point's side.
 Blocks blocks_here(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const SplitFit& split) {
     const HalfPlane only(HalfPlane::Side::here, dots, split.plane, reference_px, split.step);
@@ -68,8 +67,8 @@ bool has_outliers(const Blocks& blocks) {
            tuned::kFewOutliers + tuned::kOutlierFraction * blocks.scatter().dots;
 }
 
-/// Adds the squared difference of two planes at the reference point, times `weight`, to the
-/// covariance, because either plane may be the correct one.
+/// Adds the squared difference between two planes at the reference point to the covariance, times
+/// `weight`. Either plane may be the correct one.
 void add_difference(const FloatPlane& plane, const FloatPlane& other, FloatVec reference_px,
                     float weight, PoseFit& fit) {
     const FloatVec p = plane_point(plane, reference_px);
@@ -89,7 +88,8 @@ void add(float variance, std::size_t i, PoseFit& fit) {
     fit.uneven[i][i] += variance;
 }
 
-/// Adds the uncertainty due to the common residuals of blocks to the covariance.
+/// Adds the uncertainty of place and rotation due to displacements between blocks. The mean block
+/// residuals determine the variance of these displacements.
 void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     const float variance = blocks.variance_of_sheet();
     add(tuned::kOfPlace * variance, 0, fit);
@@ -97,25 +97,24 @@ void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     add(tuned::kOfTurn * variance / (blocks.side() * blocks.side()), 2, fit);
 }
 
-/// Increases the covariance if the line passes so close to the reference point that the point may
-/// be on either side of the line.
+/// Increases the covariance if the line is so close that the reference point may be on either side.
 void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                      const SplitFit& split, PoseFit& fit) {
     if (split.step.distance > tuned::kNearLine) return;
     FloatPlane beyond;
     if (fit_far_side(kernels, dots, reference_px, split, beyond))
         return add_difference(split.plane, beyond, reference_px, 1, fit);
-    // The plane beyond the line is not known. Its displacement is assumed to be uniformly
-    // distributed between -1/2 and 1/2 cell, which gives a variance of 1/12. Its rotation is
-    // assumed to have a standard deviation of 0.02 rad.
+    // The plane beyond the line is unknown. Assumes that its displacement is uniformly distributed
+    // between -1/2 and 1/2 cell, with a variance of 1/12. Assumes a standard deviation of 0.02 rad
+    // for its rotation.
     add(1.0F / 12, 0, fit);
     add(1.0F / 12, 1, fit);
     add(0.02F * 0.02F, 2, fit);
 }
 
-/// If a line certainly divides the sheet and the side of the reference point is even, fits the
-/// plane to this side only. If a line is found but one of these conditions is not met, adds the
-/// difference between the plane of all dots and the plane of this side to the covariance.
+/// Fits the plane to the reference point's side if a line certainly divides the sheet and this side
+/// is even. Otherwise, keeps the plane. If a line was found, adds the difference between the two
+/// planes to the covariance.
 void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const Blocks& blocks, FloatPlane& plane, PoseFit& fit) {
     SplitFit split{plane, fit};
@@ -126,7 +125,7 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
         plane = split.plane;
         fit = split.fit;
         fit.surface = Surface::divided;
-        // Without outliers, the sheet may be bent instead of divided.
+        // Without outliers, the sheet may be bent, not divided.
         if (!has_outliers(blocks)) widen_by_blocks(blocks, fit);
     } else {
         const float excess = blocks.scatter().excess();
@@ -138,8 +137,8 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     if (is_divided) widen_near_line(kernels, dots, reference_px, split, fit);
 }
 
-/// Searches for a line if the scatter between blocks exceeds chance by more than `min_excess`
-/// standard deviations, or if there are many outliers.
+/// Searches for a line if there are many outliers, or if the scatter between blocks is high.
+/// `min_excess` is its limit, as the excess over chance in standard deviations.
 void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dots,
                      const Blocks& blocks, FloatVec reference_px, FloatPlane& plane, PoseFit& fit) {
     const float excess = blocks.scatter().excess();
@@ -149,10 +148,10 @@ void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dot
         widen_by_blocks(blocks, fit);
 }
 
-/// Returns the excess, in standard deviations, above which the second attempt searches for a line.
-/// With more dots, the common residuals that every sheet has, for example due to pixel bias, become
-/// more significant, so the limit increases. The residuals at a line also become more significant,
-/// so they still exceed the limit.
+/// Returns the excess above which the second attempt searches for a line, in standard deviations.
+/// With more dots, small block residuals become more significant on any sheet, for example due to
+/// pixel bias. The limit therefore increases. Residuals at a line also become more significant, and
+/// still exceed the limit.
 float patient_excess(const Blocks& blocks) {
     return tuned::kMaybeLine *
            std::sqrt(std::max(blocks.scatter().dots / tuned::kMaybeLineDots, 1.0F));
@@ -187,7 +186,7 @@ void fit_uneven(const Kernels& kernels, const Observations& observations, FixedV
         dots.row[k] = static_cast<float>(o.pattern_step.y);
         dots.bits[k] = static_cast<std::int32_t>(o.symbol);
     });
-    // Pads the arrays, because the kernels process eight dots at a time.
+    // The kernels process eight dots at a time, so the arrays need padding.
     for (std::size_t k = 0; k < 8; ++k)
         dots.x[static_cast<std::size_t>(dots.count) + k] = kNoDot_px;
     FloatPlane better = float_plane(plane);

@@ -61,7 +61,7 @@ class MappedFrame {
     MappedFrame& operator=(const MappedFrame&) = delete;
 
     bool is_mapped() const { return is_mapped_; }
-    /// Returns the first plane. It is the luma in all formats that the element supports.
+    /// Returns the first plane. This plane is the luma in all formats that the element supports.
     Luma luma() const {
         return {static_cast<std::uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame_, 0)),
                 GST_VIDEO_FRAME_WIDTH(&frame_), GST_VIDEO_FRAME_HEIGHT(&frame_),

@@ -33,7 +33,7 @@ class Stream {
     bool has_overlay() const { return options_.locate.show_stages; }
     /// Returns the number of frames read so far.
     std::uint64_t frames() const { return frames_; }
-    /// Returns the follower. It contains the trace of the newest frame.
+    /// Returns the follower, which contains the trace of the newest frame.
     const Follower& follower() const { return *follower_; }
 
   private:

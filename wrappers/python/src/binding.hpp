@@ -39,7 +39,8 @@ void define_protocol(py::module_& module);
 void define_drawing(py::module_& module);
 void define_camera_files(py::module_& module);
 
-/// Imports the module _tools. Throws ImportError, which names `wanted`, if it is not installed.
+/// Imports the module _tools. If the module is not installed, throws ImportError with `wanted` in
+/// its message.
 py::module_ tools_for(const char* wanted);
 
 /// Returns the options in fixed point. Throws BadArgument if an option is out of range.

@@ -1,5 +1,5 @@
-/// Runs long operations with the GIL released. Operations check regularly for Ctrl-C, which ends
-/// them.
+/// Runs long operations with the GIL released. Operations check regularly for Ctrl-C, and end after
+/// Ctrl-C.
 #pragma once
 
 #include "binding.hpp"
@@ -13,7 +13,7 @@ inline bool was_interrupted() {
 }
 
 /// Runs `work` with the GIL released. If a Python exception such as KeyboardInterrupt was set
-/// meanwhile, raises it instead of the exception thrown by `work`.
+/// meanwhile, raises this exception instead of the exception thrown by `work`.
 template <typename Work>
 auto without_lock(const Work& work) {
     try {

@@ -45,14 +45,15 @@ class RosLocator : public testing::Test {
                 width,   false, grey_.pixels};
     }
 
-    /// Passes an image with the stamp of frame number `frame`, which arrives 10 ms after the
+    /// Passes an image with the stamp of frame number `frame`. The image arrives 10 ms after the
     /// previous image.
     RobotLocator::Answer take(int frame, const RawImage& image = RosLocator::image()) {
         arrival_ns_ += kStep_ns;
         return locator_.take(image, kStart_ns + frame * kStep_ns, arrival_ns_);
     }
 
-    /// Passes images until a status is due. A status is due after a second at the latest.
+    /// Passes images to the locator until it publishes a status, and returns this status. Fails if
+    /// there is none within one second.
     dotpose::ros::DiagnosticStatus status_from(int frame,
                                                const RawImage& image = RosLocator::image()) {
         for (int i = 0; i <= 100; ++i) {

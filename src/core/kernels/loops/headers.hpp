@@ -1,4 +1,4 @@
-// Headers required by the loops. Must be included before the namespace of an implementation begins.
+// Headers for the loops. Include this file before an implementation opens its namespace.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@
 
 namespace dotpose::core {
 
-/// True if loops have one version for all cases instead of a faster version for each case. For
-/// WebAssembly, code size matters more than speed.
+/// True if each loop has only its general version, without faster special cases. In WebAssembly,
+/// code size matters more than speed.
 #if defined(__wasm__)
 inline constexpr bool kOneForm = true;
 #else

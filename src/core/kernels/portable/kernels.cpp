@@ -1,4 +1,4 @@
-// Scalar implementation of the kernels.
+// Scalar kernel implementation.
 #include "core/kernels/loops/headers.hpp"
 
 #define DOTPOSE_LANE_BYTES 0

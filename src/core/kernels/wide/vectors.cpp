@@ -1,4 +1,4 @@
-// Implementation of the kernels with 16-byte vectors.
+// Kernel implementation with 16-byte vectors.
 #include "core/kernels/loops/headers.hpp"
 
 #define DOTPOSE_LANE_BYTES 16

@@ -183,7 +183,7 @@ TEST(Blobs, BigGraphicsAreNoDotsAndHideNone) {
         }
     }
     fill(image, 84, 4, 108, 116, 50);   // a stroke
-    fill(image, 90, 40, 102, 80, 200);  // with a hole
+    fill(image, 90, 40, 102, 80, 200);  // a hole in the stroke
     const auto dots = blobs_of(image);
     EXPECT_EQ(dots.size(), beside.size());
     // The stroke changes the thresholds of its band of tiles, which shifts the centroids of dots

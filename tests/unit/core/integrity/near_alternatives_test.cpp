@@ -1,4 +1,6 @@
-// Tests near alternatives against a search, in double precision, for the digits of every run.
+// Tests sum_of_near_alternatives against a sum in double precision. For every run of adjacent
+// lines, an exhaustive search finds the alternatives that have the digits of the reading in this
+// run.
 #include "core/integrity/near_alternatives.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Tests the search for similar places of alternatives, which finds 32 places at a time, against the
-// definition for each place.
+// Tests SimilarPlaces, which evaluates 32 places at a time, against a reference implementation that
+// evaluates one place at a time.
 #include "core/integrity/similar_places.hpp"
 
 #include <algorithm>

@@ -140,7 +140,7 @@ class Levels {
     }
 
     /// Returns the index of a neighbour of `place`. Beyond an edge, returns the neighbour on the
-    /// opposite side, which has the same colour in a mosaic.
+    /// opposite side, because both neighbours have the same colour in a mosaic.
     static std::size_t beside(std::size_t place, std::size_t size, int step) {
         if (size < 2) return place;
         const bool is_beyond = step < 0 ? place == 0 : place + 1 == size;

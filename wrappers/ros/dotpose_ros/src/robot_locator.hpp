@@ -39,8 +39,8 @@ struct Lens {
 class RobotLocator {
   public:
     struct Answer {
-        /// Messages to publish. The status is empty unless it is due: when it changes, and once per
-        /// second.
+        /// Messages to publish. A status is due when it changes, and once per second. The status is
+        /// empty unless it is due.
         dotpose::ros::RobotMessages messages;
         /// New warning about the images, for the log. Empty if there is none.
         std::string warning;
