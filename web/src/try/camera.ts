@@ -31,14 +31,21 @@ export const kPresets: Record<string, Partial<Conditions>> = {
     hard: { tilt_deg: 4, blur_px: 1, noise: 9, paper_level: 90, vignetting: 0.5 },
 };
 
-/** Image width of the reference camera. Wider images show the same field with more pixels. */
-const kReferenceWidth_px = 188;
+/** An image size of the camera. */
+export interface ImageSize {
+    width_px: number;
+    height_px: number;
+    /**
+     * Width of the field of view, in pixels of the height slider. Images with more pixels show the
+     * same field in more detail.
+     */
+    field_px: number;
+}
 
 export class SimulatedCamera {
     x_mm = 105;
     y_mm = 148;
-    width_px = 188;
-    height_px = 120;
+    size: ImageSize = { width_px: 188, height_px: 120, field_px: 188 };
     readonly conditions: Conditions = {
         ...{ mm_per_px: 0.046, turn_deg: 20, tilt_deg: 0, blur_px: 0.5 },
         ...{ noise: 3, paper_level: 185, vignetting: 0.15 },
@@ -46,7 +53,7 @@ export class SimulatedCamera {
     #seed = 1;
 
     get mm_per_px(): number {
-        return (this.conditions.mm_per_px * kReferenceWidth_px) / this.width_px;
+        return (this.conditions.mm_per_px * this.size.field_px) / this.size.width_px;
     }
     get theta_rad(): number {
         return (this.conditions.turn_deg * Math.PI) / 180;
@@ -82,14 +89,15 @@ export class SimulatedCamera {
     /** Returns the next view to simulate. The noise of every frame is different. */
     view(): SimulatedView {
         const { tilt_deg, blur_px, noise, paper_level, vignetting } = this.conditions;
-        const { x_mm, y_mm, width_px, height_px, mm_per_px, theta_rad } = this;
+        const { x_mm, y_mm, mm_per_px, theta_rad } = this;
+        const { width_px, height_px, field_px } = this.size;
         return {
             ...{ x_mm, y_mm, width_px, height_px, mm_per_px, theta_rad },
             tilt_x_rad: (tilt_deg * Math.PI) / 180,
             tilt_y_rad: 0,
-            // The lens is the same for all image widths, so the blur in px is proportional to the
-            // width.
-            blur_px: (blur_px * width_px) / kReferenceWidth_px,
+            // The lens is the same for all images of a field, so the blur in px is proportional to
+            // the number of pixels.
+            blur_px: (blur_px * width_px) / field_px,
             ...{ noise, paper_level, vignetting },
             seed: ++this.#seed,
         };
