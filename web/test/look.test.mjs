@@ -249,6 +249,21 @@ test("a file that is not a sheet file is refused with its reason", async () => {
     await page.close();
 });
 
+test("sheets with the same name are all known, and those with the same dots once", async () => {
+    const { page } = await open(browser.context, `${server.url}#look`);
+    const good = JSON.parse(readFileSync(sheetFile(), "utf8"));
+    const other = { ...good, sheets: [{ ...good.sheets[0], origin_x: 9000 }] };
+    for (const [content, known] of [[good, "1 known sheet"], [good, "1 known sheet"], [other, "2 known sheets"]]) {
+        const buffer = Buffer.from(JSON.stringify(content));
+        await page.setInputFiles("#look-sheets", { name: "s.json", mimeType: "application/json", buffer });
+        await page.waitForFunction((text) => document.getElementById("look-known").textContent === text, known);
+    }
+    await page.click("nav [data-view=print]");
+    assert.deepEqual(await page.locator("#print-list strong").allTextContents(), ["table", "table 2"]);
+    await page.evaluate(() => localStorage.clear());
+    await page.close();
+});
+
 for (const address of ["#look", "?luma=canvas#look"]) {
     test(`the camera knows the sheets, ${address}`, async () => {
         const still = mkdtempSync(join(folder, "small-"));

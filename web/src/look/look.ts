@@ -61,6 +61,7 @@ export class LookView implements View {
 
     shown(): void {
         this.#sheets.refresh();
+        this.#sheet = this.#last ? this.#sheets.under(this.#last.fix) : null;
         this.redraw();
     }
     hidden(): void {
@@ -139,7 +140,9 @@ export class LookView implements View {
             this.#stop();
             void this.#open(element("look-camera", HTMLSelectElement).value);
         } else if (this.#last && this.#is_still) {
-            void createImageBitmap(this.#last.picture).then((picture) => this.#readPicture(picture));
+            createImageBitmap(this.#last.picture)
+                .then((picture) => this.#readPicture(picture))
+                .catch((error: unknown) => this.#say(String(error)));
         }
     }
 
@@ -186,10 +189,7 @@ export class LookView implements View {
     }
 
     #showHint(reading: Reading): void {
-        const hint = hintOf(reading, {
-            is_on_unknown: this.#sheets.areKnown && this.#sheet === null,
-            only_sheets: this.#sheets.options.only_sheets ?? false,
-        });
+        const hint = hintOf(reading, this.#sheets.contextOf(this.#sheet));
         const box = element("look-hint", HTMLElement);
         box.hidden = hint === null;
         box.classList.toggle("good", hint?.good ?? false);

@@ -2,7 +2,8 @@
 import type { Fix } from "dotpose";
 import type { ReadOptions } from "../engine/messages.js";
 import { element, show } from "../page/dom.js";
-import { knownSheets, regionOf, remember, sheetUnder, type KnownSheet } from "../print/known_sheets.js";
+import type { SheetContext } from "../page/hints.js";
+import { knownSheets, regionOf, rememberAll, sheetUnder, type KnownSheet } from "../print/known_sheets.js";
 import { sheetsOfFile } from "../print/sheet_file.js";
 
 export class SheetControls {
@@ -36,8 +37,9 @@ export class SheetControls {
     get options(): ReadOptions {
         return { sheets: this.#sheets.map(({ layout }) => regionOf(layout)), only_sheets: this.#only.checked };
     }
-    get areKnown(): boolean {
-        return this.#sheets.length > 0;
+    /** Returns the context of a frame. `sheet` is the known sheet of its fix, or null. */
+    contextOf(sheet: KnownSheet | null): SheetContext {
+        return { is_on_unknown: this.#sheets.length > 0 && sheet === null, only_sheets: this.#only.checked };
     }
     /** Returns the known sheet on which a fix is, or null. */
     under(fix: Fix): KnownSheet | null {
@@ -47,7 +49,8 @@ export class SheetControls {
     async #read(file: File | undefined): Promise<void> {
         if (!file) return;
         try {
-            remember(sheetsOfFile(await file.text()));
+            rememberAll(sheetsOfFile(await file.text()));
+            this.say("");
             this.refresh();
             this.changed();
         } catch (error) {

@@ -83,7 +83,7 @@ export class PrintView implements View {
         const { sheetPdf } = await import("./pdf.js");
         const bytes = await sheetPdf(layout, await this.#engine.symbols(layout), name);
         download(`${name.replace(/[^\w-]+/g, "-")}.pdf`, "application/pdf", bytes);
-        remember([{ name, layout }]);
+        remember({ name, layout });
         this.#listSheets();
         show({ "print-status": `The PDF of “${name}” is made. Print it at 100 %, “actual size”.` });
     }

@@ -1,9 +1,8 @@
 // Reads sheet files, which the command-line tool writes (docs/sheet-files.md).
 import { kCodes, type Code } from "dotpose";
-import { kSpacing_mm } from "../page/sheet_frame.js";
+import { kPositions, kSpacing_mm } from "../page/sheet_frame.js";
 import type { KnownSheet } from "./known_sheets.js";
 
-const kPositions = 410_815_348;
 const kLastSection = 62;
 /** Minimum number of columns and rows of a sheet. */
 const kMinCells = 8;
