@@ -1,7 +1,7 @@
 // Draws the sheet from above, with the path of the camera and its field of view.
 import { patternFromImage, type Fix } from "dotpose";
 import type { SheetLayout } from "../engine/messages.js";
-import { pageFromPattern, type Point_mm } from "../page/sheet_frame.js";
+import { kSpacing_mm, pageFromPattern, type Point_mm } from "../page/sheet_frame.js";
 import { surfaceOf, themed } from "./surface.js";
 
 /** Contents of the map, in mm on the page, or in the pattern if the sheet is unknown. */
@@ -65,10 +65,11 @@ function drawPaper(context: CanvasRenderingContext2D, sheet: SheetLayout, at: (p
     context.restore();
     // Draws only every tenth dot of every tenth row.
     context.fillStyle = themed("--paper-dots");
-    const step = 10 * 0.508;
-    for (let y_mm = sheet.first_y_mm; y_mm < sheet.height_mm - sheet.margin_mm; y_mm += step)
-        for (let x_mm = sheet.first_x_mm; x_mm < sheet.width_mm - sheet.margin_mm; x_mm += step) {
-            const [u, v] = at({ x_mm, y_mm });
+    const kStep = 10;
+    for (let row = 0; row < sheet.rows; row += kStep)
+        for (let column = 0; column < sheet.columns; column += kStep) {
+            const x_mm = sheet.first_x_mm + column * kSpacing_mm;
+            const [u, v] = at({ x_mm, y_mm: sheet.first_y_mm + row * kSpacing_mm });
             context.fillRect(u - 0.5, v - 0.5, 1, 1);
         }
 }

@@ -54,7 +54,7 @@ const kSteps: readonly Step[] = [
     {
         title: "The place",
         text: ({ fix }) => [
-            `The bits of each line occur at only one place of the code: column ${fix.cell.x.toLocaleString("en")}, row ${fix.cell.y.toLocaleString("en")}, section ${fix.section.u}, ${fix.section.v}. ${fix.bit_errors} of ${2 * fix.dots_used} bits contradict this place. The chance that it is wrong is at most ${oneIn(fix.p_wrong)}.`,
+            `The bits ${fix.prior === "plane" ? "of each line occur at only one place of the code" : "agree with only one place on the known sheets"}: column ${fix.cell.x.toLocaleString("en")}, row ${fix.cell.y.toLocaleString("en")}, section ${fix.section.u}, ${fix.section.v}. ${fix.bit_errors} of ${2 * fix.dots_used} bits contradict this place. The chance that it is wrong is at most ${oneIn(fix.p_wrong)}.`,
         ],
         layers: { frame: 0.12, grid: true, symbols: true, pose: true },
         reached: isRead,

@@ -1,6 +1,14 @@
 // Advice for frames that cannot be located, or are located with low accuracy.
 import type { Reading } from "../engine/messages.js";
 
+/** The known sheets, as they concern a frame. */
+export interface SheetContext {
+    /** True if sheets are known, and the fix is on none of them. */
+    is_on_unknown: boolean;
+    /** True if only the known sheets are possible. */
+    only_sheets: boolean;
+}
+
 export interface Hint {
     text: string;
     /** True if the frame was located. */
@@ -29,11 +37,13 @@ function hintOfLight({ quality }: Reading): string | null {
     return null;
 }
 
-function hintOfFailure(reading: Reading): string {
+function hintOfFailure(reading: Reading, only_sheets: boolean): string {
     const light = hintOfLight(reading);
     if (light !== null) return light;
     const { fix, quality } = reading;
     if (fix.status === "mirrored") return "The picture is mirrored: switch off the mirror effect of the camera.";
+    if (only_sheets && (fix.status === "not_in_code" || fix.status === "not_certain"))
+        return "No known sheet has these dots. If this sheet is not in the list, allow other sheets.";
     if (fix.status === "ambiguous_code") return "Two codes explain these dots: choose the sheet's code, or show more dots.";
     if (fix.status === "not_in_code") return "These dots belong to another code: choose the sheet's code.";
     if (quality.sharpness < kBlurred) return "Sharper: hold still, let the camera focus, or move a little away.";
@@ -43,9 +53,10 @@ function hintOfFailure(reading: Reading): string {
 }
 
 /** Returns advice for a frame, or null if there is nothing to improve. */
-export function hintOf(reading: Reading): Hint | null {
+export function hintOf(reading: Reading, { is_on_unknown, only_sheets }: SheetContext): Hint | null {
     const { fix } = reading;
-    if (!fix.ok) return { text: `${hintOfFailure(reading)} (${fix.message})`, good: false };
+    if (!fix.ok) return { text: `${hintOfFailure(reading, only_sheets)} (${fix.message})`, good: false };
+    if (is_on_unknown) return { text: "Located, but on no known sheet. Is this the right sheet?", good: false };
     if (fix.surface !== "even") return { text: "Located, but the paper is not flat here.", good: true };
     if (fix.spacing_px < kMinSpacing_px) return { text: "Located. Moving closer increases the accuracy.", good: true };
     if (fix.spacing_px > kMaxSpacing_px) return { text: "Located. Moving away shows more dots.", good: true };
