@@ -142,9 +142,12 @@ inline constexpr float kOutlierFraction = 0.02F;
 /// Maximum number of dots for which each side of the image is divided into kFewAlong blocks. With
 /// more dots, each side is divided into nine blocks.
 inline constexpr int kManyDots = 1000;
-/// Number of blocks along each side of the image for at most kManyDots dots. With 170 dots, each
-/// block contains five dots.
+/// Number of blocks along each side of the image, for at most kManyDots dots: the largest number,
+/// from kMinAlong to kFewAlong, with kDotsPerBlock dots in each block. If blocks contain only one
+/// or two dots, the scatter within blocks is unknown, and flat sheets seem uneven.
+inline constexpr int kMinAlong = 2;
 inline constexpr int kFewAlong = 6;
+inline constexpr int kDotsPerBlock = 4;
 /// Factors by which the variance of the displacement of a block, along one axis, is added to the
 /// covariance of the pose: kOfPlace * variance for x and for y, and kOfTurn * variance / side^2 for
 /// the angle, where side is the side of a block. docs/integrity.md compares the result with the
