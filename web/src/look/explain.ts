@@ -2,6 +2,7 @@
 import { drawFrame, type Layers } from "../draw/frame.js";
 import { kSymbolInk } from "../draw/surface.js";
 import type { Reading } from "../engine/messages.js";
+import { drawnFrame } from "../engine/overlay.js";
 import { element, make } from "../page/dom.js";
 import { degrees, length, milliseconds, mm, oneIn } from "../page/format.js";
 
@@ -86,7 +87,8 @@ export function explain(reading: Reading): void {
         items.push(make("li", {}, make("h3", {}, "The search failed here"), make("p", {}, `No position: ${reading.fix.message}.`)));
     element("explain-steps", HTMLElement).replaceChildren(...items);
     dialog.showModal();
-    const draw = () => reached.forEach(({ layers }, i) => drawFrame(canvases[i]!, reading, layers));
+    const frame = drawnFrame(reading);
+    const draw = () => reached.forEach(({ layers }, i) => drawFrame(canvases[i]!, frame, layers));
     draw();
     addEventListener("resize", draw);
     const done = () => removeEventListener("resize", draw);

@@ -1,9 +1,11 @@
 // The view "Look": locates the live frames of a camera of this device.
 import type { Code } from "dotpose";
 import { drawFrame } from "../draw/frame.js";
-import { cornersOf, drawMap, onPage } from "../draw/map.js";
+import { drawMap, paperOf } from "../draw/map.js";
 import type { Engine } from "../engine/engine.js";
+import { cornersOf, onPage } from "../engine/field_of_view.js";
 import type { LumaPath, Reading, ReadOptions, SheetLayout } from "../engine/messages.js";
+import { drawnFrame } from "../engine/overlay.js";
 import { announcer, download, element, make, show } from "../page/dom.js";
 import { hintOf } from "../page/hints.js";
 import type { Point_mm } from "../page/sheet_frame.js";
@@ -69,7 +71,7 @@ export class LookView implements View {
     }
     redraw(): void {
         if (!this.#last) return;
-        drawFrame(this.#frame, this.#last, { found: true, grid: true, pose: true });
+        drawFrame(this.#frame, drawnFrame(this.#last), { found: true, grid: true, pose: true });
         this.#drawMap(this.#last);
     }
 
@@ -201,7 +203,14 @@ export class LookView implements View {
         const sheet: SheetLayout | null = this.#sheet?.layout ?? null;
         const path = onPage(sheet, this.#path);
         const view = fix.ok ? onPage(sheet, cornersOf(fix, width_px, height_px)) : [];
-        drawMap(this.#map, { sheet, path, now: fix.ok ? path.at(-1)! : null, view });
+        drawMap(this.#map, {
+            papers: sheet ? [paperOf(sheet)] : [],
+            strokes: [path],
+            now: fix.ok ? path.at(-1)! : null,
+            heading_rad: null,
+            view,
+            y_up: false,
+        });
         show({ "look-map-name": this.#sheet ? `On the sheet “${this.#sheet.name}”` : "The path" });
     }
 

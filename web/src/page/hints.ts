@@ -1,5 +1,5 @@
 // Advice for frames that cannot be located, or are located with low accuracy.
-import type { Reading } from "../engine/messages.js";
+import type { ImageQuality, Reading } from "../engine/messages.js";
 
 /** The known sheets, as they concern a frame. */
 export interface SheetContext {
@@ -30,23 +30,30 @@ const kBlurred = 0.12;
 const kManyDots = 1500;
 const kFewDots = 60;
 
-function hintOfLight({ quality }: Reading): string | null {
+const kBlurredHint = "Sharper: hold still, let the camera focus, or move a little away.";
+
+function hintOfLight(quality: ImageQuality): string | null {
     if (quality.brightness < kDark) return "Brighter: the picture is too dark.";
     if (quality.brightness > kBright) return "Less light: the picture is overexposed.";
     if (quality.contrast < kPale) return "Point the camera at a sheet with dots, in even light.";
     return null;
 }
 
+/** Returns advice on light and focus, or null if there is nothing to improve. */
+export function hintOfPicture(quality: ImageQuality): string | null {
+    return hintOfLight(quality) ?? (quality.sharpness < kBlurred ? kBlurredHint : null);
+}
+
 function hintOfFailure(reading: Reading, only_sheets: boolean): string {
-    const light = hintOfLight(reading);
-    if (light !== null) return light;
     const { fix, quality } = reading;
+    const light = hintOfLight(quality);
+    if (light !== null) return light;
     if (fix.status === "mirrored") return "The picture is mirrored: switch off the mirror effect of the camera.";
     if (only_sheets && (fix.status === "not_in_code" || fix.status === "not_certain"))
         return "No known sheet has these dots. If this sheet is not in the list, allow other sheets.";
     if (fix.status === "ambiguous_code") return "Two codes explain these dots: choose the sheet's code, or show more dots.";
     if (fix.status === "not_in_code") return "These dots belong to another code: choose the sheet's code.";
-    if (quality.sharpness < kBlurred) return "Sharper: hold still, let the camera focus, or move a little away.";
+    if (quality.sharpness < kBlurred) return kBlurredHint;
     if (fix.dots_seen > kManyDots) return "Closer: the dots are too small.";
     if (fix.dots_seen < kFewDots) return "Further away: too few dots are in view. Or no sheet is in view.";
     return "Closer and straighter: fill the picture with dots, seen from above.";

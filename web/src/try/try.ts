@@ -1,8 +1,10 @@
 // The view "Try": locates the frames of a simulated camera over a simulated sheet.
 import { drawFrame } from "../draw/frame.js";
-import { cornersOf, drawMap, onPage, type MapFrame } from "../draw/map.js";
+import { drawMap, paperOf, type MapFrame } from "../draw/map.js";
 import type { Engine } from "../engine/engine.js";
+import { cornersOf, onPage } from "../engine/field_of_view.js";
 import type { Reading, ReadOptions, SheetChoice, SheetLayout, SimulatedView } from "../engine/messages.js";
+import { drawnFrame } from "../engine/overlay.js";
 import { announcer, element, show } from "../page/dom.js";
 import { degrees, kPriorNames, length, milliseconds, mm, oneIn, wrapped } from "../page/format.js";
 import { hintOf } from "../page/hints.js";
@@ -160,8 +162,9 @@ export class TryView implements View {
     }
 
     #draw(reading: Reading, view: SimulatedView): void {
-        drawFrame(this.#picture, reading, {});
-        drawFrame(element("try-reading", HTMLCanvasElement), reading, {
+        const frame = drawnFrame(reading);
+        drawFrame(this.#picture, frame, {});
+        drawFrame(element("try-reading", HTMLCanvasElement), frame, {
             frame: 0.22,
             ...{ found: true, grid: true, symbols: true, pose: true },
         });
@@ -177,10 +180,12 @@ export class TryView implements View {
         if (fix.ok) this.#path.push(pageFromPattern(sheet, fix));
         this.#path = this.#path.slice(-kMaxPathPoints);
         this.#map_frame = drawMap(this.#map, {
-            sheet,
-            path: this.#path,
+            papers: [paperOf(sheet)],
+            strokes: [this.#path],
             now: { x_mm: view.x_mm, y_mm: view.y_mm },
+            heading_rad: null,
             view: fix.ok ? onPage(sheet, cornersOf(fix, width_px, height_px)) : [],
+            y_up: false,
         });
     }
 
