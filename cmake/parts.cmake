@@ -37,6 +37,8 @@ dotpose_dependency(dotpose_opencv            libopencv-{videoio,highgui,imgproc}
 dotpose_dependency(PkgConfig::FFmpeg         libav{format,codec}-dev,\ libswscale-dev
                                              MODULES libavformat libavcodec libavutil libswscale)
 dotpose_dependency(PkgConfig::Mosquitto      libmosquitto-dev              MODULES libmosquitto)
+dotpose_dependency(PkgConfig::Websockets     libwebsockets-dev             MODULES libwebsockets)
+dotpose_dependency(esbuild                   esbuild                       FILE esbuild.cmake)
 dotpose_dependency(CycloneDDS::ddsc          cyclonedds-dev                PACKAGE CycloneDDS)
 dotpose_dependency(CycloneDDS::idlc          cyclonedds-tools              FILE idlc.cmake)
 dotpose_dependency(Threads::Threads          libc6-dev                     PACKAGE Threads)
@@ -132,6 +134,8 @@ dotpose_part(LIVE      "dotpose watch and fleet" SETUP live
              NEEDS dotpose_opencv PkgConfig::FFmpeg PkgConfig::Mosquitto simdjson::simdjson)
 dotpose_part(DDS       "dotpose watch --dds" SETUP robots
              PARTS LIVE NEEDS CycloneDDS::ddsc CycloneDDS::idlc)
+dotpose_part(WEB       "the page of dotpose watch --web" SETUP live
+             PARTS LIVE NEEDS PkgConfig::Websockets esbuild)
 # The fuzz preset excludes calibration and live use. Both take minutes to build and have no fuzz target.
 set(tested LIVE)
 if(DOTPOSE_SANITIZE MATCHES "fuzzer")

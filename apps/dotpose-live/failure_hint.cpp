@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "image_copy.hpp"
 #include "picture_advice.hpp"
 
 namespace dotpose::cli {
@@ -25,13 +26,6 @@ std::string reason_with_advice(Record record, ImageView image, const DeviceOptio
     record.advice =
         advice_on(image, {record.fix.status, options, record.code_is_given, bits_per_px}, *scratch);
     return reason(record);
-}
-
-GreyImage copy_of(ImageView image) {
-    GreyImage copy{{}, image.width_px, image.height_px};
-    for (int v = 0; v < image.height_px; ++v)
-        copy.pixels.insert(copy.pixels.end(), image.row(v), image.row(v) + image.width_px);
-    return copy;
 }
 
 }  // namespace

@@ -36,6 +36,7 @@
 #include "terminal_text.hpp"
 #include "video/camera_list.hpp"
 #include "watch_outputs.hpp"
+#include "web_arguments.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -94,6 +95,8 @@ struct WatchArguments {
     OutputOptions outputs;
     MqttArguments mqtt;
     DdsArguments dds;
+    WebArguments web;
+    std::string web_recordings = ".";
     SaveOptions save;
     bool lists_cameras = false;
     bool has_no_window = false;
@@ -115,6 +118,7 @@ RunFiles files_of(const WatchArguments& arguments, const Sources& sources) {
     sources.add_files(files);
     arguments.follower.add_files(files);
     files.reads("--mqtt-ca", arguments.mqtt.ca_file());
+    files.reads("--web-token-file", arguments.web.token_file());
     files.writes_lines(outputs.lines.out, content_of(outputs.lines.format));
     files.writes("--log", outputs.log, Content::csv);
     files.writes("--draw", outputs.map, Content::svg);
@@ -225,7 +229,7 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
             report_problems(reading, frame.image.view(), follower, source.bits_per_px(), hint,
                             was_reported);
             if (saver) save(*saver, frame.image, reading.record.fix, arguments);
-            goes_on = outputs.take(frame, reading, source.dropped());
+            goes_on = outputs.take(frame, reading, {source.dropped(), source.bits_per_px()});
             progress.update(outputs.tally().frames, length);
             if (arguments.frames > 0 && outputs.tally().frames >= arguments.frames) break;
         }
@@ -237,6 +241,14 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
         return kExitFailed;
     }
     return 0;
+}
+
+/// Returns the options of the page, or none without --web.
+std::optional<WebOptions> web_options(const WatchArguments& arguments) {
+    const auto server = arguments.web.options();
+    if (!server) return std::nullopt;
+    return WebOptions{*server, fmt::format("{}", fmt::join(arguments.sources.names, " ")),
+                      arguments.web_recordings, arguments.outputs.log, arguments.outputs.messages};
 }
 
 void print_cameras() {
@@ -297,6 +309,7 @@ int run(WatchArguments& arguments) {
     arguments.outputs.messages.robot = arguments.outputs.robot;
     arguments.outputs.messages.camera = arguments.follower.camera.camera;
     arguments.outputs.screen.has_window = !arguments.has_no_window && video::has_display();
+    arguments.outputs.web = web_options(arguments);
     std::optional<FrameSaver> saver;
     if (!arguments.save.folder.empty()) saver.emplace(arguments.save);
     WatchOutputs outputs(arguments.outputs, follower);
@@ -380,6 +393,15 @@ void add_dds_options(Command& command, DdsArguments& dds) {
         ->check(Range(0, kLastDomain));
 }
 
+void add_web_options(Command& command, WatchArguments& arguments) {
+    arguments.web.add_to(command);
+    command
+        .add_option("--web-recordings", arguments.web_recordings,
+                    "Folder of the recordings that are started in the page of --web")
+        ->type_name("DIR")
+        ->capture_default_str();
+}
+
 void add_track_options(Command& command, TrackOptions& track) {
     const auto require_positive = Range(1e-3, 1e7);
     command.add_option("--max-speed", track.max_speed_mm_s, "Maximum speed of the robot")
@@ -427,6 +449,7 @@ void add_watch(Command& app, int& exit_code) {
     add_output_options(*command, *arguments);
     add_publish_options(*command, arguments->outputs, arguments->mqtt);
     add_dds_options(*command, arguments->dds);
+    add_web_options(*command, *arguments);
     command->callback([arguments, &exit_code] {
         arguments->outputs.mqtt = arguments->mqtt.options();
         arguments->follower.fit_to(arguments->sources);

@@ -109,9 +109,11 @@ WatchOutputs::WatchOutputs(const OutputOptions& options, const Follower& followe
     if (!options.packets.empty()) packets_.emplace(options.packets);
     if (options.mqtt) states_.emplace(options);
     if (options.messages.is_wanted()) messages_.emplace(options.messages);
+    if (options.web) web_.emplace(*options.web, follower);
 }
 
-bool WatchOutputs::take(const capture::Frame& frame, const Reading& reading, std::int64_t dropped) {
+bool WatchOutputs::take(const capture::Frame& frame, const Reading& reading,
+                        const SourceState& source) {
     tally_.count(reading);
     newest_ = reading.track;
     path_.add(reading.track);
@@ -120,9 +122,10 @@ bool WatchOutputs::take(const capture::Frame& frame, const Reading& reading, std
     write_packet(reading);
     if (states_) states_->take(reading);
     if (messages_) messages_->take(frame, reading);
+    if (web_) web_->take(frame, reading, path_, source);
     if (!is_anything_left()) return false;
     if (frame.image.pixels.empty()) return screen_.is_wanted();
-    return !screen_.is_on() || show(frame, reading, dropped);
+    return !screen_.is_on() || show(frame, reading, source.dropped);
 }
 
 /// Writes a line. If the reader has closed the pipe, no more lines are written, but the other
@@ -147,7 +150,7 @@ void WatchOutputs::write_packet(const Reading& reading) {
 }
 
 bool WatchOutputs::is_anything_left() const {
-    return lines_ || log_ || packets_ || states_ || messages_ || !options_.map.empty() ||
+    return lines_ || log_ || packets_ || states_ || messages_ || web_ || !options_.map.empty() ||
            screen_.is_on();
 }
 
@@ -172,6 +175,7 @@ double WatchOutputs::rate() const {
 void WatchOutputs::finish() {
     screen_.finish();
     if (messages_) messages_->finish();
+    if (web_) web_->finish();
     if (!options_.map.empty()) draw_path();
     if (states_) states_->finish();
 }

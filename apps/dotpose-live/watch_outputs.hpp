@@ -15,6 +15,7 @@
 #include "reading.hpp"
 #include "robot_output.hpp"
 #include "video/screen.hpp"
+#include "web_view.hpp"
 
 namespace dotpose::cli {
 
@@ -31,6 +32,7 @@ struct OutputOptions {
     double mqtt_rate_hz = 0;
     std::string world_map;  ///< map name of the sheet file's world
     video::ScreenOptions screen;
+    std::optional<WebOptions> web;  ///< none if there is no page
 };
 
 /// Number of frames, fixes and events of a run.
@@ -87,7 +89,7 @@ class WatchOutputs {
 
     /// Writes the outputs of a frame. Returns false if the user closed the window or if no output
     /// is left because all readers closed their ends. Throws Error if an output cannot be written.
-    bool take(const capture::Frame& frame, const Reading& reading, std::int64_t dropped);
+    bool take(const capture::Frame& frame, const Reading& reading, const SourceState& source);
 
     /// Writes the map, completes the recording and sends the last states. Throws Error on failure.
     void finish();
@@ -113,6 +115,7 @@ class WatchOutputs {
     std::optional<RobotOutput> messages_;
     video::Screen screen_;
     PathMemory path_;
+    std::optional<WebView> web_;
     Track newest_;
     WatchTally tally_;
     std::chrono::steady_clock::time_point begun_;

@@ -18,6 +18,7 @@
 #include "dotpose/files/camera_file.hpp"
 #include "dotpose/files/write_file.hpp"
 #include "dotpose/tools/draw.hpp"
+#include "dotpose/tools/flat_field.hpp"
 #include "live_calibration.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
@@ -39,11 +40,12 @@ constexpr const char* kCalibrateExamples =
     "  dotpose calibrate --stitch --sheets sheets.json --camera camera.yaml seams/*.png\n\n"
     "Take 5 to 50 frames of any printed sheet, some centimetres apart and at any angles; for\n"
     "--spin, 12 frames of the robot turning on the spot; for --drive, some frames of it driving\n"
-    "straight ahead; for --rolling, all images of a fast drive. From a video or a camera, up to\n"
-    "50 frames that show new places are taken; Ctrl-C ends the reading. With --live, a window\n"
-    "(or, without a display, the terminal) shows what is still missing while you move the\n"
-    "camera; frames are taken until they suffice, or until q or Ctrl-C. Exit status 1 if the\n"
-    "frames do not determine the requested values.\n";
+    "straight ahead; for --rolling, all images of a fast drive; for --flat, 20 or more images of\n"
+    "different places in constant light. From a video or a camera, up to 50 frames that show new\n"
+    "places are taken; Ctrl-C ends the reading. With --live, a window (or, without a display,\n"
+    "the terminal) shows what is still missing while you move the camera; frames are taken until\n"
+    "they suffice, or until q or Ctrl-C. Exit status 1 if the frames do not determine the\n"
+    "requested values.\n";
 
 struct CalibrateArguments {
     SourceArguments sources;
@@ -52,6 +54,7 @@ struct CalibrateArguments {
     std::vector<std::string> spin;
     std::vector<std::string> drive;
     std::vector<std::string> rolling;
+    std::vector<std::string> flat;
     bool stitch = false;
     ScaleReference reference;
     std::string sheets;
@@ -69,6 +72,7 @@ struct Series {
     std::optional<Sources> spin;
     std::optional<Sources> drive;
     std::optional<Sources> rolling;
+    std::optional<Sources> flat;
 };
 
 /// Returns a copy of the arguments with `names` as the sources and without a list file.
@@ -82,8 +86,10 @@ Series series_of(const CalibrateArguments& arguments) {
     const SourceArguments spin = with_names(arguments.sources, arguments.spin);
     const SourceArguments drive = with_names(arguments.sources, arguments.drive);
     const SourceArguments rolling = with_names(arguments.sources, arguments.rolling);
+    const SourceArguments flat = with_names(arguments.sources, arguments.flat);
     if (arguments.sources.reads_of_standard_input() + spin.reads_of_standard_input() +
-            drive.reads_of_standard_input() + rolling.reads_of_standard_input() >
+            drive.reads_of_standard_input() + rolling.reads_of_standard_input() +
+            flat.reads_of_standard_input() >
         1) {
         throw BadArgument("standard input is named twice");
     }
@@ -92,23 +98,30 @@ Series series_of(const CalibrateArguments& arguments) {
     if (spin.is_given()) series.spin.emplace(spin);
     if (drive.is_given()) series.drive.emplace(drive);
     if (rolling.is_given()) series.rolling.emplace(rolling);
+    if (flat.is_given()) series.flat.emplace(flat);
     return series;
 }
 
-/// Runs `work(number of frames, frame_at, options)` and shows the progress.
+/// Runs `work(number of frames, frame_at, options)` and shows the progress. Corrects the frames by
+/// the flat field of the camera, if it has one.
 template <typename Work>
-auto with_progress(const CalibrateArguments& arguments, Sources& sources, const std::string& what,
-                   Work work) {
+auto with_progress(const CalibrateArguments& arguments, Sources& sources,
+                   const std::optional<Camera>& camera, const std::string& what, Work work) {
     CalibrateOptions options = arguments.options;
     const CalibrationFrames frames(arguments.sources, sources, options);
+    std::optional<FlatFieldCorrection> correction;
+    if (camera && !camera->flat_field.empty()) correction.emplace(*camera);
+    const auto frame_at = [&](int index) {
+        GreyImage frame = frames.at(index);
+        return correction ? correction->corrected(frame.view()) : frame;
+    };
     ProgressLine line(what);
     options.progress = [&line](int done, int total) {
         line.update(done, total);
         return !interrupted();
     };
     try {
-        return work(
-            frames.count(), [&frames](int index) { return frames.at(index); }, options);
+        return work(frames.count(), frame_at, options);
     } catch (const BadArgument&) {
         throw;
     } catch (const Error& error) {
@@ -145,11 +158,12 @@ void require_size(const Camera& file, const Camera& frames, const std::string& p
                     path, file.width_px, file.height_px, frames.width_px, frames.height_px));
 }
 
-/// Copies mount, readout time, exposure and gain from another calibration of the same camera. Also
-/// copies the standard deviations of mount and readout time.
+/// Copies mount, flat field, readout time, exposure and gain from another calibration of the same
+/// camera. Also copies the standard deviations of mount and readout time.
 void keep_mount(const Camera& from, Camera& to) {
     to.reference_px = reference_in(to, from);
     to.theta_offset_rad = from.theta_offset_rad;
+    to.flat_field = from.flat_field;
     to.readout_ms = from.readout_ms;
     to.exposure_us = from.exposure_us;
     to.gain = from.gain;
@@ -159,17 +173,27 @@ void keep_mount(const Camera& from, Camera& to) {
     }
 }
 
-/// Calibrates the lens, the mount, the heading and the readout, in this order. Skips calibrations
-/// that have no frames. Writes the camera file and the pictures. Returns a report.
+/// Calibrates the flat field, the lens, the mount, the heading and the readout, in this order.
+/// Skips calibrations that have no frames. Writes the camera file and the pictures. Returns a
+/// report.
 std::string calibrate_camera(const CalibrateArguments& arguments, Series& series) {
     std::string report;
     std::optional<Camera> camera = arguments.camera.camera;
+    if (series.flat) {
+        const FlatFieldCalibration flat = with_progress(
+            arguments, *series.flat, {}, "measuring the flat field",
+            [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {
+                return calibrate_flat_field(frames, frame_at, camera, options);
+            });
+        camera = flat.camera;
+        report += flat_field_report(flat);
+    }
     std::optional<LensCalibration> lens;
     if (series.lens) {
-        lens =
-            arguments.is_live
-                ? calibrate_live(arguments.sources, *series.lens, arguments.options, arguments.live)
-                : with_progress(arguments, *series.lens, "calibrating the lens", calibrate_lens);
+        lens = arguments.is_live ? calibrate_live(arguments.sources, *series.lens,
+                                                  arguments.options, arguments.live)
+                                 : with_progress(arguments, *series.lens, camera,
+                                                 "calibrating the lens", calibrate_lens);
         if (camera) {
             require_size(*camera, lens->camera, arguments.camera.path);
             keep_mount(*camera, lens->camera);
@@ -182,7 +206,7 @@ std::string calibrate_camera(const CalibrateArguments& arguments, Series& series
                            auto report_of) {
         if (!sources) return;
         const auto found = with_progress(
-            arguments, *sources, what,
+            arguments, *sources, camera, what,
             [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {
                 return calibrate(frames, frame_at, camera, options);
             });
@@ -227,7 +251,7 @@ ScaleReference parse_scale_reference(const std::string& text) {
 std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
     SheetFile file(system::path_of(arguments.sheets), {.tell = tell, .stop = interrupted});
     const Stitching stitching = with_progress(
-        arguments, sources, "stitching",
+        arguments, sources, arguments.camera.camera, "stitching",
         [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {
             return stitch_sheets(frames, frame_at, file.sheets(), arguments.camera.camera, options,
                                  arguments.reference);
@@ -271,7 +295,8 @@ void use_sheets(CalibrateArguments& arguments) {
 
 void require_apart(const CalibrateArguments& arguments, const Series& series) {
     RunFiles files;
-    for (const auto* sources : {&series.lens, &series.spin, &series.drive, &series.rolling}) {
+    for (const auto* sources :
+         {&series.lens, &series.spin, &series.drive, &series.rolling, &series.flat}) {
         if (*sources) (*sources)->add_files(files);
     }
     if (arguments.stitch) {
@@ -297,13 +322,13 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
 
 /// Returns the exit status.
 int run(CalibrateArguments& arguments) {
-    const bool has_mount =
-        !arguments.spin.empty() || !arguments.drive.empty() || !arguments.rolling.empty();
-    if (!arguments.sources.is_given() && !has_mount) {
+    const bool has_series = !arguments.spin.empty() || !arguments.drive.empty() ||
+                            !arguments.rolling.empty() || !arguments.flat.empty();
+    if (!arguments.sources.is_given() && !has_series) {
         throw BadArgument("no frames given: name 5 to 50 images, or a video or camera");
     }
-    if (arguments.stitch && has_mount)
-        throw BadArgument("--stitch cannot be combined with --spin, --drive or --rolling");
+    if (arguments.stitch && has_series)
+        throw BadArgument("--stitch cannot be combined with --spin, --drive, --rolling or --flat");
     if (!arguments.rolling.empty() && !arguments.sources.options.fps.value_or(0))
         throw BadArgument("--rolling needs --fps, the number of frames per second");
     Series series = series_of(arguments);
@@ -328,7 +353,7 @@ void add_live_options(Command& command, CalibrateArguments& arguments) {
     Option* live = command.add_flag(
         "--live", arguments.is_live,
         "Take frames automatically while you move the camera, and show what is still missing");
-    for (const char* other : {"--spin", "--drive", "--rolling", "--stitch"})
+    for (const char* other : {"--spin", "--drive", "--rolling", "--flat", "--stitch"})
         live->excludes(command.get_option(other));
     command
         .add_flag("--no-window", arguments.live.has_no_window,
@@ -371,6 +396,11 @@ void add_calibrate(Command& app, int& exit_code) {
         ->add_option("--rolling", arguments->rolling,
                      "All images of a drive, in order, at the rate of --fps: find the readout time "
                      "of a rolling shutter (readout_ms)")
+        ->type_name("IMAGE");
+    command
+        ->add_option("--flat", arguments->flat,
+                     "At least 20 images of a sheet under the moving camera, with constant light: "
+                     "find the vignetting (flat_field), which is then removed from all frames")
         ->type_name("IMAGE");
     Option* stitch = command->add_flag("--stitch", arguments->stitch,
                                        "Find the poses of the sheets of a sheet file from frames "

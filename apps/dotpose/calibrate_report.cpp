@@ -138,6 +138,16 @@ std::string drive_report(const DriveCalibration& calibration) {
     return text;
 }
 
+std::string flat_field_report(const FlatFieldCalibration& calibration) {
+    std::string text;
+    add(text,
+        "flat field  from {} frames: the darkest point has {:.0f} % of the light of the brightest",
+        calibration.frames, 100 * calibration.min_brightness);
+    add(text, "residual    {:.1f} % (rms): dots in the mean, and pixels that differ",
+        100 * calibration.residual);
+    return text;
+}
+
 std::string readout_report(const ReadoutCalibration& calibration) {
     std::string text;
     add(text,

@@ -1,6 +1,7 @@
 // The geometry of a camera, and its use in `locate`.
 #include "dotpose/files/camera.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -66,11 +67,29 @@ void require_paper(const PaperScale& paper, const Camera& camera) {
     require(change <= 0.75, "perspective_per_px", "puts the horizon into the image");
 }
 
+void require_flat_field(const Camera& camera) {
+    const auto is_side = [](std::size_t values, int side_px) {
+        return values >= 2 && values <= static_cast<std::size_t>(side_px);
+    };
+    const std::size_t columns = camera.flat_field.front().size();
+    require(
+        is_side(camera.flat_field.size(), camera.height_px) && is_side(columns, camera.width_px),
+        "flat_field", "must have 2 or more rows and columns, and not more than the image");
+    for (const std::vector<double>& row : camera.flat_field) {
+        require(row.size() == columns, "flat_field", "must have rows of the same length");
+        require(std::ranges::all_of(row, [](double b) { return b >= kMinFlatField && b <= 1; }),
+                "flat_field", fmt::format("must have values from {:g} to 1", kMinFlatField));
+    }
+}
+
 }  // namespace
 
 void validate(const Camera& camera) {
-    const auto is_side = [](int px) { return px >= kMinFrameSide_px && px <= kMaxFrameSide_px; };
-    const auto side_range = fmt::format("must be {} to {}", kMinFrameSide_px, kMaxFrameSide_px);
+    const auto is_side = [](int px) {
+        return px >= kMinKnownFrameSide_px && px <= kMaxFrameSide_px;
+    };
+    const auto side_range =
+        fmt::format("must be {} to {}", kMinKnownFrameSide_px, kMaxFrameSide_px);
     require(is_side(camera.width_px), "width_px", side_range);
     require(is_side(camera.height_px), "height_px", side_range);
     require_near(camera.centre_px, camera, kMaxCentre_px, "centre_px");
@@ -90,6 +109,7 @@ void validate(const Camera& camera) {
     }
     require(std::abs(camera.theta_offset_rad) <= 2 * std::numbers::pi, "theta_offset_rad",
             "must be at most a full turn");
+    if (!camera.flat_field.empty()) require_flat_field(camera);
     if (camera.readout_ms) {
         constexpr double kMaxReadout_ms = 10'000;
         require(*camera.readout_ms > 0 && *camera.readout_ms <= kMaxReadout_ms, "readout_ms",

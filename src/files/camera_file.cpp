@@ -1,6 +1,7 @@
 #include "dotpose/files/camera_file.hpp"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include "dotpose/files/write_file.hpp"
 #include "files/ros_camera.hpp"
@@ -44,8 +45,8 @@ Camera read_native(const YamlMap& file) {
     }
     file.allow_only({"format", "version", "width_px", "height_px", "k_per_px2", "centre_px",
                      "mm_per_px", "skew", "perspective_per_px", "focal_px", "tilt_rad",
-                     "reference_px", "theta_offset_rad", "flip", "readout_ms", "exposure_us",
-                     "gain", "sigma"});
+                     "reference_px", "theta_offset_rad", "flip", "flat_field", "readout_ms",
+                     "exposure_us", "gain", "sigma"});
     Camera camera;
     camera.width_px = file.integer("width_px");
     camera.height_px = file.integer("height_px");
@@ -60,6 +61,7 @@ Camera read_native(const YamlMap& file) {
     if (file.has("reference_px")) camera.reference_px = point(file, "reference_px");
     camera.theta_offset_rad = optional_number(file, "theta_offset_rad").value_or(0);
     camera.flip = file.has("flip") && file.boolean("flip");
+    if (file.has("flat_field")) camera.flat_field = file.rows_of_numbers("flat_field");
     camera.readout_ms = optional_number(file, "readout_ms");
     camera.exposure_us = optional_number(file, "exposure_us");
     camera.gain = optional_number(file, "gain");
@@ -99,6 +101,10 @@ class Writer {
     void line(const char* key, double first, double second, const char* comment = "") {
         line(key, fmt::format("[{}, {}]", text_of(first), text_of(second)), comment);
     }
+    /// Appends an element to the list of the last key.
+    void item(const std::vector<double>& numbers) {
+        text_ += fmt::format("  - [{:.4g}]\n", fmt::join(numbers, ", "));
+    }
     const std::string& text() const { return text_; }
 
   private:
@@ -129,6 +135,11 @@ std::string yaml_of(const Camera& camera) {
         out.line("theta_offset_rad", camera.theta_offset_rad, "heading minus image x axis");
     }
     if (camera.flip) out.line("flip", "true", "frames are mirrored: flip them left to right");
+    if (!camera.flat_field.empty()) {
+        out.line("flat_field", "", "brightness of the paper, relative to the brightest point");
+        for (const std::vector<double>& row : camera.flat_field)
+            out.item(row);
+    }
     if (camera.readout_ms) {
         out.line("readout_ms", *camera.readout_ms,
                  "rolling shutter: from the first to the last row");

@@ -95,6 +95,19 @@ std::vector<double> YamlMap::numbers(const std::string& key, std::size_t count) 
     return result;
 }
 
+std::vector<std::vector<double>> YamlMap::rows_of_numbers(const std::string& key) const {
+    const YAML::Node node = value(key);
+    if (!node.IsSequence()) fail(key, "must be a list of rows");
+    std::vector<std::vector<double>> result;
+    for (const YAML::Node& row : node) {
+        if (!row.IsSequence()) fail(key, "must be a list of rows, each a list of numbers");
+        std::vector<double>& numbers = result.emplace_back();
+        for (const YAML::Node& element : row)
+            numbers.push_back(finite(element, key));
+    }
+    return result;
+}
+
 YamlMap YamlMap::map(const std::string& key) const {
     const YAML::Node node = value(key);
     if (!node.IsMap()) fail(key, "must be a mapping");

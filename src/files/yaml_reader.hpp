@@ -26,6 +26,8 @@ class YamlMap {
     double number(const std::string& key) const;
     /// Returns a list of exactly `count` numbers, or of any length if `count` is 0.
     std::vector<double> numbers(const std::string& key, std::size_t count) const;
+    /// Returns a list of lists of numbers, each of any length.
+    std::vector<std::vector<double>> rows_of_numbers(const std::string& key) const;
     YamlMap map(const std::string& key) const;
     std::vector<std::string> keys() const;
 

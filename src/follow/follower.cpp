@@ -16,6 +16,10 @@ Follower::Follower(const FollowerOptions& options)
       used_(options.locate),
       tracker_(options.track) {
     if (options.code) codes_ = {*options.code};
+    if (options.camera && !options.camera->flat_field.empty()) {
+        validate(*options.camera);
+        flat_field_.emplace(*options.camera);
+    }
     if (!options.sheets.empty()) use_sheets();
 }
 
@@ -53,12 +57,16 @@ void Follower::use_options_for(int width_px, int height_px) {
     }
 }
 
-/// Returns the image, flipped if the options require it.
+/// Returns the image, flipped and corrected by the flat field if the options require it.
 ImageView Follower::as_located(ImageView image) {
-    const bool flips = options_.flip || (options_.camera && options_.camera->flip);
-    if (!flips || image.pixels == nullptr) return image;
-    flipped_ = flipped(image);
-    return flipped_.view();
+    if (image.pixels == nullptr) return image;
+    if (options_.flip || (options_.camera && options_.camera->flip)) {
+        corrected_ = flipped(image);
+        image = corrected_.view();
+    }
+    if (!flat_field_) return image;
+    corrected_ = flat_field_->corrected(image);
+    return corrected_.view();
 }
 
 Locator& Follower::locator(const DeviceOptions& options) {

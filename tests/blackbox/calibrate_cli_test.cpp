@@ -146,6 +146,28 @@ TEST_F(CalibrateCommand, FindsTheReadoutTimeAndLocateThenReportsTheVelocity) {
     EXPECT_LT(fix["sigma_velocity_x_mm_s"].get<double>(), 0.2);
 }
 
+TEST_F(CalibrateCommand, FindsTheFlatFieldAndLocateThenReadsTheSensorOfAMouse) {
+    ASSERT_EQ(run("print -o page.pdf --sheets page.json --name page"), 0) << errors_;
+    ASSERT_EQ(run("simulate -o drive --drive --sheets page.json --preset mouse --vignetting 0.5 "
+                  "--speed 20 --fps 2000 --frames 60"),
+              0)
+        << errors_;
+    const auto located = [&](const std::string& camera) {
+        run("locate " + camera + " --sheets page.json --only-sheets drive");
+        int count = 0;
+        std::istringstream lines(output_);
+        for (std::string line; std::getline(lines, line);)
+            count += line.find(R"("status":"ok")") != std::string::npos ? 1 : 0;
+        return count;
+    };
+    EXPECT_LE(located(""), 50);
+    ASSERT_EQ(run("calibrate -o camera.yaml --flat drive"), 0) << errors_;
+    EXPECT_THAT(output_, HasSubstr("flat field  from 60 frames"));
+    EXPECT_GE(located("--camera camera.yaml"), 59);
+    EXPECT_EQ(run("calibrate -o other.yaml --flat drive/frame_000000.pgm"), 1);
+    EXPECT_THAT(errors_, HasSubstr("at least 20 are needed"));
+}
+
 constexpr const char* kMountedCamera =
     "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, k_per_px2: -8.7e-06, "
     "centre_px: [93.5, 59.5], mm_per_px: [0.046, 0.046], reference_px: [500, 59.5], "

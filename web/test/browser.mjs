@@ -12,7 +12,7 @@ const kRoot = fileURLToPath(new URL("../..", import.meta.url));
 const kDist = fileURLToPath(new URL("../dist", import.meta.url));
 const kChromium = process.env.CHROMIUM ?? "/usr/bin/chromium";
 /** The command-line tool of the same checkout. It renders frames and checks prints. */
-const kTool = process.env.DOTPOSE_TOOL ?? join(kRoot, "build/release/bin/dotpose");
+export const kTool = process.env.DOTPOSE_TOOL ?? join(kRoot, "build/release/bin/dotpose");
 
 const kTypes = {
     ".html": "text/html",

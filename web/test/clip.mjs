@@ -19,11 +19,12 @@ function readPgm(bytes) {
 
 /**
  * Writes `clip.y4m` to the folder. For each frame, returns the true pose, the tool's output line
- * for the luma of the frame (`tool`), and the path of the frame as a picture (`png`).
+ * for the luma of the frame (`tool`), and the frame as a picture (`png`). `options` are further options
+ * of `dotpose simulate`.
  */
-export function makeClip(folder, { frames, size }) {
+export function makeClip(folder, { frames, size, options = [] }) {
     const still = join(folder, "frames");
-    dotpose("simulate", "-o", still, "--frames", String(frames), "--seed", "5", "--size", size);
+    dotpose("simulate", "-o", still, "--frames", String(frames), "--seed", "5", "--size", size, ...options);
     const truth = readCsv(readFileSync(join(still, "truth.csv"), "utf8"));
     const [width, height] = size.split("x").map(Number);
     const chroma = Buffer.alloc((width * height) / 2, 128);

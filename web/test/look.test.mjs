@@ -142,3 +142,143 @@ test("a picture is read, and one of something else gets a hint", async () => {
     assert.notEqual(await page.textContent("#look-hint"), "");
     await page.close();
 });
+
+/** Cells of the A4 sheet "table", and a place on it under the image centre, in cells. */
+const kOrigin = [1000, 2000];
+const kOnTable = [1200.3, 2300.6];
+
+/** Returns a sheet file with the sheet "table", which the tool printed. */
+function sheetFile() {
+    const path = join(folder, "sheets.json");
+    rmSync(path, { force: true });
+    const sheet = ["--paper", "A4", "--origin", kOrigin.join(), "--name", "table", "--sheets", path];
+    dotpose("print", "-o", join(folder, "table.svg"), ...sheet);
+    return path;
+}
+
+/** Returns frames of a sheet of section 0, 0. `at` is the place under the image centre, in cells. */
+function viewsOf(at, size, frames = 1) {
+    const still = mkdtempSync(join(folder, "view-"));
+    return makeClip(still, { frames, size, options: ["--section", "0,0", "--at", at.join()] });
+}
+
+/** Opens a picture, which must be located (`ok`) or not. */
+async function openPicture(page, buffer, ok) {
+    await page.setInputFiles("#look-file", { name: "view.png", mimeType: "image/png", buffer });
+    await page.waitForFunction((is_ok) => (document.getElementById("look-x").textContent !== "–") === is_ok, ok);
+    await page.waitForFunction((is_ok) => document.getElementById("look-hint").hidden === is_ok, ok);
+}
+
+test("a small view is located on a known sheet, and only there", async () => {
+    const { page, complaints } = await open(browser.context, `${server.url}#look`);
+    const [{ png }] = viewsOf(kOnTable, "66x66");
+    assert.equal(await page.textContent("#look-known"), "No known sheets");
+    assert.equal(await page.isDisabled("#look-only"), true);
+    await openPicture(page, png, false);
+    assert.equal(await page.textContent("#look-sheet"), "–");
+
+    // The picture is read again when the options change.
+    const path = sheetFile();
+    await page.setInputFiles("#look-sheets", path);
+    await page.waitForFunction(() => document.getElementById("look-known").textContent === "1 known sheet");
+    await page.check("#look-only");
+    await page.waitForFunction(() => document.getElementById("look-x").textContent !== "–");
+    assert.equal(await page.textContent("#look-sheet"), "table");
+    assert.equal(await page.textContent("#look-prior"), "only known sheets");
+    assert.equal(await page.textContent("#look-map-name"), "On the sheet “table”");
+    const [{ first_x_mm, first_y_mm }] = JSON.parse(readFileSync(path, "utf8")).sheets;
+    const expected_mm = kOnTable.map((cell, i) => (cell - kOrigin[i]) * 0.508 + [first_x_mm, first_y_mm][i]);
+    const shown_mm = [await page.textContent("#look-x"), await page.textContent("#look-y")].map(Number);
+    const off_mm = Math.hypot(shown_mm[0] - expected_mm[0], shown_mm[1] - expected_mm[1]);
+    assert.ok(off_mm < 0.02, `${shown_mm}, not ${expected_mm}`);
+
+    const [file] = await Promise.all([page.waitForEvent("download"), page.click("#look-log")]);
+    const line = readCsv(readFileSync(await file.path(), "utf8")).at(-1);
+    assert.deepEqual([line.prior, line.sheet], ["only_sheets", "table"]);
+    assert.ok(Math.abs(line.x_sheet_mm - expected_mm[0]) < 0.02 && Math.abs(line.y_sheet_mm - expected_mm[1]) < 0.02);
+
+    // The list is kept, and a forgotten sheet is not known any more.
+    await page.click("nav [data-view=print]");
+    await page.click("[aria-label='Forget the sheet table']");
+    await page.click("nav [data-view=look]");
+    assert.equal(await page.textContent("#look-known"), "No known sheets");
+    await openPicture(page, png, false);
+    assert.deepEqual(complaints, []);
+    await page.close();
+});
+
+test("a fix on no known sheet is shown with a warning", async () => {
+    const { page } = await open(browser.context, `${server.url}#look`);
+    const [[{ png: known }], [{ png: unknown }]] = [viewsOf(kOnTable, "188x120"), viewsOf([5200.3, 2300.6], "188x120")];
+    await page.setInputFiles("#look-sheets", sheetFile());
+    await page.waitForFunction(() => document.getElementById("look-known").textContent === "1 known sheet");
+    await openPicture(page, known, true);
+    assert.equal(await page.textContent("#look-sheet"), "table");
+    await page.setInputFiles("#look-file", { name: "unknown.png", mimeType: "image/png", buffer: unknown });
+    await page.waitForFunction(() => document.getElementById("look-sheet").textContent === "not known");
+    assert.notEqual(await page.textContent("#look-x"), "–");
+    assert.equal(await page.textContent("#look-x-name"), "x in the pattern, mm");
+    assert.match(await page.textContent("#look-hint"), /^Located, but on no known sheet/);
+    assert.equal(await page.evaluate(() => document.getElementById("look-hint").classList.contains("good")), false);
+    await page.check("#look-only");
+    await page.waitForFunction(() => document.getElementById("look-x").textContent === "–");
+    assert.match(await page.textContent("#look-hint"), /^No known sheet has these dots/);
+    await page.evaluate(() => localStorage.clear());
+    await page.close();
+});
+
+test("a file that is not a sheet file is refused with its reason", async () => {
+    const { page } = await open(browser.context, `${server.url}#look`);
+    const good = JSON.parse(readFileSync(sheetFile(), "utf8"));
+    const change = (values) => JSON.stringify({ ...good, sheets: [{ ...good.sheets[0], ...values }] });
+    const refused = [
+        ["{", "it is not JSON"],
+        ["[]", 'its "format" is not "dotpose-sheets"'],
+        [JSON.stringify({ ...good, version: 2 }), "its version is 2; this page reads version 1"],
+        [change({ columns: "394" }), "sheets[0].columns must be a number"],
+        [change({ rows: 7 }), "sheets[0].rows is 7; it must be a whole number from 8 to 410813348"],
+        [change({ code: "morse" }), "sheets[0].code is 'morse'; it must be anoto, libdots, microdots"],
+        [change({ spacing_mm: 1.016 }), "sheets[0].spacing_mm is 1.016; this page locates sheets with a spacing of 0.508 mm"],
+    ];
+    for (const [text, reason] of refused) {
+        await page.setInputFiles("#look-sheets", { name: "s.json", mimeType: "application/json", buffer: Buffer.from(text) });
+        const message = `'s.json' is not read as a sheet file: ${reason}.`;
+        await page.waitForFunction((wanted) => document.getElementById("look-hint").textContent === wanted, message);
+    }
+    assert.equal(await page.textContent("#look-known"), "No known sheets");
+    await page.close();
+});
+
+test("sheets with the same name are all known, and those with the same dots once", async () => {
+    const { page } = await open(browser.context, `${server.url}#look`);
+    const good = JSON.parse(readFileSync(sheetFile(), "utf8"));
+    const other = { ...good, sheets: [{ ...good.sheets[0], origin_x: 9000 }] };
+    for (const [content, known] of [[good, "1 known sheet"], [good, "1 known sheet"], [other, "2 known sheets"]]) {
+        const buffer = Buffer.from(JSON.stringify(content));
+        await page.setInputFiles("#look-sheets", { name: "s.json", mimeType: "application/json", buffer });
+        await page.waitForFunction((text) => document.getElementById("look-known").textContent === text, known);
+    }
+    await page.click("nav [data-view=print]");
+    assert.deepEqual(await page.locator("#print-list strong").allTextContents(), ["table", "table 2"]);
+    await page.evaluate(() => localStorage.clear());
+    await page.close();
+});
+
+for (const address of ["#look", "?luma=canvas#look"]) {
+    test(`the camera knows the sheets, ${address}`, async () => {
+        const still = mkdtempSync(join(folder, "small-"));
+        makeClip(still, { frames: 4, size: "72x72", options: ["--section", "0,0", "--at", kOnTable.join()] });
+        const small = await launch({ clip: join(still, "clip.y4m"), viewport: { width: 1200, height: 900 } });
+        try {
+            const { page } = await open(small.context, server.url + address);
+            await page.setInputFiles("#look-sheets", sheetFile());
+            await page.waitForFunction(() => document.getElementById("look-known").textContent === "1 known sheet");
+            await page.check("#look-only");
+            await page.click("#look-start");
+            await page.waitForFunction(() => document.getElementById("look-sheet").textContent === "table");
+            assert.equal(await page.textContent("#look-prior"), "only known sheets");
+        } finally {
+            await small.close();
+        }
+    });
+}

@@ -111,6 +111,37 @@ test("the presets are located; hard ones less exactly than clean ones", async ()
     await page.close();
 });
 
+test("a small view is located only if its sheet is known", async () => {
+    const { page } = await openTry();
+    await settled(page, () => page.selectOption("#try-size", "66x66"));
+    await settled(page, () => page.selectOption("#try-known", "none"));
+    assert.equal(await page.textContent("#try-x"), "–");
+    for (const size of ["66x66", "36x36"]) {
+        await settled(page, () => page.selectOption("#try-size", size));
+        await settled(page, () => page.selectOption("#try-known", "only"));
+        const { x_mm, y_mm, error_mm } = await shown(page);
+        assert.ok(Math.hypot(x_mm - 105, y_mm - 148) < 0.03 && error_mm < 0.03, `${size}: ${x_mm}, ${y_mm}`);
+        assert.equal(await page.textContent("#try-sheet"), "A4 page");
+        assert.equal(await page.textContent("#try-prior"), "only known sheets");
+    }
+    const { width, height } = await page.locator("#try-camera").boundingBox();
+    assert.ok(Math.abs(width - height) < 1, `${width} x ${height}`);
+    await page.close();
+});
+
+test("a sheet that is not known is shown with a warning", async () => {
+    const { page } = await openTry();
+    assert.equal(await page.textContent("#try-sheet"), "A4 page");
+    assert.equal(await page.isHidden("#try-hint"), true);
+    await settled(page, () => page.selectOption("#try-known", "other"));
+    assert.ok((await shown(page)).error_mm < 0.004);
+    assert.equal(await page.textContent("#try-sheet"), "not known");
+    assert.match(await page.textContent("#try-hint"), /^Located, but on no known sheet/);
+    await settled(page, () => page.selectOption("#try-known", "none"));
+    assert.equal(await page.isHidden("#try-hint"), true);
+    await page.close();
+});
+
 test("it drives automatically until the user moves it", async () => {
     const { page } = await openTry();
     await page.click("#try-drive");

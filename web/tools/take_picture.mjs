@@ -4,7 +4,7 @@ import { fileURLToPath } from "node:url";
 import { launch, open, serve } from "../test/browser.mjs";
 
 const server = await serve();
-const browser = await launch({ viewport: { width: 1200, height: 1000 } });
+const browser = await launch({ viewport: { width: 1200, height: 1000 }, reducedMotion: "reduce" });
 try {
     const { page } = await open(browser.context, server.url);
     await page.waitForFunction(() => document.getElementById("try-x").textContent !== "–");

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "dotpose/device_options.hpp"
 #include "dotpose/export.hpp"
@@ -43,6 +44,9 @@ struct Tilt {
     double y_rad = 0;
 };
 
+/// Minimum value of a flat field. In darker parts of an image, dots cannot be told from noise.
+inline constexpr double kMinFlatField = 0.05;
+
 /// Contents of a camera file: one camera and its place on a robot.
 struct Camera {
     int width_px = 0;
@@ -65,6 +69,13 @@ struct Camera {
     /// True if the camera delivers mirrored frames. Mirrored frames are flipped left to right
     /// before they are located. All pixel coordinates in this struct refer to the flipped frames.
     bool flip = false;
+
+    /// Flat field: the brightness of evenly lit white paper in the image, relative to its brightest
+    /// point. Rows of values at equal distances, from the first to the last pixel along each axis,
+    /// with bilinear interpolation between them; each from kMinFlatField to 1. The flat field
+    /// includes the vignetting of the lens and the light of the lamps. Empty if the brightness is
+    /// even, or not known.
+    std::vector<std::vector<double>> flat_field;
 
     /// Time from the first to the last row of an image, if the sensor has a rolling shutter. In
     /// this case, the pose applies to the time of the middle row, and the velocity of the camera is

@@ -6,10 +6,10 @@
 ///     write_camera("camera.yaml", lens.camera);
 ///
 /// `calibrate_lens` determines the lens and the scale, `calibrate_spin` and `calibrate_drive` the
-/// mount of the camera on a robot, `calibrate_readout` the readout time of a rolling shutter, and
-/// `stitch_sheets` the relative poses of adjacent sheets. If the frames do not determine a result,
-/// the functions throw Error with advice. Standard deviations are computed from the residuals of
-/// the fit.
+/// mount of the camera on a robot, `calibrate_flat_field` the vignetting, `calibrate_readout` the
+/// readout time of a rolling shutter, and `stitch_sheets` the relative poses of adjacent sheets. If
+/// the frames do not determine a result, the functions throw Error with advice. Standard deviations
+/// are computed from the residuals of the fit.
 ///
 /// Frames are requested by index, possibly several times, and are not stored. Functions share no
 /// state.
@@ -176,6 +176,25 @@ struct DriveCalibration {
 DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
                                  const std::optional<Camera>& camera,
                                  const CalibrateOptions& options);
+
+/// Flat field of a camera, from frames of a moving camera.
+struct FlatFieldCalibration {
+    Camera camera;  ///< the given camera with `flat_field` set
+    int frames = 0;
+    double min_brightness = 0;  ///< at the darkest point, relative to the brightest point
+    /// Rms deviation of the mean frame from the flat field, relative to it: remaining dots, and
+    /// pixels with a different sensitivity.
+    double residual = 0;
+};
+
+/// Computes the flat field of a camera from at least 20 frames of a sheet or of white paper, taken
+/// with constant exposure and light. The dots must be at different places in the frames, so that
+/// their mean is even. Without a camera, makes one with the size of the frames. Throws Error if
+/// there are fewer frames, frames differ in size, the image is too dark, or the mean frame is not
+/// smooth. Of the options, only `progress` is used.
+FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
+                                          const std::optional<Camera>& camera,
+                                          const CalibrateOptions& options);
 
 /// Readout time of a rolling shutter, from the frames of a drive.
 struct ReadoutCalibration {

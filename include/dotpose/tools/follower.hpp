@@ -21,6 +21,7 @@
 #include "dotpose/files/camera.hpp"
 #include "dotpose/files/sheet_place.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/flat_field.hpp"
 #include "dotpose/tools/grey_image.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
 #include "dotpose/track.hpp"
@@ -102,8 +103,8 @@ class Follower {
     bool is_in_world() const { return is_in_world_; }
     const std::vector<SheetEntry>& sheets() const { return options_.sheets; }
 
-    /// Return, for the latest image: the image that was located (possibly flipped and reduced), the
-    /// options used, and the trace of the stages.
+    /// Return, for the latest image: the image that was located (possibly flipped, reduced, and
+    /// corrected by the flat field), the options used, and the trace of the stages.
     ImageView image() const { return image_; }
     const DeviceOptions& used_options() const { return used_; }
     Trace trace() const { return locator_.trace(); }
@@ -156,7 +157,8 @@ class Follower {
     bool is_in_world_ = false;
     DeviceOptions used_;
     ImageView image_;
-    GreyImage flipped_;
+    std::optional<FlatFieldCorrection> flat_field_;
+    GreyImage corrected_;  ///< the image, flipped and with even light
     GreyImage reduced_;
     std::vector<KnownRegion> known_;  ///< regions of the sheets
     Locator locator_{DeviceOptions{}};

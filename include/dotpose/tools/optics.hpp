@@ -69,7 +69,7 @@ struct OpticsReport {
     /// True if the shorter side of the field is at least `block_diagonal_mm` (paper III-A.3).
     bool block_fits = false;
     /// Side of a square field that contains 8 x 8 dots at any position of the grid, for a grid at
-    /// 45 degrees: block_diagonal_mm + spacing / sqrt(2).
+    /// 45 degrees: block_diagonal_mm + sqrt(2) spacing.
     double block_anywhere_mm = 0;
     bool block_fits_anywhere = false;
 

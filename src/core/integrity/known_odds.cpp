@@ -179,11 +179,12 @@ float known_place_wrong(const Kernels& kernels, const BitBlock& block, const Kno
         for (const KnownRegion& region : sheets.regions) {
             const PositionRange x = turn.columns_of(region);
             const PositionRange y = turn.rows_of(region);
-            const bool is_best = !is_included && quarters == 0 && region.code == code &&
-                                 region.section == best.place.section &&
-                                 x.contains(best.place.cell.x) && y.contains(best.place.cell.y);
-            is_included |= is_best;
-            others += is_best
+            // Regions may overlap, so more than one may contain `best`.
+            const bool has_best = quarters == 0 && region.code == code &&
+                                  region.section == best.place.section &&
+                                  x.contains(best.place.cell.x) && y.contains(best.place.cell.y);
+            is_included |= has_best;
+            others += has_best
                           ? sum_of_others(region, turn, x_odds, y_odds, best)
                           : sum_of_odds(region, columns.of(turn.columns, region.code, x, x_odds),
                                         rows.of(turn.rows, region.code, y, y_odds));

@@ -138,12 +138,16 @@ inline constexpr float kFewOutliers = 3;
 inline constexpr float kOutlierFraction = 0.02F;
 /// Number of dots above which each image side is divided into nine blocks instead of kFewAlong.
 inline constexpr int kManyDots = 1000;
-/// Number of blocks along each image side, for up to kManyDots dots. With 170 dots, each block
-/// contains five dots.
+/// Number of blocks along each side of the image, for at most kManyDots dots: the largest number,
+/// from kMinAlong to kFewAlong, with kDotsPerBlock dots in each block. If blocks contain only one
+/// or two dots, the scatter within blocks is unknown, and flat sheets seem uneven.
+inline constexpr int kMinAlong = 2;
 inline constexpr int kFewAlong = 6;
-/// Factors for adding a block's displacement variance to the pose covariance: kOfPlace * variance
-/// for x and y, and kOfTurn * variance / side^2 for the angle. The variance is along one axis, and
-/// side is the side of a block. docs/integrity.md compares the result with errors on bent sheets.
+inline constexpr int kDotsPerBlock = 4;
+/// Factors by which the variance of the displacement of a block, along one axis, is added to the
+/// covariance of the pose: kOfPlace * variance for x and for y, and kOfTurn * variance / side^2 for
+/// the angle, where side is the side of a block. docs/integrity.md compares the result with the
+/// errors on bent sheets.
 inline constexpr float kOfPlace = 2;
 inline constexpr float kOfTurn = 8;
 /// Standard deviation of mean block residuals due to pixel bias. If the phase drifts slowly over

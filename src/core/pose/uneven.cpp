@@ -13,13 +13,21 @@ namespace {
 
 namespace tuned = tuning::uneven;
 
-/// Scatter of the residuals between and within image blocks.
+/// Returns the number of blocks along each side of the image.
+int blocks_along(int dots) {
+    if (dots > tuned::kManyDots) return static_cast<int>(BlockSums::kMaxAlong);
+    int along = tuned::kMinAlong;
+    while (along < tuned::kFewAlong && dots >= tuned::kDotsPerBlock * (along + 1) * (along + 1))
+        ++along;
+    return along;
+}
+
+/// Scatter of the residuals between and within the blocks of the image.
 class Blocks {
   public:
     Blocks(const Kernels& kernels, const MeasuredDots& dots, const FloatPlane& plane,
            const PoseFit& fit) {
-        const int side =
-            fit.dots > tuned::kManyDots ? static_cast<int>(BlockSums::kMaxAlong) : tuned::kFewAlong;
+        const int side = blocks_along(fit.dots);
         const auto reach_px = static_cast<float>(fit.reach_px);
         BlockSums sums;
         kernels.sum_blocks(dots, plane, fit.displacement, tuning::fit::kOutlier * fit.variance,

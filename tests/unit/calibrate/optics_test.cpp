@@ -23,10 +23,42 @@ TEST(Optics, GivesThePapersNumbers) {
     EXPECT_EQ(std::floor(report.fastest_mm_s), 353);
     EXPECT_EQ(std::floor(report.fastest_turn_rpm), 785);
     EXPECT_TRUE(report.block_fits);
-    // At 45 degrees, rows of block centres are 0.508 / sqrt(2) apart, and 5.48 - 5.39 mm are free.
     EXPECT_FALSE(report.block_fits_anywhere);
     for (const OpticsAdvice& advice : report.advice)
         EXPECT_FALSE(advice.is_fault) << advice.text;
+}
+
+/// Returns the side of the smallest square field that contains a block of the given diagonal, for a
+/// grid at 45 degrees. `x` and `y` are the offset of the image centre from a block centre, in the
+/// grid.
+double field_for_block(double diagonal_mm, double spacing_mm, double x_mm, double y_mm) {
+    double smallest_mm = HUGE_VAL;
+    for (int i = -1; i <= 1; ++i) {
+        for (int j = -1; j <= 1; ++j) {
+            const double dx_mm = x_mm - i * spacing_mm;
+            const double dy_mm = y_mm - j * spacing_mm;
+            const double u_mm = std::abs(dx_mm - dy_mm) / std::numbers::sqrt2;
+            const double v_mm = std::abs(dx_mm + dy_mm) / std::numbers::sqrt2;
+            smallest_mm = std::min(smallest_mm, diagonal_mm + 2 * std::max(u_mm, v_mm));
+        }
+    }
+    return smallest_mm;
+}
+
+TEST(Optics, ABlockFitsAnywhereInTheSmallestFieldForEveryPosition) {
+    const Optics optics = paper_optics();
+    const OpticsReport report = design_optics(optics);
+    double largest_mm = 0;
+    constexpr int kSteps = 20;
+    for (int i = 0; i <= kSteps; ++i) {
+        for (int j = 0; j <= kSteps; ++j) {
+            largest_mm =
+                std::max(largest_mm, field_for_block(report.block_diagonal_mm, optics.spacing_mm,
+                                                     optics.spacing_mm * i / kSteps,
+                                                     optics.spacing_mm * j / kSteps));
+        }
+    }
+    EXPECT_NEAR(report.block_anywhere_mm, largest_mm, 1e-9);
 }
 
 TEST(Optics, IsThatOfAThinLens) {

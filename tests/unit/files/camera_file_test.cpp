@@ -31,6 +31,9 @@ focal_px: 348
 tilt_rad: [0.1, -0.05]
 reference_px: [400.5, -12]
 theta_offset_rad: 1.5
+flat_field:
+  - [0.5, 0.75, 0.6]
+  - [0.8, 1, 0.7]
 exposure_us: 130
 gain: 2
 sigma:
@@ -122,6 +125,23 @@ TEST_F(CameraFile, WrongFilesAreRefusedByKey) {
     EXPECT_THAT(refusal_with("  k_per_px2: 2e-08", "  k_per_px2: [1]"),
                 HasSubstr("sigma.k_per_px2 must be a number"));
     EXPECT_THAT(refusal_with("gain: 2", "gain: -2"), HasSubstr("gain must be above 0"));
+}
+
+TEST_F(CameraFile, AFlatFieldIsARectangleOfFractions) {
+    const Camera camera = read(kWhole);
+    const std::vector<std::vector<double>> expected{{0.5, 0.75, 0.6}, {0.8, 1, 0.7}};
+    EXPECT_EQ(camera.flat_field, expected);
+    EXPECT_THAT(refusal_with("0.75, 0.6]", "0.75]"), HasSubstr("flat_field must have rows of the"));
+    for (const char* value : {"0.04", "1.01", "-1", "0"}) {
+        EXPECT_THAT(refusal_with("0.75", value),
+                    HasSubstr("flat_field must have values from 0.05 to 1"));
+    }
+    EXPECT_THAT(refusal_with("0.75", "bright"), HasSubstr("flat_field must be a number"));
+    EXPECT_THAT(refusal_with("  - [0.8, 1, 0.7]\n", ""), HasSubstr("2 or more rows and columns"));
+    EXPECT_THAT(refusal_with("  - [0.8, 1, 0.7]\n", "  - 1\n"),
+                HasSubstr("flat_field must be a list of rows, each a list of numbers"));
+    EXPECT_THAT(refusal_with("height_px: 120", "height_px: 23"),
+                HasSubstr("height_px must be 24 to 4096"));
 }
 
 TEST_F(CameraFile, ForeignFilesAreRefused) {

@@ -50,6 +50,17 @@ TEST_F(Known, SixCellsSufficeIfNoOtherSheetIsPossible) {
     EXPECT_GE(located, kFrames - 1);
 }
 
+TEST_F(Known, SmallViewsOfFlatSheetsAreEven) {
+    know(OtherSheets::impossible);
+    int uneven = 0;
+    constexpr int kFrames = 100;
+    for (std::uint64_t i = 0; i < kFrames; ++i) {
+        const Shot shot = shot_on_sheet({.width_px = 66, .height_px = 66}, i);
+        uneven += locator_.locate(render(shot).view()).surface != Surface::even ? 1 : 0;
+    }
+    EXPECT_LE(uneven, kFrames * 3 / 100);
+}
+
 TEST_F(Known, SmallFramesAreLocatedOnKnownSheetsOnly) {
     const ShotSize size{.spacing_px = 6, .width_px = 40, .height_px = 40};
     const GreyImage image = render(shot_on_sheet(size, 0));

@@ -1,7 +1,5 @@
 // Draws a frame with its dots, grid and pose, layer by layer.
-import { imageFromPattern } from "dotpose";
-import type { Reading } from "../engine/messages.js";
-import { arrow, kInk, kSymbolInk, kSymbolStep, surfaceOf, type Surface } from "./surface.js";
+import { arrow, kInk, kSymbolInk, surfaceOf, type Surface } from "./surface.js";
 
 /** The layers to draw. */
 export interface Layers {
@@ -12,51 +10,74 @@ export interface Layers {
     grid?: boolean;
     /** Draws the symbols of the code in view, as dots of four colours. */
     symbols?: boolean;
-    /** Draws arrows from the image centre along the x and y axes of the paper. */
+    /** Draws arrows from the reference point along the x and y axes of the paper. */
     pose?: boolean;
 }
 
-type Pixel = [number, number];
+export type Pixel = readonly [number, number];
 
-/** Displacement of a dot from its intersection, in spacings. */
-const kDisplacement = 1 / 6;
+/** The axes of the paper in a frame. */
+export interface Axes {
+    /** The reference point of the pose. */
+    at: Pixel;
+    /** Directions of the axes, of length 1. */
+    x: Pixel;
+    y: Pixel;
+}
+
+/** Shapes over a frame, in px from the upper left corner of the frame. */
+export interface FrameOverlay {
+    /** Centres of the detected dots: u and v alternately. */
+    dots: ArrayLike<number>;
+    /** Lines of the grid: u and v of the points of each line alternately. */
+    grid: readonly ArrayLike<number>[];
+    /** Spacing of the grid, or 0 if there is no grid. */
+    spacing_px: number;
+    /** Centres of the dots of the code in view, with their symbols. */
+    symbols: readonly { at: Pixel; symbol: number }[];
+    /** Null without a pose. */
+    axes: Axes | null;
+}
+
+export interface DrawnFrame {
+    picture: CanvasImageSource;
+    /** Size of the frame. The picture may have another resolution. */
+    width_px: number;
+    height_px: number;
+    overlay: FrameOverlay;
+}
 
 class FrameView {
     readonly scale: number;
     constructor(
         readonly surface: Surface,
-        readonly reading: Reading,
+        readonly frame: DrawnFrame,
     ) {
-        this.scale = surface.width / reading.width_px;
+        this.scale = surface.width / frame.width_px;
     }
 
-    /** Returns the canvas point of an image point. (0, 0) is the centre of the first pixel. */
-    at(u_px: number, v_px: number): Pixel {
-        return [(u_px + 0.5) * this.scale, (v_px + 0.5) * this.scale];
-    }
-
-    /** Returns the canvas point of a pattern point, given in spacings. */
-    atCell(x: number, y: number): Pixel {
-        const { fix } = this.reading;
-        const { u_px, v_px } = imageFromPattern(fix, x * fix.spacing_mm, y * fix.spacing_mm);
-        return this.at(u_px, v_px);
+    get overlay(): FrameOverlay {
+        return this.frame.overlay;
     }
 
     get spacing(): number {
-        return this.reading.fix.spacing_px * this.scale;
+        return this.overlay.spacing_px * this.scale;
+    }
+
+    at([u_px, v_px]: Pixel): [number, number] {
+        return [u_px * this.scale, v_px * this.scale];
     }
 }
 
 function drawFound(view: FrameView): void {
-    const { dots, ok, spacing_px } = view.reading.fix;
-    if (dots === null) return;
+    const { dots, spacing_px } = view.overlay;
     const { context } = view.surface;
-    const radius = Math.max(2, (ok ? 0.26 * spacing_px : 2.5) * view.scale);
+    const radius = Math.max(2, (spacing_px > 0 ? 0.26 * spacing_px : 2.5) * view.scale);
     context.strokeStyle = kInk.found;
     context.lineWidth = Math.max(1, 0.12 * radius);
     context.beginPath();
     for (let i = 0; i + 1 < dots.length; i += 2) {
-        const [x, y] = view.at(dots[i]!, dots[i + 1]!);
+        const [x, y] = view.at([dots[i]!, dots[i + 1]!]);
         context.moveTo(x + radius, y);
         context.arc(x, y, radius, 0, 2 * Math.PI);
     }
@@ -64,40 +85,29 @@ function drawFound(view: FrameView): void {
 }
 
 function drawGrid(view: FrameView): void {
-    const { cells } = view.reading;
-    if (cells === null) return;
     const { context } = view.surface;
-    const { first, columns, rows } = cells;
     context.strokeStyle = kInk.grid;
     context.lineWidth = Math.max(0.75, 0.05 * view.spacing);
     context.beginPath();
-    for (let i = 0; i < columns; ++i) {
-        context.moveTo(...view.atCell(first.x + i, first.y));
-        context.lineTo(...view.atCell(first.x + i, first.y + rows - 1));
-    }
-    for (let j = 0; j < rows; ++j) {
-        context.moveTo(...view.atCell(first.x, first.y + j));
-        context.lineTo(...view.atCell(first.x + columns - 1, first.y + j));
-    }
+    for (const line of view.overlay.grid)
+        for (let i = 0; i + 1 < line.length; i += 2) {
+            const point = view.at([line[i]!, line[i + 1]!]);
+            if (i === 0) context.moveTo(...point);
+            else context.lineTo(...point);
+        }
     context.stroke();
 }
 
 function drawSymbols(view: FrameView): void {
-    const { cells } = view.reading;
-    if (cells === null) return;
     const { context, width, height } = view.surface;
-    const { first, columns, symbols } = cells;
     const radius = 0.22 * view.spacing;
     const paths = kSymbolInk.map(() => new Path2D());
-    symbols.forEach((symbol, n) => {
-        const [dx, dy] = kSymbolStep[symbol]!;
-        const i = first.x + (n % columns) + dx * kDisplacement;
-        const j = first.y + Math.floor(n / columns) + dy * kDisplacement;
-        const [x, y] = view.atCell(i, j);
-        if (x < -radius || y < -radius || x > width + radius || y > height + radius) return;
+    for (const { at, symbol } of view.overlay.symbols) {
+        const [x, y] = view.at(at);
+        if (x < -radius || y < -radius || x > width + radius || y > height + radius) continue;
         paths[symbol]!.moveTo(x + radius, y);
         paths[symbol]!.arc(x, y, radius, 0, 2 * Math.PI);
-    });
+    }
     paths.forEach((path, symbol) => {
         context.fillStyle = kSymbolInk[symbol]!;
         context.fill(path);
@@ -105,35 +115,33 @@ function drawSymbols(view: FrameView): void {
 }
 
 function drawPose(view: FrameView): void {
-    const { fix, width_px, height_px } = view.reading;
-    if (!fix.ok) return;
+    const { axes } = view.overlay;
+    if (axes === null) return;
     const { context, width } = view.surface;
-    const x = fix.x_mm / fix.spacing_mm;
-    const y = fix.y_mm / fix.spacing_mm;
-    const centre = view.at((width_px - 1) / 2, (height_px - 1) / 2);
-    const reach = Math.max(2.5, (0.12 * width) / view.spacing);
+    const centre = view.at(axes.at);
+    const reach = Math.max(2.5 * view.spacing, 0.12 * width);
     const line = Math.max(2, width / 220);
     context.lineCap = "round";
     context.lineJoin = "round";
-    const axes = [
-        [kInk.x, view.atCell(x + reach, y), "x"],
-        [kInk.y, view.atCell(x, y + reach), "y"],
-    ] as const;
-    for (const [ink, end, name] of axes) {
+    for (const [ink, [du, dv], name] of [
+        [kInk.x, axes.x, "x"],
+        [kInk.y, axes.y, "y"],
+    ] as const) {
+        const along = (distance: number): [number, number] => [centre[0] + distance * du, centre[1] + distance * dv];
         for (const [style, thick] of [[kInk.halo, line + 2.5], [ink, line]] as const) {
             context.strokeStyle = style;
             context.lineWidth = thick;
-            arrow(context, centre, end, 4 * line);
+            arrow(context, centre, along(reach), 4 * line);
         }
         context.font = `700 ${Math.max(13, 5.5 * line)}px system-ui, sans-serif`;
         context.textAlign = "center";
         context.textBaseline = "middle";
-        const out = (k: 0 | 1) => end[k] + (5 * line * (end[k] - centre[k])) / Math.hypot(end[0] - centre[0], end[1] - centre[1]);
+        const label = along(reach + 5 * line);
         context.lineWidth = 4;
         context.strokeStyle = kInk.halo;
-        context.strokeText(name, out(0), out(1));
+        context.strokeText(name, ...label);
         context.fillStyle = "#fff";
-        context.fillText(name, out(0), out(1));
+        context.fillText(name, ...label);
     }
     context.beginPath();
     context.arc(...centre, 2 * line, 0, 2 * Math.PI);
@@ -144,14 +152,14 @@ function drawPose(view: FrameView): void {
     context.stroke();
 }
 
-/** Draws a reading. Sets the aspect ratio of the canvas to the aspect ratio of the frame. */
-export function drawFrame(canvas: HTMLCanvasElement, reading: Reading, layers: Layers): void {
-    const surface = surfaceOf(canvas, reading.width_px / reading.height_px);
-    const view = new FrameView(surface, reading);
+/** Draws a frame. Sets the aspect ratio of the canvas to the aspect ratio of the frame. */
+export function drawFrame(canvas: HTMLCanvasElement, frame: DrawnFrame, layers: Layers): void {
+    const surface = surfaceOf(canvas, frame.width_px / frame.height_px);
+    const view = new FrameView(surface, frame);
     const { context, width, height } = surface;
     context.imageSmoothingEnabled = view.scale < 1;
     context.globalAlpha = layers.frame ?? 1;
-    context.drawImage(reading.picture, 0, 0, width, height);
+    context.drawImage(frame.picture, 0, 0, width, height);
     context.globalAlpha = 1;
     if (layers.grid) drawGrid(view);
     if (layers.symbols) drawSymbols(view);

@@ -1,115 +1,150 @@
-// Draws the sheet from above, with the path of the camera and its field of view.
-import { patternFromImage, type Fix } from "dotpose";
+// Draws sheets from above, with the path of the camera and its field of view.
 import type { SheetLayout } from "../engine/messages.js";
-import { pageFromPattern, type Point_mm } from "../page/sheet_frame.js";
-import { surfaceOf, themed } from "./surface.js";
+import { kSpacing_mm, type Point_mm } from "../page/sheet_frame.js";
+import { arrow, surfaceOf, themed } from "./surface.js";
 
-/** Contents of the map, in mm on the page, or in the pattern if the sheet is unknown. */
-export interface MapContent {
-    sheet: SheetLayout | null;
-    path: readonly Point_mm[];
-    now: Point_mm | null;
-    /** Corners of the camera's field of view. */
-    view: readonly Point_mm[];
+/** A page on the map. */
+export interface Paper {
+    name: string;
+    corners: readonly Point_mm[];
+    /** Layout of the dots, which are drawn if it is given. */
+    layout?: SheetLayout;
 }
 
+/** Contents of the map, in mm on a page, in the pattern or in the world. */
+export interface MapContent {
+    papers: readonly Paper[];
+    /** Parts of the path. */
+    strokes: readonly (readonly Point_mm[])[];
+    now: Point_mm | null;
+    /** Direction of the x axis of the camera, from +x towards +y; null if it is not drawn. */
+    heading_rad: number | null;
+    /** Corners of the camera's field of view. */
+    view: readonly Point_mm[];
+    /** True if y points up, as in the world. */
+    y_up: boolean;
+}
+
+/** Maps points to the canvas: scale in px per mm, and the point at the upper left corner. */
 export interface MapFrame {
     scale: number;
     left_mm: number;
     top_mm: number;
 }
 
-/** Returns the corners of the field of view in pattern coordinates. */
-export function cornersOf(fix: Fix, width_px: number, height_px: number): Point_mm[] {
-    return [
-        [0, 0],
-        [width_px - 1, 0],
-        [width_px - 1, height_px - 1],
-        [0, height_px - 1],
-    ].map(([u, v]) => patternFromImage(fix, u!, v!));
-}
-
-/**
- * Converts points of the pattern to points of the page. Returns them unchanged if the sheet is
- * unknown.
- */
-export function onPage(sheet: SheetLayout | null, points: readonly Point_mm[]): Point_mm[] {
-    return points.map((point) => (sheet ? pageFromPattern(sheet, point) : point));
+/** Returns the page of a layout, in coordinates of the page. */
+export function paperOf(layout: SheetLayout): Paper {
+    const { width_mm: x_mm, height_mm: y_mm } = layout;
+    return { name: "", corners: [{ x_mm: 0, y_mm: 0 }, { x_mm, y_mm: 0 }, { x_mm, y_mm }, { x_mm: 0, y_mm }], layout };
 }
 
 function frameOf(content: MapContent, width: number, height: number): MapFrame {
     const kMargin = 10;
-    let [left, top, right, bottom] = [0, 0, content.sheet?.width_mm ?? 0, content.sheet?.height_mm ?? 0];
-    if (content.sheet === null) {
-        const points = [...content.path, ...content.view];
-        [left, right] = [Math.min(...points.map((p) => p.x_mm)), Math.max(...points.map((p) => p.x_mm))];
-        [top, bottom] = [Math.min(...points.map((p) => p.y_mm)), Math.max(...points.map((p) => p.y_mm))];
-    }
-    const scale = Math.min((width - 2 * kMargin) / Math.max(right - left, 1), (height - 2 * kMargin) / Math.max(bottom - top, 1));
+    const corners = content.papers.flatMap((paper) => paper.corners);
+    const points = corners.length > 0 ? corners : [...content.strokes.flat(), ...content.view, ...(content.now ? [content.now] : [])];
+    const side = (value: (point: Point_mm) => number, pick: "min" | "max") =>
+        points.reduce((best, point) => Math[pick](best, value(point)), value(points[0]!));
+    const [left, right] = [side((p) => p.x_mm, "min"), side((p) => p.x_mm, "max")];
+    const [low, high] = [side((p) => p.y_mm, "min"), side((p) => p.y_mm, "max")];
+    const scale = Math.min((width - 2 * kMargin) / Math.max(right - left, 1), (height - 2 * kMargin) / Math.max(high - low, 1));
+    const middle = (low + high) / 2;
     return {
         scale,
         left_mm: (left + right) / 2 - width / 2 / scale,
-        top_mm: (top + bottom) / 2 - height / 2 / scale,
+        top_mm: content.y_up ? middle + height / 2 / scale : middle - height / 2 / scale,
     };
 }
 
-function drawPaper(context: CanvasRenderingContext2D, sheet: SheetLayout, at: (p: Point_mm) => [number, number]): void {
-    const [x, y] = at({ x_mm: 0, y_mm: 0 });
-    const [right, bottom] = at({ x_mm: sheet.width_mm, y_mm: sheet.height_mm });
+type ToCanvas = (point: Point_mm) => [number, number];
+
+function trace(context: CanvasRenderingContext2D, points: readonly Point_mm[], at: ToCanvas): void {
+    points.forEach((point, i) => (i === 0 ? context.moveTo(...at(point)) : context.lineTo(...at(point))));
+}
+
+/** Draws only every tenth dot of every tenth row. */
+function drawDots(context: CanvasRenderingContext2D, sheet: SheetLayout, at: ToCanvas): void {
+    context.fillStyle = themed("--paper-dots");
+    const kStep = 10;
+    for (let row = 0; row < sheet.rows; row += kStep)
+        for (let column = 0; column < sheet.columns; column += kStep) {
+            const x_mm = sheet.first_x_mm + column * kSpacing_mm;
+            const [u, v] = at({ x_mm, y_mm: sheet.first_y_mm + row * kSpacing_mm });
+            context.fillRect(u - 0.5, v - 0.5, 1, 1);
+        }
+}
+
+function drawPaper(context: CanvasRenderingContext2D, paper: Paper, at: ToCanvas): void {
     context.save();
     context.shadowColor = "rgba(0, 0, 0, 0.25)";
     context.shadowBlur = 12;
     context.shadowOffsetY = 3;
     context.fillStyle = themed("--paper");
-    context.fillRect(x, y, right - x, bottom - y);
+    context.beginPath();
+    trace(context, paper.corners, at);
+    context.closePath();
+    context.fill();
     context.restore();
-    // Draws only every tenth dot of every tenth row.
-    context.fillStyle = themed("--paper-dots");
-    const step = 10 * 0.508;
-    for (let y_mm = sheet.first_y_mm; y_mm < sheet.height_mm - sheet.margin_mm; y_mm += step)
-        for (let x_mm = sheet.first_x_mm; x_mm < sheet.width_mm - sheet.margin_mm; x_mm += step) {
-            const [u, v] = at({ x_mm, y_mm });
-            context.fillRect(u - 0.5, v - 0.5, 1, 1);
-        }
+    if (paper.layout) drawDots(context, paper.layout, at);
+    if (paper.name === "") return;
+    const middle = paper.corners.map(at).reduce(([u, v], [x, y]) => [u + x / 4, v + y / 4], [0, 0]);
+    context.fillStyle = themed("--soft");
+    context.font = "600 13px system-ui, sans-serif";
+    context.textAlign = "center";
+    context.textBaseline = "middle";
+    context.fillText(paper.name, ...(middle as [number, number]));
+}
+
+function drawStrokes(context: CanvasRenderingContext2D, strokes: MapContent["strokes"], at: ToCanvas): void {
+    context.strokeStyle = themed("--accent");
+    context.globalAlpha = 0.65;
+    context.lineWidth = 2;
+    context.beginPath();
+    for (const stroke of strokes) trace(context, stroke, at);
+    context.stroke();
+    context.globalAlpha = 1;
+}
+
+function drawNow(context: CanvasRenderingContext2D, [x, y]: [number, number], angle: number | null): void {
+    context.fillStyle = themed("--strong");
+    context.strokeStyle = themed("--strong");
+    if (angle !== null) {
+        const kReach = 22;
+        context.lineWidth = 2.5;
+        arrow(context, [x, y], [x + kReach * Math.cos(angle), y + kReach * Math.sin(angle)], 7);
+    }
+    context.strokeStyle = themed("--paper");
+    context.lineWidth = 2;
+    context.beginPath();
+    context.arc(x, y, 5, 0, 2 * Math.PI);
+    context.fill();
+    context.stroke();
 }
 
 /** Draws the map. Returns its layout, or null if there is nothing to show. */
 export function drawMap(canvas: HTMLCanvasElement, content: MapContent): MapFrame | null {
     const { context, width, height } = surfaceOf(canvas);
-    if (content.sheet === null && content.path.length === 0) return null;
+    if (content.papers.length === 0 && content.now === null && content.strokes.flat().length === 0) return null;
     const frame = frameOf(content, width, height);
-    const at = ({ x_mm, y_mm }: Point_mm): [number, number] => [
+    const sign = content.y_up ? -1 : 1;
+    const at: ToCanvas = ({ x_mm, y_mm }) => [
         (x_mm - frame.left_mm) * frame.scale,
-        (y_mm - frame.top_mm) * frame.scale,
+        sign * (y_mm - frame.top_mm) * frame.scale,
     ];
-    if (content.sheet) drawPaper(context, content.sheet, at);
+    for (const paper of content.papers) drawPaper(context, paper, at);
     context.lineJoin = "round";
     context.lineCap = "round";
-    if (content.path.length > 1) {
-        context.strokeStyle = themed("--accent");
-        context.globalAlpha = 0.65;
-        context.lineWidth = 2;
-        context.beginPath();
-        content.path.forEach((point, i) => (i === 0 ? context.moveTo(...at(point)) : context.lineTo(...at(point))));
-        context.stroke();
-        context.globalAlpha = 1;
-    }
+    drawStrokes(context, content.strokes, at);
     if (content.view.length > 0) {
         context.strokeStyle = themed("--strong");
         context.lineWidth = 1.5;
         context.beginPath();
-        content.view.forEach((point, i) => (i === 0 ? context.moveTo(...at(point)) : context.lineTo(...at(point))));
+        trace(context, content.view, at);
         context.closePath();
         context.stroke();
     }
     if (content.now) {
-        context.fillStyle = themed("--strong");
-        context.strokeStyle = themed("--paper");
-        context.lineWidth = 2;
-        context.beginPath();
-        context.arc(...at(content.now), 5, 0, 2 * Math.PI);
-        context.fill();
-        context.stroke();
+        const heading = content.heading_rad === null ? null : sign * content.heading_rad;
+        drawNow(context, at(content.now), heading);
     }
     return frame;
 }

@@ -32,10 +32,13 @@ export interface Surface {
 
 /**
  * Sets the resolution of the canvas to the resolution of the screen. If `aspect` is given, also
- * sets the height of the canvas.
+ * sets the height of the canvas, and `--aspect` for the style sheet.
  */
 export function surfaceOf(canvas: HTMLCanvasElement, aspect?: number): Surface {
-    if (aspect !== undefined) canvas.style.aspectRatio = String(aspect);
+    if (aspect !== undefined) {
+        canvas.style.aspectRatio = String(aspect);
+        canvas.style.setProperty("--aspect", String(aspect));
+    }
     const scale = window.devicePixelRatio || 1;
     const width = canvas.clientWidth;
     const height = canvas.clientHeight;

@@ -1,11 +1,11 @@
 // Symbols of the code in view. A block of symbols around the view is cached, so small motions of
 // the camera need no new symbols.
 import { patternBits, patternFromImage, type Cell, type Code, type Fix } from "dotpose";
+import { kPositions } from "../page/sheet_frame.js";
 import type { CellsInView } from "./messages.js";
 
 const kAround = 64;
 const kMaxCells = 20_000;
-const kPositions = 410_815_348;
 
 interface Block extends CellsInView {
     key: string;

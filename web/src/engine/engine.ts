@@ -1,9 +1,9 @@
 // Interface between the page and the worker, with one function per request.
-import type { Code } from "dotpose";
 import type {
     Answer,
     LumaPath,
     Reading,
+    ReadOptions,
     Request,
     SheetChoice,
     SheetLayout,
@@ -45,21 +45,21 @@ export class Engine {
     symbols(sheet: SheetLayout): Promise<Uint8Array> {
         return this.#ask({ kind: "symbols", sheet });
     }
-    simulate(sheet: SheetChoice, view: SimulatedView): Promise<Reading> {
-        return this.#ask({ kind: "simulate", sheet, view });
+    simulate(sheet: SheetChoice, view: SimulatedView, options: ReadOptions): Promise<Reading> {
+        return this.#ask({ kind: "simulate", sheet, view, options });
     }
     /** Reads a picture. The picture is transferred to the worker and returned in the reading. */
-    read(picture: ImageBitmap, code: Code | "auto", time_s: number): Promise<Reading> {
-        return this.#ask({ kind: "picture", picture, code, time_s }, [picture]);
+    read(picture: ImageBitmap, options: ReadOptions, time_s: number): Promise<Reading> {
+        return this.#ask({ kind: "picture", picture, options, time_s }, [picture]);
     }
 
     /** Starts reading frames from a stream, or from a track if `takesTracks` is true. */
-    follow(source: ReadableStream<VideoFrame> | MediaStreamTrack, code: Code | "auto", events: StreamEvents): void {
+    follow(source: ReadableStream<VideoFrame> | MediaStreamTrack, options: ReadOptions, events: StreamEvents): void {
         this.#events = events;
         if (source instanceof ReadableStream) {
-            this.#tell({ kind: "stream", frames: source, code }, [source]);
+            this.#tell({ kind: "stream", frames: source, options }, [source]);
         } else {
-            this.#tell({ kind: "track", track: source, code }, [source as unknown as Transferable]);
+            this.#tell({ kind: "track", track: source, options }, [source as unknown as Transferable]);
         }
     }
     /** Requests the next frame of the stream. */

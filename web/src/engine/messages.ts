@@ -1,19 +1,26 @@
 // Messages between the page and the worker. They are plain data that can be posted.
-import type { Cell, Code, Fix, Section } from "dotpose";
+import type { Cell, Code, Fix, LocatorOptions, Section } from "dotpose";
+
+/** Options of the locator that the page sets. */
+export type ReadOptions = Pick<LocatorOptions, "code" | "sheets" | "only_sheets">;
 
 /** Part of the code that is printed on a page, and the size of the page. */
-export interface SheetChoice {
+export interface Sheet {
     code: Code;
     section: Section;
     /** Cell of the first dot. */
     origin: Cell;
     width_mm: number;
     height_mm: number;
+}
+
+/** A sheet to be laid out. */
+export interface SheetChoice extends Sheet {
     margin_mm: number;
 }
 
 /** Layout of a sheet. */
-export interface SheetLayout extends SheetChoice {
+export interface SheetLayout extends Sheet {
     columns: number;
     rows: number;
     /** Position of the intersection of the first dot, from the upper left corner of the page. */
@@ -80,10 +87,10 @@ export type LumaPath = "processor" | "canvas";
 export type Request =
     | { kind: "layout"; id: number; sheet: SheetChoice }
     | { kind: "symbols"; id: number; sheet: SheetLayout }
-    | { kind: "simulate"; id: number; sheet: SheetChoice; view: SimulatedView }
-    | { kind: "picture"; id: number; picture: ImageBitmap; time_s: number; code: Code | "auto" }
-    | { kind: "stream"; frames: ReadableStream<VideoFrame>; code: Code | "auto" }
-    | { kind: "track"; track: MediaStreamTrack; code: Code | "auto" }
+    | { kind: "simulate"; id: number; sheet: SheetChoice; view: SimulatedView; options: ReadOptions }
+    | { kind: "picture"; id: number; picture: ImageBitmap; time_s: number; options: ReadOptions }
+    | { kind: "stream"; frames: ReadableStream<VideoFrame>; options: ReadOptions }
+    | { kind: "track"; track: MediaStreamTrack; options: ReadOptions }
     | { kind: "next" }
     | { kind: "stop" };
 

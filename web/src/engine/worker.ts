@@ -1,37 +1,38 @@
 // The worker runs the locator, the simulated camera and the loop over camera frames, which keeps
 // the page responsive.
-import { Locator, patternBits, type Code, type Fix, type Image } from "dotpose";
+import { Locator, patternBits, type Fix, type Image } from "dotpose";
 import { cellsInView } from "./cells.js";
 import { lumaByCanvas, lumaOfFrame } from "./luma.js";
 import { measureQuality } from "./quality.js";
 import { layoutOf, render } from "./simulator.js";
-import type { Answer, LumaPath, Reading, Request, SheetLayout } from "./messages.js";
+import type { Answer, LumaPath, Reading, ReadOptions, Request, SheetLayout } from "./messages.js";
 
 const port = self as unknown as {
     postMessage(message: Answer, transfer?: Transferable[]): void;
     onmessage: ((event: MessageEvent<Request>) => void) | null;
 };
 
-/** Locators, keyed by code. */
-const locators = new Map<string, Promise<Locator>>();
+/** The locator of the newest reading. Its options are the key. */
+let current: { key: string; locator: Promise<Locator> } | undefined;
 let previous: Fix | null = null;
 
-function locatorOf(code: Code | "auto"): Promise<Locator> {
-    let locator = locators.get(code);
-    if (locator === undefined) {
-        locator = Locator.create({ code, dots: true });
-        locators.set(code, locator);
+/** Returns a locator with the given options. Creates another one if the options have changed. */
+function locatorWith(options: ReadOptions): Promise<Locator> {
+    const key = JSON.stringify(options);
+    if (current?.key !== key) {
+        current = { key, locator: Locator.create({ ...options, dots: true }) };
+        previous = null;
     }
-    return locator;
+    return current.locator;
 }
 
 async function read(
     image: Image,
     picture: ImageBitmap,
-    code: Code | "auto",
+    options: ReadOptions,
     time_s: number,
 ): Promise<Reading> {
-    const locator = await locatorOf(code);
+    const locator = await locatorWith(options);
     const begin = performance.now();
     const fix = locator.locate(image, { prediction: previous });
     const locate_ms = performance.now() - begin;
@@ -58,7 +59,7 @@ class Stream {
 
     constructor(
         frames: ReadableStream<VideoFrame>,
-        private readonly code: Code | "auto",
+        private readonly options: ReadOptions,
     ) {
         this.#reader = frames.getReader();
     }
@@ -88,7 +89,7 @@ class Stream {
         try {
             const { image, path } = await lumaOfFrame(frame);
             const picture = await createImageBitmap(frame);
-            return { reading: await read(image, picture, this.code, frame.timestamp / 1e6), path };
+            return { reading: await read(image, picture, this.options, frame.timestamp / 1e6), path };
         } finally {
             frame.close();
         }
@@ -97,10 +98,10 @@ class Stream {
 
 let stream: Stream | undefined;
 
-function startStream(frames: ReadableStream<VideoFrame>, code: Code | "auto"): void {
+function startStream(frames: ReadableStream<VideoFrame>, options: ReadOptions): void {
     stream?.stop();
     previous = null;
-    stream = new Stream(frames, code);
+    stream = new Stream(frames, options);
     stream.run().catch((error: unknown) => port.postMessage({ kind: "ended", message: String(error) }));
 }
 
@@ -121,13 +122,13 @@ async function answer(request: Asked): Promise<[value: unknown, transfer: Transf
         }
         case "simulate": {
             const image = await render(request.sheet, request.view);
-            const reading = await read(image, await greyPicture(image), request.sheet.code, 0);
+            const reading = await read(image, await greyPicture(image), request.options, 0);
             return [reading, [reading.picture]];
         }
         case "picture": {
-            const { picture, code, time_s } = request;
+            const { picture, options, time_s } = request;
             const image = lumaByCanvas(picture, picture.width, picture.height);
-            const reading = await read(image, picture, code, time_s);
+            const reading = await read(image, picture, options, time_s);
             return [reading, [picture]];
         }
     }
@@ -149,9 +150,9 @@ const { MediaStreamTrackProcessor: Processor } = self as { MediaStreamTrackProce
 port.onmessage = ({ data: request }) => {
     switch (request.kind) {
         case "stream":
-            return startStream(request.frames, request.code);
+            return startStream(request.frames, request.options);
         case "track":
-            return startStream(new Processor!({ track: request.track }).readable, request.code);
+            return startStream(new Processor!({ track: request.track }).readable, request.options);
         case "next":
             return stream?.next();
         case "stop":

@@ -1,6 +1,6 @@
 // Passes frames from the camera of the phone or computer to the worker.
-import type { Code } from "dotpose";
 import type { Engine, StreamEvents } from "../engine/engine.js";
+import type { ReadOptions } from "../engine/messages.js";
 
 type Processor = new (init: { track: MediaStreamTrack }) => { readable: ReadableStream<VideoFrame> };
 
@@ -39,7 +39,7 @@ class VideoLoop {
     constructor(
         private readonly engine: Engine,
         private readonly video: HTMLVideoElement,
-        private readonly code: Code | "auto",
+        private readonly options: ReadOptions,
         private readonly events: StreamEvents,
     ) {}
 
@@ -57,7 +57,7 @@ class VideoLoop {
             const time_s = await this.#nextFrame();
             if (this.#is_stopped) return;
             const picture = await createImageBitmap(this.video);
-            const reading = await this.engine.read(picture, this.code, time_s);
+            const reading = await this.engine.read(picture, this.options, time_s);
             const drawn = new Promise<void>((resolve) => (this.#resume = resolve));
             this.events.onFrame(reading, "canvas");
             await drawn;
@@ -83,17 +83,17 @@ export class CameraFrames {
         private readonly stream: MediaStream,
     ) {}
 
-    start(video: HTMLVideoElement, code: Code | "auto", events: StreamEvents): void {
+    start(video: HTMLVideoElement, options: ReadOptions, events: StreamEvents): void {
         const track = this.stream.getVideoTracks()[0]!;
         track.addEventListener("ended", () => events.onEnd("The camera stopped."));
         const { MediaStreamTrackProcessor: Processor } = self as { MediaStreamTrackProcessor?: Processor };
         if (kForced !== "canvas" && Processor !== undefined) {
-            this.engine.follow(new Processor({ track }).readable, code, events);
+            this.engine.follow(new Processor({ track }).readable, options, events);
         } else if (kForced !== "canvas" && this.engine.takesTracks) {
-            this.engine.follow(track.clone(), code, events);
+            this.engine.follow(track.clone(), options, events);
         } else {
             video.srcObject = this.stream;
-            this.#loop = new VideoLoop(this.engine, video, code, events);
+            this.#loop = new VideoLoop(this.engine, video, options, events);
             this.#loop.run().catch((error: unknown) => events.onEnd(String(error)));
         }
     }

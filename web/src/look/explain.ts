@@ -2,6 +2,7 @@
 import { drawFrame, type Layers } from "../draw/frame.js";
 import { kSymbolInk } from "../draw/surface.js";
 import type { Reading } from "../engine/messages.js";
+import { drawnFrame } from "../engine/overlay.js";
 import { element, make } from "../page/dom.js";
 import { degrees, length, milliseconds, mm, oneIn } from "../page/format.js";
 
@@ -54,7 +55,7 @@ const kSteps: readonly Step[] = [
     {
         title: "The place",
         text: ({ fix }) => [
-            `The bits of each line occur at only one place of the code: column ${fix.cell.x.toLocaleString("en")}, row ${fix.cell.y.toLocaleString("en")}, section ${fix.section.u}, ${fix.section.v}. ${fix.bit_errors} of ${2 * fix.dots_used} bits contradict this place. The chance that it is wrong is at most ${oneIn(fix.p_wrong)}.`,
+            `The bits ${fix.prior === "plane" ? "of each line occur at only one place of the code" : "agree with only one place on the known sheets"}: column ${fix.cell.x.toLocaleString("en")}, row ${fix.cell.y.toLocaleString("en")}, section ${fix.section.u}, ${fix.section.v}. ${fix.bit_errors} of ${2 * fix.dots_used} bits contradict this place. The chance that it is wrong is at most ${oneIn(fix.p_wrong)}.`,
         ],
         layers: { frame: 0.12, grid: true, symbols: true, pose: true },
         reached: isRead,
@@ -86,7 +87,8 @@ export function explain(reading: Reading): void {
         items.push(make("li", {}, make("h3", {}, "The search failed here"), make("p", {}, `No position: ${reading.fix.message}.`)));
     element("explain-steps", HTMLElement).replaceChildren(...items);
     dialog.showModal();
-    const draw = () => reached.forEach(({ layers }, i) => drawFrame(canvases[i]!, reading, layers));
+    const frame = drawnFrame(reading);
+    const draw = () => reached.forEach(({ layers }, i) => drawFrame(canvases[i]!, frame, layers));
     draw();
     addEventListener("resize", draw);
     const done = () => removeEventListener("resize", draw);

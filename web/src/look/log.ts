@@ -2,15 +2,22 @@
 // `dotpose replay` can read the log. The page has no tracker, so the track is the fix, and the
 // velocity is computed from the difference to the previous fix.
 import type { Reading } from "../engine/messages.js";
+import { pageFromPattern } from "../page/sheet_frame.js";
+import type { KnownSheet } from "../print/known_sheets.js";
 
 const kDegrees = 180 / Math.PI;
 
 interface Frame {
     reading: Reading;
     number: number;
+    /** The known sheet of the fix, or null. */
+    sheet: KnownSheet | null;
     /** The previous frame, or undefined for the first frame. */
     before: Reading | undefined;
 }
+
+/** Returns a text as a field of a CSV file. */
+const withoutCommas = (text: string) => text.replaceAll(/[,"\s]+/g, (match) => (match.includes(",") ? "; " : " "));
 
 type Column = readonly [name: string, value: (frame: Frame) => string | number, always?: true];
 
@@ -38,6 +45,7 @@ function speed(frame: Frame, of: (reading: Reading) => number, turns = false): s
 
 const x_mm = ({ fix }: Reading) => fix.x_mm;
 const y_mm = ({ fix }: Reading) => fix.y_mm;
+const onSheet = ({ sheet, reading }: Frame) => (sheet ? pageFromPattern(sheet.layout, reading.fix) : null);
 const theta_deg = ({ fix }: Reading) => fix.theta_rad * kDegrees;
 
 /** Columns of a line. For frames without a fix, only the columns with `always` have values. */
@@ -46,7 +54,7 @@ const kColumns: readonly Column[] = [
     ["frame", ({ number }) => number, true],
     ["t_s", ({ reading }) => reading.time_s.toFixed(6), true],
     ["status", ({ reading }) => reading.fix.status, true],
-    ["message", ({ reading: { fix } }) => (fix.ok ? "" : fix.message.replaceAll(",", ";")), true],
+    ["message", ({ reading: { fix } }) => (fix.ok ? "" : withoutCommas(fix.message)), true],
     ["x_mm", ({ reading }) => x_mm(reading).toFixed(6)],
     ["y_mm", ({ reading }) => y_mm(reading).toFixed(6)],
     ["theta_deg", ({ reading }) => theta_deg(reading).toFixed(6)],
@@ -58,6 +66,7 @@ const kColumns: readonly Column[] = [
     ["surface", ({ reading }) => reading.fix.surface],
     ["bit_errors", ({ reading }) => reading.fix.bit_errors],
     ["p_wrong", ({ reading }) => reading.fix.p_wrong.toExponential(2)],
+    ["prior", ({ reading }) => reading.fix.prior],
     ["sigma_x_mm", (frame) => sigma(frame, 0).toFixed(6)],
     ["sigma_y_mm", (frame) => sigma(frame, 1).toFixed(6)],
     ["sigma_theta_deg", (frame) => (sigma(frame, 2) * kDegrees).toFixed(6)],
@@ -65,6 +74,9 @@ const kColumns: readonly Column[] = [
     ["spacing_px", ({ reading }) => reading.fix.spacing_px.toFixed(4)],
     ["elapsed_us", ({ reading }) => Math.round(1000 * reading.locate_ms), true],
     ["code", ({ reading }) => reading.fix.code],
+    ["sheet", ({ sheet }) => (sheet ? withoutCommas(sheet.name) : "")],
+    ["x_sheet_mm", (frame) => onSheet(frame)?.x_mm.toFixed(6) ?? ""],
+    ["y_sheet_mm", (frame) => onSheet(frame)?.y_mm.toFixed(6) ?? ""],
     ["state", ({ reading }) => (reading.fix.ok ? "moving" : "lost"), true],
     ["events", eventOf, true],
     ["verdict", ({ reading }) => (reading.fix.ok ? "accepted" : "none"), true],
@@ -90,11 +102,14 @@ export class Log {
         return this.#lines.length;
     }
 
-    /** Adds a line. Times are relative to the first line. */
-    add(reading: Reading): void {
+    /**
+     * Adds a line. `sheet` is the known sheet of the fix, or null. Times are relative to the first
+     * line.
+     */
+    add(reading: Reading, sheet: KnownSheet | null): void {
         this.#first_s ??= reading.time_s;
         const timed = { ...reading, time_s: reading.time_s - this.#first_s };
-        const frame = { reading: timed, number: this.#frames++, before: this.#before };
+        const frame = { reading: timed, number: this.#frames++, sheet, before: this.#before };
         this.#before = timed;
         const line = kColumns.map(([, value, always]) => (always || reading.fix.ok ? value(frame) : ""));
         this.#lines.push(line.join(","));

@@ -1,19 +1,22 @@
 // The view "Look": locates the live frames of a camera of this device.
 import type { Code } from "dotpose";
 import { drawFrame } from "../draw/frame.js";
-import { cornersOf, drawMap, onPage } from "../draw/map.js";
+import { drawMap, paperOf } from "../draw/map.js";
 import type { Engine } from "../engine/engine.js";
-import type { LumaPath, Reading, SheetLayout } from "../engine/messages.js";
+import { cornersOf, onPage } from "../engine/field_of_view.js";
+import type { LumaPath, Reading, ReadOptions, SheetLayout } from "../engine/messages.js";
+import { drawnFrame } from "../engine/overlay.js";
 import { announcer, download, element, make, show } from "../page/dom.js";
 import { hintOf } from "../page/hints.js";
-import { isOnSheet, type Point_mm } from "../page/sheet_frame.js";
+import type { Point_mm } from "../page/sheet_frame.js";
 import type { View } from "../page/view.js";
-import { knownSheets, type KnownSheet } from "../print/known_sheets.js";
+import type { KnownSheet } from "../print/known_sheets.js";
 import { CameraFrames, listCameras, openCamera } from "./camera.js";
 import { explain, listenToExplain } from "./explain.js";
 import { Log } from "./log.js";
 import { Rate } from "./rate.js";
 import { showReading } from "./readout.js";
+import { SheetControls } from "./sheet_controls.js";
 
 const kMaxPathPoints = 3000;
 
@@ -29,9 +32,12 @@ export class LookView implements View {
     #camera: CameraFrames | undefined;
     #is_opening = false;
     #is_frozen = false;
+    /** True if the newest reading is of a picture that was opened. */
+    #is_still = false;
     #last: Reading | undefined;
     #path: Point_mm[] = [];
-    #sheets: KnownSheet[] = [];
+    readonly #sheets = new SheetControls(() => this.#readAgain(), (text) => this.#say(text));
+    /** The known sheet of the newest fix. */
     #sheet: KnownSheet | null = null;
 
     constructor(engine: Engine) {
@@ -43,11 +49,7 @@ export class LookView implements View {
             this.#stop();
             void this.#open((event.target as HTMLSelectElement).value);
         });
-        element("look-code", HTMLSelectElement).addEventListener("change", () => {
-            if (!this.#camera) return;
-            this.#stop();
-            void this.#open(element("look-camera", HTMLSelectElement).value);
-        });
+        element("look-code", HTMLSelectElement).addEventListener("change", () => this.#readAgain());
         element("look-file", HTMLInputElement).addEventListener("change", (event) => {
             const input = event.target as HTMLInputElement;
             void this.#readFile(input.files?.[0]);
@@ -60,7 +62,8 @@ export class LookView implements View {
     }
 
     shown(): void {
-        this.#sheets = knownSheets();
+        this.#sheets.refresh();
+        this.#sheet = this.#last ? this.#sheets.under(this.#last.fix) : null;
         this.redraw();
     }
     hidden(): void {
@@ -68,12 +71,13 @@ export class LookView implements View {
     }
     redraw(): void {
         if (!this.#last) return;
-        drawFrame(this.#frame, this.#last, { found: true, grid: true, pose: true });
+        drawFrame(this.#frame, drawnFrame(this.#last), { found: true, grid: true, pose: true });
         this.#drawMap(this.#last);
     }
 
-    get #code(): Code | "auto" {
-        return element("look-code", HTMLSelectElement).value as Code | "auto";
+    get #options(): ReadOptions {
+        const code = element("look-code", HTMLSelectElement).value as Code | "auto";
+        return { code, ...this.#sheets.options };
     }
 
     async #open(device: string): Promise<void> {
@@ -82,9 +86,10 @@ export class LookView implements View {
         try {
             if (!navigator.mediaDevices) throw new Error("cameras need https or localhost");
             const stream = await openCamera(device);
+            this.#is_still = false;
             this.#camera = new CameraFrames(this.#engine, stream);
             this.#rate.restart();
-            this.#camera.start(element("look-video", HTMLVideoElement), this.#code, {
+            this.#camera.start(element("look-video", HTMLVideoElement), this.#options, {
                 onFrame: (reading, path) => this.#take(reading, path),
                 onEnd: (message) => {
                     this.#stop();
@@ -120,10 +125,26 @@ export class LookView implements View {
         if (!file) return;
         this.#stop();
         try {
-            const picture = await createImageBitmap(file);
-            this.#take(await this.#engine.read(picture, this.#code, performance.now() / 1000), null);
+            await this.#readPicture(await createImageBitmap(file));
         } catch {
             this.#say(`This browser cannot read '${file.name}' as a picture.`);
+        }
+    }
+
+    async #readPicture(picture: ImageBitmap): Promise<void> {
+        this.#is_still = true;
+        this.#take(await this.#engine.read(picture, this.#options, performance.now() / 1000), null);
+    }
+
+    /** Reads the camera, or the picture that was opened last, with changed options. */
+    #readAgain(): void {
+        if (this.#camera) {
+            this.#stop();
+            void this.#open(element("look-camera", HTMLSelectElement).value);
+        } else if (this.#last && this.#is_still) {
+            createImageBitmap(this.#last.picture)
+                .then((picture) => this.#readPicture(picture))
+                .catch((error: unknown) => this.#say(String(error)));
         }
     }
 
@@ -140,8 +161,8 @@ export class LookView implements View {
         if (this.#last && this.#last.picture !== reading.picture) this.#last.picture.close();
         this.#last = reading;
         this.#freeze.disabled = false;
-        this.#log.add(reading);
         this.#follow(reading);
+        this.#log.add(reading, this.#sheet);
         this.redraw();
         showReading(reading, this.#sheet);
         this.#showHint(reading);
@@ -162,7 +183,7 @@ export class LookView implements View {
     /** Adds the position to the path. A position on a different sheet starts a new path. */
     #follow({ fix }: Reading): void {
         if (!fix.ok) return;
-        const sheet = this.#sheets.find((known) => isOnSheet(known.layout, fix)) ?? null;
+        const sheet = this.#sheets.under(fix);
         if (sheet?.name !== this.#sheet?.name) this.#path = [];
         this.#sheet = sheet;
         this.#path.push({ x_mm: fix.x_mm, y_mm: fix.y_mm });
@@ -170,7 +191,7 @@ export class LookView implements View {
     }
 
     #showHint(reading: Reading): void {
-        const hint = hintOf(reading);
+        const hint = hintOf(reading, this.#sheets.contextOf(this.#sheet));
         const box = element("look-hint", HTMLElement);
         box.hidden = hint === null;
         box.classList.toggle("good", hint?.good ?? false);
@@ -182,7 +203,14 @@ export class LookView implements View {
         const sheet: SheetLayout | null = this.#sheet?.layout ?? null;
         const path = onPage(sheet, this.#path);
         const view = fix.ok ? onPage(sheet, cornersOf(fix, width_px, height_px)) : [];
-        drawMap(this.#map, { sheet, path, now: fix.ok ? path.at(-1)! : null, view });
+        drawMap(this.#map, {
+            papers: sheet ? [paperOf(sheet)] : [],
+            strokes: [path],
+            now: fix.ok ? path.at(-1)! : null,
+            heading_rad: null,
+            view,
+            y_up: false,
+        });
         show({ "look-map-name": this.#sheet ? `On the sheet “${this.#sheet.name}”` : "The path" });
     }
 

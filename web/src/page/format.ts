@@ -1,4 +1,5 @@
-// Formats numbers for display.
+// Formats numbers and names for display.
+import type { Prior } from "dotpose";
 
 export function mm(value: number, digits = 3): string {
     return `${value.toFixed(digits)} mm`;
@@ -30,6 +31,13 @@ export function oneIn(probability: number): string {
     if (power > 11) return "< 1 in 10¹²";
     return `1 in ${10 ** (power % 3)} ${names[Math.floor(power / 3)]}`.trim();
 }
+
+/** Names the places that counted as possible for the probability of a wrong position. */
+export const kPriorNames: Record<Prior, string> = {
+    plane: "all of the code",
+    sheets: "known sheets",
+    only_sheets: "only known sheets",
+};
 
 export function milliseconds(value_ms: number): string {
     return `${value_ms.toFixed(value_ms < 10 ? 2 : 0)} ms`;

@@ -1,5 +1,13 @@
 // Advice for frames that cannot be located, or are located with low accuracy.
-import type { Reading } from "../engine/messages.js";
+import type { ImageQuality, Reading } from "../engine/messages.js";
+
+/** The known sheets, as they concern a frame. */
+export interface SheetContext {
+    /** True if sheets are known, and the fix is on none of them. */
+    is_on_unknown: boolean;
+    /** True if only the known sheets are possible. */
+    only_sheets: boolean;
+}
 
 export interface Hint {
     text: string;
@@ -22,30 +30,40 @@ const kBlurred = 0.12;
 const kManyDots = 1500;
 const kFewDots = 60;
 
-function hintOfLight({ quality }: Reading): string | null {
+const kBlurredHint = "Sharper: hold still, let the camera focus, or move a little away.";
+
+function hintOfLight(quality: ImageQuality): string | null {
     if (quality.brightness < kDark) return "Brighter: the picture is too dark.";
     if (quality.brightness > kBright) return "Less light: the picture is overexposed.";
     if (quality.contrast < kPale) return "Point the camera at a sheet with dots, in even light.";
     return null;
 }
 
-function hintOfFailure(reading: Reading): string {
-    const light = hintOfLight(reading);
-    if (light !== null) return light;
+/** Returns advice on light and focus, or null if there is nothing to improve. */
+export function hintOfPicture(quality: ImageQuality): string | null {
+    return hintOfLight(quality) ?? (quality.sharpness < kBlurred ? kBlurredHint : null);
+}
+
+function hintOfFailure(reading: Reading, only_sheets: boolean): string {
     const { fix, quality } = reading;
+    const light = hintOfLight(quality);
+    if (light !== null) return light;
     if (fix.status === "mirrored") return "The picture is mirrored: switch off the mirror effect of the camera.";
+    if (only_sheets && (fix.status === "not_in_code" || fix.status === "not_certain"))
+        return "No known sheet has these dots. If this sheet is not in the list, allow other sheets.";
     if (fix.status === "ambiguous_code") return "Two codes explain these dots: choose the sheet's code, or show more dots.";
     if (fix.status === "not_in_code") return "These dots belong to another code: choose the sheet's code.";
-    if (quality.sharpness < kBlurred) return "Sharper: hold still, let the camera focus, or move a little away.";
+    if (quality.sharpness < kBlurred) return kBlurredHint;
     if (fix.dots_seen > kManyDots) return "Closer: the dots are too small.";
     if (fix.dots_seen < kFewDots) return "Further away: too few dots are in view. Or no sheet is in view.";
     return "Closer and straighter: fill the picture with dots, seen from above.";
 }
 
 /** Returns advice for a frame, or null if there is nothing to improve. */
-export function hintOf(reading: Reading): Hint | null {
+export function hintOf(reading: Reading, { is_on_unknown, only_sheets }: SheetContext): Hint | null {
     const { fix } = reading;
-    if (!fix.ok) return { text: `${hintOfFailure(reading)} (${fix.message})`, good: false };
+    if (!fix.ok) return { text: `${hintOfFailure(reading, only_sheets)} (${fix.message})`, good: false };
+    if (is_on_unknown) return { text: "Located, but on no known sheet. Is this the right sheet?", good: false };
     if (fix.surface !== "even") return { text: "Located, but the paper is not flat here.", good: true };
     if (fix.spacing_px < kMinSpacing_px) return { text: "Located. Moving closer increases the accuracy.", good: true };
     if (fix.spacing_px > kMaxSpacing_px) return { text: "Located. Moving away shows more dots.", good: true };

@@ -2,6 +2,9 @@
 // pattern.
 import type { SheetLayout } from "../engine/messages.js";
 
+/** Number of columns and of rows of each section of the code. */
+export const kPositions = 410_815_348;
+
 /** Spacing of the sheets that this page prints and simulates. */
 export const kSpacing_mm = 0.508;
 

@@ -1,5 +1,8 @@
-// Sheets that were printed from this page. They are stored in the browser.
+// Known sheets: those that were printed from this page, and those of the sheet files that were opened.
+// They are stored in the browser.
+import { kCodes, type Fix, type KnownRegion } from "dotpose";
 import type { SheetLayout } from "../engine/messages.js";
+import { isOnSheet, kPositions } from "../page/sheet_frame.js";
 
 export interface KnownSheet {
     name: string;
@@ -7,15 +10,31 @@ export interface KnownSheet {
 }
 
 const kKey = "dotpose-sheets";
+/** The list, if the browser does not allow storage. */
+let unstored: KnownSheet[] | null = null;
+
+/** Returns true for a whole number from `min` to `max`. */
+function isWhole(value: unknown, min: number, max: number): boolean {
+    return Number.isInteger(value) && (value as number) >= min && (value as number) <= max;
+}
 
 function isSheet(value: unknown): value is KnownSheet {
     const { name, layout } = (value ?? {}) as Partial<KnownSheet>;
-    const numbers = [layout?.origin?.x, layout?.origin?.y, layout?.width_mm, layout?.first_x_mm, layout?.columns];
-    return typeof name === "string" && numbers.every((number) => Number.isFinite(number));
+    if (typeof name !== "string" || !layout?.section || !layout.origin) return false;
+    const { code, section, origin, columns, rows, width_mm, height_mm, first_x_mm, first_y_mm } = layout;
+    return (
+        kCodes.includes(code) &&
+        [section.u, section.v].every((roll) => isWhole(roll, 0, 62)) &&
+        [origin.x, origin.y].every((cell) => isWhole(cell, 0, kPositions - 1)) &&
+        isWhole(columns, 1, kPositions - origin.x) &&
+        isWhole(rows, 1, kPositions - origin.y) &&
+        [width_mm, height_mm, first_x_mm, first_y_mm].every((length) => Number.isFinite(length))
+    );
 }
 
 /** Returns the stored sheets. Skips invalid entries. */
 export function knownSheets(): KnownSheet[] {
+    if (unstored !== null) return unstored;
     try {
         const kept: unknown = JSON.parse(localStorage.getItem(kKey) ?? "[]");
         return Array.isArray(kept) ? kept.filter(isSheet) : [];
@@ -27,14 +46,33 @@ export function knownSheets(): KnownSheet[] {
 function keep(sheets: KnownSheet[]): void {
     try {
         localStorage.setItem(kKey, JSON.stringify(sheets));
+        unstored = null;
     } catch {
-        // Storage is not allowed. The sheet can still be printed.
+        unstored = sheets;
     }
 }
 
 /** Stores a sheet. Replaces a sheet with the same name. */
 export function remember(sheet: KnownSheet): void {
     keep([...knownSheets().filter(({ name }) => name !== sheet.name), sheet]);
+}
+
+/**
+ * Stores the sheets of a file. They replace sheets with the same part of the code. Other sheets
+ * with the same name remain, so the sheet of the file gets a name with a number.
+ */
+export function rememberAll(sheets: readonly KnownSheet[]): void {
+    const partOf = ({ layout }: KnownSheet) => JSON.stringify(regionOf(layout));
+    const parts = new Set(sheets.map(partOf));
+    const known = knownSheets().filter((sheet) => !parts.has(partOf(sheet)));
+    const names = new Set(known.map(({ name }) => name));
+    for (const sheet of sheets) {
+        let { name } = sheet;
+        for (let number = 2; names.has(name); ++number) name = `${sheet.name} ${number}`;
+        names.add(name);
+        known.push({ ...sheet, name });
+    }
+    keep(known);
 }
 
 export function forget(forgotten: string): void {
@@ -45,4 +83,15 @@ export function forget(forgotten: string): void {
 export function freshOrigin(): { x: number; y: number } {
     const right = knownSheets().map(({ layout }) => layout.origin.x + layout.columns);
     return { x: Math.max(1000, ...right), y: 2000 };
+}
+
+/** Returns the part of the code that is printed on a sheet. */
+export function regionOf({ code, section, origin, columns, rows }: SheetLayout): KnownRegion {
+    return { code, section, first: origin, columns, rows };
+}
+
+/** Returns the sheet on which a fix is, or null if it is on none of them. */
+export function sheetUnder(fix: Fix, sheets: readonly KnownSheet[]): KnownSheet | null {
+    if (!fix.ok) return null;
+    return sheets.find(({ layout }) => isOnSheet(layout, fix)) ?? null;
 }

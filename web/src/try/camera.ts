@@ -8,16 +8,17 @@ export interface Slider {
     min: number;
     max: number;
     step: number;
-    shown(value: number): string;
+    /** Returns the text of a value. An image pixel is `px` pixels of the scale of the slider. */
+    shown(value: number, px: number): string;
 }
 
 const percent = (value: number) => `${Math.round(100 * value)} %`;
 
 export const kSliders: readonly Slider[] = [
-    { name: "mm_per_px", label: "Height", min: 0.012, max: 0.085, step: 0.001, shown: (v) => `${(0.508 / v).toFixed(1)} px per spacing` },
+    { name: "mm_per_px", label: "Height", min: 0.012, max: 0.085, step: 0.001, shown: (v, px) => `${(0.508 / (v * px)).toFixed(1)} px per spacing` },
     { name: "turn_deg", label: "Turn", min: -180, max: 180, step: 1, shown: (v) => `${Math.round(v)}°` },
     { name: "tilt_deg", label: "Tilt", min: 0, max: 35, step: 0.5, shown: (v) => `${v}°` },
-    { name: "blur_px", label: "Blur", min: 0, max: 3.5, step: 0.1, shown: (v) => `${v.toFixed(1)} px` },
+    { name: "blur_px", label: "Blur", min: 0, max: 3.5, step: 0.1, shown: (v, px) => `${(v / px).toFixed(1)} px` },
     { name: "noise", label: "Noise", min: 0, max: 40, step: 1, shown: (v) => `${v} grey levels` },
     { name: "paper_level", label: "Light", min: 5, max: 250, step: 1, shown: (v) => percent(v / 250) },
     { name: "vignetting", label: "Dark corners", min: 0, max: 0.9, step: 0.05, shown: percent },
@@ -31,22 +32,33 @@ export const kPresets: Record<string, Partial<Conditions>> = {
     hard: { tilt_deg: 4, blur_px: 1, noise: 9, paper_level: 90, vignetting: 0.5 },
 };
 
-/** Image width of the reference camera. Wider images show the same field with more pixels. */
-const kReferenceWidth_px = 188;
+/** An image size of the camera. */
+export interface ImageSize {
+    width_px: number;
+    height_px: number;
+    /**
+     * Width of the field of view, in pixels of the scale of the sliders. Images with more pixels
+     * show the same field in more detail.
+     */
+    field_px: number;
+}
 
 export class SimulatedCamera {
     x_mm = 105;
     y_mm = 148;
-    width_px = 188;
-    height_px = 120;
+    size: ImageSize = { width_px: 188, height_px: 120, field_px: 188 };
     readonly conditions: Conditions = {
         ...{ mm_per_px: 0.046, turn_deg: 20, tilt_deg: 0, blur_px: 0.5 },
         ...{ noise: 3, paper_level: 185, vignetting: 0.15 },
     };
     #seed = 1;
 
+    /** Size of an image pixel, in pixels of the scale of the sliders. */
+    get px(): number {
+        return this.size.field_px / this.size.width_px;
+    }
     get mm_per_px(): number {
-        return (this.conditions.mm_per_px * kReferenceWidth_px) / this.width_px;
+        return this.conditions.mm_per_px * this.px;
     }
     get theta_rad(): number {
         return (this.conditions.turn_deg * Math.PI) / 180;
@@ -82,14 +94,15 @@ export class SimulatedCamera {
     /** Returns the next view to simulate. The noise of every frame is different. */
     view(): SimulatedView {
         const { tilt_deg, blur_px, noise, paper_level, vignetting } = this.conditions;
-        const { x_mm, y_mm, width_px, height_px, mm_per_px, theta_rad } = this;
+        const { x_mm, y_mm, mm_per_px, theta_rad } = this;
+        const { width_px, height_px } = this.size;
         return {
             ...{ x_mm, y_mm, width_px, height_px, mm_per_px, theta_rad },
             tilt_x_rad: (tilt_deg * Math.PI) / 180,
             tilt_y_rad: 0,
-            // The lens is the same for all image widths, so the blur in px is proportional to the
-            // width.
-            blur_px: (blur_px * width_px) / kReferenceWidth_px,
+            // The lens is the same for all images of a field, so the blur in px is proportional to
+            // the number of pixels.
+            blur_px: blur_px / this.px,
             ...{ noise, paper_level, vignetting },
             seed: ++this.#seed,
         };

@@ -28,7 +28,7 @@ export function buildSliders(camera: SimulatedCamera, changed: () => void): () =
     return () => {
         for (const { slider, input, output } of rows) {
             const value = camera.conditions[slider.name];
-            const text = slider.shown(value);
+            const text = slider.shown(value, camera.px);
             if (output.textContent === text) continue;
             input.value = String(value);
             input.setAttribute("aria-valuetext", text);

@@ -1,14 +1,17 @@
 // The view "Try": locates the frames of a simulated camera over a simulated sheet.
 import { drawFrame } from "../draw/frame.js";
-import { cornersOf, drawMap, onPage, type MapFrame } from "../draw/map.js";
+import { drawMap, paperOf, type MapFrame } from "../draw/map.js";
 import type { Engine } from "../engine/engine.js";
-import type { Reading, SheetChoice, SheetLayout, SimulatedView } from "../engine/messages.js";
+import { cornersOf, onPage } from "../engine/field_of_view.js";
+import type { Reading, ReadOptions, SheetChoice, SheetLayout, SimulatedView } from "../engine/messages.js";
+import { drawnFrame } from "../engine/overlay.js";
 import { announcer, element, show } from "../page/dom.js";
-import { degrees, length, milliseconds, mm, oneIn, wrapped } from "../page/format.js";
+import { degrees, kPriorNames, length, milliseconds, mm, oneIn, wrapped } from "../page/format.js";
 import { hintOf } from "../page/hints.js";
 import { pageFromPattern, type Point_mm } from "../page/sheet_frame.js";
 import type { View } from "../page/view.js";
-import { SimulatedCamera } from "./camera.js";
+import { regionOf, sheetUnder, type KnownSheet } from "../print/known_sheets.js";
+import { SimulatedCamera, type ImageSize } from "./camera.js";
 import { Drive } from "./drive.js";
 import { listen } from "./gestures.js";
 import { buildSliders } from "./sliders.js";
@@ -19,11 +22,25 @@ const kSheet: SheetChoice = {
 };
 const kMaxPathPoints = 600;
 
+/** Image sizes by the values of their options. The small ones show a smaller field. */
+const kSizes: Record<string, ImageSize> = {
+    "188x120": { width_px: 188, height_px: 120, field_px: 188 },
+    "376x240": { width_px: 376, height_px: 240, field_px: 188 },
+    "640x480": { width_px: 640, height_px: 480, field_px: 188 },
+    "66x66": { width_px: 66, height_px: 66, field_px: 66 },
+    "36x36": { width_px: 36, height_px: 36, field_px: 66 },
+};
+/** Distance of another known sheet from the simulated sheet, in columns of the code. */
+const kOtherColumns = 100_000;
+/** Elements that are empty if a frame has no fix. */
+const kFixNames = ["x", "y", "angle", "error", "angle-error", "sheet", "prior", "wrong"];
+
 export class TryView implements View {
     readonly #engine: Engine;
     readonly #camera = new SimulatedCamera();
     readonly #picture = element("try-camera", HTMLCanvasElement);
     readonly #map = element("try-map", HTMLCanvasElement);
+    readonly #known = element("try-known", HTMLSelectElement);
     readonly #announce = announcer("try-live");
     readonly #drive: Drive;
     readonly #showSliders: () => void;
@@ -54,10 +71,10 @@ export class TryView implements View {
         });
         this.#listenToMap();
         element("try-size", HTMLSelectElement).addEventListener("change", (event) => {
-            const [width, height] = (event.target as HTMLSelectElement).value.split("x").map(Number);
-            Object.assign(this.#camera, { width_px: width, height_px: height });
+            this.#camera.size = kSizes[(event.target as HTMLSelectElement).value]!;
             this.#changed();
         });
+        this.#known.addEventListener("change", () => this.#changed());
     }
 
     async shown(): Promise<void> {
@@ -76,7 +93,7 @@ export class TryView implements View {
     }
 
     #drag(dx: number, dy: number): void {
-        const scale = this.#camera.width_px / Math.max(1, this.#picture.clientWidth);
+        const scale = this.#camera.size.width_px / Math.max(1, this.#picture.clientWidth);
         if (this.#sheet) this.#camera.dragBy(dx * scale, dy * scale, this.#sheet);
         this.#changed();
     }
@@ -106,13 +123,30 @@ export class TryView implements View {
         if (!this.#is_busy) void this.#run();
     }
 
+    /** Returns the sheets that the user has declared as known. */
+    #knownSheets(): KnownSheet[] {
+        const sheet = this.#sheet!;
+        const other = { ...sheet, origin: { ...sheet.origin, x: sheet.origin.x + kOtherColumns } };
+        if (this.#known.value === "none") return [];
+        if (this.#known.value === "other") return [{ name: "another page", layout: other }];
+        return [{ name: "A4 page", layout: sheet }];
+    }
+
+    #options(): ReadOptions {
+        return {
+            code: kSheet.code,
+            sheets: this.#knownSheets().map(({ layout }) => regionOf(layout)),
+            only_sheets: this.#known.value === "only",
+        };
+    }
+
     async #run(): Promise<void> {
         this.#is_busy = true;
         try {
             while (this.#is_stale && this.#is_shown && this.#sheet) {
                 this.#is_stale = false;
                 const view = this.#camera.view();
-                const reading = await this.#engine.simulate(kSheet, view);
+                const reading = await this.#engine.simulate(kSheet, view, this.#options());
                 this.#last?.reading.picture.close();
                 this.#last = { reading, view };
                 this.#draw(reading, view);
@@ -128,8 +162,9 @@ export class TryView implements View {
     }
 
     #draw(reading: Reading, view: SimulatedView): void {
-        drawFrame(this.#picture, reading, {});
-        drawFrame(element("try-reading", HTMLCanvasElement), reading, {
+        const frame = drawnFrame(reading);
+        drawFrame(this.#picture, frame, {});
+        drawFrame(element("try-reading", HTMLCanvasElement), frame, {
             frame: 0.22,
             ...{ found: true, grid: true, symbols: true, pose: true },
         });
@@ -145,15 +180,21 @@ export class TryView implements View {
         if (fix.ok) this.#path.push(pageFromPattern(sheet, fix));
         this.#path = this.#path.slice(-kMaxPathPoints);
         this.#map_frame = drawMap(this.#map, {
-            sheet,
-            path: this.#path,
+            papers: [paperOf(sheet)],
+            strokes: [this.#path],
             now: { x_mm: view.x_mm, y_mm: view.y_mm },
+            heading_rad: null,
             view: fix.ok ? onPage(sheet, cornersOf(fix, width_px, height_px)) : [],
+            y_up: false,
         });
     }
 
     #showHint(reading: Reading): void {
-        const hint = hintOf(reading);
+        const sheets = this.#knownSheets();
+        const hint = hintOf(reading, {
+            is_on_unknown: sheets.length > 0 && sheetUnder(reading.fix, sheets) === null,
+            only_sheets: this.#known.value === "only",
+        });
         const box = element("try-hint", HTMLElement);
         box.hidden = hint === null;
         box.classList.toggle("good", hint?.good ?? false);
@@ -164,7 +205,7 @@ export class TryView implements View {
         element("try-readout", HTMLElement).classList.toggle("lost", !fix.ok);
         show({ "try-dots": String(fix.ok ? fix.dots_used : fix.dots_seen), "try-time": milliseconds(locate_ms) });
         if (!fix.ok) {
-            for (const name of ["x", "y", "angle", "error", "angle-error", "wrong"]) show({ [`try-${name}`]: "–" });
+            for (const name of kFixNames) show({ [`try-${name}`]: "–" });
             this.#announce(`No position: ${fix.message}`);
             return;
         }
@@ -176,6 +217,8 @@ export class TryView implements View {
             "try-angle": degrees(fix.theta_rad),
             "try-error": length(error_mm),
             "try-angle-error": degrees(Math.abs(wrapped(fix.theta_rad - view.theta_rad)), 3),
+            "try-sheet": sheetUnder(fix, this.#knownSheets())?.name ?? "not known",
+            "try-prior": kPriorNames[fix.prior],
             "try-wrong": oneIn(fix.p_wrong),
         });
         this.#announce(`x ${mm(read.x_mm, 2)}, y ${mm(read.y_mm, 2)}, position error ${length(error_mm)}`);

@@ -186,6 +186,7 @@ class Camera:
     reference_px: Optional[Pixel]
     theta_offset_rad: float
     flip: bool
+    flat_field: list[list[float]]
     readout_ms: Optional[float]
     exposure_us: Optional[float]
     gain: Optional[float]

@@ -119,6 +119,10 @@ void define_camera(py::module_& module) {
         .def_readwrite("flip", &Camera::flip,
                        "True if frames must be flipped, left to right, before they are located: "
                        "image[:, ::-1].")
+        .def_readwrite("flat_field", &Camera::flat_field,
+                       "Brightness of white paper in the image, relative to the brightest point: "
+                       "rows of values at equal distances; empty if even or unknown. A list: "
+                       "assign a changed copy.")
         .def_readwrite(
             "readout_ms", &Camera::readout_ms,
             "Time from the first to the last row of a rolling shutter, in ms; None for a "

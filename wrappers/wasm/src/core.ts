@@ -1,5 +1,5 @@
-// Loads the core module in the variant that the engine supports.
-import { compile, hasSimd, type WasmSource } from "./instance.js";
+// Loads the core module in the variant that the engine supports, and calls its functions.
+import { compile, hasSimd, type Instance, type WasmSource } from "./instance.js";
 
 /** Returns the given module or, by default, the module in the file beside this one. */
 export function coreModule(wasm?: WasmSource): Promise<WebAssembly.Module> {
@@ -9,4 +9,13 @@ export function coreModule(wasm?: WasmSource): Promise<WebAssembly.Module> {
             ? new URL("./dotpose-simd.wasm", import.meta.url)
             : new URL("./dotpose-scalar.wasm", import.meta.url),
     );
+}
+
+/**
+ * Calls a function that returns a dotpose_status. Throws RangeError with the message of the status,
+ * unless the status is 0. The cause of the error is an invalid option or argument.
+ */
+export function callOk(core: Instance, name: string, ...args: (number | bigint)[]): void {
+    const status = core.call(name, ...args);
+    if (status !== 0) throw new RangeError(core.text(core.call("dotpose_status_message", status)));
 }

@@ -9,11 +9,14 @@ export {
     type Image,
     type LocatorOptions,
 } from "./locator.js";
+export { type MeasuredMotion } from "./measured_motion.js";
 export {
     kAttempts,
     kCodes,
     kPriors,
     kSurfaces,
+    kTrackEvents,
+    kVerdicts,
     type Attempt,
     type Cell,
     type Code,
@@ -21,6 +24,10 @@ export {
     type Prior,
     type Section,
     type Surface,
+    type TrackEvent,
+    type Verdict,
 } from "./names.js";
 export { kDisplacements, patternBits, type PatternPart } from "./pattern.js";
+export { type Prediction } from "./prediction.js";
+export { Tracker, type Track, type TrackOptions } from "./tracker.js";
 export { WorkerLocator, type Located } from "./worker_locator.js";

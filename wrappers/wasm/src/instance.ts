@@ -54,12 +54,12 @@ async function bytesOf(url: string): Promise<BufferSource> {
 
 /** An instance of a module. */
 export class Instance {
-    readonly #functions: Record<string, (...args: number[]) => number>;
+    readonly #functions: Record<string, (...args: (number | bigint)[]) => number>;
     readonly #memory: WebAssembly.Memory;
     #used_bytes: number;
 
     private constructor(exported: WebAssembly.Exports) {
-        this.#functions = exported as Record<string, (...args: number[]) => number>;
+        this.#functions = exported as Record<string, (...args: (number | bigint)[]) => number>;
         this.#memory = exported["memory"] as WebAssembly.Memory;
         this.#used_bytes = (exported["__heap_base"] as WebAssembly.Global | undefined)?.value ?? 0;
         this.#functions["_initialize"]?.();
@@ -76,7 +76,7 @@ export class Instance {
     }
 
     /** Calls a function of the module with numbers or addresses as arguments. */
-    call(name: string, ...args: number[]): number {
+    call(name: string, ...args: (number | bigint)[]): number {
         return this.#functions[name]!(...args);
     }
 

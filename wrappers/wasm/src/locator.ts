@@ -1,9 +1,12 @@
 // The class Locator, which locates the pattern in images.
-import { coreModule } from "./core.js";
+import { callOk, coreModule } from "./core.js";
 import { fixOf, type Fix } from "./fix.js";
 import { kAt, kFixBytes } from "./fix_fields.js";
 import { Instance, type WasmSource } from "./instance.js";
+import { kMotionBytes, writeMotion, type MeasuredMotion } from "./measured_motion.js";
 import { codeNumber, type Code, type KnownRegion } from "./names.js";
+import { newLocator } from "./new_locator.js";
+import { kPredictionBytes, type Prediction } from "./prediction.js";
 
 /** An 8-bit grey image with dark dots on light paper. Row v begins at `data[v * stride]`. */
 export interface Image {
@@ -55,25 +58,27 @@ export interface LocatorOptions {
 /** Options of one frame. */
 export interface FrameOptions {
     /**
-     * Fix of the previous frame. The search starts at the previous position of the pattern, which
-     * takes a fraction of the time. If the frame does not confirm the prediction, or if the fix is
-     * not ok, the frame is located without a prediction.
+     * Fix of the previous frame, or the prediction of a tracker. The search starts at the expected
+     * position of the pattern, which takes a fraction of the time. If the frame does not confirm
+     * the prediction, or if the fix is not ok, the frame is located without a prediction.
      */
-    prediction?: Fix | null | undefined;
+    prediction?: Fix | Prediction | null | undefined;
+    /**
+     * Motion of the camera since the previous frame. Frames that are not certain alone are then
+     * read together with the previous frames, and `frames` of the fix is their number. Give a
+     * motion with every frame of a series, also with the first. A frame without a motion ends the
+     * series. If the previous frame was located, the search starts at the position to which the
+     * motion leads, so a motion replaces a prediction.
+     */
+    motion?: MeasuredMotion | null | undefined;
 }
 
-/** Size of a dotpose_options of wrappers/c/dotpose.h, and offsets of its members. */
-const kOptionsBytes = 96;
-const kOptionOffsets = { code: 4, effort: 8, show_stages: 88 };
-const kDoubleOffsets = { spacing_mm: 16, lens_k_per_px2: 24, max_p_wrong: 64 };
-/** Sizes of other structs in dotpose.h. */
-const kPredictionBytes = 72;
-const kEvidenceBytes = 36;
-const kReadingBytes = 28;
+/** Sizes of structs in wrappers/c/dotpose.h. */
 const kDotBytes = 16;
 const kRegionBytes = 20;
 const kMaxDots = 16384;
-const kPointerBytes = 4;
+const kCountBytes = 4;
+const kCodeBytes = 4;
 
 /**
  * Minimum width and height, in px, of an image that can be located. With `sheets`, the minimum is
@@ -98,12 +103,9 @@ export class Locator {
     readonly #locator: number;
     readonly #fix: number;
     readonly #prediction: number;
-    /** Address of the evidence of all frames so far, or 0 if the code is given. */
-    readonly #evidence: number;
-    readonly #reading: number;
+    readonly #motion: number;
+    readonly #code: number;
     readonly #dots: number;
-    /** Number of the given code or, if the code is detected, of the last code that was read. */
-    #code: number;
     readonly #texts = new Map<number, { status: string; message: string }>();
     #pixels = 0;
     #pixels_bytes = 0;
@@ -111,14 +113,12 @@ export class Locator {
     private constructor(core: Instance, options: LocatorOptions) {
         this.#core = core;
         this.#fix = core.reserve(kFixBytes);
-        this.#require(core.call("dotpose_fix_init", this.#fix, kFixBytes));
+        callOk(core, "dotpose_fix_init", this.#fix, kFixBytes);
         this.#prediction = core.reserve(kPredictionBytes);
-        const { code = "auto" } = options;
-        this.#code = code === "auto" ? 0 : codeNumber(code);
-        this.#evidence = code === "auto" ? core.reserve(kEvidenceBytes) : 0;
-        this.#reading = core.reserve(kReadingBytes);
-        this.#dots = options.dots ? core.reserve(kMaxDots * kDotBytes + kPointerBytes) : 0;
-        this.#locator = this.#init(options);
+        this.#motion = core.reserve(kMotionBytes);
+        this.#code = core.reserve(kCodeBytes);
+        this.#dots = options.dots ? core.reserve(kMaxDots * kDotBytes + kCountBytes) : 0;
+        this.#locator = newLocator(core, options);
         if (options.sheets?.length) this.#know(options.sheets, options.only_sheets ?? false);
     }
 
@@ -129,42 +129,17 @@ export class Locator {
 
     /**
      * Returns the fix of an image. Throws RangeError if the image has less data than its size
-     * requires.
+     * requires, if the motion is not usable, or if there are a prediction and a motion.
      */
     locate(image: Image, options: FrameOptions = {}): Fix {
+        const { prediction, motion } = options;
+        if (prediction && motion) throw new RangeError("give a prediction or a motion, not both");
+        if (motion) writeMotion(motion, this.#core.view(this.#motion, kMotionBytes));
         const stride = this.#write(image);
-        const prediction = this.#predict(options.prediction);
-        const frame = [this.#locator, this.#pixels, image.width, image.height, stride, prediction];
-        if (this.#evidence === 0) {
-            this.#core.call("dotpose_locate", ...frame, this.#fix);
-        } else {
-            this.#core.call("dotpose_locate_any_code", ...frame, this.#evidence, this.#reading, this.#fix);
-            this.#code = this.#core.view(this.#reading, kReadingBytes).getInt32(0, true);
-        }
+        const frame = [this.#locator, this.#pixels, image.width, image.height, stride];
+        if (motion) this.#core.call("dotpose_locate_moved", ...frame, this.#motion, this.#fix);
+        else this.#core.call("dotpose_locate", ...frame, this.#predict(prediction), this.#fix);
         return this.#read();
-    }
-
-    #init(options: LocatorOptions): number {
-        const { attempts = 2 } = options;
-        if (attempts !== 1 && attempts !== 2) throw new RangeError(`attempts are 1 or 2, not ${String(attempts)}`);
-        const core = this.#core;
-        const given = core.reserve(kOptionsBytes);
-        this.#require(core.call("dotpose_options_init", given, kOptionsBytes));
-        const view = core.view(given, kOptionsBytes);
-        const set = (name: keyof typeof kOptionOffsets, value: number) =>
-            view.setInt32(kOptionOffsets[name], value, true);
-        set("code", this.#code);
-        set("show_stages", options.dots ? 1 : 0);
-        set("effort", attempts);
-        for (const name of Object.keys(kDoubleOffsets) as (keyof typeof kDoubleOffsets)[]) {
-            const value = options[name];
-            if (value !== undefined) view.setFloat64(kDoubleOffsets[name], value, true);
-        }
-        const bytes = core.call("dotpose_large_bytes");
-        const memory = core.reserve(bytes);
-        const pointer = core.reserve(kPointerBytes);
-        this.#require(core.call("dotpose_large_init", memory, bytes, given, pointer));
-        return core.view(pointer, kPointerBytes).getUint32(0, true);
     }
 
     /** Sets the sheets that may be in view. The module reads them in each frame. */
@@ -181,17 +156,7 @@ export class Locator {
             inByte.forEach((n, j) => view.setUint8(i * kRegionBytes + j, n));
             inWord.forEach((n, j) => view.setUint32(i * kRegionBytes + 4 * (j + 1), n, true));
         });
-        this.#require(
-            this.#core.call("dotpose_set_known", this.#locator, regions, sheets.length, only_sheets ? 1 : 0),
-        );
-    }
-
-    /**
-     * Throws RangeError with the message of `status`, unless `status` is 0. The cause of the error
-     * is an invalid option or argument.
-     */
-    #require(status: number): void {
-        if (status !== 0) throw new RangeError(this.#core.text(this.#core.call("dotpose_status_message", status)));
+        callOk(this.#core, "dotpose_set_known", this.#locator, regions, sheets.length, only_sheets ? 1 : 0);
     }
 
     /**
@@ -226,12 +191,23 @@ export class Locator {
         return this.#core.bytes(this.#pixels, bytes);
     }
 
-    /** Returns the address of a prediction made from a fix, or 0 if there is none. */
-    #predict(fix: Fix | null | undefined): number {
-        if (!fix?.ok || codeNumber(fix.code) !== this.#code) return 0;
-        this.#core.bytes(this.#fix, kFixBytes).set(fix.bytes);
-        this.#require(this.#core.call("dotpose_prediction_like", this.#fix, this.#prediction));
+    /** Returns the address of a prediction, or 0 if there is none. */
+    #predict(given: Fix | Prediction | null | undefined): number {
+        if (!given || codeNumber(given.code) !== this.#codeRead()) return 0;
+        if (!("ok" in given)) {
+            this.#core.bytes(this.#prediction, kPredictionBytes).set(given.bytes);
+        } else {
+            if (!given.ok) return 0;
+            this.#core.bytes(this.#fix, kFixBytes).set(given.bytes);
+            callOk(this.#core, "dotpose_prediction_like", this.#fix, this.#prediction);
+        }
         return this.#prediction;
+    }
+
+    /** Returns the number of the given code or, if the code is detected, of the last code read. */
+    #codeRead(): number {
+        callOk(this.#core, "dotpose_code_of", this.#locator, this.#code);
+        return this.#core.view(this.#code, kCodeBytes).getInt32(0, true);
     }
 
     #read(): Fix {
@@ -240,7 +216,7 @@ export class Locator {
         const status = core.view(this.#fix, kFixBytes).getInt32(kAt.status, true);
         return fixOf(bytes, {
             ...this.#textsOf(status),
-            code: this.#code,
+            code: this.#codeRead(),
             dots: this.#dots === 0 ? null : this.#readDots(),
         });
     }

@@ -27,6 +27,16 @@ export const kPriors = ["plane", "sheets", "only_sheets"] as const;
 /** Places that counted as possible for `p_wrong`. */
 export type Prior = (typeof kPriors)[number];
 
+/** All values of `Verdict`, indexed by their numbers in C. */
+export const kVerdicts = ["none", "accepted", "with_prior", "gated", "too_weak"] as const;
+/** Verdict of a tracker on the fix of a frame; `none` means that there was no fix. */
+export type Verdict = (typeof kVerdicts)[number];
+
+/** All values of `TrackEvent`, in the order of their bits in C. */
+export const kTrackEvents = ["fix", "lost", "kidnapped", "stationary", "moving"] as const;
+/** A change of the state of a robot. */
+export type TrackEvent = (typeof kTrackEvents)[number];
+
 /** Section of the code, 0 to 62 per axis. Each of the 63 x 63 sections contains all cells. */
 export interface Section {
     /** Roll of column 0: the offset at which the main sequence starts, 0 to 62. */

@@ -82,13 +82,17 @@ test("a worker locates a simulated camera and gives the buffer back", async () =
         const { fix, image } = await answer;
         const next = tools.render({ pose: { x_mm: 40.05, y_mm: 50 } });
         const tracked = (await locator.locate(next, { prediction: fix })).fix;
+        const motion = { right_mm: 0.05, sigma_mm: 0.02, sigma_rad: 0.005 };
+        await locator.locate(tools.render({ pose: { x_mm: 40.1, y_mm: 50 } }), { motion });
+        const further = tools.render({ pose: { x_mm: 40.15, y_mm: 50 } });
+        const moved = (await locator.locate(further, { motion })).fix;
         const refusal = await locator
             .locate({ data: new Uint8Array(3), width: 188, height: 120 })
             .catch((error) => `${error}`);
         locator.close();
         const closed = await locator.locate(image).catch((error) => `${error}`);
         const wrong = await WorkerLocator.create({ code: "morse" }).catch((error) => `${error}`);
-        return { simd: hasSimd(), left, back: image.data.length, fix, tracked, refusal, closed, wrong };
+        return { simd: hasSimd(), left, back: image.data.length, fix, tracked, moved, refusal, closed, wrong };
     });
     assert.equal(seen.simd, true);
     assert.equal(seen.left, 0);
@@ -96,6 +100,9 @@ test("a worker locates a simulated camera and gives the buffer back", async () =
     assert.ok(Math.abs(seen.fix.x_mm - 40) < 0.003 && Math.abs(seen.fix.y_mm - 50) < 0.003);
     assert.equal(seen.tracked.attempt, "tracked");
     assert.ok(Math.abs(seen.tracked.x_mm - 40.05) < 0.003);
+    // The search begins at the position to which the motion leads.
+    assert.equal(seen.moved.attempt, "tracked");
+    assert.ok(Math.abs(seen.moved.x_mm - 40.15) < 0.003);
     assert.match(seen.refusal, /RangeError: the image needs 22560 bytes/);
     assert.match(seen.closed, /closed/);
     assert.match(seen.wrong, /RangeError: unknown code 'morse'/);

@@ -17,7 +17,7 @@ const resolve = createRequire(join(process.env.DOTPOSE_PACKAGE, "package.json"))
 const url = (name) => pathToFileURL(resolve(name));
 const dotpose = await import(url("dotpose"));
 const { Tools } = await import(url("dotpose/tools"));
-const { Locator } = dotpose;
+const { Locator, Tracker } = dotpose;
 
 /** A frame with a known pose. */
 const kScene = { sheet: { origin: { x: 1000, y: 2000 } }, pose: { x_mm: 560, y_mm: 1070, theta_rad: 0.5 } };
@@ -87,6 +87,52 @@ describe("Locator", () => {
         await assert.rejects(create({ rows: -1 }), /sheets\[0\] is not a rectangle/);
     });
 
+    test("frames of a moving camera that are not certain alone are read together", async () => {
+        const camera = { width_px: 80, height_px: 80 };
+        const imperfections = { noise_sigma: 3, blur_sigma_px: 0.5 };
+        // The sigmas are larger than the error of the motion, which is 0.
+        const step_mm = 3 * 0.508;
+        const motion = { right_mm: step_mm, down_mm: step_mm, sigma_mm: 0.02, sigma_rad: 0.005 };
+        const frame = (k) => {
+            const pose = { x_mm: 560 + k * step_mm, y_mm: 1070 + k * step_mm };
+            return { pose, image: tools.render({ ...kScene, pose, camera, imperfections, seed: k + 1 }) };
+        };
+        for (const code of ["auto", "anoto"]) {
+            const [alone, moved] = [await Locator.create({ code }), await Locator.create({ code })];
+            const numbers = new Set();
+            for (let k = 0; k < 6; ++k) {
+                const { pose, image } = frame(k);
+                assert.equal(alone.locate(image).ok, false, `frame ${k} is not certain alone`);
+                const fix = moved.locate(image, { motion });
+                if (!fix.ok) continue;
+                numbers.add(fix.frames);
+                const error_mm = Math.hypot(fix.x_mm - pose.x_mm, fix.y_mm - pose.y_mm);
+                assert.ok(error_mm < 0.01 && fix.p_wrong <= 1e-9, `${error_mm} mm, ${fix.p_wrong}`);
+            }
+            assert.ok(Math.max(...numbers) > 1, `${code}: ${[...numbers]} frames`);
+            // A frame without a motion ends the series.
+            assert.equal(moved.locate(frame(6).image).ok, false);
+            assert.equal(moved.locate(frame(7).image, { motion }).ok, false);
+        }
+    });
+
+    test("a motion that is not usable is refused with the name of the number", async () => {
+        const locator = await Locator.create();
+        const image = tools.render(kScene);
+        const good = { sigma_mm: 0.02, sigma_rad: 0.005 };
+        const { ok, frames } = locator.locate(image, { motion: good });
+        assert.deepEqual({ ok, frames }, { ok: true, frames: 1 });
+        const refused = (motion, message) => assert.throws(() => locator.locate(image, { motion }), message);
+        const error = (message) => ({ name: "RangeError", message });
+        refused({ sigma_rad: 0.01 }, error("motion.sigma_mm must be from 0 to below 1e6, not undefined"));
+        refused({ ...good, sigma_rad: -0.1 }, error("motion.sigma_rad must be from 0 to below 1e6, not -0.1"));
+        refused({ ...good, right_mm: NaN }, error("motion.right_mm must be between -1e6 and 1e6, not NaN"));
+        refused({ ...good, down_mm: 1e6 }, error("motion.down_mm must be between -1e6 and 1e6, not 1000000"));
+        refused({ ...good, turn_rad: "1" }, error("motion.turn_rad must be between -1e6 and 1e6, not 1"));
+        const prediction = locator.locate(image);
+        assert.throws(() => locator.locate(image, { prediction, motion: good }), /give a prediction or a motion, not both/);
+    });
+
     test("a frame without a pattern is a fix with a reason", async () => {
         const fix = (await Locator.create()).locate({ data: new Uint8Array(188 * 120).fill(200), width: 188, height: 120 });
         assert.equal(fix.ok, false);
@@ -149,6 +195,75 @@ describe("Locator", () => {
         const corner = dotpose.patternFromImage(fix, 5, 7);
         const back = dotpose.imageFromPattern(fix, corner.x_mm, corner.y_mm);
         assert.ok(Math.hypot(back.u_px - 5, back.v_px - 7) < 1e-6);
+    });
+});
+
+describe("Tracker", () => {
+    const kSpeed_mm_s = 100;
+    const kPeriod_us = 10_000;
+    const x_mm = (k) => 560 + (k * kSpeed_mm_s * kPeriod_us) / 1e6;
+    let tools;
+    before(async () => (tools = await Tools.create()));
+
+    /** Returns a tracker after 40 frames of a straight drive along x, without odometry. */
+    async function driven() {
+        const [tracker, locator] = [await Tracker.create(), await Locator.create()];
+        let track;
+        const attempts = [];
+        for (let k = 0; k < 40; ++k) {
+            const image = tools.render({ ...kScene, pose: { x_mm: x_mm(k), y_mm: 1070, theta_rad: 0.5 }, seed: k + 1 });
+            const fix = locator.locate(image, { prediction: tracker.predict(k * kPeriod_us) });
+            track = tracker.update(k * kPeriod_us, fix);
+            assert.deepEqual(track.events, k === 0 ? ["fix"] : [], `frame ${k}`);
+            attempts.push(fix.attempt);
+        }
+        return { tracker, track, attempts };
+    }
+
+    test("follows a drive, and predicts the next frame", async () => {
+        const { track, attempts } = await driven();
+        assert.equal(track.verdict, "accepted");
+        assert.ok(Math.abs(track.x_mm - x_mm(39)) < 0.01 && Math.abs(track.y_mm - 1070) < 0.01, `${track.x_mm}, ${track.y_mm}`);
+        assert.ok(Math.abs(track.theta_rad - 0.5) < 0.002);
+        assert.ok(Math.abs(track.vx_mm_s - kSpeed_mm_s) < 1 && Math.abs(track.vy_mm_s) < 1, `${track.vx_mm_s}, ${track.vy_mm_s}`);
+        // The velocity is known from the second frame on. The robot moves by two spacings per frame.
+        assert.deepEqual(new Set(attempts.slice(2)), new Set(["tracked"]));
+    });
+
+    test("odometry carries the pose on, with a covariance that grows", async () => {
+        const [{ tracker, track }, { tracker: without }] = [await driven(), await driven()];
+        const step_mm = (kSpeed_mm_s * kPeriod_us) / 1e6;
+        // The image x axis is turned by 0.5 rad from the x axis of the pattern.
+        const motion = {
+            ...{ right_mm: step_mm * Math.cos(0.5), down_mm: -step_mm * Math.sin(0.5) },
+            ...{ sigma_mm: 0.01, sigma_rad: 0.0005 },
+        };
+        let [carried, lost] = [track, track];
+        for (let k = 40; k < 60; ++k) {
+            carried = tracker.update(k * kPeriod_us, null, motion);
+            lost = without.update(k * kPeriod_us, null);
+            if (lost.events.includes("lost")) assert.equal(k, 39 + 7, "lost after 70 ms");
+        }
+        assert.equal(carried.is_lost, false);
+        assert.equal(carried.verdict, "none");
+        assert.ok(Math.abs(carried.x_mm - x_mm(59)) < 0.1, `${carried.x_mm}`);
+        // Twenty independent errors of 0.01 mm, and the errors of the heading.
+        assert.ok(carried.covariance[0] > 0.9 * 20 * 0.01 ** 2 && carried.covariance[0] < 0.1 ** 2, `${carried.covariance[0]}`);
+        assert.equal(lost.is_lost, true);
+        assert.ok(Number.isNaN(lost.x_mm) && Number.isNaN(lost.covariance[0]));
+        assert.equal(without.predict(600_000), null);
+    });
+
+    test("invalid arguments are refused with their names", async () => {
+        const refused = (promise, message) => assert.rejects(promise, { name: "RangeError", message });
+        await refused(Tracker.create({ max_sped_mm_s: 1 }), "a tracker has no option 'max_sped_mm_s'");
+        await refused(Tracker.create({ confirmations: 2.5 }), "confirmations must be a whole number, not 2.5");
+        await refused(Tracker.create({ still_mm: "1" }), "still_mm must be a number, not 1");
+        await assert.rejects(Tracker.create({ max_speed_mm_s: -1 }), RangeError);
+        const tracker = await Tracker.create({ max_speed_mm_s: 500, lost_after_us: 100_000 });
+        assert.throws(() => tracker.update(0.5), /time_us must be a whole number, not 0.5/);
+        assert.throws(() => tracker.update(0, null, { sigma_mm: 1 }), /motion.sigma_rad must be from 0/);
+        assert.equal(tracker.update(0).is_lost, true);
     });
 });
 

@@ -1,5 +1,5 @@
 // Compiled against the installed package to check its types.
-import { Locator, patternBits, WorkerLocator, type Fix, type KnownRegion } from "dotpose";
+import { Locator, patternBits, Tracker, WorkerLocator, type Fix, type KnownRegion, type MeasuredMotion, type Track } from "dotpose";
 import { Tools, type Scene } from "dotpose/tools";
 
 const scene: Scene = { pose: { x_mm: 1, y_mm: 2 }, imperfections: { noise_sigma: 2 } };
@@ -13,6 +13,12 @@ export const back: ArrayBufferLike = (await (await WorkerLocator.create()).locat
 export const bits: Uint8Array = await patternBits({ cell: { x: 1, y: 2 }, columns: 8, rows: 8 });
 const sheet: KnownRegion = { first: { x: 0, y: 0 }, columns: 393, rows: 564 };
 await Locator.create({ sheets: [sheet], only_sheets: true });
+const motion: MeasuredMotion = { right_mm: 1.5, sigma_mm: 0.02, sigma_rad: 0.005 };
+export const frames: number = locator.locate(image, { motion }).frames;
+const tracker = await Tracker.create({ max_speed_mm_s: 500 });
+const track: Track = tracker.update(10_000, next, motion);
+export const [x_mm, lost]: [number, boolean] = [track.x_mm, track.events.includes("lost")];
+locator.locate(image, { prediction: tracker.predict(20_000) });
 
 // @ts-expect-error: unknown code
 await Locator.create({ code: "morse" });
@@ -20,3 +26,5 @@ await Locator.create({ code: "morse" });
 locator.locate({ data: new Uint8Array(9), width: 3 });
 // @ts-expect-error: 16-bit images are not supported
 locator.locate({ data: new Uint16Array(9), width: 3, height: 3 });
+// @ts-expect-error: a motion without its standard deviations
+locator.locate(image, { motion: { right_mm: 1.5 } });

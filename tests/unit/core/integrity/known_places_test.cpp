@@ -191,5 +191,22 @@ TEST(KnownPlaces, PlacesOnOtherSheetsAreAlternatives) {
     EXPECT_GT(wrong_on(both), wrong_on({&kSheet, 1}));
 }
 
+TEST(KnownPlaces, OverlappingSheetsHaveTheSamePlace) {
+    Rng rng(kSeed, 4);
+    KnownRegion right = kSheet;
+    right.first.x += 10;
+    const core::BitBlock block = block_of(draw_cells(kSheet, {1020, 2020}, 6, 6, 0, 0, rng));
+    const auto wrong_on = [&](std::span<const KnownRegion> regions) {
+        const core::KnownSheets sheets{regions, OtherSheets::impossible};
+        const auto best = core::find_known_place(core::kernels(), block, sheets);
+        return best ? wrong_at(block, sheets, *best) : 1;
+    };
+    // Each of the two sheets has about as many other places as one sheet.
+    const float once = wrong_on({&kSheet, 1});
+    const float twice = wrong_on(std::array{kSheet, right});
+    EXPECT_GT(twice, once);
+    EXPECT_LT(twice, 2.1F * once);
+}
+
 }  // namespace
 }  // namespace dotpose::core_test::known_places_test

@@ -1,0 +1,16 @@
+/// Copies the image of a frame, whose memory the next frame overwrites.
+#pragma once
+
+#include "dotpose/image.hpp"
+#include "dotpose/tools/grey_image.hpp"
+
+namespace dotpose::cli {
+
+inline GreyImage copy_of(ImageView image) {
+    GreyImage copy{{}, image.width_px, image.height_px};
+    for (int v = 0; v < image.height_px; ++v)
+        copy.pixels.insert(copy.pixels.end(), image.row(v), image.row(v) + image.width_px);
+    return copy;
+}
+
+}  // namespace dotpose::cli

@@ -1,0 +1,229 @@
+#include "web_view.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "dotpose/tools/grey_image.hpp"
+#include "image_copy.hpp"
+#include "picture_advice.hpp"
+#include "reading_fields.hpp"
+#include "serve/frame_message.hpp"
+#include "terminal_text.hpp"
+#include "web_pages.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+using nlohmann::json;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kFramePeriod{66};
+constexpr milliseconds kStatePeriod{50};
+constexpr milliseconds kSlowPeriod{1000};
+constexpr milliseconds kAdvicePeriod{2000};
+constexpr int kMaxSide_px = 1280;
+constexpr int kMaxSmallSide_px = 480;
+/// Maximum number of points of the path that a message contains.
+constexpr std::size_t kMaxPathPoints = 2000;
+
+std::string dump(const json& value) {
+    return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+serve::ServerOptions with_pages(serve::ServerOptions options) {
+    options.pages = live_pages();
+    return options;
+}
+
+}  // namespace
+
+WebView::WebView(WebOptions options, const Follower& follower)
+    : options_(std::move(options)),
+      follower_(follower),
+      sheets_(map_sheets(follower.sheets(), plane_of(follower))),
+      recordings_(options_.recordings, options_.messages, !follower.sheets().empty()),
+      rate_begun_(Clock::now()),
+      server_(with_pages(options_.server)),
+      setup_(server_.add_topic("setup", serve::Format::text)),
+      frame_(server_.add_topic("frame", serve::Format::binary)),
+      small_frame_(server_.add_topic("small-frame", serve::Format::binary)),
+      state_(server_.add_topic("state", serve::Format::text)),
+      history_topic_(server_.add_topic("history", serve::Format::text)),
+      path_topic_(server_.add_topic("path", serve::Format::text)),
+      advice_(server_.add_topic("advice", serve::Format::text)) {
+    server_.start();
+    if (!options_.log.empty()) {
+        server_.set_route("/log.csv", [log = options_.log] {
+            return serve::Answer{.type = "text/csv", .file = log, .download = "log.csv"};
+        });
+    }
+    publish_setup();
+    tell("the page is at " + server_.url());
+}
+
+void WebView::publish_setup() {
+    json sheets = json::array();
+    for (const draw::MapSheet& sheet : sheets_) {
+        json corners = json::array();
+        for (const draw::Point& corner : sheet.corners_mm)
+            corners.push_back({corner.x, corner.y});
+        sheets.push_back({{"name", sheet.name}, {"corners_mm", std::move(corners)}});
+    }
+    const json setup = {{"robot", options_.messages.robot},
+                        {"source", options_.source},
+                        {"plane", follower_.is_in_world() ? "world" : "pattern"},
+                        {"sheets", std::move(sheets)},
+                        {"log", options_.log.empty() ? json(nullptr) : json("/log.csv")}};
+    server_.publish(setup_, [text = dump(setup)] { return text; });
+}
+
+bool WebView::is_time_for(const serve::Topic& topic, Timer& timer, milliseconds period,
+                          Clock::time_point now) const {
+    if (!timer.is_due(now) || !topic.is_wanted()) return false;
+    timer.next = now + period;
+    return true;
+}
+
+void WebView::take(const capture::Frame& frame, const Reading& reading, const PathMemory& path,
+                   const SourceState& source) {
+    const Clock::time_point now = Clock::now();
+    count(reading, now);
+    obey();
+    recordings_.take(frame, reading);
+    offer_recordings();
+    const bool has_image = !frame.image.pixels.empty();
+    if (has_image) publish_frame(reading, now);
+    if (is_time_for(state_, state_timer_, kStatePeriod, now)) publish_state(reading, source);
+    if (is_time_for(history_topic_, history_timer_, kSlowPeriod, now)) publish_history();
+    if (is_time_for(path_topic_, path_timer_, kSlowPeriod, now)) publish_path(path);
+    if (has_image && is_time_for(advice_, advice_timer_, kAdvicePeriod, now))
+        publish_advice(reading, source);
+}
+
+void WebView::count(const Reading& reading, Clock::time_point now) {
+    ++frames_;
+    fixes_ += reading.record.fix.status == Status::ok;
+    lost_ += reading.track.events.lost;
+    history_.add(reading.time_us, reading.record.fix.status);
+    if (const auto& place = reading.record.place) visited_.insert(place->entry->name);
+    ++rate_frames_;
+    const std::chrono::duration<double> elapsed = now - rate_begun_;
+    if (elapsed.count() < 1) return;
+    rate_hz_ = static_cast<double>(std::exchange(rate_frames_, 0)) / elapsed.count();
+    rate_begun_ = now;
+}
+
+void WebView::publish_frame(const Reading& reading, Clock::time_point now) {
+    const bool is_large = is_time_for(frame_, frame_timer_, kFramePeriod, now);
+    const bool is_small = is_time_for(small_frame_, small_timer_, kFramePeriod, now);
+    if (!is_large && !is_small) return;
+    const ImageView image = follower_.image();
+    // Both sizes share the copy, which the thread of the server encodes.
+    const auto shot = std::make_shared<const std::pair<GreyImage, serve::FrameOverlay>>(
+        copy_of(image), serve::overlay_of(image, follower_.trace()));
+    const auto encoder = [shot, index = reading.index](int max_side_px) {
+        return [shot, index, max_side_px] {
+            return serve::frame_message(shot->first.view(), shot->second, index, max_side_px);
+        };
+    };
+    if (is_large) server_.publish(frame_, encoder(kMaxSide_px));
+    if (is_small) server_.publish(small_frame_, encoder(kMaxSmallSide_px));
+}
+
+void WebView::publish_state(const Reading& reading, const SourceState& source) {
+    json state = {{"rate_hz", rate_hz_},       {"frames", frames_},
+                  {"fixes", fixes_},           {"lost", lost_},
+                  {"dropped", source.dropped}, {"clients", server_.clients()}};
+    json doubts = json::array();
+    for (const std::string& warning : warnings(reading.record)) {
+        if (!warning.empty()) doubts.push_back(warning);
+    }
+    state["warnings"] = std::move(doubts);
+    state["recording"] = {{"is_on", recordings_.is_running()},
+                          {"name", recordings_.name()},
+                          {"frames", recordings_.frames()},
+                          {"notice", recordings_.notice()},
+                          {"files", recordings_.files()}};
+    // The line is the JSON line of the frame, so its keys are those of docs/schema.
+    std::string line = json_line(fields(reading, Units::mm));
+    server_.publish(state_, [state = std::move(state), line = std::move(line)] {
+        std::string text = dump(state);
+        text.back() = ',';
+        return text + "\"line\":" + line + "}";
+    });
+}
+
+void WebView::publish_history() {
+    json seconds = json::array();
+    for (const RefusalHistory::Second& second : history_.seconds()) {
+        json frames = json::object();
+        for (const auto& [status, count] : second.frames)
+            frames[name(status)] = count;
+        seconds.push_back({{"second", second.second}, {"frames", std::move(frames)}});
+    }
+    server_.publish(history_topic_,
+                    [text = dump({{"seconds", std::move(seconds)}})] { return text; });
+}
+
+void WebView::publish_path(const PathMemory& path) {
+    const std::vector<video::PathMark>& marks = path.marks();
+    const std::size_t step = 1 + marks.size() / kMaxPathPoints;
+    json strokes = json::array();
+    bool is_jump = true;
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+        is_jump = is_jump || marks[i].is_jump;
+        if (i % step != 0 && !marks[i].is_jump) continue;
+        if (std::exchange(is_jump, false)) strokes.push_back(json::array());
+        strokes.back().push_back(std::round(marks[i].x * 1000) / 1000);
+        strokes.back().push_back(std::round(marks[i].y * 1000) / 1000);
+    }
+    const json text = {{"strokes_mm", std::move(strokes)}, {"visited", visited_}};
+    server_.publish(path_topic_, [text] { return dump(text); });
+}
+
+/// The advice takes up to a second, so the thread of the server computes it.
+void WebView::publish_advice(const Reading& reading, const SourceState& source) {
+    if (reading.record.fix.status == Status::ok) {
+        server_.publish(advice_, [] { return std::string(R"({"reason":""})"); });
+        return;
+    }
+    const PictureFacts facts{reading.record.fix.status, follower_.used_options(),
+                             reading.record.code_is_given, source.bits_per_px};
+    const auto image = std::make_shared<const GreyImage>(copy_of(follower_.image()));
+    server_.publish(advice_, [image, facts, record = reading.record]() mutable {
+        const auto scratch = std::make_unique<LargeMemory>();
+        record.advice = advice_on(image->view(), facts, *scratch);
+        return dump({{"reason", reason(record)}});
+    });
+}
+
+void WebView::obey() {
+    while (const std::optional<serve::Command> command = server_.take_command()) {
+        const bool* is_on = command->argument<bool>("on");
+        if (command->name != "record" || is_on == nullptr) continue;
+        if (*is_on) {
+            recordings_.start();
+        } else {
+            recordings_.stop();
+        }
+    }
+}
+
+/// Adds the routes of completed recordings. A name is in the map of routes, never in a path that
+/// comes from a request.
+void WebView::offer_recordings() {
+    const std::vector<std::string>& files = recordings_.files();
+    for (; offered_ < files.size(); ++offered_) {
+        const std::string& file = files[offered_];
+        const bool is_log = file.ends_with(".csv");
+        server_.set_route("/recordings/" + file, [file, is_log, path = recordings_.path_of(file)] {
+            return serve::Answer{.type = is_log ? "text/csv" : "application/octet-stream",
+                                 .file = path.string(),
+                                 .download = file};
+        });
+    }
+}
+
+}  // namespace dotpose::cli

@@ -1,0 +1,100 @@
+/// The page of `dotpose watch --web`. docs/web.md describes its topics.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "dotpose/tools/follower.hpp"
+#include "draw/track_map.hpp"
+#include "path_memory.hpp"
+#include "reading.hpp"
+#include "refusal_history.hpp"
+#include "serve/server.hpp"
+#include "web_recording.hpp"
+
+namespace dotpose::cli {
+
+struct WebOptions {
+    serve::ServerOptions server;
+    std::string source;            ///< description of the source of the frames
+    std::string recordings = ".";  ///< folder of the recordings that are started in the page
+    std::string log;               ///< log of the run; empty if there is none
+    RobotOutputOptions messages;   ///< robot of the recordings
+};
+
+/// What the source reports.
+struct SourceState {
+    std::int64_t dropped = 0;
+    double bits_per_px = 0;
+};
+
+class WebView {
+  public:
+    /// Starts the server, and reports its address. Throws BadArgument or Error. `follower` must
+    /// outlive the view.
+    WebView(WebOptions options, const Follower& follower);
+
+    /// Sends a frame to the clients that are ready, and obeys their commands.
+    void take(const capture::Frame& frame, const Reading& reading, const PathMemory& path,
+              const SourceState& source);
+
+    /// Completes a running recording.
+    void finish() { recordings_.stop(); }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    /// A period after which a topic may have its next value.
+    struct Timer {
+        Clock::time_point next{};
+        bool is_due(Clock::time_point now) const { return now >= next; }
+    };
+
+    void publish_setup();
+    void publish_frame(const Reading& reading, Clock::time_point now);
+    void publish_state(const Reading& reading, const SourceState& source);
+    void publish_history();
+    void publish_path(const PathMemory& path);
+    void publish_advice(const Reading& reading, const SourceState& source);
+    void obey();
+    void offer_recordings();
+    void count(const Reading& reading, Clock::time_point now);
+    bool is_time_for(const serve::Topic& topic, Timer& timer, std::chrono::milliseconds period,
+                     Clock::time_point now) const;
+
+    WebOptions options_;
+    const Follower& follower_;
+    std::vector<draw::MapSheet> sheets_;
+    std::set<std::string> visited_;  ///< names of the sheets on which frames were located
+    RefusalHistory history_;
+    WebRecordings recordings_;
+    std::size_t offered_ = 0;  ///< number of files that can be downloaded
+
+    Clock::time_point rate_begun_;
+    std::int64_t rate_frames_ = 0;
+    double rate_hz_ = 0;  ///< frames per second, in the last full second
+    std::int64_t frames_ = 0;
+    std::int64_t fixes_ = 0;
+    std::int64_t lost_ = 0;
+
+    Timer frame_timer_;
+    Timer small_timer_;
+    Timer state_timer_;
+    Timer history_timer_;
+    Timer path_timer_;
+    Timer advice_timer_;
+
+    serve::Server server_;  ///< destroyed first, because its thread uses the other members
+    serve::Topic& setup_;
+    serve::Topic& frame_;
+    serve::Topic& small_frame_;
+    serve::Topic& state_;
+    serve::Topic& history_topic_;
+    serve::Topic& path_topic_;
+    serve::Topic& advice_;
+};
+
+}  // namespace dotpose::cli

@@ -1,0 +1,36 @@
+/// Correction of vignetting and of uneven light with the flat field of a camera file.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dotpose/export.hpp"
+#include "dotpose/files/camera.hpp"
+#include "dotpose/tools/grey_image.hpp"
+
+DOTPOSE_BEGIN_EXPORT
+
+namespace dotpose {
+
+/// Corrects the images of one camera. Follower does this if its camera has a flat field.
+///
+///     const FlatFieldCorrection correction(camera);
+///     for (;;) locator.locate(correction.corrected(image).view());
+class FlatFieldCorrection {
+  public:
+    /// Computes the gain of each pixel from `camera.flat_field`, which must be valid and not empty.
+    explicit FlatFieldCorrection(const Camera& camera);
+
+    /// Returns the image with each grey level divided by the brightness at its pixel. Levels above
+    /// 255 become 255. Throws BadArgument if the image does not have the size of the camera file.
+    GreyImage corrected(ImageView image) const;
+
+  private:
+    int width_px_;
+    int height_px_;
+    std::vector<std::uint16_t> gains_q8_;  ///< one per pixel, row by row, in units of 2^-8
+};
+
+}  // namespace dotpose
+
+DOTPOSE_END_EXPORT

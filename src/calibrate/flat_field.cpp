@@ -1,0 +1,117 @@
+// Finds the flat field of a camera from the mean of many frames. In the mean of frames of a moving
+// camera, dots darken all pixels alike.
+#include <cmath>
+#include <optional>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <fmt/core.h>
+
+#include "dotpose/tools/calibrate.hpp"
+
+namespace dotpose {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr int kMinFrames = 20;
+/// Number of intervals between the values of a flat field along the longer side of the image. The
+/// interpolation error of vignetting that darkens the corners by half is then about 1 %.
+constexpr double kIntervals = 10;
+
+/// Returns the mean of the frames, relative to white: one row of the matrix per row of the image.
+MatrixXd mean_of(int frames, const FrameAt& frame_at, const std::optional<Camera>& camera,
+                 const CalibrateOptions& options) {
+    using Levels = Eigen::Matrix<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const GreyImage first = frame_at(0);
+    const int width_px = camera ? camera->width_px : first.width_px;
+    const int height_px = camera ? camera->height_px : first.height_px;
+    MatrixXd sum = MatrixXd::Zero(height_px, width_px);
+    for (int i = 0; i < frames; ++i) {
+        const GreyImage image = frame_at(i);
+        if (image.width_px != width_px || image.height_px != height_px) {
+            throw Error(fmt::format("frame {} has {} x {} px, not {} x {} px", i + 1,
+                                    image.width_px, image.height_px, width_px, height_px));
+        }
+        sum += Eigen::Map<const Levels>(image.pixels.data(), height_px, width_px).cast<double>();
+        if (options.progress && !options.progress(i + 1, frames))
+            throw Error("stopped; nothing was written");
+    }
+    return sum / (255.0 * frames);
+}
+
+/// Returns the weights of the values of a flat field in each pixel along one axis: linear
+/// interpolation between values at equal distances, from the first to the last pixel.
+MatrixXd interpolation(Index pixels, Index longer_side) {
+    const double distance_px = std::max(static_cast<double>(longer_side - 1) / kIntervals, 1.0);
+    const auto values = std::max(
+        Index{2},
+        static_cast<Index>(std::lround(static_cast<double>(pixels - 1) / distance_px)) + 1);
+    MatrixXd weights = MatrixXd::Zero(pixels, values);
+    for (Index pixel = 0; pixel < pixels; ++pixel) {
+        const double at =
+            static_cast<double>(pixel * (values - 1)) / static_cast<double>(pixels - 1);
+        const Index first = std::min(static_cast<Index>(at), values - 2);
+        weights(pixel, first + 1) = at - static_cast<double>(first);
+        weights(pixel, first) = 1 - weights(pixel, first + 1);
+    }
+    return weights;
+}
+
+/// Solves `weights * x = values` by least squares, for each column.
+MatrixXd fitted(const MatrixXd& weights, const MatrixXd& values) {
+    return (weights.transpose() * weights).ldlt().solve(weights.transpose() * values);
+}
+
+}  // namespace
+
+FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
+                                          const std::optional<Camera>& camera,
+                                          const CalibrateOptions& options) {
+    if (frames < kMinFrames) {
+        throw Error(fmt::format("{} frames for the flat field; at least {} are needed", frames,
+                                kMinFrames));
+    }
+    const MatrixXd mean = mean_of(frames, frame_at, camera, options);
+    const Index longer_side = std::max(mean.rows(), mean.cols());
+    const MatrixXd by_row = interpolation(mean.rows(), longer_side);
+    const MatrixXd by_column = interpolation(mean.cols(), longer_side);
+    // The fit of a product of two interpolations is the product of two fits.
+    MatrixXd field = fitted(by_column, fitted(by_row, mean).transpose()).transpose();
+    const MatrixXd smooth = by_row * field * by_column.transpose();
+
+    FlatFieldCalibration result;
+    result.frames = frames;
+    result.residual = std::sqrt((mean.array() / smooth.array() - 1).square().mean());
+    result.min_brightness = field.minCoeff() / field.maxCoeff();
+    if (!(result.min_brightness >= kMinFlatField)) {
+        throw Error(
+            fmt::format("the darkest part of the image has less than {:g} % of the light "
+                        "of the brightest part: light the paper more evenly",
+                        100 * kMinFlatField));
+    }
+    // The dots of one frame cover a tenth of the paper. They deviate by 25 % from the mean of one
+    // frame, and by 6 % from the mean of 20 frames.
+    constexpr double kMaxResidual = 0.08;
+    if (!(result.residual <= kMaxResidual)) {
+        throw Error(
+            fmt::format("the mean of the frames deviates by {:.1f} % from a smooth flat "
+                        "field: move the camera between frames, or take more frames",
+                        100 * result.residual));
+    }
+    field /= field.maxCoeff();
+    result.camera = camera.value_or(Camera{});
+    if (!camera) {
+        result.camera.width_px = static_cast<int>(mean.cols());
+        result.camera.height_px = static_cast<int>(mean.rows());
+        result.camera.centre_px = {static_cast<double>(mean.cols() - 1) / 2,
+                                   static_cast<double>(mean.rows() - 1) / 2};
+    }
+    result.camera.flat_field.clear();
+    for (const auto& row : field.rowwise())
+        result.camera.flat_field.emplace_back(row.begin(), row.end());
+    return result;
+}
+
+}  // namespace dotpose

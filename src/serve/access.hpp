@@ -1,0 +1,70 @@
+// Rules that decide which requests a server answers. The rules protect a server at a loopback
+// address from pages of other sites that run in the same browser, and a server on a network from
+// clients without the token.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "serve/address.hpp"
+
+namespace dotpose::serve {
+
+/// Minimum length of a token.
+inline constexpr std::size_t kMinTokenLength = 16;
+/// Maximum length of a token.
+inline constexpr std::size_t kMaxTokenLength = 256;
+
+/// Returns a random token of 128 bits, as 32 hexadecimal digits. Throws Error if the system has no
+/// random numbers.
+std::string make_token();
+
+/// Reads a token from the first line of a file. Throws Error if the file cannot be read or the
+/// token does not consist of 16 to 256 letters, digits and the characters '-', '_', '.', '~'.
+std::string read_token(const std::string& path);
+
+/// Compares two texts. The time depends on their lengths only.
+bool equals_in_constant_time(std::string_view a, std::string_view b);
+
+/// The parts of a request that decide whether it is answered. A missing header is empty.
+struct RequestHead {
+    std::string host;           ///< header Host
+    std::string origin;         ///< header Origin, which browsers send from scripts
+    std::string cookie;         ///< header Cookie
+    std::string authorization;  ///< header Authorization
+    std::string token;          ///< parameter `token` of the URL
+    bool is_get = false;        ///< true if the method is GET
+};
+
+enum class Verdict {
+    allowed,
+    allowed_by_url,  ///< allowed by the token in the URL; the answer should store it as a cookie
+    wrong_host,      ///< the host is not a name of this server (DNS rebinding)
+    wrong_origin,    ///< the request is from a page of another site
+    wrong_token,     ///< the token is missing or wrong
+    wrong_method,
+};
+
+class Access {
+  public:
+    /// `token` is empty if all clients are allowed, which requires a loopback address. `hostname`
+    /// is the name of this computer.
+    Access(const Address& address, std::string token, std::string hostname);
+
+    Verdict judge(const RequestHead& head) const;
+
+    /// Returns the value of a Set-Cookie header that stores the token. The name of the cookie
+    /// contains the port, because browsers do not separate the cookies of ports.
+    std::string set_cookie() const;
+
+  private:
+    bool is_own_host(std::string_view host) const;
+    bool is_token(std::string_view token) const;
+
+    Address address_;
+    std::string token_;
+    std::string hostname_;
+    std::string cookie_name_;
+};
+
+}  // namespace dotpose::serve

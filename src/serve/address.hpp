@@ -1,0 +1,33 @@
+// Addresses at which a server listens.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "dotpose/files/error.hpp"
+
+namespace dotpose::serve {
+
+/// An address of this computer and a port.
+struct Address {
+    std::string ip = "127.0.0.1";  ///< IPv4 or IPv6 address; 0.0.0.0 and :: are all interfaces
+    std::uint16_t port = 0;        ///< 0: the system chooses a free port
+
+    /// Returns true if only programs on this computer reach the address.
+    bool is_loopback() const;
+    /// Returns true if the address is all interfaces of this computer.
+    bool is_any() const;
+};
+
+/// Parses "[ADDRESS:]PORT". ADDRESS is an IP address, with IPv6 addresses in brackets, or
+/// "localhost". Throws BadArgument if the text is not an address.
+Address parse_address(const std::string& text);
+
+/// Returns "IP:PORT", with IPv6 addresses in brackets.
+std::string text_of(const Address& address);
+
+/// Throws Error with the reason if no program may listen at the address, for example because
+/// another program does.
+void require_free(const Address& address);
+
+}  // namespace dotpose::serve

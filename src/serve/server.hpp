@@ -1,0 +1,107 @@
+// An HTTP and WebSocket server on its own thread, for pages that show what a live program does.
+// Requires libwebsockets at build time.
+//
+//     serve::Server server({.address = address, .pages = pages});
+//     serve::Topic& states = server.add_topic("state", serve::Format::text);
+//     server.start();
+//     while (next_frame()) {
+//         if (states.is_wanted()) server.publish(states, [json] { return json; });
+//         while (auto command = server.take_command()) obey(*command);
+//     }
+//
+// Protocol of the WebSocket /live: the client sends {"do": "subscribe", "topic": NAME}, then {"do":
+// "next", "topic": NAME} after each message that it has shown, and may send {"do": "unsubscribe",
+// "topic": NAME}. Each message of the server is the name of a topic, a line break, and the value.
+// Other commands are for the program.
+//
+// The server opens no file whose name is part of a request. Its limits are in limits.hpp.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "serve/access.hpp"
+#include "serve/address.hpp"
+#include "serve/command.hpp"
+#include "serve/topic.hpp"
+
+namespace dotpose::serve {
+
+/// A file of the page, which is part of the program.
+struct Page {
+    std::string_view path;  ///< path in URLs, such as "/live.js"
+    std::string_view type;  ///< MIME type
+    std::string_view content;
+};
+
+/// Answer to a GET request.
+struct Answer {
+    std::string type = {};  ///< MIME type
+    std::string body = {};
+    /// Path of a file that is sent instead of `body`; empty for none. The path is from the program,
+    /// never from the request.
+    std::string file = {};
+    /// Name under which browsers save the answer; empty if they show it. Must consist of letters,
+    /// digits, '.', '-' and '_'.
+    std::string download = {};
+};
+
+/// Returns the answer to a GET request. Called on the thread of the server. Must not throw.
+using Route = std::function<Answer()>;
+
+/// Format of the values of a topic.
+enum class Format { text, binary };
+
+struct ServerOptions {
+    Address address;
+    std::string token;            ///< token of the clients; may be empty at a loopback address
+    std::span<const Page> pages;  ///< must outlive the server; the page "/" is the start page
+    /// Called with messages for the user, such as refused clients. Called on the thread of the
+    /// server.
+    std::function<void(const std::string&)> tell = [](const std::string&) {};
+};
+
+class Server {
+  public:
+    /// Throws BadArgument if the address requires a token or if this program was built without
+    /// libwebsockets.
+    explicit Server(ServerOptions options);
+    /// Closes all connections.
+    ~Server();
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+
+    /// Adds a topic before `start`.
+    Topic& add_topic(const std::string& name, Format format);
+
+    /// Starts the thread. Throws Error if the server cannot listen.
+    void start();
+
+    // The following functions may be called on any thread, after `start`.
+
+    /// Returns the URL of the page, with the token if there is one.
+    std::string url() const;
+
+    /// Adds or replaces a route.
+    void set_route(const std::string& path, Route route);
+
+    /// Replaces the value of a topic and wakes the server.
+    void publish(Topic& topic, Topic::Encode encode);
+
+    /// Returns the next command of a client, or none. At most 32 commands wait; further commands
+    /// are refused.
+    std::optional<Command> take_command();
+
+    /// Returns the number of connected clients.
+    int clients() const;
+
+  private:
+    class Service;
+    std::unique_ptr<Service> service_;
+};
+
+}  // namespace dotpose::serve

@@ -1,0 +1,33 @@
+// Reports refused clients to the user, without repeating a report for each of many refusals.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+
+namespace dotpose::serve {
+
+class Reports {
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    explicit Reports(std::function<void(const std::string&)> tell) : tell_(std::move(tell)) {}
+
+    /// Counts a refusal. Reports the first refusal for each reason immediately, and the number of
+    /// further refusals at most every 10 s, with the next refusal. `reason` is one of a few
+    /// constants.
+    void refuse(const std::string& peer, const std::string& reason, Clock::time_point now);
+
+  private:
+    struct Count {
+        std::int64_t unreported = 0;
+        Clock::time_point next;
+    };
+
+    std::function<void(const std::string&)> tell_;
+    std::map<std::string, Count> counts_;
+};
+
+}  // namespace dotpose::serve

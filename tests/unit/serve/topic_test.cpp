@@ -1,0 +1,82 @@
+#include "serve/topic.hpp"
+
+#include <gtest/gtest.h>
+
+namespace dotpose::serve {
+namespace {
+
+TEST(Topic, KeepsTheNewestValueOnly) {
+    Topic topic("state", false);
+    EXPECT_EQ(topic.version(), 0U);
+    int encoded = 0;
+    for (const char* value : {"a", "b", "c"})
+        topic.publish([&encoded, value] { return ++encoded, value; });
+    EXPECT_EQ(topic.version(), 3U);
+    EXPECT_EQ(encoded, 0);
+    std::uint64_t version = 0;
+    EXPECT_EQ(*topic.message(version), "state\nc");
+    EXPECT_EQ(version, 3U);
+    // A second client receives the same message.
+    EXPECT_EQ(*topic.message(version), "state\nc");
+    EXPECT_EQ(encoded, 1);
+}
+
+TEST(Topic, MessageStaysValidAfterThePublicationOfTheNext) {
+    Topic topic("frame", true);
+    topic.publish([] { return "old"; });
+    std::uint64_t version = 0;
+    const auto old = topic.message(version);
+    topic.publish([] { return "new"; });
+    EXPECT_EQ(*topic.message(version), "frame\nnew");
+    EXPECT_EQ(version, 2U);
+    EXPECT_EQ(*old, "frame\nold");
+}
+
+TEST(Topic, IsWantedUntilTheNextPublication) {
+    Topic topic("state", false);
+    EXPECT_FALSE(topic.is_wanted());
+    topic.set_ready_clients(2);
+    EXPECT_TRUE(topic.is_wanted());
+    topic.publish([] { return ""; });
+    EXPECT_FALSE(topic.is_wanted());
+}
+
+TEST(Subscription, SendsEachValueOnce) {
+    Subscription client;
+    EXPECT_FALSE(client.is_due(1));
+    client.begin();
+    EXPECT_FALSE(client.is_due(0));
+    EXPECT_TRUE(client.is_ready(0));
+    EXPECT_TRUE(client.is_due(1));
+    EXPECT_FALSE(client.is_ready(1));
+    client.sent(1);
+    EXPECT_FALSE(client.is_due(1));
+    EXPECT_TRUE(client.is_ready(1));
+}
+
+TEST(Subscription, StuckClientReceivesTwoValues) {
+    Subscription client;
+    client.begin();
+    client.sent(1);
+    EXPECT_TRUE(client.is_due(2));
+    client.sent(2);
+    EXPECT_FALSE(client.is_due(3));
+    EXPECT_FALSE(client.is_ready(2));
+    client.acknowledge();
+    EXPECT_TRUE(client.is_due(3));
+}
+
+TEST(Subscription, AcknowledgementsDoNotAddUp) {
+    Subscription client;
+    client.begin();
+    for (int i = 0; i < 10; ++i)
+        client.acknowledge();
+    client.sent(1);
+    client.sent(2);
+    EXPECT_FALSE(client.is_open());
+    client.end();
+    EXPECT_FALSE(client.is_due(3));
+}
+
+}  // namespace
+}  // namespace dotpose::serve

@@ -1,0 +1,70 @@
+// The WebSocket to the program. Each topic delivers its newest value, and the next one only after
+// the previous one was shown, so a slow page or connection receives fewer values, not old ones.
+
+export type Values = string | Uint8Array<ArrayBuffer>;
+export type Show = (value: Values) => Promise<void> | void;
+
+const kRetry_ms = 1000;
+const kNewline = 10;
+
+function split(data: string | ArrayBuffer): [string, Values] {
+    if (typeof data === "string") {
+        const end = data.indexOf("\n");
+        return [data.slice(0, end), data.slice(end + 1)];
+    }
+    const bytes = new Uint8Array(data);
+    const end = bytes.indexOf(kNewline);
+    return [new TextDecoder().decode(bytes.subarray(0, end)), bytes.subarray(end + 1)];
+}
+
+export class Connection {
+    readonly #topics = new Map<string, Show>();
+    readonly #changed: (is_open: boolean) => void;
+    #socket: WebSocket | undefined;
+
+    /** `changed` is called when the connection opens or breaks. */
+    constructor(changed: (is_open: boolean) => void) {
+        this.#changed = changed;
+    }
+
+    /** Connects, and connects again whenever the connection breaks. */
+    open(): void {
+        const scheme = location.protocol === "https:" ? "wss" : "ws";
+        const socket = new WebSocket(`${scheme}://${location.host}/live`);
+        socket.binaryType = "arraybuffer";
+        socket.onopen = () => {
+            this.#changed(true);
+            for (const topic of this.#topics.keys()) this.send({ do: "subscribe", topic });
+        };
+        socket.onmessage = ({ data }: MessageEvent<string | ArrayBuffer>) => void this.#take(data);
+        socket.onclose = () => {
+            this.#changed(false);
+            setTimeout(() => this.open(), kRetry_ms);
+        };
+        this.#socket = socket;
+    }
+
+    /** Receives the values of a topic. */
+    subscribe(topic: string, show: Show): void {
+        this.#topics.set(topic, show);
+        this.send({ do: "subscribe", topic });
+    }
+
+    unsubscribe(topic: string): void {
+        this.#topics.delete(topic);
+        this.send({ do: "unsubscribe", topic });
+    }
+
+    send(command: Record<string, string | number | boolean>): void {
+        if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(command));
+    }
+
+    async #take(data: string | ArrayBuffer): Promise<void> {
+        const [topic, value] = split(data);
+        try {
+            await this.#topics.get(topic)?.(value);
+        } finally {
+            if (this.#topics.has(topic)) this.send({ do: "next", topic });
+        }
+    }
+}

@@ -1,0 +1,66 @@
+// The page of `dotpose watch --web`: shows what the program sees, live.
+import { announcer, element, show } from "../page/dom.js";
+import { Connection, type Values } from "./connection.js";
+import { PathMap } from "./map.js";
+import type { Advice, History, Path, Setup, State } from "./messages.js";
+import { Picture } from "./picture.js";
+import { placeOf, showState } from "./readout.js";
+import { Recorder } from "./recorder.js";
+import { Refusals } from "./refusals.js";
+
+const announce = announcer("live-announced");
+const connection = new Connection((is_open) => {
+    element("live-status", HTMLElement).classList.toggle("good", is_open);
+    show({ "live-status": is_open ? "live" : "no connection to dotpose" });
+    if (!is_open) announce("No connection to dotpose");
+});
+const map = new PathMap();
+const refusals = new Refusals();
+const recorder = new Recorder(connection);
+const picture = new Picture(connection);
+let setup: Setup | null = null;
+
+function showSetup(value: Setup): void {
+    setup = value;
+    map.setUp(value);
+    recorder.setUp(value);
+    show({ "live-source": value.source, "live-robot": value.robot });
+    document.title = `${value.robot}: dotpose`;
+}
+
+function takeState(state: State): void {
+    showState(state, setup);
+    map.takeLine(state.line);
+    recorder.take(state);
+    const place = placeOf(state.line, setup);
+    announce(place ? `x ${place.x_mm.toFixed(1)}, y ${place.y_mm.toFixed(1)} mm` : "lost");
+}
+
+function showAdvice({ reason }: Advice): void {
+    const box = element("live-advice", HTMLElement);
+    show({ "live-advice": reason === "" ? "The newest frame was located." : `Refused: ${reason}.` });
+    box.classList.toggle("good", reason === "");
+}
+
+function subscribe<T>(topic: string, take: (value: T) => void): void {
+    connection.subscribe(topic, async (value: Values) => {
+        take(JSON.parse(value as string) as T);
+        await new Promise(requestAnimationFrame);
+    });
+}
+
+subscribe<Setup>("setup", showSetup);
+subscribe<State>("state", takeState);
+subscribe<History>("history", (history) => refusals.take(history));
+subscribe<Path>("path", (path) => map.takePath(path));
+subscribe<Advice>("advice", showAdvice);
+connection.open();
+
+function redraw(): void {
+    picture.request();
+    picture.redraw();
+    map.redraw();
+    refusals.redraw();
+}
+window.addEventListener("resize", redraw);
+window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);

@@ -1,0 +1,111 @@
+// The camera's frame with its overlay, and the aids for focus and exposure.
+import { drawFrame } from "../draw/frame.js";
+import { measureQuality } from "../engine/quality.js";
+import type { ImageQuality } from "../engine/messages.js";
+import { element, show } from "../page/dom.js";
+import { hintOfPicture } from "../page/hints.js";
+import type { Connection, Values } from "./connection.js";
+import { frameOf, type LiveFrame } from "./messages.js";
+
+const kLarge = "frame";
+const kSmall = "small-frame";
+/** Longer side of small frames. */
+const kSmall_px = 480;
+/** Minimum rate of large frames. If they are slower, small frames are requested. */
+const kMinRate_hz = 3;
+const kMeasured_ms = 4000;
+
+/** Measures the quality of a frame on its picture. */
+class Meter {
+    readonly #canvas = new OffscreenCanvas(1, 1);
+    /** The best sharpness so far, which shows by how much the focus can be improved. */
+    #best = 0;
+
+    measure({ picture }: LiveFrame): ImageQuality {
+        const { width, height } = picture;
+        if (this.#canvas.width !== width || this.#canvas.height !== height) Object.assign(this.#canvas, { width, height });
+        const context = this.#canvas.getContext("2d", { willReadFrequently: true })!;
+        context.drawImage(picture, 0, 0);
+        const pixels = context.getImageData(0, 0, width, height).data;
+        const data = new Uint8Array(width * height);
+        for (let i = 0; i < data.length; ++i) data[i] = pixels[4 * i]!;
+        return measureQuality({ data, width, height });
+    }
+
+    show(quality: ImageQuality): void {
+        this.#best = Math.max(this.#best, quality.sharpness);
+        element("live-brightness", HTMLMeterElement).value = quality.brightness;
+        element("live-contrast", HTMLMeterElement).value = quality.contrast;
+        element("live-sharpness", HTMLMeterElement).value = quality.sharpness / Math.max(this.#best, 1e-6);
+        show({
+            "live-brightness-text": `${Math.round(quality.brightness)} of 255`,
+            "live-contrast-text": `${Math.round(quality.contrast)} grey levels`,
+            "live-sharpness-text": `${Math.round((100 * quality.sharpness) / Math.max(this.#best, 1e-6))} % of the best`,
+            "live-picture-advice": hintOfPicture(quality) ?? "The picture is bright and sharp enough.",
+        });
+    }
+
+    /** Forgets the best sharpness, for example after the lens was changed. */
+    restart(): void {
+        this.#best = 0;
+    }
+}
+
+export class Picture {
+    readonly #connection: Connection;
+    readonly #canvas = element("live-frame", HTMLCanvasElement);
+    readonly #layers = element("live-layers", HTMLInputElement);
+    readonly #meter = new Meter();
+    #topic = "";
+    #last: LiveFrame | undefined;
+    #times_ms: number[] = [];
+    #is_slow = false;
+
+    constructor(connection: Connection) {
+        this.#connection = connection;
+        this.#layers.addEventListener("change", () => this.redraw());
+        element("live-refocus", HTMLButtonElement).addEventListener("click", () => this.#meter.restart());
+        document.addEventListener("visibilitychange", () => this.request());
+        this.request();
+    }
+
+    /** Requests frames in the size that the page shows; none while the page is hidden. */
+    request(): void {
+        const shown_px = this.#canvas.clientWidth * window.devicePixelRatio;
+        const wanted = document.hidden ? "" : this.#is_slow || shown_px <= kSmall_px ? kSmall : kLarge;
+        if (wanted === this.#topic) return;
+        if (this.#topic !== "") this.#connection.unsubscribe(this.#topic);
+        this.#topic = wanted;
+        this.#times_ms = [];
+        if (wanted !== "") this.#connection.subscribe(wanted, (value) => this.#take(value));
+    }
+
+    redraw(): void {
+        if (this.#last === undefined) return;
+        const is_on = this.#layers.checked;
+        drawFrame(this.#canvas, this.#last, { found: is_on, grid: is_on, pose: is_on });
+    }
+
+    async #take(value: Values): Promise<void> {
+        const frame = await frameOf(value as Uint8Array<ArrayBuffer>);
+        this.#last?.picture.close();
+        this.#last = frame;
+        this.#meter.show(this.#meter.measure(frame));
+        this.redraw();
+        this.#countRate();
+        // The next frame is requested after this one is on the screen.
+        await new Promise(requestAnimationFrame);
+    }
+
+    #countRate(): void {
+        const now_ms = performance.now();
+        this.#times_ms.push(now_ms);
+        while (now_ms - this.#times_ms[0]! > kMeasured_ms) this.#times_ms.shift();
+        const passed_s = (now_ms - this.#times_ms[0]!) / 1000;
+        const rate_hz = passed_s > 0 ? (this.#times_ms.length - 1) / passed_s : 0;
+        show({ "live-frame-rate": rate_hz > 0 ? `shown ${rate_hz.toFixed(0)} times a second` : "" });
+        if (this.#topic !== kLarge || now_ms - this.#times_ms[0]! < kMeasured_ms / 2 || rate_hz >= kMinRate_hz) return;
+        this.#is_slow = true;
+        this.request();
+    }
+}

@@ -1,0 +1,35 @@
+// Sets up a locator in the memory of the core module.
+import { callOk } from "./core.js";
+import type { Instance } from "./instance.js";
+import type { LocatorOptions } from "./locator.js";
+import { codeNumber } from "./names.js";
+
+/** Size of a dotpose_options of wrappers/c/dotpose.h, and offsets of its members. */
+const kOptionsBytes = 96;
+const kOptionOffsets = { code: 4, effort: 8, show_stages: 88 };
+const kDoubleOffsets = { spacing_mm: 16, lens_k_per_px2: 24, max_p_wrong: 64 };
+const kPointerBytes = 4;
+const kDetectCode = -1;
+
+/** Sets up a locator, and returns its address. Throws RangeError for invalid options. */
+export function newLocator(core: Instance, options: LocatorOptions): number {
+    const { attempts = 2, code = "auto" } = options;
+    if (attempts !== 1 && attempts !== 2) throw new RangeError(`attempts are 1 or 2, not ${String(attempts)}`);
+    const given = core.reserve(kOptionsBytes);
+    callOk(core, "dotpose_options_init", given, kOptionsBytes);
+    const view = core.view(given, kOptionsBytes);
+    const set = (name: keyof typeof kOptionOffsets, value: number) =>
+        view.setInt32(kOptionOffsets[name], value, true);
+    set("code", code === "auto" ? kDetectCode : codeNumber(code));
+    set("show_stages", options.dots ? 1 : 0);
+    set("effort", attempts);
+    for (const name of Object.keys(kDoubleOffsets) as (keyof typeof kDoubleOffsets)[]) {
+        const value = options[name];
+        if (value !== undefined) view.setFloat64(kDoubleOffsets[name], value, true);
+    }
+    const bytes = core.call("dotpose_large_bytes");
+    const memory = core.reserve(bytes);
+    const pointer = core.reserve(kPointerBytes);
+    callOk(core, "dotpose_large_init", memory, bytes, given, pointer);
+    return core.view(pointer, kPointerBytes).getUint32(0, true);
+}
