@@ -4,8 +4,8 @@
 /// The code follows paper section II-A. Every column contains the same cyclic sequence, called
 /// *main*, which is read downwards. A column's *roll* is the index at which its sequence starts.
 /// Rolls of adjacent columns differ by 5 to 58, modulo 63. Each difference has four digits, taken
-/// from the cyclic sequences a1 to a4. Their lengths are coprime, so consecutive differences
-/// determine the column's position. Rows encode y in the same way.
+/// from the cyclic sequences a1 to a4. The lengths of these sequences are coprime, so consecutive
+/// differences determine the column's position. Rows encode y in the same way.
 ///
 /// Coordinates: x points right and y points DOWN, as the printed page is read. All functions are
 /// pure and thread-safe, and do not allocate.
@@ -35,7 +35,7 @@ enum class CodeVariant : std::uint8_t {
     /// Sequence a4 as misprinted in the patent. Used by libdots and other open tools. Windows
     /// smaller than 8 x 8 symbols may be ambiguous.
     libdots,
-    /// A different sequence a4, used by py-microdots and its ports.
+    /// Sequence a4 as in py-microdots and its ports, which differs from the patent's a4.
     microdots,
 };
 /// Number of code variants.
@@ -64,11 +64,11 @@ enum class Symbol : std::uint8_t { up = 0, left = 1, right = 2, down = 3 };
 constexpr Symbol make_symbol(int x_bit, int y_bit) {
     return static_cast<Symbol>(x_bit | (y_bit << 1));
 }
-/// Returns the column's bit, 0 or 1.
+/// Returns the x bit, 0 or 1. The x bits of a column form the main sequence.
 constexpr int x_bit(Symbol symbol) {
     return static_cast<int>(symbol) & 1;
 }
-/// Returns the row's bit, 0 or 1.
+/// Returns the y bit, 0 or 1. The y bits of a row form the main sequence.
 constexpr int y_bit(Symbol symbol) {
     return static_cast<int>(symbol) >> 1 & 1;
 }
@@ -101,7 +101,8 @@ int main_bit(std::uint32_t index) noexcept;
 /// and row instead.
 Symbol symbol_at(CodeVariant code, Cell cell, Section section) noexcept;
 
-/// Rectangle of symbols, stored row by row. It must have 6 to 32 columns and 6 to 32 rows.
+/// Rectangle of symbols, stored row by row. The rectangle must have 6 to 32 columns and 6 to 32
+/// rows.
 struct SymbolWindow {
     std::span<const Symbol> symbols;  ///< columns * rows symbols
     int columns = 0;
@@ -116,8 +117,8 @@ struct Place {
 };
 
 /// Returns the place that is (dx, dy) intersections away. |dx| and |dy| must be less than
-/// kPositionsPerAxis. Beyond the end of an axis, the result wraps around to the other end. The
-/// pattern continues there in another section.
+/// kPositionsPerAxis. Beyond one end of an axis, the result wraps around to the opposite end, in
+/// another section.
 Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noexcept;
 
 /// Decodes an upright window without wrong symbols. Sets `place` only if the window occurs exactly
@@ -134,8 +135,9 @@ Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexce
 Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 
-/// Returns the section, in [0, 63), for the column (or row) at `position`. `roll_seen` is its roll,
-/// counted from row (or column) `cross_position`: the main sequence index of the bit there.
+/// Returns `Section::u` for the column at `position`, or `Section::v` for the row at `position`.
+/// `roll_seen` is the main sequence index of one bit of this column (or row). The bit is in row (or
+/// column) `cross_position`.
 int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
                std::uint32_t cross_position) noexcept;
 

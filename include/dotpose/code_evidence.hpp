@@ -29,17 +29,17 @@ namespace dotpose {
 /// Odds for each code variant of a sheet, given all frames so far.
 ///
 /// Consecutive frames at one place contain the same dots with the same defects, so they count as a
-/// single frame. Each of them would divide a variant's odds by some factor. The odds are divided by
-/// the mean of these factors. Frames are at the same place if they are less than 64 cells from the
-/// first frame there, along both axes.
+/// single frame. Each frame alone would divide a variant's odds by some factor. All frames at one
+/// place together divide the odds by the mean of these factors. Frames are at the same place if
+/// they are less than 64 cells from the first frame at this place, along both axes.
 class CodeEvidence {
   public:
     /// Log-likelihood or log-odds for each code variant: log2, in units of 2^-8.
     using LogOdds = std::array<std::int32_t, kCodeVariantCount>;
 
-    /// Maximum log2 ratio between the odds for the likeliest code variant and any other. Applies to
-    /// each frame and to all frames together. The limit allows later frames to reveal that the
-    /// sheet was replaced.
+    /// Maximum log2 ratio between the odds for the likeliest code variant and for any other code
+    /// variant. Applies to each frame and to all frames together. The limit allows later frames to
+    /// reveal that the sheet was replaced.
     static constexpr std::int32_t kMax_log2 = 40;
     /// Maximum log2 factor by which consecutive frames at one place together reduce a variant's
     /// odds. These frames contain the same dots with the same defects, so they are not independent.
@@ -64,9 +64,9 @@ class CodeEvidence {
     LogOdds sum() const;
 
     LogOdds before_log2_q8_{};  ///< log2 odds from all places except the newest
-    /// One sum per code variant, over the frames at the newest place. Each frame adds the factor by
-    /// which it reduces the variant's odds relative to the likeliest variant. `sum()` uses the
-    /// mean, factors_here_ / frames_here_.
+    /// One sum per code variant, over the frames at the newest place. Each frame adds one factor to
+    /// the sum. The frame alone would reduce the variant's odds, relative to the likeliest variant,
+    /// by this factor. `sum()` uses the mean, factors_here_ / frames_here_.
     std::array<float, kCodeVariantCount> factors_here_{};
     Cell here_;
     std::uint32_t frames_here_ = 0;
@@ -74,17 +74,18 @@ class CodeEvidence {
 
 /// Result of locating one frame, with the evidence for each code variant.
 struct CodeReading {
-    /// If the status is ambiguous_code, pose and counts belong to one of the two places.
+    /// If the status is ambiguous_code, two places explain the frame. The pose and the counts
+    /// belong to one of these places.
     Fix fix;
     CodeVariant code = CodeVariant::anoto;  ///< code variant of `fix`
     CodeEvidence evidence;                  ///< evidence including this frame
     /// True if a place in another code variant also explains the frame. The members below contain
     /// this place. `Locator::locate_in_any_code` sets the flag only if the status is
-    /// ambiguous_code. `Locator::locate_in_code` lists its own cases. If the fix is ok, its
-    /// `p_wrong_log2` does not include the odds for this place.
+    /// ambiguous_code. For `Locator::locate_in_code`, the comment on this function lists the cases.
+    /// If the fix is ok, its `p_wrong_log2` does not include the odds for this place.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;
-    Cell other_cell{};  ///< cell in `other_code`, as in Fix; fractions and angle are the same as in
+    Cell other_cell{};  ///< `Fix::cell` for the other place; fractions and angle are the same as in
                         ///< `fix`
     Section other_section{};
 };

@@ -1,6 +1,7 @@
-/// Device options: fixed-point options for a DeviceLocator. A Locator also accepts them. Desktop
-/// programs usually use LocatorOptions instead, with values in millimetres, pixels and ratios.
-/// Ranges are in [brackets]. If a value is out of range, every frame gets Status::bad_argument.
+/// Device options: fixed-point options for a DeviceLocator. A Locator also accepts these options.
+/// Desktop programs usually use LocatorOptions instead, with values in millimetres, pixels and
+/// ratios. Ranges are in [brackets]. If a value is out of range, every frame gets
+/// Status::bad_argument.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +16,12 @@ namespace dotpose {
 /// Radial lens distortion (paper, eq. 1-2): p_u = m + r_d / (1 + k |r_d|^2). Here, p_u is the
 /// undistorted point, m is the distortion centre, and r_d is the vector from m to the image point.
 struct FixedLens {
-    /// k in units of 2^-40 / px^2. Negative for barrel distortion. Default 0: no distortion. [any]
+    /// Coefficient k, in units of 2^-40 / px^2. Negative for barrel distortion. Default 0: no
+    /// distortion. [any]
     std::int32_t k_q40 = 0;
-    /// m relative to the image centre, in px times 256. Default: the image centre, as in the paper.
-    /// In real lenses, m is a few pixels off the image centre. [-1024 to 1024 px]
+    /// Distortion centre m relative to the image centre, in px times 256. Default: the image
+    /// centre, as in the paper. In real lenses, m is a few pixels off the image centre. [-1024 to
+    /// 1024 px]
     std::int32_t centre_dx_q8 = 0;
     std::int32_t centre_dy_q8 = 0;
 
@@ -31,7 +34,8 @@ struct FixedLens {
 };
 
 /// Thresholds that separate dots from paper (paper, section II-B.1). Used on devices and in the
-/// second attempt (see Effort). The second attempt lowers them, because it filters the image first.
+/// second attempt (see Effort). The second attempt lowers the thresholds, because it filters the
+/// image first.
 struct ThresholdOptions {
     /// Low threshold, in 1/256 of the local contrast. All pixels in a blob must be at least this
     /// much darker than the paper. Smaller values merge neighbouring dots. Larger values lose
@@ -73,7 +77,7 @@ struct LatticeOptions {
     int max_offset_q16 = 24000;
 };
 
-/// Limits for refusing a position as not certain.
+/// Limits beyond which a position is refused as not_certain.
 struct IntegrityOptions {
     /// Maximum accepted bound on the probability that a fix is wrong, as log2. Positions with a
     /// larger bound are refused. The default is slightly below 1e-9. [-2^20 to 0]
@@ -87,8 +91,8 @@ struct IntegrityOptions {
 enum class Effort : std::uint8_t {
     device,  ///< one attempt in integer arithmetic, as in a DeviceLocator
     once,    ///< tracked attempt, if there is a prediction, then first attempt
-    twice,   ///< like `once`, then a second attempt on the filtered image if the first one fails or
-             ///< has large residuals
+    twice,   ///< like `once`, then a second attempt on the filtered image if the first attempt
+             ///< fails or its fix has large residuals
 };
 
 /// Dots used to read the position.
@@ -126,8 +130,8 @@ struct DeviceOptions {
     std::int32_t spacing_nm = 508'000;
 
     /// If true, the first and the tracked attempt store dots, grid and bits in the trace. Drawing
-    /// and calibration need them. Storing takes time. The other attempts always store dots, grid
-    /// and bits.
+    /// and calibration need these results. Storing takes time. The other attempts always store
+    /// dots, grid and bits.
     bool show_stages = false;
 
     /// Reference point: the image point whose pose is reported. Relative to the image centre, in px

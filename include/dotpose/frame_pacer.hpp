@@ -38,8 +38,8 @@ struct PacerOptions {
     /// Movement threshold for rotations, as a binary angle: 2^31 is half a turn. Default: one
     /// degree.
     std::int32_t turned_bam = 11'930'465;
-    /// If true, a stationary device that loses the pattern counts as moved, for example because it
-    /// was lifted. Set this to false if frames also fail at rest.
+    /// If true, a stationary device that loses the pattern counts as moved, for example because the
+    /// device was lifted. Set this to false if frames also fail at rest.
     bool lost_is_moved = true;
 };
 
@@ -64,8 +64,8 @@ class FramePacer {
     PacerOptions options_;
     Motion motion_ = Motion::moving;
     bool has_begun_ = false;
-    /// Fix from the newest frame that counted as movement. Later frames are compared with it. The
-    /// first frame always counts as movement. The status is not ok if that frame had no fix.
+    /// Result of the newest frame that counted as movement, with or without a fix. Later frames are
+    /// compared with this result. The first frame always counts as movement.
     Fix rest_;
     std::int64_t rest_since_us_ = 0;  ///< time of the `rest_` frame
 };

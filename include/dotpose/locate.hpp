@@ -119,9 +119,9 @@ class Locator : public RowLocator {
 
     /// Sets the regions of the code plane on the printed sheets that may be in view. With known
     /// regions, views of about 30 dots suffice. `regions` must remain valid while the locator uses
-    /// it. An empty span makes all places possible again. Returns bad_argument, and keeps the
-    /// previous regions, if a region is empty, extends beyond the plane, or has a code or section
-    /// that does not exist. Effort::device does not use the regions.
+    /// it. An empty span of regions makes all places possible again. Returns bad_argument, and
+    /// keeps the previous regions, if a region is empty, extends beyond the plane, or has a code or
+    /// section that does not exist. Effort::device does not use the regions.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 
@@ -163,8 +163,9 @@ class Locator : public RowLocator {
 
     /// Locates an image in `options().code`, with the same fix as `locate`. Sets `has_other` in
     /// three cases:
-    /// - A different place in another code variant explains the image about as well as the fix.
-    /// - The same place in another code variant explains the image much better.
+    /// - A place in another code variant, other than the place of the fix, explains the image about
+    ///   as well as the fix.
+    /// - The place of the fix explains the image much better in another code variant.
     /// - The image has no fix in `options().code`, but a place in another code variant explains the
     ///   image with few wrong bits.
     CodeReading locate_in_code(const ImageView& image);
@@ -209,7 +210,8 @@ class Locator : public RowLocator {
 /// arithmetic, and the time per frame is short and bounded. The options `effort` and `decoder` have
 /// no effect. Computes neither covariance nor residual. Computes only a fast upper bound on the
 /// probability that a position is wrong, and refuses the position as not_certain if this bound
-/// exceeds the limit. A program that uses only this class does not link the desktop attempts.
+/// exceeds IntegrityOptions::max_p_wrong_log2. A program that uses only this class does not link
+/// the desktop attempts.
 class DeviceLocator : public RowLocator {
   public:
     /// The rules for memory and options are the same as for Locator.
@@ -228,7 +230,7 @@ class DeviceLocator : public RowLocator {
     /// Starts a frame whose dots are measured at their predicted places, as the rows arrive.
     /// Returns not_tracked if the prediction cannot be used. If the frame does not confirm the
     /// prediction, the fix of `finish` has the status not_tracked. A caller that still has the rows
-    /// can then push them again without a prediction.
+    /// can then push the rows again without a prediction.
     Status begin(int width_px, int height_px, const Prediction& prediction);
 
     /// Processes the next row of `width_px` pixels. The pixels need not remain valid afterwards.

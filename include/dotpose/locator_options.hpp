@@ -15,10 +15,11 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Options for a Locator. They apply to every attempt, including images that are pushed row by row.
+/// Options for a Locator. All options apply to every attempt, including images that are pushed row
+/// by row.
 struct LocatorOptions {
     /// Code variant of the sheet. Default: detected from all frames so far. If two code variants
-    /// explain a frame about equally well, its status is ambiguous_code.
+    /// explain a frame about equally well, the frame gets the status ambiguous_code.
     std::optional<CodeVariant> code;
     /// Spacing of the printed grid. Used to convert a fix to millimetres. Default: 0.508 mm, as in
     /// the paper. Use 0 if the spacing is unknown. [0 to 1000 mm]
@@ -52,7 +53,7 @@ struct LocatorOptions {
     Effort effort = Effort::twice;
     Decoder decoder = Decoder::all;
     /// If true, every attempt stores dots, grid and bits in the trace. Drawing and calibration need
-    /// them. Storing takes time.
+    /// these results. Storing takes time.
     bool show_stages = false;
 
     /// Returns the same options in fixed point. If any option is out of range, the result causes

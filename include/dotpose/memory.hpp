@@ -1,6 +1,7 @@
 /// Memory of fixed size for a Locator or DeviceLocator. The locator reuses the memory for each
-/// frame. The memory belongs to the caller, unless a Locator allocates it. It may be static, on the
-/// heap or, if small enough, on the stack. Its content is private to the core.
+/// frame. The memory belongs to the caller, unless a Locator allocates it. The memory may be
+/// static, on the heap or, if small enough, on the stack. The content of the memory is private to
+/// the core.
 #pragma once
 
 #include <array>

@@ -7,9 +7,9 @@
 ///     PacketReader reader;
 ///     for (std::uint8_t byte : received) if (reader.push(byte)) use(reader.packet());
 ///
-/// The reader always refuses packets with one to four wrong bits. With five or more wrong bits, it
-/// accepts about 1 in 65536 packets. After a damaged packet, it continues with the next packet. No
-/// heap, no double, no globals. Different objects may be used concurrently.
+/// The reader always refuses packets with one to four wrong bits. With five or more wrong bits, the
+/// reader accepts about 1 in 65536 packets. After a damaged packet, the reader continues with the
+/// next packet. No heap, no double, no globals. Different objects may be used concurrently.
 #pragma once
 
 #include <array>
@@ -82,7 +82,8 @@ class PacketReader {
 
   private:
     std::array<std::uint8_t, 31> bytes_{};  ///< bytes since the last end mark
-    /// Number of bytes since the last end mark. 32 means that there were too many for a packet.
+    /// Number of bytes since the last end mark. 32 means that these bytes were too many for a
+    /// packet.
     std::size_t count_ = 0;
     std::uint32_t damaged_ = 0;
     PosePacket packet_;

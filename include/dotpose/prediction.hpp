@@ -1,7 +1,7 @@
 /// Prediction: where the pattern is expected in the next frame. With a prediction, a Locator
-/// computes the next fix in a fraction of the time. It measures the dots at their expected places
-/// and compares their bits with the code. A prediction never makes a fix less certain. A frame that
-/// does not confirm the prediction is located without it.
+/// computes the next fix in a fraction of the time. The Locator measures the dots at their expected
+/// places and compares their bits with the code. A prediction never makes a fix less certain. A
+/// frame that does not confirm the prediction is located without a prediction.
 ///
 ///     Fix fix = locator.locate(image);
 ///     for (;;) fix = locator.locate(image, Prediction::like(fix));
@@ -27,8 +27,8 @@ struct Prediction {
     /// Typical distance between a dot and its intersection in the last frame, in units of 2^-16
     /// spacings.
     std::int32_t displacement_q16 = 65536 / 6;
-    /// Standard deviation of x and y, in units of 2^-16 spacings. It determines the search radius,
-    /// in spacings: min(3 sigma, 0.6) on a DeviceLocator, and min(3 sigma + 0.1, 0.6) on a Locator.
+    /// Standard deviation of x and y, in units of 2^-16 spacings. The search radius, in spacings,
+    /// is min(3 sigma, 0.6) on a DeviceLocator, and min(3 sigma + 0.1, 0.6) on a Locator.
     std::int32_t sigma_q16 = 65536 / 5;
     /// Standard deviation of the angle, as a binary angle: 2^31 is half a turn. Default: 1.4
     /// degrees. The search ignores this value and always covers rotations of up to 4 degrees.

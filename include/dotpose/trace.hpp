@@ -1,6 +1,6 @@
 /// Trace: results from each stage of `Locator::locate` for the last frame, for drawing, evaluation
-/// and calibration. The trace is read-only. It is not a stable interface, because it changes with
-/// the stages.
+/// and calibration. The trace is read-only. The trace is not a stable interface, because its
+/// members change with the stages.
 ///
 ///     DeviceOptions options;
 ///     options.show_stages = true;  // otherwise the first and the tracked attempt store little
@@ -32,12 +32,12 @@ inline constexpr int kWindowSide = 8;
 /// Detected dot.
 struct DetectedDot {
     FixedVec centre_q8;      ///< in 2^-8 px, corrected for lens distortion
-    std::uint16_t mass = 0;  ///< summed darkness of its pixels, in grey levels; at most 65535
+    std::uint16_t mass = 0;  ///< summed darkness of the dot's pixels, in grey levels; at most 65535
     std::uint16_t area_px = 0;
 };
 
-/// Connection between two seeds, the dots from which the lattice is found. Each seed is among the
-/// four seeds nearest to the other.
+/// Connection between two seeds, the dots from which the lattice is found. Each of these two seeds
+/// is among the four nearest neighbours of the other seed.
 struct SeedEdge {
     std::int16_t from = 0;  ///< index of a seed
     std::int16_t to = 0;
@@ -102,8 +102,8 @@ struct GridRegion {
 struct Decoding {
     GridRegion window;  ///< the clearest window of 8 x 8 cells
     GridRegion region;  ///< all decoded cells: at most kMaxLines x kMaxLines
-    /// Agreement between the main sequence and the lines that vote on the quarter turn, at the
-    /// likeliest quarter turn.
+    /// Agreement of the lines with the main sequence, at the likeliest quarter turn. Only lines
+    /// that vote on the quarter turn are included.
     std::int32_t agreement = 0;
     QuarterTurn pattern_from_grid;
     Place place;  ///< place of grid cell (0, 0) in the code; the cell may be out of view

@@ -64,25 +64,27 @@ Sighting sighting_of(const Fix& fix, std::int64_t time_us);
 
 /// Limits on the robot's motion, and criteria for accepting sightings.
 struct TrackOptions {
-    /// Standard deviation of the robot's acceleration while manoeuvring. At other times, the filter
-    /// estimates a lower value. With a larger value, the filter follows sudden changes faster. The
-    /// default suits a table-top robot.
+    /// Standard deviation of the robot's acceleration while manoeuvring. During steady motion, the
+    /// filter estimates a lower acceleration. With a larger value of this option, the filter
+    /// follows sudden changes faster. The default suits a table-top robot.
     float acceleration_mm_s2 = 600;
     float angular_acceleration_rad_s2 = 6;
 
-    /// Maximum possible acceleration, for example in a collision. If this acceleration does
-    /// not explain a sighting, further sightings must confirm it before it is accepted.
+    /// Maximum possible acceleration, for example in a collision. If this acceleration does not
+    /// explain a sighting, further sightings must confirm this sighting before the tracker accepts
+    /// it.
     float max_acceleration_mm_s2 = 10'000;
     float max_angular_acceleration_rad_s2 = 200;
     /// Maximum speed. Limits how far the robot can have moved since its last sighting.
     float max_speed_mm_s = 1000;
     float max_turn_rad_s = 20;
     /// Gate margin, in standard deviations of the innovation (the difference between sighting and
-    /// prediction). A sighting is inside the gate if it exceeds the motion limits by at most this
-    /// margin.
+    /// prediction). A sighting is inside the gate if the innovation is at most this margin plus the
+    /// motion that the maximum accelerations can cause.
     float gate_sigmas = 5;
-    /// Number of consecutive consistent sightings required to accept a jump. With a larger number,
-    /// acceptance takes longer. With a smaller number, a single wrong fix may be accepted.
+    /// Number of consecutive sightings that must be consistent with each other before a jump is
+    /// accepted. With a larger number, acceptance takes longer. With a smaller number, a single
+    /// wrong fix may be accepted.
     int confirmations = 3;
 
     /// Time after which the robot is lost if there was neither an accepted sighting nor a motion.
@@ -98,8 +100,8 @@ struct TrackOptions {
     std::int64_t stationary_after_us = 500'000;
 
     /// Standard deviations of printing errors. Their squares are added to each sighting's
-    /// covariance. Printing errors at one place are the same in every frame, so they do not average
-    /// out.
+    /// covariance. Printing errors at one place are the same in every frame, so printing errors do
+    /// not average out.
     float min_sigma_mm = 0.0002F;
     float min_sigma_rad = 0.00002F;
 
@@ -137,16 +139,16 @@ struct TrackedPose {
 enum class Verdict : std::uint8_t {
     none,  ///< there was no sighting
     /// Certain enough without the prior, and possible or confirmed. A sighting is possible if it is
-    /// inside the gate. While the robot is lost, it is possible if the robot can have reached the
-    /// place. The first sighting is always possible. A sighting is confirmed by further consistent
-    /// sightings.
+    /// inside the gate. While the robot is lost, a sighting is possible if the robot can have
+    /// reached the place of the sighting. The first sighting is always possible. A sighting is
+    /// confirmed after TrackOptions::confirmations sightings that are consistent with each other.
     accepted,
     /// Weak, but certain enough together with the prior.
     with_prior,
     /// Certain enough without the prior, but at an impossible place and not confirmed yet.
     gated,
-    /// Weak and rejected. Either the robot is lost, or the sighting is outside the gate, or it is
-    /// not certain enough even with the prior.
+    /// Weak and rejected. Either the robot is lost, or the sighting is outside the gate, or the
+    /// sighting is not certain enough even with the prior.
     too_weak,
 };
 /// Number of verdicts.
@@ -193,13 +195,14 @@ using Covariance9 = std::array<Vector9, 9>;
 struct MotionEstimate {
     TrackedPose pose;
     Vector3 acceleration{};    ///< mm/s^2, rad/s^2
-    Covariance9 covariance{};  ///< covariance of (x, y, theta), their velocities and accelerations
+    Covariance9 covariance{};  ///< covariance of (x, y, theta), and of the velocities and
+                               ///< accelerations
     /// Process noise along each axis: the variance of new accelerations, relative to the variance
     /// from TrackOptions.
     Vector3 agility{1, 1, 1};
     Vector3 innovation{};  ///< difference between the newest sighting and its prediction
     Matrix3 noise{};       ///< covariance of the newest sighting, including printing errors
-    /// Running mean of the squared innovations, relative to their covariances.
+    /// Running mean of the squared innovations, relative to the innovation covariances.
     float scatter = 1;
 };
 
@@ -216,9 +219,9 @@ class Tracker {
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
     /// Updates the state with a frame and the odometry motion since the previous update. `right_mm`
-    /// is along the sightings' direction theta. This is the image x axis or, with a camera file,
-    /// the robot's heading. Without a sighting, the motion moves the pose and its uncertainty
-    /// increases the pose's covariance.
+    /// is along the sightings' direction theta. This direction is the image x axis or, with a
+    /// camera file, the robot's heading. Without a sighting, the motion moves the pose, and the
+    /// uncertainty of the motion increases the pose covariance.
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion& motion);
 
@@ -228,7 +231,7 @@ class Tracker {
     /// Predicts where the pattern is in the frame at `time_us`. `newest` must be a fix with status
     /// ok, and `seen` must be its sighting. Moves the map of `newest` to the pose predicted by the
     /// filter, and adds the uncertainty of that pose. If `seen` is not accepted yet, the prediction
-    /// is based on the sightings that agree with `seen`.
+    /// is based on the consistent sightings that end with `seen`.
     ///
     /// Returns Prediction::like(newest) if no prediction is possible:
     /// - `seen` is not the newest sighting of a motion estimate,
@@ -250,8 +253,9 @@ class Tracker {
     const track::MotionEstimate* following(const Sighting& seen) const;
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion* motion);
-    /// Returns the verdict on a sighting. `dt_s` is the time since `last_`, in seconds. If a motion
-    /// has already updated `last_` in this frame, `dt_s` is relative to its earlier state.
+    /// Returns the verdict on a sighting. `dt_s` is the time from the previous state to this frame,
+    /// in seconds. If the frame has a measured motion, `last_` already contains the state after the
+    /// motion.
     Verdict judge(const track::MotionEstimate& prediction, const Sighting& sighting, float dt_s);
     bool is_confirmed(const Sighting& sighting);
     /// Returns true if the last accepted sighting or motion is too old, or the position too
@@ -266,10 +270,10 @@ class Tracker {
     bool has_frame_ = false;      ///< true if there has been a frame
     bool is_y_up_ = false;        ///< true if y points up in the newest sighting's plane
     std::int64_t newest_us_ = 0;  ///< time of the newest frame
-    /// State after the last accepted sighting, or after the last motion since then.
+    /// State after the newest accepted sighting or measured motion.
     track::MotionEstimate last_;
-    /// Estimate from the newest sightings that contradict the track. They are filtered like
-    /// accepted sightings, because the robot may have been put down elsewhere.
+    /// Estimate from the newest sightings that contradict the track. These sightings are filtered
+    /// like accepted sightings, because the robot may have been put down elsewhere.
     track::MotionEstimate candidate_;
     int agreeing_ = 0;  ///< number of sightings in `candidate_`
     TrackedPose rest_;  ///< pose from which movement is measured

@@ -21,8 +21,8 @@ constexpr const Basis& basis(CodeVariant code) {
     return kBasis<kA4Restored>;
 }
 
-/// Returns the position with the given places. places[k] is the position modulo the length of
-/// sequence k: 236, 233, 31 or 241.
+/// Returns the position with the given places in the four sequences. places[k] is the position
+/// modulo the length of sequence k, which is 236, 233, 31 or 241.
 std::uint32_t position_at(const Basis& basis, const std::array<std::uint32_t, 4>& places);
 
 }  // namespace dotpose::code

@@ -41,7 +41,7 @@ Places find(const code::Secondary& a, std::size_t digit, std::span<const std::ui
     Places places;
     if (first == code::kAbsent) return places;
     if (!a.has_twins) {
-        // The first kOrder digits occur only at this place. Only the remaining digits need to be
+        // The first kOrder digits occur only at `first`. Only the remaining digits need to be
         // compared.
         std::uint32_t next = first + std::uint32_t{code::kOrder};
         if (next >= a.length) next -= a.length;
@@ -76,8 +76,8 @@ std::uint8_t place_in_main(const SymbolWindow& window, bool columns, int line) {
     return place;
 }
 
-/// Decodes the columns of a window, or its rows if `columns` is false. Sets the roll and the
-/// position of the first line. Errors: not_in_code, ambiguous.
+/// Decodes the columns of a window, or the rows if `columns` is false. Sets the roll and the
+/// position of the first column or row. Errors: not_in_code, ambiguous.
 Status read_axis(CodeVariant code, const SymbolWindow& window, bool columns,
                  std::uint8_t& first_roll, std::uint32_t& position) {
     Rolls rolls{};

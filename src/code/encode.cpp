@@ -53,7 +53,7 @@ struct AxisPlace {
     std::uint8_t cross;
 };
 
-/// Moves a place by `distance` positions. Not inlined, because it is called twice and most of its
+/// Moves a place by `distance` positions. Not inlined, because there are two calls and most of the
 /// code is rarely executed.
 [[gnu::noinline]] AxisPlace moved(CodeVariant code, AxisPlace place, std::int32_t distance) {
     const std::int64_t target = std::int64_t{place.position} + distance;

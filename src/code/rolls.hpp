@@ -10,12 +10,12 @@
 
 namespace dotpose::code {
 
-/// Returns the roll of a column or row, in [0, 62]. `position` and `section` are its own position
-/// and section. Its first bit is at position `cross` on the other axis.
+/// Returns the roll of a column or row, in [0, 62]. `position` and `section` identify the line.
+/// `cross` is the position of the line's first bit on the other axis.
 int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32_t cross);
 
-/// Returns the roll of a position in the code `other` minus its roll in the code `read`, modulo 63.
-/// `place` is the position's place in a4, the only sequence that differs between codes.
+/// Returns the roll of a position in the code `other` minus the position's roll in the code `read`,
+/// modulo 63. `place` is the position's place in a4, the only sequence that differs between codes.
 int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, std::uint32_t place);
 
 /// Sets rolls[i] to the roll of line `position` + i. `first_roll` is the roll of line `position`.

@@ -65,7 +65,8 @@ constexpr bool in_order() {
 }
 static_assert(in_order(), "kTexts has one row per Status, in the order of the values");
 
-/// Returns the row of a status. Unknown values use the last row, as `other` does.
+/// Returns the index of a status in kTexts. Unknown values get the last index, which is that of
+/// `other`.
 constexpr std::size_t row_of(Status status) {
     return std::min<std::size_t>(static_cast<std::size_t>(status), kStatusCount);
 }

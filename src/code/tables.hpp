@@ -66,9 +66,9 @@ struct Secondary {
             rest -= length;
         return rest;
     }
-    /// Returns the places with the same next `count` digits as `place`, including `place` itself.
-    /// Indices wrap around. The result is a bit set for the places 32 * word to 32 * word + 31.
-    /// Bits beyond the end of the sequence are 0.
+    /// Returns a bit set for the places 32 * word to 32 * word + 31. A bit is 1 if the next `count`
+    /// digits at this place equal those at `place`. Indices wrap around. Bits beyond the end of the
+    /// sequence are 0.
     constexpr std::uint32_t equal_places(std::uint32_t place, int count, std::uint32_t word) const {
         const std::uint32_t rest = length - 32 * word;
         std::uint32_t places = rest < 32 ? ~(~std::uint32_t{0} << rest) : ~std::uint32_t{0};

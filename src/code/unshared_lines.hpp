@@ -1,4 +1,4 @@
-// Unshared lines: compares each position with all positions that differ from it in a single
+// Unshared lines: compares each position with all positions whose places differ in a single
 // sequence. Two positions share a line at shift s if their rolls in this line differ by s. The
 // shift is the same in all lines. Generated. tests/unit/code/unshared_lines_test.cpp recomputes the
 // tables.
@@ -87,8 +87,9 @@ inline constexpr std::array<std::uint16_t, 741> kUnshared{
 inline constexpr std::size_t kMaxCounted = 7;
 
 /// Upper bounds on the number of positions with exactly n unshared lines. Indices: row, sequence, n
-/// - 1. These positions differ from the decoded position in this sequence only. A position counts
-/// once for each shift where it shares a line. The bounds hold at all places and for all codes.
+/// - 1. The positions differ from the decoded position only in the sequence of the second index. A
+/// position counts once for each shift where it shares a line. Each bound holds for all decoded
+/// positions and all codes.
 inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>, 3>
     kMaxPositionsWith{{
         {{{1, 4, 15, 34, 64, 120, 227},
@@ -105,16 +106,16 @@ inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>
           {0, 0, 3, 4, 7, 10, 16}}},
     }};
 
-/// Returns the minimum number of unshared lines over all shifts and all positions. `row` selects
-/// the number of lines in `kUnsharedOf`. The minimum is at least row + 1. Three bits of the entry
-/// store the excess.
+/// Returns the minimum number of unshared lines over all shifts and all compared positions. `row`
+/// selects the number of lines in `kUnsharedOf`. The minimum is at least row + 1. The entry stores
+/// the excess over row + 1 in three bits.
 constexpr std::size_t unshared_at_one_shift(std::size_t entry, std::size_t row) {
     return row + 1 + (kUnshared[entry] >> 3 * row & 7U);
 }
 
 /// Returns the minimum number of unshared lines if the shift may change once, between two lines.
-/// `row` selects the number of lines in `kUnsharedOf`. The minimum is at least `row`. Two bits of
-/// the entry store the excess.
+/// `row` selects the number of lines in `kUnsharedOf`. The minimum is at least `row`. The entry
+/// stores the excess over `row` in two bits.
 constexpr std::size_t unshared_on_two_sides(std::size_t entry, std::size_t row) {
     return row + (kUnshared[entry] >> (9 + 2 * row) & 3U);
 }

@@ -9,8 +9,8 @@
 namespace dotpose::core {
 
 /// Range of positions for the first of `lines` adjacent lines, along one axis. If the first line is
-/// in this range, at least one line is on the region. The region begins at `region_first` and has
-/// `region_size` positions.
+/// in this range, at least one of the lines is on the region. The region begins at `region_first`
+/// and has `region_size` positions.
 struct PositionRange {
     std::uint32_t first;
     std::uint32_t count;

@@ -9,13 +9,14 @@
 
 namespace dotpose::core {
 
-/// Likelihood ratios in another code variant, along one axis. They are relative to the place that
-/// was read, so a place with ratio 1 is equally likely.
+/// Likelihood ratios in another code variant, along one axis. The ratios are relative to the place
+/// that was read in its own code variant. A place with ratio 1 is as likely as that place.
 struct OtherAxis {
-    float here = 1;  ///< ratio of the same place
-    /// Upper bound on the summed ratios of all different places.
+    float here = 1;  ///< ratio of the place that was read
+    /// Upper bound on the summed ratios of all places other than the place that was read.
     float elsewhere = 0;
-    float best = 0;              ///< largest ratio of a different place, among the places examined
+    float best = 0;              ///< largest ratio of any examined place other than the place that
+                                 ///< was read
     std::uint32_t position = 0;  ///< position of the first line at the place of `best`
     std::uint8_t roll = 0;       ///< roll of that line, minus the roll that was read
 };
@@ -25,10 +26,10 @@ struct OtherCode {
     OtherAxis x;
     OtherAxis y;
 
-    /// Returns the likelihood ratio of the same place, with both axes combined.
+    /// Returns the likelihood ratio of the place that was read, with both axes combined.
     float here() const { return x.here * y.here; }
-    /// Returns an upper bound on the summed likelihood ratios of all different places, with both
-    /// axes combined.
+    /// Returns an upper bound on the summed likelihood ratios of all places other than the place
+    /// that was read, with both axes combined.
     float elsewhere() const { return x.here * y.elsewhere + x.elsewhere * (y.here + y.elsewhere); }
 };
 

@@ -1,5 +1,5 @@
 // Patch memory: storage for a part of the image and its dots, and for the measured dots of a frame.
-// The desktop attempts use it.
+// Only the desktop attempts use patch memory.
 #pragma once
 
 #include <array>

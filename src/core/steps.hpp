@@ -1,4 +1,4 @@
-// Steps: the processing steps that desktops and devices share, in integer arithmetic. All of them
+// Steps: the processing steps that desktops and devices share, in integer arithmetic. All steps
 // appear in Fig. 1 of the paper.
 #pragma once
 
@@ -54,7 +54,7 @@ Status find_dots(const DeviceOptions& options, Workspace& w);
 /// `max_seeds` dots, in a square around `start_q8`. Error: no_grid.
 Status find_axes(FixedVec start_q8, int max_seeds, Workspace& w);
 
-/// Chooses the grid region to decode. Its size is limited by the memory for lines.
+/// Chooses the grid region to decode. The memory for lines limits the size of this region.
 void choose_region(Workspace& w);
 
 /// Returns `mirrored` if the bits agree with a mirrored pattern, and `reason` otherwise.

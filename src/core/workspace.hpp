@@ -1,6 +1,6 @@
-// Workspace: the memory of a locator. After a frame, it contains the results of all stages. All
-// capacities are fixed. The caller provides the memory as a DeviceMemory, SmallMemory or
-// LargeMemory. The workspace is constructed there once, and reused for each frame.
+// Workspace: the memory of a locator. After a frame, the workspace contains the results of all
+// stages. All capacities are fixed. The caller provides the memory as a DeviceMemory, SmallMemory
+// or LargeMemory. The workspace is constructed once in this memory, and reused for each frame.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ struct Workspace {
     // detect
     AdaptiveThreshold threshold;
     OpenBlobs open;
-    std::span<DetectedDot> dots;  ///< its size is the capacity
+    std::span<DetectedDot> dots;  ///< size: maximum number of dots
     int dot_count = 0;
     /// Maximum distance of stored dots from the image centre, along each axis. Decreases when
     /// `dots` is full.

@@ -1,4 +1,5 @@
-// After a motion: predicts a frame after the camera has moved by a measured motion.
+// After a motion: predicts where the pattern is in the next frame, from the last fix and the
+// measured camera motion.
 #pragma once
 
 #include "dotpose/device_options.hpp"

@@ -189,9 +189,9 @@ bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRea
                      hypothesis.displacement, hypothesis.pattern_from_image, fit);
 }
 
-/// Corrects pixel bias and neighbour bias where they matter, then fits the plane again. Returns the
-/// variance of the mean centre due to the remaining pixel bias, along u and v, in px^2. Returns 0
-/// if nothing was corrected, or if the new fit failed.
+/// Corrects pixel bias and neighbour bias if the biases matter, then fits the plane again. Returns
+/// the variance of the mean centre due to the remaining pixel bias, along u and v, in px^2. Returns
+/// 0 if nothing was corrected, or if the new fit failed.
 FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const CellsInView& view,
                           const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
     FloatVec remaining_px2;
@@ -210,8 +210,8 @@ FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const
     return remaining_px2;
 }
 
-/// Adds the variance of an image point to the pose covariance. Converts it from px^2, along u and
-/// v, to spacings^2.
+/// Adds the variance of an image point to the pose covariance. Converts the variance from px^2,
+/// along u and v, to spacings^2.
 void add_variance(FloatVec px2, const FloatPlane& plane, PoseFit& fit) {
     const std::array<float, 2> by_u{plane.du_x, plane.du_y};
     const std::array<float, 2> by_v{plane.dv_x, plane.dv_y};
@@ -270,8 +270,8 @@ FloatVec reference_px(const DeviceOptions& options, const Hypothesis& hypothesis
 /// from round to round.
 struct Reach {
     float full;  ///< distance that includes the whole image
-    /// Distance within which the bits must make the position certain. Bits beyond it are not
-    /// evidence for the position.
+    /// Distance within which the bits must make the position certain. Bits beyond this distance are
+    /// not evidence for the position.
     float deciding;
     float now;  ///< distance of the current round
 
@@ -282,8 +282,8 @@ struct Reach {
           deciding(full <= tuned::kDenseAtMost * spacing_px ? full : tuned::kDense * spacing_px),
           now(deciding) {
         if (!hypothesis.is_partial_view) return;
-        // A partial view may end anywhere, so the first round only reads nearby dots. They may be
-        // too few for a certain position, so the deciding distance is larger.
+        // A partial view may end anywhere, so the first round only reads nearby dots. The nearby
+        // dots may be too few for a certain position, so the deciding distance is larger.
         deciding = std::min(full, tuned::kDecidingOfPart * spacing_px);
         now = std::min(full, tuned::kDenseOfPart * spacing_px);
     }

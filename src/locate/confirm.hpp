@@ -11,8 +11,8 @@
 
 namespace dotpose::core {
 
-/// Returns true if `is_within_reason` holds over the whole image. All stages that use a plane
-/// require this.
+/// Returns true if the plane is a plausible view of paper over the whole image (see
+/// `is_within_reason`). All stages that use a plane require such a plane.
 bool is_plausible(const ImageView& image, const FloatPlane& plane);
 
 /// Result of `confirm`.

@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::confirm;
 
-/// Prefetches the pixels in view if they take kMinFetched_bytes to kMaxFetched_bytes. A new camera
-/// image is not in the cache, and the order of reading defeats hardware prefetching.
+/// Prefetches the pixels in view if these pixels take kMinFetched_bytes to kMaxFetched_bytes. A new
+/// camera image is not in the cache, and the order of reading defeats hardware prefetching.
 void fetch_pixels(const ImageView& image, const CellsInView& view) {
     constexpr std::ptrdiff_t kLine_bytes = 64;
     const auto range = [&](float centre, int size_px) {
@@ -34,9 +34,9 @@ void fetch_pixels(const ImageView& image, const CellsInView& view) {
     }
 }
 
-/// Drops windows that are much darker than the paper. They are on the table beyond the sheet, where
-/// noise can resemble dots. `paper` is the mean level around dots. The first call, with `paper` =
-/// 0, only sets this level.
+/// Drops windows that are much darker than the paper. Such windows are on the table beyond the
+/// sheet, where noise can resemble dots. `paper` is the mean level around dots. The first call,
+/// with `paper` = 0, only sets this level.
 void drop_table(MeasuredDots& dots, float& paper) {
     float sum = 0;
     float count = 0;
@@ -146,7 +146,7 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
 
 bool DotReader::correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                                    const PoseFit& fit, FloatVec& remaining_px2) const {
-    // The bias averages out if the dots have different sub-pixel phases. This is the case for
+    // The bias averages out if the dots have different sub-pixel phases. The phases differ for
     // directly sampled dots (see `can_sample_directly`), and with lens distortion.
     if (hypothesis.is_exact || view.lens.k != 0) return false;
     const float variance_px2 =

@@ -1,5 +1,5 @@
-// Dot reader: reads the bits and measures the centres of the listed dots. Samples them directly or
-// in windows, depending on the precision of the hypothesis.
+// Dot reader: reads the bits and measures the centres of the listed dots. Samples the dots directly
+// or in windows, depending on the precision of the hypothesis.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"
@@ -13,8 +13,8 @@ namespace dotpose::core {
 /// windows.
 bool can_sample_directly(const Hypothesis& hypothesis);
 
-/// Returns true if the pixel bias matters. In this case, all dots of a row or column have nearly
-/// the same sub-pixel phase, and their other errors are small. `variance_px2` is the variance of
+/// Returns true if the pixel bias matters. The bias matters if all dots of a row or column have
+/// nearly the same sub-pixel phase, and other errors are small. `variance_px2` is the variance of
 /// the mean centre along one axis. `side_px` is the longer image side.
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px);
 
@@ -31,7 +31,7 @@ class DotReader {
     /// Reads the bits of the measured dots again, with the new plane of the hypothesis. Overwrites
     /// `block`.
     BitsRead read_again(const Hypothesis& hypothesis, BitBlock& block) const;
-    /// Measures the dot centres in centroid windows. If the hypothesis is not exact, does so only
+    /// Measures the dot centres in centroid windows. If the hypothesis is not exact, measures only
     /// if `is_last` is true. If the hypothesis is exact, also fits its plane to the centres, and
     /// sets `projected`, `squares` and `right` of `bits`. `right` is then the number of dots found.
     /// If fewer than kMinFound dots are found, only sets `right` to 0.
@@ -44,8 +44,8 @@ class DotReader {
     bool correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                             const PoseFit& fit, FloatVec& remaining_px2) const;
     /// Corrects the bias of facing dots if the centroid windows reach the neighbouring dot. The
-    /// plane must be fitted again afterwards. Returns false without any change if there is no such
-    /// bias.
+    /// plane must be fitted again afterwards. Returns false without any change if the windows do
+    /// not reach that far, or if the bias is not significant.
     bool correct_neighbour_bias(const Hypothesis& hypothesis, const PoseFit& fit) const;
     const MeasuredDots& dots() const { return dots_; }
 

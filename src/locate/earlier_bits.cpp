@@ -57,14 +57,15 @@ void count_overlap(const BitLines& a, const BitLines& b, int across, int along, 
     }
 }
 
-/// Returns log2 of the likelihood ratio between two cases: the blocks match, or they show unrelated
-/// parts of the pattern.
+/// Returns log2 of the likelihood ratio between two cases: the blocks match, or the blocks show
+/// unrelated parts of the pattern.
 float log2_ratio(const Overlap& overlap) {
     return tuned::kEqualBit_log2 * static_cast<float>(overlap.shared - overlap.different) +
            tuned::kDifferentBit_log2 * static_cast<float>(overlap.different);
 }
 
-/// Adds the cells of `more` to a block. Drops a cell if its x bits or its y bits differ.
+/// Adds the cells of `more` to a block. Drops a cell if the two blocks have different x bits or
+/// different y bits for this cell.
 void add_cells(const BitBlock& more, BitBlock& block) {
     std::array<std::uint64_t, BitBlock::kSide> contradicted{};  // by column
     for (std::size_t i = 0; i < BitBlock::kSide; ++i) {

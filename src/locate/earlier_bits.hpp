@@ -1,6 +1,7 @@
 // Earlier bits: the bits of earlier frames, in the grid of the newest earlier frame. A measured
 // motion relates this grid to the current grid. Frames that are not certain alone can then be
-// certain together. docs/integrity.md, "Frames read together", derives the bound.
+// certain together. docs/integrity.md, "Frames read together", derives the bound on the probability
+// of a wrong grid match.
 #pragma once
 
 #include <optional>
@@ -35,11 +36,13 @@ class EarlierBits {
     /// Begins a frame. `motion` is the motion since the previous frame. The options must contain
     /// the spacing.
     void begin_frame(const MeasuredMotion& motion, const DeviceOptions& options);
-    /// Ends the frame. Keeps its bits, joined with the earlier bits if the grids match.
+    /// Ends the frame. Keeps the bits of the frame, joined with the earlier bits if the grids
+    /// match.
     void end_frame();
 
     /// Stores bits of the current frame, between `begin_frame` and `end_frame`. The last block with
-    /// a confirmed place replaces all others. Without a confirmed place, the largest block is kept.
+    /// a confirmed place replaces all other blocks of the frame. Without a confirmed place, the
+    /// largest block is kept.
     void note(const BitBlock& block, const FloatPlane& grid_from_image, bool is_confirmed);
 
     /// True while an attempt reads the current frame together with earlier frames.
@@ -49,7 +52,8 @@ class EarlierBits {
     bool has_earlier() const { return is_in_frame_ && earlier_.frames > 0; }
     /// Joins a block of the current frame with the earlier bits. Drops cells in which the frames
     /// contradict each other. Returns nullopt if there are no earlier bits, or if a wrong grid
-    /// match is too probable. The limit is half of the maximum in the options.
+    /// match is too probable. The limit for this probability is half of the accepted probability of
+    /// a wrong fix.
     std::optional<JoinedBits> join(const BitBlock& block, const FloatPlane& grid_from_image) const;
 
   private:

@@ -146,7 +146,7 @@ bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane&
 }
 
 /// Finds the grid in the patch at the image centre, and tests its hypothesis. If `is_skewed` is
-/// true, cells may be any parallelograms. Otherwise, they must be about square.
+/// true, cells may be any parallelograms. Otherwise, cells must be about square.
 Confirmation locate_grid(const Kernels& kernels, const ImageView& image,
                          const DeviceOptions& options, bool is_skewed, DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -178,9 +178,9 @@ Confirmation locate_in_middle(const Kernels& kernels, const ImageView& image,
 }
 
 /// Finds a hypothesis in a patch around an image point. Sets `densest_px` to the point where the
-/// dots are densest. This point is also the origin of the hypothesis. Returns false if there is no
-/// hypothesis. Leaves `densest_px` unchanged if the patch is too small, or has no contrast or too
-/// few dots.
+/// dots are densest. The densest point is also the origin of the hypothesis. Returns false if there
+/// is no hypothesis. Leaves `densest_px` unchanged if the patch is too small, or has no contrast or
+/// too few dots.
 bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
                             const DeviceOptions& options, FixedVec around_px, int scale,
                             DesktopWorkspace& w, FixedVec& densest_px, Hypothesis& hypothesis) {
@@ -212,7 +212,8 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
 
 /// Searches a patch around an image point. If there is no hypothesis and the dots are densest far
 /// from the middle, also searches a patch around the densest point. `tries_left` is the number of
-/// uncertain hypotheses that are still allowed. Each one increases the probability of a wrong fix.
+/// uncertain hypotheses that are still allowed. Each uncertain hypothesis increases the probability
+/// of a wrong fix.
 Confirmation locate_around(const Kernels& kernels, const ImageView& image,
                            const DeviceOptions& options, FixedVec around_px, int scale,
                            int& tries_left, DesktopWorkspace& w) {

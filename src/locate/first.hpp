@@ -1,5 +1,5 @@
-// First: the first attempt. Locates an image without a prediction, starting with a patch around the
-// image centre.
+// First attempt: locates an image without a prediction, starting with a patch around the image
+// centre.
 #pragma once
 
 #include "core/kernels/select.hpp"

@@ -14,9 +14,9 @@ namespace dotpose::core {
 ///     sqrt(variance) / displacement + bit_errors / bits > kMaxImplausible.
 ///
 /// Two nearly aligned patterns that overlap can look like a third pattern, with the columns of one
-/// and the rows of the other. In such a frame, a quarter of the cells have no dot at the expected
-/// place. Half of the dots are next to their places, and the typical displacement is too small. For
-/// the numbers, see docs/integrity.md.
+/// pattern and the rows of the other pattern. In such a frame, a quarter of the cells have no dot
+/// at the expected place. Half of the dots are next to their places, and the typical displacement
+/// is too small. For the numbers, see docs/integrity.md.
 bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
 /// Measures the dots that the code predicts at the decoded position, and fits the map from image to

@@ -15,7 +15,7 @@ struct Extent {
 };
 
 /// Returns the integers from `min` to `max`, rounded outwards, with a margin of 1 on each side.
-/// Clamps them to the `room` integers around 0.
+/// Clamps the range to the `room` integers around 0.
 Extent extent(float min, float max, int room) {
     const int half = room / 2;
     const int first = std::max(static_cast<int>(std::floor(std::max(min, -4096.0F))) - 1, -half);
@@ -24,7 +24,7 @@ Extent extent(float min, float max, int room) {
     return {first, std::max(last - first + 1, 0)};
 }
 
-/// Writes the rolls of the lines in view into the workspace, and points the view to them.
+/// Writes the rolls of the lines in view into the workspace, and points the view to these rolls.
 void follow_code(CodeVariant code, const Place& place, CellsInView& view, DesktopWorkspace& w) {
     const Place corner = moved(code, place, view.first_column, view.first_row);
     const auto follow = [&](std::uint32_t position, int section, std::uint32_t cross, int count,

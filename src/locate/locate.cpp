@@ -45,7 +45,7 @@ bool leaves_code_open(Status status) {
            status == Status::not_certain;
 }
 
-/// Makes the attempts for one frame, in all possible codes.
+/// Makes the attempts for one frame, in all possible codes, and chooses the fix.
 class Cascade {
   public:
     Cascade(const ImageView& image, const DeviceOptions& options, const PossibleCodes& codes,
@@ -57,7 +57,7 @@ class Cascade {
           w_(w),
           second_(image, w) {}
 
-    /// Returns the fix, and leaves its results in the workspace.
+    /// Returns the fix, and leaves the fix and the results of the stages in the workspace.
     CodeReading locate(const Prediction* prediction) {
         if (options_.effort == Effort::device) return make({Step::device});
         prediction_ = prediction;
@@ -86,11 +86,11 @@ class Cascade {
         return make({Step::first, Step::second, Step::resampled});
     }
 
-    /// Runs the steps in order, each in all codes worth trying, until a fix is certain. Steps other
-    /// than `first` end early if they fail for a reason that does not depend on the code. If the
-    /// first doubtful fix is ambiguous between codes, skips the remaining steps. Without a certain
-    /// fix, returns the first doubtful fix. If there is none, returns the last failure in the
-    /// likeliest code.
+    /// Runs the steps in order, each in all codes worth trying, until a fix is certain. A step
+    /// other than `first` ends early if it fails for a reason that does not depend on the code. If
+    /// the first doubtful fix is ambiguous between codes, skips the remaining steps. Without a
+    /// certain fix, returns the first doubtful fix. Without a doubtful fix, returns the last
+    /// failure in the likeliest code.
     CodeReading make(std::initializer_list<Step> steps) {
         std::optional<CodeReading> doubtful;
         std::optional<Fix> failure;
@@ -128,8 +128,9 @@ class Cascade {
         options_.code = code;
         OtherCodes& others = w_.other_codes;
         others.of = {};
-        // The bounds on chance and alternatives are for a single code. If several codes are
-        // possible, the bounds are multiplied by the number of codes, each weighted by its odds.
+        // The bounds on the probability of a wrong position apply to a single code. If several
+        // codes are possible, each bound is multiplied by the number of codes. In this number, each
+        // code is weighted by its odds.
         if (!codes_.is_known()) others.log2_in_question_q8 = log2_of_odds_q8(codes_.number(code));
         switch (step) {
             case Step::tracked:
@@ -254,8 +255,9 @@ CodeReading locate_checked(const ImageView& image, const DeviceOptions& options,
 }
 
 /// Sets the other place of `reading` to the place of `any`. `any` is a reading of the same frame in
-/// any code. If the codes are equal, copies the other place of `any` instead. Does nothing if `any`
-/// has no place, or if `any` has more than one bit error per kBitsPerError dots.
+/// any code. If `any` and `reading` are in the same code, copies the other place of `any` instead.
+/// Does nothing if `any` has no place, or if `any` has more than one bit error per kBitsPerError
+/// dots.
 void note_other_reading(const CodeReading& any, CodeReading& reading) {
     const bool is_read = any.fix.status == Status::ok || any.fix.status == Status::ambiguous_code;
     if (!is_read || tuned::kBitsPerError * any.fix.bit_errors > any.fix.dots_seen) return;

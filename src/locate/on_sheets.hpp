@@ -14,8 +14,8 @@ namespace dotpose::core {
 /// sheet, unless other sheets may be in view.
 bool is_possible(CodeVariant code, const DesktopWorkspace& w);
 
-/// Returns the likeliest place of a block on the known sheets. Returns nullopt if this place is in
-/// a different code, or if too many bits contradict it.
+/// Returns the likeliest place of a block on the known sheets. Returns nullopt if this place is not
+/// in the code of the options, or if too many bits contradict the place.
 std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const DeviceOptions& options,
                                                const BitBlock& block, const KnownSheets& known);
 

@@ -22,12 +22,12 @@ struct Line {
     int roll;
 };
 
-/// Returns the line at the same position, with its roll in the other code.
+/// Returns the line at the position that was read, with its roll in the code `other`.
 Line here(CodeVariant read, CodeVariant other, std::uint32_t position, int roll_read) {
     return {position, roll_read + roll(other, position) - roll(read, position)};
 }
 
-/// Returns the line at the likeliest different position in the other code.
+/// Returns the likeliest line in the other code, apart from the line that was read.
 Line elsewhere(const OtherAxis& axis, int roll_read) {
     return {axis.position, roll_read + axis.roll};
 }

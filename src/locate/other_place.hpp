@@ -6,9 +6,9 @@
 
 namespace dotpose::core {
 
-/// Sets the other place of `reading` if another code also explains the frame. A different place
-/// must be about as likely as the fix. At the same place, the other code must explain the frame
-/// much better.
+/// Sets the other place of `reading` if another code also explains the frame. In the other code, a
+/// place that differs from the fix must be about as likely as the fix. The place of the fix itself
+/// must be much more likely in the other code than in the code of the fix.
 void name_code_that_explains(const OtherCodes& others, CodeReading& reading);
 
 /// Sets the other place of `reading`: the likeliest place in the code `other`, apart from the place

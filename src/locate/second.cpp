@@ -71,7 +71,7 @@ Status decode(const DeviceOptions& options, DesktopWorkspace& w) {
     return decode_all(w.grid, options.code, w.line_scores, w.decoding);
 }
 
-/// Finds the position from the bits, and verifies it with the bits of all dots.
+/// Finds the position from the bits, and verifies the position with the bits of all dots.
 Status read_position(const DeviceOptions& options, DesktopWorkspace& w) {
     // Chooses the window (paper, section II-B.5).
     w.decoding.window = choose_window(w.grid, kWindowSide);
@@ -125,8 +125,8 @@ Status read_filtered_with(const DeviceOptions& filtered, const ImageView& image,
 }
 
 /// Finds dots and grid, and reads the bits. If there is too little contrast or there are too few
-/// dots, tries again with a lower threshold. Does so only if the maximum contrast is high enough
-/// for pale dots.
+/// dots, tries again with a lower threshold. The second try requires a maximum contrast that is
+/// high enough for pale dots.
 Status read_filtered(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
     DeviceOptions filtered = for_filtered(options);
     filtered.lattice.min_dots = min_dots(options, w);
@@ -146,7 +146,7 @@ Status read_filtered(const ImageView& image, const DeviceOptions& options, Deskt
 }
 
 /// Measures the pose at the decoded position (paper, section II-B.8). Also computes the odds of the
-/// other codes, and corrects the pixel bias if it matters.
+/// other codes, and corrects the pixel bias if this bias matters.
 Status measure_and_weigh(const ImageView& image, const DeviceOptions& options,
                          DesktopWorkspace& w) {
     const Status status = measure_pose(options, image, w);

@@ -1,5 +1,5 @@
-// Second: the second attempt. Removes noise and uneven light from the image, fits the grid to all
-// dots, and reads the bits of each cell.
+// Second attempt: locates noisy, dirty or unevenly lit images. Filters the image, fits the grid to
+// all dots, and reads the bits of each cell.
 #pragma once
 
 #include "dotpose/device_options.hpp"
@@ -9,7 +9,8 @@
 namespace dotpose::core {
 
 /// Makes second attempts on one image, in several codes. The filtered image, its dots and its grid
-/// do not depend on the code. They are computed only once, unless an attempt overwrites them.
+/// do not depend on the code. The image, dots and grid are computed only once, unless an attempt
+/// overwrites these results.
 class SecondAttempt {
   public:
     enum class Resampling : std::uint8_t { never, if_doubtful };
@@ -18,8 +19,8 @@ class SecondAttempt {
 
     /// Locates the image in the code of the options. Returns true if there is a fix. Stores the fix
     /// in the workspace or, without a fix, the status. `Resampling::if_doubtful` handles positions
-    /// that are not certain. It fits the grid to their dots, reads the bits again, and decodes them
-    /// again.
+    /// that are not certain. In this mode, the attempt fits the grid to the dots of such a
+    /// position, and then reads and decodes the bits again.
     bool read(const DeviceOptions& options, Resampling resampling);
 
   private:

@@ -1,4 +1,5 @@
-// Tracked: the tracked attempt. Locates an image near a predicted pose.
+// Tracked attempt: locates an image near a predicted pose, by measuring the dots where the
+// prediction expects them.
 #pragma once
 
 #include "core/kernels/select.hpp"
@@ -15,7 +16,7 @@ bool locate_tracked(const Kernels& kernels, const ImageView& image, const Device
                     const Prediction& prediction, DesktopWorkspace& w);
 
 /// Measures the dots of the fix in the workspace again, as the tracked attempt does. The fix must
-/// be certain. If the dots do not confirm it, it remains unchanged.
+/// be certain. If the dots do not confirm the fix, the fix remains unchanged.
 void measure_again(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                    DesktopWorkspace& w);
 

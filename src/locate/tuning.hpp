@@ -1,6 +1,6 @@
-// Tuning: empirical constants of the attempts. Comments give their purpose and, where known, their
-// measured effect. Constants of the second attempt were tuned on the hard frames listed in
-// decode/tuning.hpp.
+// Tuning: empirical constants of the attempts. Comments give the purpose and, where known, the
+// measured effect of each constant. Constants of the second attempt were tuned on the hard frames
+// listed in decode/tuning.hpp.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -16,23 +16,24 @@ inline constexpr int kPatchHeight_px = 160;
 /// Minimum spacing at which a patch predicts dots well enough for direct sampling. In finer grids,
 /// direct sampling is less accurate than windows.
 inline constexpr float kMinSpacingForPrediction_px = 9.5F;
-/// Maximum number of uncertain hypotheses away from the image centre. Each one increases the
-/// probability of a wrong fix.
+/// Maximum number of uncertain hypotheses away from the image centre. Each uncertain hypothesis
+/// increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
 /// Wave search away from the image centre: numbers of central dots, and factors for the estimated
 /// spacing. Large displacements weaken the waves, and only some combinations find the grid. The
-/// search therefore tries all of them.
+/// search therefore tries all combinations.
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
 /// Factors for the estimated spacing if sheets are known. A strip of three rows may then be
-/// certain. Its spacing is overestimated, because the estimate counts the dots around a dot.
+/// certain. The spacing of such a strip is overestimated, because the estimate counts the dots
+/// around a dot.
 inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F};
 }  // namespace first
 
 /// Tracked attempt (locate/tracked).
 namespace tracked {
-/// Reach along each axis, in spacings, within which dots correct a prediction. It is small enough
-/// that an angular error does not match a dot to the wrong intersection.
+/// Maximum distance along each axis, in spacings, of the dots that correct a prediction. The
+/// distance is small enough that an angular error does not match a dot to the wrong intersection.
 inline constexpr float kNear = 2.6F;
 /// Minimum number of dots for a correction.
 inline constexpr int kMinNear = 10;
@@ -65,18 +66,19 @@ inline constexpr FloatVec kPoints[] = {
 
 /// Measurement of dots at known places (locate/confirm, locate/dot_reader).
 namespace confirm {
-/// Reach of the first round, in spacings, if the pattern fills a large image. All dots within this
-/// reach are measured, and their bits must make the position certain.
+/// Reading distance in the first round, in spacings, if the pattern fills a large image. All dots
+/// within this distance of `Hypothesis::from_centre` are measured, and their bits must make the
+/// position certain.
 inline constexpr float kDense = 10;
 /// Maximum half side of an image that is measured in a single round, in spacings.
 inline constexpr float kDenseAtMost = 17;
-/// Reach of the first round in a partial view, in spacings. It is small because the pattern may end
-/// anywhere.
+/// Reading distance in the first round of a partial view, in spacings. The distance is small
+/// because the pattern may end anywhere.
 inline constexpr float kDenseOfPart = 6;
-/// Reach within which the bits of a partial view must make the position certain, in spacings.
+/// Distance within which the bits of a partial view must make the position certain, in spacings.
 inline constexpr float kDecidingOfPart = 32;
-/// Maximum growth of the reach from round to round. The plane fitted in one round predicts the dots
-/// of the next round.
+/// Maximum growth factor of the reading distance from round to round. The plane fitted in one round
+/// predicts the dots of the next round.
 inline constexpr float kFarther = 3.5F;
 /// Limits for clean bits, which need no second reading. At least kClear_percent of the dots are
 /// clear. Of n dots read, at most max(kMaxWrong, n / kDotsPerWrong) bits are wrong. kMaxWrong is
@@ -107,7 +109,8 @@ inline constexpr float kMinSpacingForDirectSampling_px = 8;
 inline constexpr float kWindowRadii = 2.4F;
 /// Minimum radius of a centroid window.
 inline constexpr float kMinWindowRadius_px = 3.3F;
-/// Window radius above which facing dots bias each other, as a fraction of their distance.
+/// Window radius above which facing dots bias each other, as a fraction of the distance between
+/// facing dots.
 inline constexpr float kFacing = 0.55F;
 /// Maximum deviation of a grid step from whole pixels at which dots share a sub-pixel phase. Up to
 /// this deviation, the dots of a row or column have about the same phase. At larger deviations, the
@@ -127,7 +130,7 @@ inline constexpr int kMinFound = 8;
 /// Maximum distance between a dot and its predicted place.
 inline constexpr float kMaxOff_px = 1;
 /// Maximum of sqrt(variance) / displacement + bit_errors / bits (`is_implausible`). Positions above
-/// it do not explain the frame well. For the numbers, see docs/integrity.md.
+/// this maximum do not explain the frame well. For the numbers, see docs/integrity.md.
 inline constexpr float kMaxImplausible = 0.57F;
 /// Minimum residual at which a second attempt may be better: kRough_px or kRough spacings,
 /// whichever is larger. Residuals due to noise are constant in px. Residuals due to bad printing
@@ -143,7 +146,7 @@ namespace known {
 /// of 1.7 px locates 88 %. The errors are equal (`dotpose_tables known`).
 inline constexpr float kSmallView = 9;
 inline constexpr float kMargin_px = 1;
-/// Minimum weight of both bits of a cell, in 1/127, for the second attempt to use them.
+/// Minimum weight of both bits of a cell, in 1/127, for the second attempt to use the cell.
 inline constexpr int kMinWeight = 48;
 }  // namespace known
 
@@ -151,14 +154,14 @@ inline constexpr int kMinWeight = 48;
 /// "Frames read together".
 namespace joined {
 /// log2 of the likelihood ratios for equal and for different bits, where two frames overlap. If one
-/// bit in 16 is wrong, they are log2(2 * 15 / 16) and log2(2 * 1 / 16).
+/// bit in 16 is wrong, the values are log2(2 * 15 / 16) and log2(2 * 1 / 16).
 inline constexpr float kEqualBit_log2 = 0.907F;
 inline constexpr float kDifferentBit_log2 = -3;
 /// log2 of the weight of a blunder: the measured motion is wrong by far more than its standard
 /// deviation.
 inline constexpr float kBlunder_log2 = -36;
-/// Standard deviations of the grid errors. The angle also depends on the camera tilt. The place is
-/// in spacings.
+/// Standard deviations of the errors in a grid's angle and place. The angle also depends on the
+/// camera tilt. The place error is in spacings.
 inline constexpr float kGridAngle_rad = 0.035F;
 inline constexpr float kGridPhase = 0.06F;
 /// Maximum deviation of a match from the prediction, in standard deviations and in spacings.
@@ -178,8 +181,9 @@ inline constexpr int kHigh_10ths = 9;
 /// 6 grey levels darker than the paper (`dotpose_tables alike --spacings 8 --dots 0.10 --blurs
 /// 1.5`).
 inline constexpr int kPaleParts = 3;
-/// Maximum turns of the periodogram search from the first estimate, in degrees, tried in order.
-/// Printed text can rotate this estimate by 26 degrees.
+/// Maximum rotations of the grid that the periodogram search tries, relative to the first grid
+/// estimate, in degrees. The search uses these limits in order. Printed text can rotate the first
+/// estimate by 26 degrees.
 inline constexpr int kMaxTurns_deg[] = {12, 45};
 }  // namespace second
 
@@ -191,11 +195,11 @@ inline constexpr float kBetterOdds = 2;
 /// Minimum number of dots per wrong bit at which a reading in another code is reported. Dots have
 /// two bits, so at most one bit in a hundred is wrong. Misreading can cause this fraction.
 inline constexpr int kBitsPerError = 50;
-/// Minimum odds at which a different place in another code is reported next to a certain fix. Odds
-/// are relative to the fix.
+/// Minimum odds at which a place in another code is reported next to a certain fix, if this place
+/// differs from the place of the fix. Odds are relative to the fix.
 inline constexpr float kNamedElsewhere = 0.99F;
-/// Minimum odds at which the same place in another code is reported next to a certain fix. Odds are
-/// relative to the fix.
+/// Minimum odds at which the place of the fix in another code is reported next to a certain fix.
+/// Odds are relative to the fix.
 inline constexpr float kNamedHere = 1024;
 }  // namespace cascade
 

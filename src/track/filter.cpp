@@ -92,8 +92,8 @@ void add_noise(Covariance9& covariance, std::size_t axis, float variance, const 
     }
 }
 
-/// Sets the pose covariance. If sightings scatter less than their covariances predict, they have a
-/// common error. Averaging does not reduce it.
+/// Sets the pose covariance. If sightings scatter less than their covariances predict, the
+/// sightings have a common error. Averaging does not reduce this error.
 void set_pose_covariance(MotionEstimate& motion) {
     const float common = std::max(1 - motion.scatter, 0.0F);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -138,7 +138,8 @@ Right product(const Left& left, const Right& right) {
     return result;
 }
 
-/// Replaces P by (I - K H) P. `weighted` is S^-1 H P, the transposed gain.
+/// Updates the covariance P for a sighting: replaces P by (I - K H) P. `weighted` is S^-1 H P, the
+/// transposed gain.
 void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, const Matrix3& noise) {
     const Covariance9 before = p;
     for (std::size_t i = 3; i < 9; ++i) {
@@ -149,9 +150,9 @@ void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, cons
         }
         p[i][i] += kRounding * before[i][i];
     }
-    // The upper rows equal R S^-1 H P, a product without cancellation. After a long gap, the
-    // subtraction above would leave no correct digit in single precision. The other elements need
-    // the subtraction. Their diagonal therefore includes a bound on the rounding error.
+    // The upper three rows equal R S^-1 H P, a product without cancellation. After a long gap, the
+    // subtraction above would leave no correct digit in single precision. All other elements need
+    // the subtraction, so their diagonal includes a bound on the rounding error.
     const auto upper = product(noise, weighted);
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 9; ++j)
@@ -241,7 +242,7 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
                        std::int64_t time_us, bool is_y_up, const TrackOptions& options) {
     const float dt_s = static_cast<float>(time_us - motion.pose.time_us) * 1e-6F;
     const PlaneMotion seen = in_plane(measured, motion.pose.theta_bam, is_y_up);
-    // The agility was fitted to sightings, so it does not apply between them.
+    // The agility was fitted to sightings, so this agility does not apply between sightings.
     MotionEstimate later = motion;
     later.agility = {1, 1, 1};
     later = predicted(later, time_us, options);
@@ -292,7 +293,8 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
         }
         later.covariance[i][i] += kRounding * before[i][i];
     }
-    // A scatter below 1 does not apply, because odometry errors are independent of sighting errors.
+    // A scatter below 1 does not apply to a motion, because odometry errors are independent of
+    // sighting errors.
     const float scatter = later.scatter;
     later.scatter = std::max(scatter, 1.0F);
     set_pose_covariance(later);

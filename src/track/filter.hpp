@@ -1,6 +1,6 @@
-// Kalman filter for (x, y, theta), their velocities and their accelerations. Accelerations decay
-// towards zero and are driven by white noise (Singer 1970). The filter adapts the noise variance,
-// called agility, to the robot's motion.
+// Kalman filter for (x, y, theta), with velocities and accelerations. Accelerations decay towards
+// zero and are driven by white noise (Singer 1970). The filter adapts the noise variance, called
+// agility, to the robot's motion.
 //
 // Reference: Bar-Shalom, Li, Kirubarajan: Estimation with Applications to Tracking and Navigation,
 // sections 8.2 (the model) and 11.2 (fitting the model).
@@ -15,15 +15,15 @@ inline constexpr float kRad_per_bam = 1.46291808e-9F;  // pi / 2^31
 /// Returns the pose of a sighting, with zero velocities and zero covariance.
 TrackedPose pose_of(const Sighting& sighting);
 
-/// Returns the state after the first sighting. The velocities are 0. Their standard deviation is
-/// half the maximum speed or turn rate.
+/// Returns the state after the first sighting. The velocities are 0. The standard deviation of the
+/// velocities is half the maximum speed or turn rate.
 MotionEstimate started_at(const Sighting& sighting, const TrackOptions& options);
 
 /// Predicts the state at a later time.
 MotionEstimate predicted(const MotionEstimate& motion, std::int64_t time_us,
                          const TrackOptions& options);
 
-/// Predicts the state at a later time and corrects it by a measured motion.
+/// Predicts the state at a later time, and corrects the prediction by a measured motion.
 MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measured,
                        std::int64_t time_us, bool is_y_up, const TrackOptions& options);
 

@@ -22,7 +22,7 @@ bool FramePacer::has_moved(const Fix& fix) const {
     const bool was_seen = rest_.status == Status::ok;
     if (fix.status != Status::ok) {
         // While the device moves, a frame without a fix means nothing. A stationary device that had
-        // a fix should get a fix again. If it does not, it may have been moved.
+        // a fix should get a fix again. Without one, the device may have been moved.
         return options_.lost_is_moved && was_seen && motion_ == Motion::stationary;
     }
     if (!was_seen) return true;

@@ -42,7 +42,7 @@ std::int32_t bounded(float sigma, float unit, std::int32_t min, std::int32_t max
 
 /// Returns the standard deviation of the predicted pose along an axis. Combines the filter
 /// covariance with the covariance of the fix. `unforeseen` is a motion that the filter cannot
-/// predict. A third of it is added, so that three standard deviations cover it.
+/// predict. A third of this motion is added, so that three standard deviations cover the motion.
 float sigma(const Covariance6& predicted, const Sighting& seen, std::size_t axis,
             float unforeseen) {
     return std::sqrt(predicted[axis][axis] + seen.covariance[axis][axis]) +

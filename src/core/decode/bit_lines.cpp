@@ -56,10 +56,10 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
     return {std::clamp(BitBlock::kMiddle - max_count / 2, first, last + 1 - max_count), max_count};
 }
 
-/// Compares the two reading directions: returns the line's score backwards minus its score
-/// forwards. If all n bits agree with the main sequence in only one direction, the result is 127 (n
-/// - 6) if that is backwards, and -127 (n - 6) otherwise. The first six bits are no evidence,
-/// because almost every string of six bits occurs in the main sequence.
+/// Returns the line's score when read backwards minus the line's score when read forwards. If all n
+/// bits agree with the main sequence in only one direction, the magnitude of the result is
+/// 127 (n - 6). The first six bits are no evidence, because almost every string of six bits occurs
+/// in the main sequence.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);
     const std::uint64_t valid_back = reversed(valid);
@@ -77,7 +77,8 @@ int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid
     return backwards.best.score - forwards.best.score;
 }
 
-/// Sums the comparison over several lines. Stops early if the magnitude reaches `kLandslide`.
+/// Sums the backwardness of several lines. Stops early if the magnitude of the sum reaches
+/// `kLandslide`.
 int backwardness(const Kernels& kernels, const BitLines& lines) {
     constexpr int kVoters = tuning::turns::kVotersOfBits;
     const LineRange range = lines_with_bits(lines, BitBlock::kSide);

@@ -48,7 +48,8 @@ int likeliest_turn(const Kernels& kernels, const BitBlock& block);
 /// Rotates a block by `quarters` quarter turns. Cell (i, j) moves to (-1 - j, i) for 1, to (-1 - i,
 /// -1 - j) for 2, and to (j, -1 - i) for 3 quarter turns.
 BitBlock turned(int quarters, const BitBlock& block);
-/// Rotates a plane in the same way. The result maps image points to cells of the rotated block.
+/// Rotates a plane by `quarters` quarter turns. The result maps image points to cells of the
+/// rotated block.
 FloatPlane turned(int quarters, const FloatPlane& grid_from_image);
 
 /// Scores the columns and rows of an upright block. Skips empty lines at the ends. Columns use the

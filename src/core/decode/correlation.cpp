@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;
-/// Weights of two lines, packed as a + 65536 b. One addition adds both, because the sums of each
-/// line fit in 16 bits.
+/// Weights of two lines, packed as a + 65536 b. One addition adds the weights of both lines,
+/// because the sums of each line fit in 16 bits.
 using Weights = std::array<std::int32_t, kAtOnce>;
 using Sums = std::array<std::int32_t, 1 << kGroup>;
 
@@ -98,7 +98,8 @@ void correlate_both(Line a, Line b, LineScores& scores_a, LineScores& scores_b) 
     const auto are_zero = [&](std::size_t i) {
         return (i >= a.size() || a[i] == 0) && (i >= b.size() || b[i] == 0);
     };
-    // Skips empty cells at both ends. If the grid is rotated in the image, most lines have some.
+    // Skips empty cells at both ends. If the grid is rotated in the image, most lines have empty
+    // cells.
     std::size_t end = std::max(a.size(), b.size());
     std::size_t first = 0;
     while (first < end && are_zero(first))

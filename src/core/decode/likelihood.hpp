@@ -25,8 +25,8 @@ Status assign_likelihoods(std::span<const DetectedDot> dots, const PlaneFromImag
 Status assign_affine_likelihoods(std::span<const DetectedDot> dots,
                                  const PlaneFromImage& grid_from_image, Grid& grid);
 
-/// Returns the quality |P^(x) P^(y)| of a cell, at most 127 * 127. It is high if the dot is near
-/// one of its four possible places.
+/// Returns the quality |P^(x) P^(y)| of a cell, at most 127 * 127. The quality is high if the dot
+/// is near one of the cell's four places.
 inline int quality(const GridCell& cell) {
     const int product = cell.x * cell.y;
     return product < 0 ? -product : product;

@@ -41,11 +41,11 @@ struct AxisReading {
     std::uint32_t position = 0;  ///< position of the first line
     std::uint8_t roll = 0;       ///< roll of the first line at its first cell
     std::int32_t score = 0;      ///< total score over all lines
-    /// Upper bound of `score`: the total if each line had its highest score.
+    /// Upper bound of `score`: the sum of each line's highest score.
     std::int32_t max_possible = 0;
 
     /// Returns true if the score exceeds 7/8 of `max_possible`. The search then stops, because no
-    /// other reading is likely to come close.
+    /// other reading is likely to have a similar score.
     bool is_clear() const { return 8 * std::int64_t{score} > 7 * std::int64_t{max_possible}; }
 };
 

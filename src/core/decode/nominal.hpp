@@ -23,7 +23,8 @@ class Nominal {
   private:
     QuarterTurn turn_;
     FixedVec first_;  ///< smallest pattern step in the grid, per axis
-    /// Index in the main sequence at the first cell of each column. `rows_` is the same for rows.
+    /// Index in the main sequence at the first cell of each column. `rows_` contains the index at
+    /// the first cell of each row.
     std::array<std::uint8_t, kMaxGridSide> columns_;
     std::array<std::uint8_t, kMaxGridSide> rows_;
 };

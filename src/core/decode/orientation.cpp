@@ -43,7 +43,7 @@ class Voters {
     std::int8_t GridCell::*bit_;
 };
 
-/// Total best scores of the voting lines, for bits as read and for flipped bits.
+/// Sums of the voting lines' best scores, for bits as read and for flipped bits.
 struct Agreement {
     std::int32_t as_is = 0;
     std::int32_t flipped = 0;
@@ -65,7 +65,7 @@ Agreement agreement_by_pairs(const Voters& voters, bool reversed) {
     return sum;
 }
 
-/// Agreement of the voting lines in both reading directions.
+/// Agreement of the voting lines with the main sequence, for both reading directions.
 struct BothWays {
     Agreement forwards;
     Agreement backwards;
@@ -107,8 +107,8 @@ Orientation rank_turns(const Grid& grid, const GridRegion& region) {
     // A half turn reverses each line and flips its bits.
     const std::int32_t turned_columns = of_columns.backwards.flipped;
     const std::int32_t turned_rows = of_rows.backwards.flipped;
-    // A quarter turn exchanges columns and rows. It also reverses and flips either the columns or
-    // the rows (see `turned` in upright.hpp).
+    // A quarter turn exchanges columns and rows. A quarter turn also reverses and flips either the
+    // columns or the rows (see `turned` in upright.hpp).
     const std::array<std::int32_t, 4> scores{columns + rows, turned_columns + rows,
                                              turned_columns + turned_rows, columns + turned_rows};
     std::array<QuarterTurn, 4> turns{QuarterTurn{0}, QuarterTurn{1}, QuarterTurn{2},
@@ -124,8 +124,8 @@ Orientation rank_turns(const Grid& grid, const GridRegion& region) {
 }
 
 bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t upright) {
-    // A mirror image exchanges the x and y bits (paper, eq. 7-8). It may also reverse lines or flip
-    // bits.
+    // A mirror image exchanges the x and y bits (paper, eq. 7-8). A mirror image may also reverse
+    // lines or flip bits.
     const Voters y_columns(grid, region, true, &GridCell::y);
     const Voters x_rows(grid, region, false, &GridCell::x);
     const auto is_much_more = [&](std::int32_t mirrored) {

@@ -10,7 +10,7 @@ namespace dotpose::core {
 
 struct Orientation {
     std::array<QuarterTurn, 4> turns;  ///< most likely turn first
-    std::int32_t agreement;            ///< agreement of the voting lines at the most likely turn
+    std::int32_t agreement;            ///< total score of the voting lines at the likeliest turn
 };
 
 /// Ranks the four turns by a vote of columns and rows. Each voting line is compared with the main

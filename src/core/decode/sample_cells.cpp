@@ -70,8 +70,8 @@ class CellSampler {
     void sample(CellView& view) const;
     /// Returns the paper level at the cell relative to the image centre, in 1/256.
     int light_q8(const CellView& view) const;
-    /// Returns, for each place, the largest shade of eight squares around it. Their centres are
-    /// about 2/15 of a spacing away. Places outside the image get 0.
+    /// Returns the largest shade of the eight squares around each place. The square centres are
+    /// about 2/15 of a spacing from the place. Places outside the image get 0.
     std::array<int, 4> darkest_around_q8(const CellView& view) const;
 
   private:
@@ -123,7 +123,7 @@ int CellSampler::shade_q8(FixedVec centre_q8, int half_px) const {
 
 template <typename Use>
 void CellSampler::visit(const Grid& grid, Use use) const {
-    // Adjacent rows of cells share their intersections, which are computed only once.
+    // Adjacent rows of cells share a row of intersections, which is computed only once.
     std::array<FixedVec, kMaxGridSide + 1> here;
     std::array<FixedVec, kMaxGridSide + 1> below;
     const auto find_row = [&](int j, std::array<FixedVec, kMaxGridSide + 1>& row) {
@@ -175,8 +175,8 @@ std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view, Shade sh
 }
 
 std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view) const {
-    // Reach of the squares from the cell centre, per image axis. Their centres are offset by at
-    // most a third of the larger step component.
+    // Maximum distance of the squares' pixels from the cell centre, per image axis. The square
+    // centres are offset by at most a third of the larger step component.
     const int reach_px =
         std::max(larger_component(view.u_q8), larger_component(view.v_q8)) / (3 * 256) + 1 +
         view.half_px;
@@ -225,14 +225,14 @@ class Ink {
     Ink(const CellSampler& sampler, const Grid& grid) : sampler_(sampler) {
         const PlaceView typical = typical_place(sampler, grid);
         contrast_q8_ = typical.darkness_q8;
-        // A place counts as graphics above the geometric mean of two shades: a typical dot and
-        // solid ink.
+        // A place counts as graphics if its shade exceeds the geometric mean of two shades: that of
+        // a typical dot and that of solid ink.
         graphics_q8_ = static_cast<int>(
             square_root(static_cast<std::uint64_t>(typical.shade_q8 * tuned::kSolidInk_q8)));
     }
 
-    /// Darkness at the four places of a cell. `reliability_q4` scales its bit weights, in 1/16.
-    /// `light_q8` is the light relative to the image centre, in 1/256.
+    /// Darkness at the four places of a cell. `reliability_q4` scales the cell's bit weights, in
+    /// 1/16. `light_q8` is the light relative to the image centre, in 1/256.
     struct Sample {
         std::array<int, 4> darkness_q8;  ///< indexed by Symbol
         int reliability_q4 = 16;

@@ -136,7 +136,7 @@ void try_run(CodeVariant code, const Lines& lines, int first, int length, int ma
 }
 
 /// Returns the first line of the clearest run that is not marked in `taken`, or -1. Runs have
-/// `length` lines. The clearest run has the largest sum of margins.
+/// `length` lines. The clearest run has the largest sum of line margins (`BestScore::margin`).
 int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLines>& taken) {
     int clearest = -1;
     int largest = INT32_MIN;

@@ -1,5 +1,5 @@
 // Search: finds the position on one axis that agrees best with all lines in view. Unlike the paper,
-// it is not limited to the clearest 8 x 8 symbols and does not decode lines separately. See
+// the search is not limited to the clearest 8 x 8 symbols and does not decode lines separately. See
 // docs/differs-from-paper.md.
 #pragma once
 
@@ -19,8 +19,8 @@ AxisReading reading_of_first(CodeVariant code, std::uint32_t position, int roll,
 
 /// Finds the position on an axis from runs of consecutive lines, clearest run first. Tries the most
 /// likely rolls of each line, and keeps the position with the highest total score. If the score is
-/// below its maximum and there are at least `run_length(code)` lines, also calls `search_by_steps`.
-/// Error: not_in_code if no reading occurs in the code.
+/// below `AxisReading::max_possible` and there are at least `run_length(code)` lines, also calls
+/// `search_by_steps`. Error: not_in_code if no reading occurs in the code.
 Status find_axis(CodeVariant code, const Lines& lines, AxisReading& best);
 
 /// Variant of `find_axis` for first attempts. Reads only a few runs with a few readings each, and

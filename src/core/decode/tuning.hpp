@@ -33,8 +33,8 @@ inline constexpr int kSolidInk_q8 = 230;
 inline constexpr std::array<int, 5> kReliabilityBySeen_q4{0, 6, 8, 10, 16};
 /// Reliability of a cell with a place under graphics, in 1/16.
 inline constexpr int kReliabilityCovered_q4 = 10;
-/// Shade above which the cell is near graphics, in fifths of the graphics limit. The shade is
-/// measured next to a place.
+/// Shade above which the cell is near graphics, in fifths of the shade that counts as graphics. The
+/// shade is measured next to a place.
 inline constexpr int kNearGraphics_5ths = 3;
 /// Reliability of a cell near graphics, in 1/16. With a value of 3, 1,993 frames are located. With
 /// a value of 14, 1,994 frames are located.
@@ -48,8 +48,8 @@ inline constexpr int kTooDark_10ths = 16;
 /// Reliability of a cell whose darkest place is probably dirt, in 1/16.
 inline constexpr int kReliabilityTooDark_q4 = 6;
 /// Weight of a bit whose two values differ by a typical dot's darkness, before clamping to 127.
-/// About two fifths of this difference reach the limit. With a value of 150, 1,994 frames are
-/// located. With a value of 600, 1,992 frames are located.
+/// About two fifths of this difference already give a weight of 127. With a value of 150, 1,994
+/// frames are located. With a value of 600, 1,992 frames are located.
 inline constexpr int kGain = 300;
 /// Maximum light at a cell relative to the image centre, in 1/256. Brighter light does not increase
 /// the weights further.
@@ -67,8 +67,8 @@ inline constexpr int kMaxCrowded_8ths = 3;
 namespace search {
 /// Maximum number of rolls to try per line.
 inline constexpr int kChoices = 8;
-/// Maximum number of runs, and readings per run, in the second attempt. Half or twice either value
-/// locates the same number of frames. The margin is for frames with more misread bits.
+/// Maximum number of runs, and readings per run, in the second attempt. With half or twice either
+/// value, the same number of frames is located. The margin is for frames with more misread bits.
 inline constexpr int kRuns = 24;
 inline constexpr int kReadings = 64;
 /// Maximum number of runs, and readings per run, in the first attempt and on devices. Bounds the

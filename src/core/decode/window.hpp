@@ -10,8 +10,8 @@ namespace dotpose::core {
 /// or rows, the window contains all of them.
 GridRegion choose_window(const Grid& grid, int side);
 
-/// Returns the mean quality of a region, in 1/256. It is 256 if every dot is exactly at one of its
-/// four possible places.
+/// Returns the mean quality of a region, in 1/256. The mean is 256 if every dot is exactly at one
+/// of its four possible places.
 int mean_quality_q8(const Grid& grid, const GridRegion& region);
 
 }  // namespace dotpose::core

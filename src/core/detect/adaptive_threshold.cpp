@@ -128,8 +128,9 @@ int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::siz
 
 /// Returns the contrast of dots in a band, relative to the paper level, in 1/256. Returns 0 if no
 /// tile has contrast. Ink reflects the same fraction of the light everywhere, so all dots have the
-/// same relative contrast. Strokes of graphics increase it. The result is therefore the 30 %
-/// quantile over the tiles, which is typical of dots even if strokes cross the band.
+/// same relative contrast. Strokes of graphics increase the contrast of their tiles. The result is
+/// therefore the 30 % quantile over the tiles. This quantile is typical of dots even if strokes
+/// cross the band.
 unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                              int min_contrast, int& max_contrast) {
     Histogram histogram{};
@@ -145,8 +146,8 @@ unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses
 }
 
 /// Sets the thresholds of all columns. The low threshold is below the paper level by the fraction
-/// `to_low_q16`, in units of 2^-16. The high threshold is below it by `to_high_q16`, and is at most
-/// the low threshold.
+/// `to_low_q16`, in units of 2^-16. The high threshold is below the paper level by `to_high_q16`,
+/// and is at most the low threshold.
 void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q16,
                 unsigned to_high_q16, AdaptiveThreshold& threshold) {
     std::uint8_t* half_low_levels = threshold.half_low_levels.data();
@@ -199,14 +200,14 @@ int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold) {
 
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold) {
     const auto tiles = static_cast<std::size_t>(threshold.tiles_per_band);
-    // Reuses the threshold memory for one value per tile. The paper levels are at its end, because
-    // `set_levels` overwrites the end last.
+    // Reuses the threshold memory for one value per tile. The paper levels are at the end of
+    // `half_low_levels`, because `set_levels` overwrites the end last.
     std::uint8_t* const papers = threshold.half_low_levels.data() + whole_width(threshold) - tiles;
     std::uint8_t* const darknesses = threshold.high_levels.data();
     join_bands(three_bands(threshold, band), tiles, papers, darknesses);
     // The darkness includes the tiles on both sides, because dots may be farther apart than a tile
-    // is wide. The paper level does not. Each tile contains paper, and the brightest of several
-    // tiles would be too bright.
+    // is wide. The paper level excludes these tiles. Each tile contains paper, and the brightest of
+    // several tiles would be too bright.
     join_neighbours(darknesses, tiles);
     // If most of the last tile is padding, its paper level is raised to the preceding tile's level.
     if (whole_width(threshold) - threshold.width_px > kTileWidth_px / 2)

@@ -1,6 +1,7 @@
 // Adaptive threshold: computes thresholds for each column from the paper level and contrast of
-// image tiles. This is the first half of thresholding (paper, section II-B.1). Unlike the paper, it
-// does not use one global threshold. LEDs next to a wide-angle lens never light the sheet evenly.
+// image tiles. This is the first half of thresholding (paper, section II-B.1). Unlike the paper,
+// this stage does not use one global threshold. LEDs next to a wide-angle lens never light the
+// sheet evenly.
 #pragma once
 
 #include <algorithm>
@@ -60,13 +61,14 @@ void begin_threshold(int width_px, int height_px, AdaptiveThreshold& threshold);
 /// bands that are now ready for `measure_levels`: 0 or 1, or up to 2 after the last image row.
 int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold);
 
-/// Sets the thresholds of one band, from its tiles and the neighbouring bands. Must be called for
-/// each band in order, when `take_row` reports the band as ready.
+/// Sets the thresholds of one band, from the tiles of this band and of the neighbouring bands. Must
+/// be called for each band in order, when `take_row` reports the band as ready.
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold);
 
-/// Returns the contrast below which a tile in the next band is blank, in grey levels. It grows with
-/// the largest contrast so far, from `options.min_contrast` to twice this value. This rejects noise
-/// in blank tiles once tiles with dots have been measured.
+/// Returns the contrast below which a tile in the next band is blank, in grey levels. The result
+/// grows with the largest contrast so far, from `options.min_contrast` to 2 *
+/// `options.min_contrast`. This rejects noise in blank tiles once tiles with dots have been
+/// measured.
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold);
 
 inline int band_count(const AdaptiveThreshold& threshold) {

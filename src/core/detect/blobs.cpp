@@ -50,8 +50,8 @@ void keep_dots(DotList list, Predicate is_to_keep) {
 }
 
 /// Makes room for dots near the image centre: reduces `kept_within_px`, and removes the dots beyond
-/// it. Returns false if `kept_within_px` is already 0. Not inlined, because the caller's frequent
-/// path needs the registers of small devices.
+/// this distance. Returns false if `kept_within_px` is already 0. Not inlined, because the caller's
+/// frequent path needs the registers of small devices.
 [[gnu::noinline]] bool make_room(const AdaptiveThreshold& threshold, DotList list) {
     if (list.kept_within_px == 0) return false;
     list.kept_within_px -= list.kept_within_px / 8 + 1;
@@ -204,8 +204,8 @@ void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& thr
     }
 }
 
-/// Returns the upper quartile of a member, over a sample of the blobs. It is typical of dots even
-/// if half the blobs are noise, because few blobs are larger than dots.
+/// Returns the upper quartile of a member, over a sample of the blobs. The quartile is typical of
+/// dots even if half the blobs are noise, because few blobs are larger than dots.
 std::int32_t typical(std::span<const DetectedDot> dots, std::uint16_t DetectedDot::*member) {
     constexpr std::size_t kSample = 128;
     const std::size_t step = dots.size() / kSample + 1;

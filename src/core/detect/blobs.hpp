@@ -14,7 +14,7 @@
 namespace dotpose::core {
 
 /// A blob that may continue in the next row, stored as sums over its pixels. The sums wrap modulo
-/// 2^32. If a blob is small enough to be a dot, its sums relative to its corner are exact.
+/// 2^32. If a blob is small enough to be a dot, the sums relative to the blob's corner are exact.
 struct OpenBlob {
     std::uint32_t sum_x = 0;  ///< sum of weight times u
     std::uint32_t sum_y = 0;  ///< sum of weight times v

@@ -19,8 +19,8 @@ bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int w
 bool measure_contrast(Patch& patch);
 
 /// Removes minima that are not dots. These are minima on plateaus, in tiles without contrast, or
-/// with dark surroundings in more than two of eight directions. The last kind occurs on a dark
-/// table beyond the sheet.
+/// with dark surroundings in more than two of eight directions. Minima with dark surroundings occur
+/// on a dark table beyond the sheet.
 void keep_isolated(Patch& patch);
 
 /// Return the middle of the patch, in image pixels.

@@ -26,7 +26,7 @@ bool is_group_light(const std::uint8_t* pixels, const std::uint8_t* half_low_lev
 }
 
 /// Returns the first dark pixel of a row at or after `begin`, or the row end. The search always
-/// stops there, because the sentinel after the thresholds makes every pixel dark.
+/// stops at the row end, because the sentinel after the thresholds makes every pixel dark.
 const std::uint8_t* find_dark(const std::uint8_t* begin, const std::uint8_t* row,
                               const std::uint8_t* half_low_levels) {
     const auto before = static_cast<std::size_t>(begin - row) % kWord_px;

@@ -21,7 +21,8 @@ struct Run {
     OpenBlob* blob = nullptr;  ///< blob of the run; null if there were too many blobs
 };
 
-/// Number of pixels that are compared together. They have the same thresholds.
+/// Number of pixels that the search for dark pixels tests together. These pixels have the same low
+/// threshold.
 inline constexpr std::size_t kGroup_px = 8;
 static_assert(kTileWidth_px % kGroup_px == 0);
 

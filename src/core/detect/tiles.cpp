@@ -20,7 +20,7 @@ struct Rows {
 
     Rows(int band, const AdaptiveThreshold& threshold) {
         const int rows = band_end(threshold, band) - band_begin(threshold, band);
-        // The measured rows are centred in the band. If the last band has only one or two rows, its
+        // The measured rows are centred in the band. If the last band has only one or two rows, the
         // first row is measured.
         const int first = rows > kRowsEvery / 2 ? kRowsEvery / 2 : 0;
         begin = kept_row(threshold, band_begin(threshold, band) + first);

@@ -1,5 +1,5 @@
 // Tiles: measures the mean level and the darkest pair of adjacent pixels in each tile. The
-// thresholds are computed from these.
+// thresholds are computed from these two levels.
 #pragma once
 
 #include <span>

@@ -50,7 +50,8 @@ inline constexpr int kMinTiles = 12;
 /// Minimum darkness of a dot relative to a typical dot, in 1/256. Lighter minima count as noise.
 inline constexpr int kThreshold_q8 = 150;
 /// Distances at which the surroundings of a minimum are tested, along the axes and diagonally, in
-/// px. At most kMaxDark of the eight directions may be dark. A neighbouring dot can cause this.
+/// px. At most kMaxDark of the eight directions may be dark, for example because of a neighbouring
+/// dot.
 inline constexpr int kAway_px = 4;
 inline constexpr int kDiagonally_px = 3;
 inline constexpr int kMaxDark = 2;

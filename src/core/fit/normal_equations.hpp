@@ -20,8 +20,8 @@ class NormalEquations {
     void set(std::size_t row, std::size_t column, float number) {
         columns_[column].set(row, number);
     }
-    /// Adds an equation: its derivatives with respect to the parameters, its residual and its
-    /// weight.
+    /// Adds an equation with the given residual and weight. `derivatives` are with respect to the
+    /// parameters.
     void add(const Vector& derivatives, float residual, float weight) {
         const Column all(derivatives);
         for (std::size_t i = 0; i < N; ++i) {
@@ -47,7 +47,7 @@ class NormalEquations {
             minima[i] = min_determined * columns_[i].at(i);
         for (std::size_t i = 0; i < N; ++i) {
             Column& column = columns_[i];
-            // A parameter that is in no equation has a diagonal element of 0. It is also excluded.
+            // Also excludes a parameter that is in no equation. Its diagonal element is 0.
             if (!(column.at(i) > minima[i])) {
                 if (i < required) return false;
                 leave_out(i);
@@ -82,8 +82,8 @@ class NormalEquations {
     }
     /// Returns L^-T `vector`.
     Vector unwhitened(const Vector& vector) const {
-        // Subtracts the product with the newest element last. The other products do not have to
-        // wait for it.
+        // Subtracts the product with the newest element last. The other products need not wait for
+        // this element.
         Vector result{};
         for (std::size_t i = N; i-- > 0;) {
             float rest = vector[i];

@@ -13,7 +13,7 @@ struct Residuals {
     Four weight;
 };
 
-/// Weighted sums over points and their residuals. They determine the normal equations.
+/// Weighted sums over points and residuals, from which the normal equations are computed.
 class PlaneSums {
   public:
     void add(const FourVecs& places, const Residuals& residuals);

@@ -64,8 +64,8 @@ void weigh(PosteriorsByKind& kinds) {
         kind.probability /= sum;
 }
 
-/// Returns the posterior of the mixture. Its covariance is the mean component covariance plus the
-/// covariance of the component means.
+/// Returns the posterior of the mixture. The mixture covariance is the mean component covariance
+/// plus the covariance of the component means.
 Posterior mixed(const PosteriorsByKind& kinds, float variance) {
     Posterior posterior{};
     for (const PosteriorOfKind& kind : kinds) {

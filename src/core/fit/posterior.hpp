@@ -24,15 +24,15 @@ struct DistortionPrior {
 };
 
 /// Posterior of the whitened terms for the dots in one frame. If there is only one term, the second
-/// is 0.
+/// element is 0.
 struct Posterior {
     std::array<float, 2> mean;
     std::array<std::array<float, 2>, 2> covariance;
 };
 
 /// Computes the posterior by Bayes' rule. `whitened` contains the fitted terms times L^T, where L
-/// is the Cholesky factor in `normal`. `variance` is the noise variance of each element. `unit` is
-/// the unit of the standard deviations in the prior.
+/// is the Cholesky factor in `normal`. `variance` is the noise variance of each element of
+/// `whitened`. `unit` is the unit of the standard deviations in the prior.
 Posterior posterior_of(const DistortionPrior& terms, const PlaneNormal& normal,
                        const Parameters& whitened, float variance, float unit);
 

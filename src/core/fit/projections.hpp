@@ -27,13 +27,13 @@ struct FourVecs {
 };
 
 /// Returns the derivatives of x and y with respect to all parameters, at one of four places. In
-/// pattern coordinates, they are polynomials in the place (u, v). For perspective, they are u (u,
-/// v) and v (u, v). For lens distortion, they are (u^2 + v^2) (u, v).
+/// pattern coordinates, the derivatives are polynomials in the place (u, v). The derivatives for
+/// perspective are u (u, v) and v (u, v). The derivative for lens distortion is (u^2 + v^2) (u, v).
 std::array<Parameters, 2> jacobian(const FourVecs& places, std::size_t point);
 
 /// A plane whose parameters act on the pattern instead of the image. Changes in scale, rotation,
 /// perspective and shear are then exact at any tilt. Places are relative to the plane's `at`, in
-/// units of its scale. All derivatives then have similar magnitudes, so single precision is
+/// units of `scale()`. All derivatives then have similar magnitudes, so single precision is
 /// sufficient.
 class ScaledPlane {
   public:
@@ -43,8 +43,9 @@ class ScaledPlane {
     /// centre.
     FourVecs project(Four x_px, Four y_px) const;
 
-    /// Returns the parameters of perspective, shear and lens distortion. They are 0 for a camera
-    /// without distortion that looks straight at the sheet. All other elements are 0.
+    /// Returns the parameters of perspective, shear and lens distortion. These parameters are 0 for
+    /// a camera without distortion that looks straight at the sheet. All other elements are always
+    /// 0.
     Parameters distortions() const;
     /// Returns the unit of places, in spacings: the pattern length that corresponds to `reach_px`.
     float scale() const { return scale_; }

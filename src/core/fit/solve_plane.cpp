@@ -61,8 +61,8 @@ bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& 
     const int freedom = std::max(2 * fit.dots - static_cast<int>(kPoseParameters), 1);
     constexpr float kExact = 1e-12F;
     fit.variance = std::max(residual_squares / static_cast<float>(freedom), kExact);
-    // Adds the step to the current terms. Both are whitened, so the errors of all elements are
-    // independent and have the variance `fit.variance`.
+    // Adds the step to the current distortion terms. Step and terms are whitened, so the errors of
+    // all elements are independent and have the variance `fit.variance`.
     Parameters whole = normal.times_transposed(distortions);
     for (std::size_t i = 0; i < kPoseParameters; ++i)
         whole[i] += step[i];

@@ -23,18 +23,18 @@ struct PoseFit {
     std::array<std::array<float, 3>, 3> uneven{};
 };
 
-/// Returns the plane from which a step is computed. Its `at_centre` is 0, because the real value
-/// may need more bits than a float has.
+/// Returns the plane from which a step is computed. Its `at_centre` is 0, because the position in
+/// the pattern may need more bits than a float has.
 ScaledPlane scaled_from_centre(const PlaneFromImage& plane, int reach_px);
 /// Returns the plane after a step. `scaled` is the result of `scaled_from_centre` for the plane.
 PlaneFromImage stepped(const PlaneFromImage& plane, const ScaledPlane& scaled,
                        const Parameters& step);
 
 /// Solves the normal equations of `fit` for one step, and shrinks the distortion terms to their
-/// posterior means. `distortions` contains the current distortion terms, and `unit` is the current
-/// scale. Sets `dots`, `variance`, `squares` and `covariance` in `fit`. Sets `moved` to the squared
-/// step length, in units of the pose's standard deviation. Returns false if the dots do not
-/// determine the plane.
+/// posterior means. `distortions` contains the current distortion terms, and `unit` is
+/// `ScaledPlane::scale()`. Sets `dots`, `variance`, `squares` and `covariance` in `fit`. Sets
+/// `moved` to the squared step length, in units of the pose's standard deviation. Returns false if
+/// the dots do not determine the plane.
 bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& step, float& moved);
 
 }  // namespace dotpose::core

@@ -10,23 +10,23 @@ namespace dotpose::core {
 /// log2 in units of 2^-8.
 struct AlternativeSet {
     int alternatives_q8 = 0;  ///< number of alternatives
-    /// Probability that all digits equal the reading's digits in one step. A step leads from one
-    /// line to the next.
+    /// Probability that, in one step, an alternative's digits equal the reading's digits in all
+    /// sequences of the set. A step leads from one line to the next.
     int equal_q8 = 0;
 };
-/// Sets of sequences in which the places differ:
+/// Sets of sequences in which an alternative's place differs from the reading's place:
 /// - a3 and one other sequence,
 /// - two sequences other than a3,
 /// - a3 and two other sequences,
 /// - all three sequences other than a3,
 /// - all four sequences.
 ///
-/// a1, a2 and a4 have the same base. Sets that differ only in the choice among them are therefore
-/// merged.
+/// a1, a2 and a4 have the same base. Sets that differ only in the choice among these three are
+/// therefore merged.
 inline constexpr std::array<AlternativeSet, 5> kAlternativeSets{
     {{3694, -661}, {4444, -811}, {5712, -1067}, {6057, -1217}, {7326, -1473}}};
-/// log2 of the safety factor 1.03, in units of 2^-8, rounded up. See `kUnevenness` in
-/// expected_alternatives.cpp.
+/// log2 of the safety factor 1.03 for digits that are not random, in units of 2^-8, rounded up. See
+/// `kUnevenness` in expected_alternatives.cpp.
 inline constexpr int kUnevenness_q8 = 11;
 
 }  // namespace dotpose::core

@@ -15,7 +15,7 @@ namespace {
 
 /// Maximum number of adjacent lines that two positions share in `anoto` and `microdots`. With six
 /// shared lines, five digits would be equal in each sequence, and five digits determine a place. In
-/// `libdots`, some positions share more lines. The near alternatives include them.
+/// `libdots`, some positions share more lines. The near alternatives include these positions.
 constexpr int kMaxSharedInARow = code::kOrder;
 /// Maximum expected odds of the far alternatives for which a detailed evaluation is worth the time.
 /// With larger expected odds, the fix cannot become certain.
@@ -64,7 +64,7 @@ int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2) {
         if (sum < limit) {
             // Maximum expected odds of the double alternatives that are not evaluated one by one.
             // An expectation alone must not cause a refusal, so the maximum is at most an eighth of
-            // the margin.
+            // the margin to the limit.
             const float negligible = std::min(std::max(sum, far_below_doubt), limit - sum) / 8;
             sum += sum_of_double_alternatives(lines, negligible, limit - sum);
         }

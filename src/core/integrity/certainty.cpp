@@ -25,7 +25,7 @@ constexpr float kShifts = kSections - 1;
 /// The true odds are never larger.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
-/// Number of places in all four sequences.
+/// Total number of places in the four sequences.
 constexpr float kSingles = 741;
 
 /// Returns 2^(n_q8 / 256), rounded up by about 2 %. The result is at least 2^-100.
@@ -126,7 +126,7 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
 }
 
 /// Returns an upper bound on the odds of the single alternatives that share a line. Most sequences
-/// need only a table. In the remaining sequences, alternatives that may lose less than the limit
+/// need only a table. In the remaining sequences, alternatives that may lose less than `loss_limit`
 /// are evaluated one by one. Returns 1 if `Kernels::list_similar_places` fails.
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
@@ -183,16 +183,16 @@ float chance_of(const Confidence& bits, const Query& query) {
 }
 
 /// Returns the weighted number of possible codes, or 1 if the code is given. A code's weight is its
-/// odds relative to the code that was read. All codes have equally many alternatives, so this
-/// number multiplies the odds of alternatives.
+/// odds relative to the code that was read. All codes have the same number of alternatives, so the
+/// weighted number of codes multiplies the odds of the alternatives.
 float codes_in_question(const Query& query) {
     return !is_code_in_question(query) ? 1
                                        : power_of_two_rounded_up(query.others->log2_in_question_q8);
 }
 
-/// Returns an upper bound on the probability that one axis is wrong. Returns 1 if chance and
-/// alternatives exceed the limit. Tries up to three bounds on the alternatives, each slower and
-/// tighter than the last. Hard bits allow only the first bound.
+/// Returns an upper bound on the probability that one axis is wrong. Returns 1 if the bounds on
+/// chance and alternatives exceed 2^limit_log2. Tries up to three bounds on the alternatives, each
+/// slower and tighter than the preceding one. Hard bits allow only the first bound.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,
                  const Query& query) {
     const LikelihoodRatios& ratios = unshared.ratios();
@@ -213,7 +213,7 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     return sum + seam_alternatives(kernels, unshared);
 }
 
-/// Returns true if the error probabilities of both axes add up to at most the limit. Sets
+/// Returns true if the error probabilities of both axes add up to at most 2^limit_log2. Sets
 /// `fix.p_wrong_log2`, unless the x axis alone has a bound of 1 or more. On success, sets the odds
 /// of the other codes, unless `Query::others` is null.
 bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
@@ -231,8 +231,8 @@ bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
 }
 
 /// Returns the odds that a bit is correct, as log2 in units of 2^-8. Combines both axes, because
-/// they are read from the same dots. Returns 0 if the bits carry no information or if either axis
-/// has too many wrong bits. Sets `fix.bit_errors`.
+/// their bits are read from the same dots. Returns 0 if the bits carry no information or if either
+/// axis has too many wrong bits. Sets `fix.bit_errors`.
 int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOptions& options,
                     Fix& fix) {
     fix.bit_errors = x.wrong() + y.wrong();

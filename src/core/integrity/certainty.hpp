@@ -26,9 +26,10 @@ struct AxisBits {
 
 /// Returns true if the hard bits make the position certain. Returns false if in doubt. Takes a
 /// tenth of the work that `is_certain` takes, and suffices for clean frames. Compares only bits
-/// near the middle of the view with alternatives. Ignoring other bits can only increase the bound.
-/// Sets `fix.bit_errors`. On success, also sets `fix.p_wrong_log2` and, unless `others` is null,
-/// the odds of the other codes. On failure, `fix.p_wrong_log2` is not valid.
+/// near the middle of the view with alternatives. Ignoring the other bits can only increase the
+/// bound on the error probability. Sets `fix.bit_errors`. On success, also sets `fix.p_wrong_log2`
+/// and, unless `others` is null, the odds of the other codes. On failure, `fix.p_wrong_log2` is not
+/// valid.
 bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
                           CodeVariant code, const IntegrityOptions& options, Fix& fix,
                           OtherCodes* others = nullptr);
@@ -51,15 +52,17 @@ Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& plac
                      const BitBlock& block, const std::array<Confidence, 2>& bits,
                      std::span<ScoredLine> storage);
 
-/// Returns true if the position is certain: the bound is within the limit, and not too many bits
-/// contradict the position. Returns false if there are at most kMaxShared columns or rows. Sets
-/// `fix.bit_errors`. On success, also sets `fix.p_wrong_log2` and, unless `others` is null, the
-/// odds of the other codes. On failure, `fix.p_wrong_log2` is not valid.
+/// Returns true if the position is certain. The upper bound on the error probability must be within
+/// the limit in `options`, and not too many bits may contradict the position. Returns false if
+/// there are at most kMaxShared columns or rows. Sets `fix.bit_errors`. On success, also sets
+/// `fix.p_wrong_log2` and, unless `others` is null, the odds of the other codes. On failure,
+/// `fix.p_wrong_log2` is not valid.
 bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                 const IntegrityOptions& options, Fix& fix, OtherCodes* others = nullptr);
 
-/// Sets `fix.p_wrong_log2` to the smallest integer above log2(wrong), but at most 0. Returns true
-/// if `fix.p_wrong_log2` is at most `limit_log2`.
+/// Sets `fix.p_wrong_log2` to the smallest integer above log2(wrong), but at most 0. `wrong` is an
+/// upper bound on the error probability. Returns true if `fix.p_wrong_log2` is at most
+/// `limit_log2`.
 bool is_within_limit(float wrong, int limit_log2, Fix& fix);
 
 /// Sets the odds of the other codes without a certainty test. Does nothing if the bits carry no

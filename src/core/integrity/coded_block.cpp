@@ -52,7 +52,7 @@ CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rol
         const std::uint32_t code = code::kMainWords[static_cast<std::size_t>(roll)];
         const std::uint32_t wrong = (bits ^ code) & seen;
         // A line without wrong bits keeps only its longest run. The tables in likelihood_ratios.cpp
-        // require runs without gaps. The dropped bits could only make alternatives less likely.
+        // require runs without gaps. Dropping bits can only increase the odds of alternatives.
         half.rolls[i] = static_cast<std::uint8_t>(roll);
         half.lines[i] = {code, wrong == 0 ? longest_run(seen) : seen, wrong};
         if (seen == 0) continue;

@@ -5,12 +5,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds below which another code needs no further bits. kMaxOddsHere applies to the same place, and
-/// kMaxOddsElsewhere applies to the sum over all other places.
+/// Odds below which another code needs no further bits. kMaxOddsHere applies to the reading's place
+/// in the other code. kMaxOddsElsewhere applies to the sum over all other places in this code.
 constexpr float kMaxOddsHere = 1e-12F;
 constexpr float kMaxOddsElsewhere = 1e-10F;
 
-/// Returns true if two codes have different rolls in any of BitBlock::kSide lines, from `position`.
+/// Returns true if the rolls in two codes differ in any of the BitBlock::kSide lines from
+/// `position`.
 bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     std::array<std::uint8_t, BitBlock::kSide> own;
     std::array<std::uint8_t, BitBlock::kSide> theirs;
@@ -19,7 +20,7 @@ bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     return own != theirs;
 }
 
-/// Returns true if more bits may change the odds:
+/// Returns true if more bits may change the odds of the other codes:
 /// - the odds of other places in another code are not negligible, or
 /// - the block has more lines, and a code that is not ruled out has different rolls in the block.
 bool may_change_odds(CodeVariant read, const Place& place, bool has_more_lines,

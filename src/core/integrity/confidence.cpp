@@ -26,7 +26,7 @@ int log_odds_q8(int odds_per_bit_q8, int level) {
     return (odds_per_bit_q8 * Confidence::weight_of(level) * 129) >> 14;
 }
 
-/// Returns the expected fraction of wrong bits at these odds, in units of 2^-16.
+/// Returns the expected fraction of wrong bits at the given odds, in units of 2^-16.
 std::uint32_t wrong_fraction_q16(int log_odds_q8) {
     if (log_odds_q8 >= 15 * 256) return 1;
     return UINT32_MAX / (65536 + static_cast<std::uint32_t>(exp2_q16(log_odds_q8)));

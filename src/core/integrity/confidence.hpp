@@ -1,5 +1,5 @@
-// Confidence: how reliable the bits are, and how likely random bits are to agree with the code as
-// well. docs/integrity.md derives the formulas.
+// Confidence: how reliable the bits are, and the probability that random bits agree with the code
+// as well as these bits do. docs/integrity.md derives the formulas.
 #pragma once
 
 #include <array>
@@ -56,16 +56,17 @@ class Confidence {
 };
 
 /// Returns the odds that a bit with weight 127 is correct, as log2 in units of 2^-8. The result is
-/// in [0, 16 * 256]. Log odds are proportional to the weight. At these odds, the expected weight of
-/// wrong bits is the observed weight plus two full bits. (This is a maximum-likelihood logistic
-/// regression with a margin of two bits.) Returns 0 if the bits carry no information.
+/// in [0, 16 * 256]. Log odds are proportional to the weight. At the returned odds, the expected
+/// weight of wrong bits is the observed weight of wrong bits plus two full bits. (This is a
+/// maximum-likelihood logistic regression with a margin of two bits.) Returns 0 if the bits carry
+/// no information.
 int odds_per_bit_q8(const Confidence& confidence);
 
 /// Returns log2 of an upper bound on the probability of a chance match. In a chance match, random
 /// bits agree with the code as well as the bits that were read. The bound covers all positions,
 /// sections and quarter turns: L * 63 * 4 hypotheses per axis, with L = 410,815,348. For each
-/// hypothesis, it uses Chernoff's bound. The bound holds for any `odds_per_bit_q8`, and is smallest
-/// near the true odds.
+/// hypothesis, the function uses Chernoff's bound. The bound holds for any `odds_per_bit_q8`, and
+/// is smallest near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
 /// Returns the same bound as `chance_log2` in units of 2^-8, with 2^(log2_times_q8 / 256) times as

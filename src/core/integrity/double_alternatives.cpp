@@ -12,7 +12,7 @@ namespace dotpose::core {
 namespace {
 
 /// Minimum result: kNegligible for each pair of places, at each shift. No fix may rely on smaller
-/// expected odds. There are 190,027 pairs, including 2,217 pairs with a place that the reading has.
+/// expected odds. There are 190,027 pairs, including 2,217 pairs with one of the reading's places.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
 /// Safety factor for expected odds. Expected odds are means over all positions, and the odds at a
@@ -85,7 +85,7 @@ AnchorBytes anchors_of(const RankedLines::Offsets& offsets) {
     return bytes;
 }
 
-/// Returns a place's offsets at all anchors, relative to its offset at the anchor `one`, modulo 63.
+/// Returns a place's offsets at all anchors minus the offset at the anchor `one`, modulo 63.
 AnchorBytes since(int one, const RankedLines::Offsets& offsets) {
     return modulo_sections(anchors_of(offsets) - offsets.all[static_cast<std::size_t>(one)]);
 }
@@ -121,15 +121,15 @@ class Marks {
     std::array<std::uint64_t, 2> halves_;
 };
 
-/// A place in a sequence, with its `opposite` offsets. They are compared with `since` of a place in
-/// another sequence.
+/// A place in a sequence, with its `opposite` offsets. `Finder` compares these offsets with `since`
+/// of a place in another sequence.
 struct Opposite {
     AnchorBytes offsets;
     const RankedLines::Offsets* place;
 };
 
-/// The places in a sequence, in buckets by the difference between their offsets at two anchors,
-/// modulo 63. Excludes the place of the reading.
+/// The places in a sequence, in buckets by the difference between a place's offsets at two anchors,
+/// modulo 63. Excludes the reading's place.
 class Buckets {
   public:
     Buckets(const RankedLines& lines, std::size_t sequence, int one, int other) {
@@ -211,8 +211,8 @@ class Finder {
         return sum;
     }
 
-    /// Returns the odds of a pair of places at the shift where it shares a given line. `shared` is
-    /// the sum of both offsets in this line.
+    /// Returns the odds of a pair of places at the shift where the pair shares a given line.
+    /// `shared` is the sum of the two places' offsets in this line.
     float odds(const RankedLines::Offsets& a, const RankedLines::Offsets& b, int shared) const {
         // Adding 126, a multiple of 63, keeps the loss index positive.
         const int base = 2 * kSections - shared;

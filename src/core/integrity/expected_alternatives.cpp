@@ -68,8 +68,8 @@ void ExpectedAlternatives::add_line(const ByShift& odds) {
         for (const float sum : set.shared)
             before[0] += sum;
         const ByShift after = after_step(set, before);
-        // A run of shared lines begins where the roll offset returns to 0. It continues while all
-        // digits are equal, because a different digit changes the roll offset.
+        // A run of shared lines begins where the roll offset returns to 0. The run continues while
+        // all digits equal the reading's digits, because any other digit changes the roll offset.
         float returned = after[0] - before[0] * set.equal;
         returned = returned > 0 ? returned : 0;
         for (std::size_t i = max_shared_ - 1; i > 0; --i) {

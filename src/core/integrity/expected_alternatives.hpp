@@ -35,7 +35,7 @@ class ExpectedAlternatives {
         unsigned different = 0;  ///< sequences in which the places differ, one bit each
         float alternatives = 0;  ///< number of alternatives
         /// Probability that all digits equal the reading's digits in one step, times the safety
-        /// factor.
+        /// factor kUnevenness.
         float equal = 1;
         /// Expected odds of the alternatives that do not share the newest line, by roll offset in
         /// this line. Element 0 is not used.

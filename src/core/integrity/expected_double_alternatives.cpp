@@ -6,11 +6,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Safety factor per step, as in expected_alternatives.cpp.
+/// Safety factor per step, because digits are not random (see expected_alternatives.cpp).
 constexpr float kUnevenness = 1.03F;
-/// Minimum odds and minimum sums. They avoid denormal numbers, which are slow. Sums start at the
-/// large value kStart. The minima then contribute little, even if other rolls fit some lines much
-/// better than the reading.
+/// Minimum odds and minimum sums. These minima avoid denormal numbers, which are slow. Sums start
+/// at the large value kStart. The minima then contribute little, even if other rolls fit some lines
+/// much better than the reading.
 constexpr float kMinOdds = 0x1p-40F;
 constexpr float kMinSum = 0x1p-80F;
 constexpr float kStart = 0x1p40F;

@@ -48,8 +48,8 @@ class ScoredAxis {
     int agreeing(CodeVariant code, std::uint32_t position, std::size_t added) const;
 
     /// Calls `use(position, sums)` for each position of the first line in `range`. sums[r] is the
-    /// number of agreeing bits if r is added to each line's roll in section 0. r depends on the
-    /// section and on the position along the other axis.
+    /// number of bits that agree with the code if r is added to each line's roll in section 0. r
+    /// depends on the section and on the position along the other axis.
     template <typename Use>
     void visit(CodeVariant code, const PositionRange& range, Use use) const {
         constexpr std::uint32_t kChunk = 63;
@@ -86,18 +86,19 @@ struct ScoredTurn {
           columns(kernels, upright.columns, ranges.columns, ranges.rows.first),
           rows(kernels, upright.rows, ranges.rows, ranges.columns.first) {}
 
-    /// Returns the possible positions of the first column if at least one column is on the region.
+    /// Returns the possible positions of the block's first column if at least one column is in
+    /// `region`.
     PositionRange columns_of(const KnownRegion& region) const {
         return {region.first.x, region.columns, columns.count()};
     }
-    /// Returns the possible positions of the first row if at least one row is on the region.
+    /// Returns the possible positions of the block's first row if at least one row is in `region`.
     PositionRange rows_of(const KnownRegion& region) const {
         return {region.first.y, region.rows, rows.count()};
     }
 };
 
-/// Cache for the table of one axis. The next region reuses the table if it has the same code and
-/// positions. This is frequent, because the sheets in a file are side by side.
+/// Cache for the table of one axis. The next region reuses the table if its code and positions are
+/// the same. This case is frequent, because the sheets in a file are side by side.
 template <typename Table>
 class KeptTable {
   public:
@@ -117,9 +118,9 @@ class KeptTable {
 };
 
 /// Calls `use(column, column_roll, row, row_roll)` for each column class and row class. A column's
-/// roll is its roll in section 0 plus `column_roll`, which depends on the section and the row
-/// class. A row's roll is its roll in section 0 plus `row_roll`, which depends on the section and
-/// the column class.
+/// roll is the column's roll in section 0 plus `column_roll`, which depends on the section and the
+/// row class. A row's roll is the row's roll in section 0 plus `row_roll`, which depends on the
+/// section and the column class.
 template <typename Use>
 void visit_classes(const Section& section, Use use) {
     for (std::size_t column = 0; column < kSections; ++column) {

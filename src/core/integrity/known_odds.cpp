@@ -13,7 +13,7 @@ namespace dotpose::core {
 namespace {
 
 /// Odds of a position relative to the tested position. All bits have the same weight, so log2 of
-/// the odds is linear in the number of agreeing bits.
+/// the odds is linear in the number of bits that agree with the code.
 class OddsOfBits {
   public:
     /// `agreeing` is the number of bits that agree with the code at the tested position.
@@ -87,10 +87,10 @@ float random_agreement(int bits, int wrong) {
     return term * power_of_two_exactly(exponent) / (1 - ratio);
 }
 
-/// Returns an upper bound on the probability of a chance match if no known sheet is in view. A
-/// chance match agrees with some known place as well as the bits that were read. `bits` and `wrong`
-/// count bits and wrong bits per axis. `lines` is the number of columns or rows, whichever is
-/// larger.
+/// Returns an upper bound on the probability of a chance match if no known sheet is in view. In a
+/// chance match, random bits agree with some known place as well as the bits that were read. `bits`
+/// and `wrong` count bits and wrong bits per axis. `lines` is the number of columns or rows,
+/// whichever is larger.
 float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int, 2>& wrong,
                       int lines) {
     float places = 0;
@@ -107,9 +107,10 @@ float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int,
     const float trials = std::max(kTurns * places, 1024.0F);
     const float anywhere = trials * random_agreement(2 * bits, wrong[0] + wrong[1]);
     if (sheets.are_all()) return anywhere;
-    // An unknown sheet may have the same rows as a known sheet. All y bits then agree, and they
-    // determine the turn, the roll and the row position. Only the columns in one class remain
-    // possible. The same holds with columns and rows exchanged.
+    // An unknown sheet may have the same rows as a known sheet. All y bits then agree with the
+    // code, and they determine the turn, the roll and the row position. Only the columns in one
+    // class remain possible. If the sheets have the same columns, only the rows in one class remain
+    // possible.
     return anywhere + columns * random_agreement(bits, wrong[0]) +
            rows * random_agreement(bits, wrong[1]);
 }
@@ -127,7 +128,7 @@ struct CornerPlace {
     }
 };
 
-/// Returns the summed odds of all places on a region.
+/// Returns the summed odds of all places in a region.
 float sum_of_odds(const KnownRegion& region, const OddsByClass& columns, const OddsByClass& rows) {
     float sum = 0;
     visit_classes(region.section, [&](std::size_t column, std::size_t column_roll, std::size_t row,
@@ -137,8 +138,8 @@ float sum_of_odds(const KnownRegion& region, const OddsByClass& columns, const O
     return sum;
 }
 
-/// Returns the summed odds of all places on a region except `best`. `best` must be on the region.
-/// Its odds are 1.
+/// Returns the summed odds of all places in a region except `best`. `best` must be in the region,
+/// and its odds are 1.
 float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const OddsOfBits& x_odds,
                     const OddsOfBits& y_odds, const CornerPlace& best) {
     const auto [x, column_roll] = best.column();
@@ -147,8 +148,8 @@ float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const Odd
                               best.column());
     const OddsByClass rows(turn.rows, region.code, turn.rows_of(region), y_odds, best.row());
     // `columns` and `rows` exclude the column and the row at `best`, which have odds of 1. The last
-    // two terms combine this column with other rows in the same class, and this row with other
-    // columns in the same class.
+    // two terms combine the row at `best` with other columns in the class of the best column, and
+    // the column at `best` with other rows in the class of the best row.
     return sum_of_odds(region, columns, rows) + columns(class_of(x), column_roll) +
            rows(class_of(y), row_roll);
 }
@@ -157,7 +158,7 @@ float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const Odd
 
 float known_place_wrong(const Kernels& kernels, const BitBlock& block, const KnownSheets& sheets,
                         CodeVariant code, const Place& place) {
-    // Number of bits per axis. Both axes have the same number.
+    // Number of bits per axis, which is equal for x and y.
     const int bits = number_of_bits(block.columns);
     const ScoredTurn upright(kernels, block);
     const CornerPlace best{code, moved(code, place, upright.columns_range.first - BitBlock::kMiddle,

@@ -9,9 +9,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of agreeing bits on one axis, over all positions in a class. The first index is
-/// the class, which is the position modulo 63. The second index is the roll that is added to the
-/// rolls in section 0.
+/// Maximum number of bits on one axis that agree with the code, over all positions in a class. The
+/// first index is the class, which is the position modulo 63. The second index is the roll that is
+/// added to the rolls in section 0.
 class Peaks {
   public:
     Peaks(const ScoredAxis& axis, CodeVariant code, const PositionRange& range) {
@@ -30,8 +30,8 @@ class Peaks {
     std::array<RollSums, kSections> best_;
 };
 
-/// Returns the first position in a class where exactly `sum` bits agree. `roll` is added to the
-/// rolls in section 0.
+/// Returns the first position in a class where exactly `sum` bits agree with the code. `roll` is
+/// added to the rolls in section 0.
 std::uint32_t position_with(const ScoredAxis& axis, CodeVariant code, const PositionRange& range,
                             std::size_t of_class, std::size_t roll, int sum) {
     std::uint32_t found = range.first;
@@ -44,15 +44,16 @@ std::uint32_t position_with(const ScoredAxis& axis, CodeVariant code, const Posi
     return found;
 }
 
-/// Positions of a block's first column and first row, and the number of agreeing bits on each axis.
+/// Positions of a block's first column and first row. Also contains the number of bits on each axis
+/// that agree with the code at this place.
 struct Peak {
     Cell corner;
     int x_agreeing = 0;
     int y_agreeing = 0;
 };
 
-/// Returns the place on a region with the most agreeing bits. Returns nullopt if no place has more
-/// than `min_agreeing` agreeing bits.
+/// Returns the place in a region where the most bits agree with the code. Returns nullopt if at
+/// most `min_agreeing` bits agree at every place.
 std::optional<Peak> peak_on(const KnownRegion& region, const ScoredTurn& turn, const Peaks& columns,
                             const Peaks& rows, int min_agreeing) {
     struct Classes {

@@ -30,8 +30,9 @@ struct KnownPlace {
 bool shows_sheet(const KnownSheets& sheets, CodeVariant code, const Place& place,
                  const BitBlock& block);
 
-/// Returns the place that agrees best with the block, over all sheets, codes and orientations.
-/// Returns nullopt if the block has no bits. `sheets` must contain at least one region.
+/// Returns the place where the most bits of the block agree with the code, over all sheets, codes
+/// and orientations. Returns nullopt if the block has no bits. `sheets` must contain at least one
+/// region.
 std::optional<KnownPlace> find_known_place(const Kernels& kernels, const BitBlock& block,
                                            const KnownSheets& sheets);
 

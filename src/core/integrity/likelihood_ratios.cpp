@@ -10,15 +10,15 @@ namespace dotpose::core {
 
 namespace {
 
-/// Returns the Hamming distance between two substrings of the main sequence. They begin at the bits
-/// `first` and `other`, and have `length` bits.
+/// Returns the Hamming distance between two substrings of the main sequence. The substrings begin
+/// at the bits `first` and `other`, and have `length` bits.
 constexpr int distance_of(std::size_t first, std::size_t other, std::size_t length) {
     const std::uint32_t all = length == 0 ? 0 : ~std::uint32_t{0} >> (32 - length);
     return bits_in((code::kMainWords[first] ^ code::kMainWords[other]) & all);
 }
 
-/// Minimum Hamming distance to another substring with the same length, and the number of substrings
-/// at this distance.
+/// Minimum Hamming distance from a substring of the main sequence to any other substring with the
+/// same length, and the number of substrings at this distance.
 struct NearestSubstrings {
     int distance = kMaxComparedLines + 1;
     int count = 0;
@@ -37,8 +37,8 @@ constexpr NearestSubstrings nearest_of(std::size_t first, std::size_t length) {
 }
 
 /// Minimum distances for all lengths, by the first bit of the substring. Bit i is 1 if the minimum
-/// distance grows from i to i + 1 bits. It grows by at most 1. The minimum distance for n bits is
-/// therefore the number of ones in the first n bits.
+/// distance grows from i to i + 1 bits. Each additional bit increases the minimum distance by at
+/// most 1. The minimum distance for n bits is therefore the number of ones in the first n bits.
 constexpr auto kGrowingDistances = [] {
     std::array<std::uint32_t, kSections> grows{};
     for (std::size_t first = 0; first < grows.size(); ++first) {
@@ -179,7 +179,7 @@ std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOff
     const int base = offsets[static_cast<std::size_t>(shared)];
     const int count = ratios.count();
     int lost = 0;
-    // Visits the later lines first, then the earlier lines.
+    // Visits the lines after `shared` first, then the lines before it.
     for (int i = 1, line = shared + 1; i < count; ++i, ++line) {
         if (line == count) line = 0;
         const int shift = offsets[static_cast<std::size_t>(line)] - base;

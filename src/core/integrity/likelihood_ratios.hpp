@@ -59,8 +59,8 @@ class LikelihoodRatios {
     /// Returns true if the ratios come from hard bits. `lines` is then empty.
     bool is_of_bits() const { return !bits_.empty(); }
 
-    /// Returns the loss of an alternative in a line. `shift` is its roll minus the reading's roll,
-    /// modulo 63, with |shift| < 63.
+    /// Returns the loss of an alternative in a line. `shift` is the alternative's roll minus the
+    /// reading's roll, modulo 63, with |shift| < 63.
     int loss(int line, int shift) const {
         const int own = rolls_[static_cast<std::size_t>(line)];
         const int moved = own + shift;
@@ -71,8 +71,8 @@ class LikelihoodRatios {
                lines[line][static_cast<std::size_t>(other)];
     }
     int own_roll(int line) const { return rolls_[static_cast<std::size_t>(line)]; }
-    /// Returns the minimum loss of an alternative that does not share the line. It is negative if
-    /// another roll fits the line better.
+    /// Returns the minimum loss of an alternative that does not share the line. The minimum is
+    /// negative if another roll fits the line better.
     int min_loss(int line) const { return min_losses_[static_cast<std::size_t>(line)]; }
     /// Returns the minimum losses of `count` adjacent lines, from the line `first`.
     std::span<const std::int16_t> min_losses(int first, int count) const {
@@ -89,12 +89,12 @@ class LikelihoodRatios {
     /// are the sum and the maximum of the odds at all rolls except the reading's roll. For hard
     /// bits only.
     int log2_of_nearest_q8(int line) const;
-    /// Returns the maximum gain of an alternative: the sum over all lines that another roll fits
-    /// better.
+    /// Returns the maximum gain of an alternative: the total gain in the lines that another roll
+    /// fits better than the reading's roll.
     int max_gain() const { return max_gain_; }
     /// Returns the maximum number of adjacent lines that an alternative shares.
     int max_shared() const { return basis[3].has_twins ? kMaxShared : code::kOrder; }
-    /// Returns log2 of the odds at this loss, in units of 2^-8.
+    /// Returns log2 of the odds of an alternative that loses `lost`, in units of 2^-8.
     int log2_odds_q8(int lost) const {
         // A loss is twice the weight of the bits that cause it. 129 / 2^15 is about 1 / (2 * 127).
         // Losses are clamped so that the product fits in 32 bits.
@@ -103,7 +103,7 @@ class LikelihoodRatios {
     }
     /// Returns the loss at which the odds are 2^(log2_odds_q8 / 256), rounded up.
     int loss_for(int log2_odds_q8) const { return -log2_odds_q8 * 254 / odds_per_bit_q8_ + 1; }
-    /// Returns the odds at this loss, clamped to [2^-64, 2^64].
+    /// Returns the odds of an alternative that loses `lost`, clamped to [2^-64, 2^64].
     float odds(int lost) const {
         const int log2_q8 = std::clamp(log2_odds_q8(lost), kNegligible_q8, -kNegligible_q8);
         const int whole = log2_q8 >> 8;
@@ -152,7 +152,8 @@ class LikelihoodRatios {
     std::array<std::int16_t, kMaxComparedLines> log2_of_nearest_q8_;
 };
 
-/// Roll offsets of an alternative, by line, from 0 to 62. They are known only up to a common shift.
+/// Roll offsets of an alternative, by line, from 0 to 62. These offsets are known only up to a
+/// common shift.
 using RollOffsets = std::array<std::uint8_t, kMaxLines>;
 
 /// Returns the roll offset, from 0 to 62. `own` is the reading's roll, and `alternative` is the
@@ -173,8 +174,9 @@ inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequenc
 }
 
 /// Returns the loss of an alternative at the shift where it shares the line `shared`. Stops early
-/// if the alternative is hopeless, and returns the loss so far. Returns nullopt if it also shares
-/// an earlier line at this shift. The caller counts the alternative at the earlier line instead.
+/// if the alternative is hopeless, and returns the loss so far. Returns nullopt if the alternative
+/// also shares an earlier line at this shift. The caller counts the alternative at the earlier line
+/// instead.
 std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOffsets& offsets,
                                    int shared);
 

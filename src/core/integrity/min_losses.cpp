@@ -8,7 +8,7 @@ MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last) {
     const int count = ratios.count();
     const int max_shared = ratios.max_shared();
     MinLosses min_loss;
-    // Element n is the minimum loss in the first n lines if the last of them is not shared.
+    // Element n is the minimum loss in the first n lines if the last of these lines is not shared.
     MinLosses unshared_last;
     unshared_last[0] = 0;
     int lowest = 0;  // index of the minimum among the last `max_shared` + 1 elements

@@ -7,9 +7,10 @@
 
 namespace dotpose::core {
 
-/// Lower bounds on the loss in n adjacent lines at one end of the view, by n. Gains count as 0.
+/// Lower bounds on an alternative's loss in n adjacent lines at one end of the view, by n. Gains
+/// count as 0.
 using MinLosses = std::array<int, kMaxLines + 1>;
-/// Returns the bounds for the first n lines, or for the last n lines if `from_last` is true.
+/// Returns the lower bounds for the first n lines, or for the last n lines if `from_last` is true.
 MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last);
 
 /// Returns a lower bound on the loss of every seam alternative, over all borders. A seam

@@ -60,8 +60,8 @@ class TwinPlaces {
 
 using OneOfEach = std::array<const TwinPlaces::Twin*, 4>;
 
-/// Returns the odds of an alternative that shares a run. `twins` contains its place in each
-/// sequence. `first` is the sum of `Twin::first` over these places.
+/// Returns the odds of an alternative that shares a run. `twins` contains the alternative's place
+/// in each sequence. `first` is the sum of `Twin::first` over these places.
 float odds_of_twins(const RankedLines& lines, EightOffsets first, const OneOfEach& twins) {
     int lost = lines.loss_of_first(first);
     for (int rank = 8; rank < lines.count() && !lines.ratios.is_hopeless(lost); ++rank) {

@@ -10,7 +10,7 @@ namespace dotpose::core {
 namespace {
 
 /// Summed odds of other places in other codes above which a fix is ambiguous. Smaller odds do not
-/// make it ambiguous, because a second attempt may reduce them.
+/// make the fix ambiguous, because a second attempt may reduce these odds.
 constexpr float kAmbiguousOdds = 1e-3F;
 /// Maximum odds of a code that earlier frames rule out, relative to the likeliest code. No attempt
 /// is made in such a code.
@@ -88,8 +88,8 @@ CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others) {
     for (std::size_t i = 0; i < log2_q8.size(); ++i) {
         if (i == index(read)) continue;
         const float odds = others.of[i].here() + others.of[i].elsewhere();
-        // A code that explains the frame equally well must not lose odds. Otherwise, rounding
-        // errors would accumulate over frames.
+        // A code that explains the frame as well as the code `read` must not lose odds. Otherwise,
+        // rounding errors would accumulate over frames.
         const bool is_equal = odds <= kRoundings && odds * kRoundings >= 1;
         log2_q8[i] = is_equal ? 0 : log2_of_odds_q8(odds);
     }

@@ -16,8 +16,8 @@ namespace {
 constexpr int kSingles_q8 = 2441;
 /// Odds of the far alternatives below which no tighter bound is computed, as log2 in units of 2^-8.
 constexpr int kSmallOdds_q8 = -36 * 256;
-/// Default limit, as log2 in units of 2^-8. Bounds are as tight as this limit requires, even if the
-/// caller permits larger odds.
+/// Default limit for the error probability, as log2 in units of 2^-8. Bounds are as tight as this
+/// limit requires, even if the caller permits larger odds.
 constexpr int kUsualLimit_q8 = -30 * 256;
 /// Odds counted for a single alternative that is skipped, as log2 in units of 2^-8. The true odds
 /// are never larger.
@@ -46,8 +46,8 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
         const auto half_bits = static_cast<std::size_t>(-ratios.log2_odds_q8(best - score) >> 7);
         return kPowers[std::min(half_bits, kPowers.size() - 1)];
     };
-    // Most rolls have odds at least 2^12 times smaller than the best roll. Each of them contributes
-    // the last element of kPowers.
+    // Most rolls have odds at least 2^12 times smaller than the best roll. Each of these rolls
+    // contributes the last element of kPowers.
     const int min_power_score = best - ratios.loss_for(-12 * 256 - 8);
     std::uint32_t sum_q12 = 0;
     for (int roll = 0; roll < kSections; ++roll)
@@ -94,8 +94,9 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
 }
 
 /// Returns an upper bound on the odds of far alternatives that share at most seven lines. Covers
-/// all sets. The result is log2 in units of 2^-8. Such an alternative loses at least the sum of all
-/// minimum losses except the seven largest. The bound is the product of these factors:
+/// all sets. The result is log2 in units of 2^-8. An alternative that shares at most seven lines
+/// loses at least the sum of all minimum losses except the seven largest. The bound is the product
+/// of these factors:
 /// - the odds at this loss,
 /// - the number of alternatives,
 /// - the number of rolls in the first line,
@@ -120,9 +121,9 @@ int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
 }
 
 /// Returns an upper bound on the odds of the far alternatives in all sets, as log2 in units of
-/// 2^-8. If `roughly` is true, replaces the sum over a line's rolls by their number times the best
-/// odds. For hard bits, uses `LikelihoodRatios::log2_of_nearest_q8` instead. Stops as soon as the
-/// sum exceeds `max_log2_q8`.
+/// 2^-8. If `roughly` is true, replaces the sum over a line's rolls by the number of rolls times
+/// the best odds. For hard bits, uses `LikelihoodRatios::log2_of_nearest_q8` instead. Stops as soon
+/// as the sum exceeds `max_log2_q8`.
 int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     AllLineOdds odds;
     odds[0] = {};
@@ -135,9 +136,9 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     }
     int sum = far_log2_q8(ratios, kAlternativeSets.front(), odds);
     // The other four sets contain more alternatives, but these share lines more rarely. Consider
-    // only alternatives that share more than seven lines. In each of the four sets, their odds are
-    // less than half as large as in the first set. In all five sets together, their odds are less
-    // than three times as large.
+    // only alternatives that share more than seven lines. In each of the four sets, the odds of
+    // these alternatives are less than half as large as in the first set. In all five sets
+    // together, the odds are less than three times as large.
     constexpr int kThreeTimes_q8 = 406;
     if (sum + kThreeTimes_q8 < kSmallOdds_q8) {
         const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(ratios));
@@ -150,7 +151,8 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     return sum;
 }
 
-/// Adds up the odds of single alternatives, at every shift where the loss may be below the limit.
+/// Adds up the odds of single alternatives, at every shift where the loss may be below
+/// `loss_limit`.
 class ByShift {
   public:
     ByShift(const LikelihoodRatios& ratios, int loss_limit);
@@ -187,9 +189,9 @@ class ByShift {
     std::size_t count_ = 0;               ///< number of lines with a positive minimum loss
     std::array<Loss, kMaxLines> losses_;  ///< sorted by decreasing loss
     std::uint32_t in_all_ = 0;            ///< sum of all losses
-    /// Number of lines that `may_matter` adds before its first check, and their summed losses. The
-    /// lines are in the order of `losses_`. In these lines alone, an alternative that shares the
-    /// first line cannot reach the limit.
+    /// Number of lines that `may_matter` adds before its first check, and the summed losses of
+    /// these lines. The lines are in the order of `losses_`. In these lines alone, an alternative
+    /// that shares the first line cannot lose `loss_limit_`.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
     /// For each shift, `none_` plus the losses of the lines that the current alternative shares.
@@ -220,8 +222,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     }
 }
 
-/// Returns true if an alternative may lose less than the limit at some shift. `alternative` points
-/// to the sequence's rolls at the alternative's place.
+/// Returns true if an alternative may lose less than `loss_limit_` at some shift. `alternative`
+/// points to the sequence's rolls at the alternative's place.
 // Not inlined, to keep all variables in registers on small processors.
 [[gnu::noinline]] bool ByShift::may_matter(const std::uint8_t* alternative) {
     std::uint32_t* const kept = kept_.data();
@@ -237,8 +239,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     const Loss* loss = losses_.data();
     for (const Loss* const end = loss + first_count_; loss != end; ++loss)
         keep(*loss);
-    // Up to this value of `largest`, the alternative loses at least the limit at every shift, in
-    // the lines so far.
+    // Up to this value of `largest`, the alternative loses at least `loss_limit_` at every shift,
+    // in the lines so far.
     std::uint32_t max_to_keep = none - loss_limit_ + first_losses_;
     for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
         keep(*loss);
@@ -273,8 +275,9 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
 }
 
 /// Returns an upper bound on the odds of one sequence's single alternatives, as log2 in units of
-/// 2^-8. Includes alternatives that share a line. Uses only their minimum loss. An alternative
-/// counts once for each shift where it shares a line, so at most `ratios.count()` times.
+/// 2^-8. Includes alternatives that share a line. Assumes that all of them have the minimum loss.
+/// An alternative counts once for each shift where it shares a line, so at most `ratios.count()`
+/// times.
 int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
                      std::size_t sequence) {
     const int lost = unshared.min_loss(sequence, Sharing::at_one_shift) - ratios.max_gain();
@@ -308,7 +311,7 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
 /// Returns an upper bound on the odds of single alternatives in the given sequences, as log2 in
 /// units of 2^-8. Includes alternatives that share a line. Counts kSkippedOdds_q8 for every
 /// alternative and every line. Evaluates one by one the few alternatives that may lose less than
-/// the limit.
+/// `loss_limit`.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();

@@ -1,14 +1,16 @@
 // Quick alternatives: an upper bound on the summed odds of all alternatives except seam
 // alternatives, in integers. Takes a thousandth of the work that `alternatives_log2` takes. In most
-// frames, the bound is far below the limit. docs/integrity.md derives the bound.
+// frames, the bound is far below the accepted error probability. docs/integrity.md derives the
+// bound.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
 
 namespace dotpose::core {
 
-/// Returns log2 of the bound, in units of 2^-8, at most 0. Returns 0 if the far alternatives and
-/// the other sections alone reach the limit.
+/// Returns log2 of an upper bound on the summed odds of all alternatives except seam alternatives,
+/// in units of 2^-8. The result is at most 0. Returns 0 if the far alternatives and the other
+/// sections alone reach `limit_q8`.
 int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8 = 0);
 
 }  // namespace dotpose::core

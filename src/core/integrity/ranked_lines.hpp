@@ -36,13 +36,13 @@ class RankedLines {
     const Offsets& offsets(std::size_t sequence, std::uint32_t place) const {
         return offsets_[kFirsts[sequence] + place];
     }
-    /// Returns the loss in the line with this rank. `further` is the roll offset plus a multiple of
-    /// 63, from 0 to 255.
+    /// Returns an alternative's loss in the line with rank `rank`. `further` is the alternative's
+    /// roll offset plus a multiple of 63, from 0 to 255.
     int loss(int rank, int further) const {
         return losses_[static_cast<std::size_t>(rank)][static_cast<std::size_t>(further)];
     }
-    /// Returns the loss in the lines with the ranks 0 to 7. Each byte of `further` is an offset as
-    /// in `loss`. Stops after four lines if their loss is already hopeless.
+    /// Returns an alternative's loss in the lines with the ranks 0 to 7. Each byte of `further` is
+    /// an argument of `loss`. Stops after four lines if their loss is already hopeless.
     int loss_of_first(EightOffsets further) const {
         const int lost = loss_of_four(0, further);
         return ratios.is_hopeless(lost) ? lost : lost + loss_of_four(4, further >> 32);

@@ -12,16 +12,16 @@ namespace dotpose::core {
 namespace {
 
 /// Prior probability that a given border between two lines is a seam with a given roll difference.
-/// It is log2 in units of 2^-8. With this prior and the default limit, a position is accepted if a
-/// seam explains the view equally well. It is refused if a seam explains the view better by two
-/// bits.
+/// The value is log2 in units of 2^-8. With this prior and the default limit, a position is
+/// accepted if a seam explains the view as well as the position does. The position is refused if a
+/// seam explains the view better by two bits.
 constexpr int kSeam_q8 = -32 * 256;
 /// Minimum odds, without the prior, for an alternative to be included in the sum, as log2 in units
 /// of 2^-8.
 constexpr int kMin_q8 = -8 * 256;
 
 /// Minimum losses of an alternative before and after each border, over all shifts. Ignores a shift
-/// on one side if the loss on this side alone reaches the limit.
+/// on one side if the loss on this side alone reaches `loss_limit`.
 class LossesByBorder {
   public:
     LossesByBorder(const LikelihoodRatios& ratios, const RollOffsets& offsets, int loss_limit)
@@ -60,8 +60,8 @@ class LossesByBorder {
         const auto loss_in = [&](int line) {
             return ratios_.loss(line, offsets[static_cast<std::size_t>(line)] - shift);
         };
-        // Each loop stops when the loss on its side reaches the limit. Borders farther along then
-        // cannot matter at this shift.
+        // Each loop stops when the loss on its side reaches `loss_limit_`. Borders farther along
+        // then cannot matter at this shift.
         int lost = 0;
         for (int line = 0; line < count && lost < loss_limit_; ++line) {
             update_min(before_[static_cast<std::size_t>(line)], lost);
@@ -114,7 +114,7 @@ int loss_limit_of(const LikelihoodRatios& ratios) {
 /// Returns the step losses in units of `part`, rounded down. A seam alternative avoids the loss in
 /// the step across the border, which may be any step. `part` is therefore the smallest integer with
 ///     kLimitParts * part >= loss_limit + (largest step loss)
-/// A sum of kLimitParts units then reaches the limit even without the largest step loss.
+/// A sum of kLimitParts units then reaches `loss_limit` even without the largest step loss.
 StepLosses losses_of_steps(const LikelihoodRatios& ratios, int loss_limit) {
     StepLosses steps;
     steps.count = ratios.count() - 1;

@@ -9,9 +9,9 @@
 namespace dotpose::core {
 
 /// Returns log2 of the summed odds in units of 2^-8, including the prior for a seam. A seam
-/// alternative differs from the reading in the place in one sequence. Its shift changes at a border
-/// between two lines. Includes only alternatives that explain the lines about as well as the
-/// reading does. Returns kNever_q8 if there are none.
+/// alternative differs from the reading in the place in one sequence. The shift of a seam
+/// alternative changes at a border between two lines. Includes only alternatives that explain the
+/// lines about as well as the reading does. Returns kNever_q8 if there are no such alternatives.
 int seam_alternatives_log2_q8(const LikelihoodRatios& ratios);
 
 /// Returns the same sum, but searches for alternatives with kernels.

@@ -19,8 +19,8 @@ class Losses {
         add_digit(eights_, has_bit(parts, 3), alternatives, carry);
         excluded_ |= carry;
     }
-    /// Returns the alternatives whose loss has reached the limit, and the alternatives excluded
-    /// from the start.
+    /// Returns the alternatives whose loss has reached kLimitParts parts, and the alternatives
+    /// excluded from the start.
     std::uint32_t excluded() const { return excluded_; }
 
   private:
@@ -57,7 +57,7 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
     };
     int needed = loss_limit;
     if (excused == Excused::any_one) {
-        // The loss must reach the limit even without the step that loses the most.
+        // The loss must reach `loss_limit` even without the step that loses the most.
         for (int step = 0; step < count; ++step)
             needed = std::max(needed, loss_limit + lost_at(step));
     }
@@ -95,7 +95,7 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
 
 // Not inlined, to keep all variables in registers on small processors.
 [[gnu::noinline]] std::uint32_t SimilarPlaces::operator[](std::uint32_t word) const {
-    // Excludes the bits beyond the end of the sequence, and the place of the reading.
+    // Excludes the bits beyond the end of the sequence, and the bit of the reading's own place.
     const std::uint32_t places = sequence_.length - 32 * word;
     std::uint32_t excluded = places < 32 ? ~std::uint32_t{0} << places : 0;
     if (own_ / 32 == word) excluded |= std::uint32_t{1} << own_ % 32;
@@ -105,8 +105,8 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
     for (const Step& step : std::span(steps_).first(count_)) {
         const std::uint32_t* here = step.places + word;
         const std::uint32_t equal = here[0] >> step.ahead | here[1] << 1 << (31 - step.ahead);
-        // A line must not count in both of its steps. A step therefore counts only if the preceding
-        // step does not.
+        // A line belongs to two steps, but must count only once. A step therefore counts only if
+        // the preceding step does not count.
         if (step.ahead != before + 1) counted = 0;
         before = step.ahead;
         counted = ~(equal | counted);

@@ -9,16 +9,16 @@ namespace dotpose::core {
 /// Maximum number of steps in which digits are compared. A step leads from one line to the next.
 inline constexpr int kMaxSteps = 18;
 
-/// Number of parts in the loss limit.
+/// Number of parts of the loss limit. A place that loses all parts is excluded.
 inline constexpr unsigned kLimitParts = 15;
 
 /// Steps in which an alternative loses nothing, whatever its digit: none, or any one step. For a
 /// seam alternative, this is the step across the border.
 enum class Excused : std::uint8_t { none, any_one };
 
-/// Steps in which digits are compared, and the loss if a digit differs from the reading's digit.
-/// Such an alternative shares at most one of the step's two lines. It therefore loses at least the
-/// smaller minimum loss.
+/// Steps in which digits are compared, and the loss if a digit differs from the reading's digit. An
+/// alternative with a different digit shares at most one of the step's two lines. It therefore
+/// loses at least the smaller of these lines' minimum losses.
 struct Steps {
     Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused);
 
@@ -31,8 +31,8 @@ struct Steps {
     bool can_exclude = false;
 };
 
-/// The places in a sequence that may lose less than the limit. A place is the index of the first
-/// step's digit.
+/// The places in a sequence that may lose less than the loss limit of `Steps`. A place is the index
+/// of the first step's digit.
 class SimilarPlaces {
   public:
     /// `own` is the place of the reading at the first step.

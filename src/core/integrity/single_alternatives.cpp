@@ -4,8 +4,8 @@ namespace dotpose::core {
 namespace {
 
 /// Returns the odds of a single alternative at the shift where it shares the line with the rank
-/// `shared`. Returns 0 if it also shares a line with a lower rank. In that case, its odds are added
-/// there.
+/// `shared`. Returns 0 if the alternative also shares a line with a lower rank. The odds are then
+/// added at the lower rank.
 float odds_of_single(const RankedLines& lines, const RankedLines::Offsets& alternative,
                      int shared) {
     // `base` makes the offset in the shared line 126, which is 0 modulo 63. All offsets remain

@@ -27,7 +27,7 @@ class UnsharedLines {
     /// Uses the table with the most lines, but with at most `max_lines` lines and no more lines
     /// than the view.
     explicit UnsharedLines(const LikelihoodRatios& ratios, int max_lines = kMaxTableLines);
-    /// Same as above, but sums the losses with a kernel.
+    /// Same as the other constructor, but sums the losses with a kernel.
     UnsharedLines(const Kernels& kernels, const LikelihoodRatios& ratios,
                   int max_lines = kMaxTableLines);
 
@@ -42,7 +42,7 @@ class UnsharedLines {
     /// Returns the minimum number of table lines that a single alternative does not share. Returns
     /// 0 if the sequence has no table.
     std::size_t min_unshared(std::size_t sequence, Sharing sharing) const;
-    /// Returns the minimum loss with n unshared table lines, for n up to 8.
+    /// Returns the minimum loss of an alternative with n unshared table lines, for n up to 8.
     int min_loss_of(std::size_t n) const { return smallest_sums_[n]; }
     /// Returns the minimum loss of a sequence's single alternatives, or 0 if the sequence has no
     /// table.

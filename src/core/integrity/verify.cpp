@@ -62,8 +62,8 @@ struct Doubt {
     std::array<int, 2> by_chance_q8{};
 };
 
-/// Returns the odds per bit and the bounds on chance. Computes them from the agreement of both axes
-/// with the code. Sets `decoding.bits` and `fix.bit_errors`.
+/// Returns the odds per bit and the bounds on the probability of a chance match. Computes both from
+/// the agreement of the x and y bits with the code. Sets `decoding.bits` and `fix.bit_errors`.
 Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptions& options,
                Decoding& decoding, Fix& fix) {
     decoding.bits = agreements[0].bits() + agreements[1].bits();
@@ -93,8 +93,8 @@ Doubt compare_with_chance(const Grid& grid, CodeVariant code, const IntegrityOpt
 }
 
 /// Returns an upper bound on the probability that one axis is wrong, from chance and alternatives.
-/// Adds seam alternatives only if the sum is within the limit. All probabilities are log2 in units
-/// of 2^-8.
+/// Adds seam alternatives only if the sum is at most `limit_q8`. All probabilities are log2 in
+/// units of 2^-8.
 int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limit_q8,
                       int alternatives_q8) {
     int sum_q8 = add_log2(by_chance_q8, alternatives_q8);
@@ -104,7 +104,7 @@ int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limi
 
 /// Returns an upper bound on the probability that an axis is wrong, for each axis, as log2 in units
 /// of 2^-8. `alternatives_q8(axis, ratios)` returns the odds of the alternatives. The result is 0
-/// (probability 1) for an axis whose bound on chance exceeds the limit.
+/// (probability 1) for an axis whose bound on chance exceeds `limit_q8`.
 template <typename Alternatives>
 std::array<int, 2> with_alternatives(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                      std::span<ScoredLine> storage, const Doubt& doubt,
@@ -130,8 +130,8 @@ int sum(const std::array<int, 2>& p_wrong_q8) {
     return add_log2(p_wrong_q8[0], p_wrong_q8[1]);
 }
 
-/// Returns true if the position is refused whatever its alternatives. Reasons are bits without
-/// information, too many wrong bits, and a bound on chance above the limit.
+/// Returns true if the position is refused even without any alternatives. Reasons are bits without
+/// information, too many wrong bits, and a bound on chance above `limit_q8`.
 bool is_hopeless(const Doubt& doubt, int limit_q8) {
     return doubt.odds_per_bit_q8 == 0 || sum(doubt.by_chance_q8) > limit_q8;
 }

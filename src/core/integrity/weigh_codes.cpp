@@ -50,8 +50,8 @@ struct Losses {
         return steps;
     }
 
-    /// Returns true if a place loses more than the limit. `shared` is an upper bound on the summed
-    /// losses in its shared lines, in units of kUnit.
+    /// Returns true if a place loses more than `loss_limit`. `shared` is an upper bound on the
+    /// summed losses in its shared lines, in units of kUnit.
     bool exceed_limit(int shared) const { return kUnit * (all - shared) > loss_limit; }
 
     /// Unit of `all` and `of`, in score units. Losses are rounded down to this unit, because their
@@ -65,7 +65,9 @@ struct Losses {
     std::array<std::uint16_t, kMaxLines> of;  ///< loss of each line, in units of kUnit
 };
 
-/// Adds up the odds of the places in one other code, along one axis.
+/// Adds up the odds of the places in one other code, along one axis. The *same place* is the
+/// reading's place in the other a4, at the shift `shift_here_`. All further places and shifts are
+/// *other places*.
 class OtherPlaces {
   public:
     OtherPlaces(const LikelihoodRatios& ratios, const Losses& losses, CodeVariant read,
@@ -89,8 +91,8 @@ class OtherPlaces {
 
     /// Returns the likelihood ratio of the same place in the other code.
     float here() const { return result_.here; }
-    /// Returns the summed likelihood ratios of all other places. Before their odds are added,
-    /// returns an upper bound on the sum.
+    /// Returns the summed likelihood ratios of all other places. Before the odds of these places
+    /// are added, returns an upper bound on the sum.
     float elsewhere() const { return result_.elsewhere; }
 
     /// Sets a table bound on the summed odds of all other places.
@@ -104,7 +106,7 @@ class OtherPlaces {
             sharing_none();
     }
 
-    /// Removes the bound before places are added one by one.
+    /// Removes the table bound before places are added one by one.
     void begin_count() { result_.elsewhere = 0; }
 
     /// Adds the odds that the search for similar places does not find. Adds the place of the
@@ -160,8 +162,8 @@ class OtherPlaces {
         return static_cast<float>(theirs_.length * (kSections - 1)) * ratios_.odds(losses_.at_best);
     }
 
-    /// Adds the odds of every place at all shifts without a shared line. If their bound is
-    /// negligible, adds only the bound.
+    /// Adds the odds of every place at all shifts without a shared line. If the upper bound on
+    /// these odds is negligible, adds only this bound.
     void add_sharing_none() {
         const float all = sharing_none();
         if (all <= kNegligibleOdds) {
@@ -222,7 +224,7 @@ class OtherPlaces {
     }
 
     /// Adds the odds of a place. Keeps the place if its odds are the highest so far. `shift` is the
-    /// roll of its first line minus the reading's roll, modulo 63.
+    /// roll of the first line at this place minus the reading's roll, modulo 63.
     void count(std::uint32_t place, int shift, float odds) {
         result_.elsewhere += odds;
         if (odds <= result_.best) return;
@@ -237,7 +239,7 @@ class OtherPlaces {
     const code::Secondary& theirs_;
     const int shift_here_;
     const RollOffsets here_;  ///< roll offsets at the reading's place in the other a4
-    /// True if both codes have the same rolls in all lines, at the place of the reading.
+    /// True if the reading's place has the same rolls in both codes, in all lines in view.
     bool has_same_rolls_ = true;
     std::uint32_t best_place_ = 0;
     OtherAxis result_;
@@ -268,7 +270,8 @@ class AxisWeigher {
         others.begin_count();
         others.add_unsimilar();
         if (!steps_) steps_ = losses_.of_steps(ratios_);
-        // Searches the other code's a4 for the reading's digits in its own a4.
+        // Searches the a4 of the code `other` for the reading's digits in the a4 of the code
+        // `read`.
         code::Secondary a4 = code::basis(other)[kA4];
         a4.digits = ratios_.basis[kA4].digits;
         const PlaceBits similar = kernels_.find_similar_places(a4, ratios_.places[kA4], *steps_);

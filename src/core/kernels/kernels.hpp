@@ -1,6 +1,6 @@
 // Kernels: the inner loops over pixels, dots and cells. The desktop attempts spend most of their
-// time here. Each kernel has one implementation per vector width. All implementations return
-// bit-identical results, and `select.hpp` chooses the fastest. Image lengths are in px.
+// time in these loops. Each kernel has one implementation per vector width. All implementations
+// return bit-identical results, and `select.hpp` chooses the fastest. Image lengths are in px.
 //
 // A cell is a grid intersection with its dot. The *places* of a cell are the four points where its
 // dot may be printed: above, left, right and below the intersection.
@@ -51,8 +51,8 @@ struct CellPass {
 /// (x, y) is the image point of a used dot, and (i, j) is the nearest place of its cell. Without
 /// perspective, `i` and `j` contain only their first three sums, and `square` is 0.
 struct CellSums {
-    float seen = 0;  ///< number of dots within reach
-    float used = 0;  ///< number of `seen` dots closer than `max_off` to a place
+    float seen = 0;  ///< number of dots within `CellPass::reach_px`
+    float used = 0;  ///< number of `seen` dots closer than `CellPass::max_off` to a place
     /// Sum of squared distances from the used dots to their places, in spacings^2.
     float squares = 0;
     std::array<float, 6> one{};     ///< sums of 1, x, y, xx, xy, yy
@@ -78,7 +78,7 @@ struct CellsInView {
     float width_px = 0;
     float height_px = 0;
     float margin_px = 0;  ///< minimum distance from a dot to the image border
-    /// Maximum |x| and |y| of a dot. (x, y) is its undistorted image point.
+    /// Maximum |x| and |y| of a dot. (x, y) is the dot's undistorted image point.
     float reach_px = 0;
     float displacement = 0;  ///< distance from an intersection to its dot, in spacings
     Windows windows = Windows::on_intersections;
@@ -101,7 +101,8 @@ struct WindowOptions {
     float reach = 0.36F;
     /// Contrast threshold for dot pixels, in 1/256 of the paper level.
     int cut_q8 = 128;
-    /// Typical dot mass relative to the paper level. If 0, it is estimated from the windows.
+    /// Typical dot mass relative to the paper level. If 0, the typical mass is estimated from the
+    /// windows.
     float typical_mass = 0;
 };
 /// Maximum half side of a measurement window.
@@ -180,9 +181,9 @@ struct BitsRead {
     float squares = 0;
 };
 
-/// Minimum loss, in bits, of an alternative that does not share a line. An *alternative* is any
-/// position other than the reading. It *shares* a line with the reading if both give the line the
-/// same roll.
+/// Minimum loss, in bits, of an alternative that does not share `line`. The *reading* is the
+/// position that was read. An *alternative* is any other position. An alternative *shares* a line
+/// if the line has the same roll at the alternative and at the reading.
 struct LineLoss {
     std::uint8_t line = 0;
     std::uint8_t loss = 0;
@@ -205,8 +206,9 @@ struct SimilarPlaceList {
 using PlaceBits = std::array<std::uint32_t, 8>;
 
 /// Lower bounds on an alternative's loss, one per step. A step leads from one line to the next. The
-/// bound applies if the alternative's digit in this step differs from the reading's digit. At most
-/// one of the two lines is shared then. The unit is 1/kLimitParts of the loss limit.
+/// bound applies if the alternative's digit in this step differs from the reading's digit. In this
+/// case, at most one of the step's two lines is shared. The unit is 1/kLimitParts of the loss
+/// limit.
 struct StepLosses {
     static constexpr int kLimitParts = 8;
     int count = 0;
@@ -216,7 +218,8 @@ struct StepLosses {
 /// Groups of alternatives. All alternatives in a group differ from the reading in the same
 /// sequences.
 struct FarAlternatives {
-    /// Probability that all digits of an alternative equal the reading's digits in one step.
+    /// Per group, the probability that an alternative's digits equal the reading's digits in one
+    /// step.
     std::array<float, 8> equal{1, 1, 1, 1, 1, 1, 1, 1};
     std::array<float, 8> number{};  ///< number of alternatives in each group
 };
@@ -242,18 +245,18 @@ struct Kernels {
     void (*smooth_patch)(Patch& patch);
     /// Lists the dots: minima of the smoothed patch that are not brighter than their tile's
     /// threshold. Parabolas through a minimum and its neighbours give its sub-pixel coordinates.
-    /// These are in image px, relative to the patch centre. Ignores minima in the two outermost
-    /// rows and columns on each side.
+    /// The coordinates are in image px, relative to the patch centre. Ignores minima in the two
+    /// outermost rows and columns on each side.
     void (*find_minima)(Patch& patch);
     /// Returns the strongest pair of perpendicular waves with frequency `per_px`, in cycles per px.
     /// Tries 12 directions in steps of 7.5 degrees.
     Waves (*strongest_waves)(const float* x, const float* y, int count, float per_px);
     /// Returns the strongest wave, and the strongest second wave that forms plausible cells with
-    /// it. Plausible cells have an area near 1 / per_px^2. Tries 40 directions in steps of 4.5
-    /// degrees, and frequencies from 0.6 to 1.63 times `per_px`. If there is no such pair, the
-    /// power is 0.
+    /// the first wave. Plausible cells have an area near 1 / per_px^2. Tries 40 directions in steps
+    /// of 4.5 degrees, and frequencies from 0.6 to 1.63 times `per_px`. If there is no such pair,
+    /// the power is 0.
     Waves (*strongest_skewed_waves)(const float* x, const float* y, int count, float per_px);
-    /// Assigns each dot to a cell. Returns the sums over the dots near one of the places.
+    /// Assigns each dot to a cell. Returns the sums over the dots near one of their cell's places.
     CellSums (*sum_cells)(const PatchDots& dots, const FloatPlane& plane, const CellPass& pass);
     /// Sets the bits of cells whose dots are clearly at one of the four places. The first column
     /// and row belong to cell (-32, -32).
@@ -270,10 +273,11 @@ struct Kernels {
     /// the expected image points of the dots, including lens distortion. Stops when `dots` is full.
     void (*list_cells)(const CellsInView& view, MeasuredDots& dots);
     /// Finds the shift from the window centres to the dots. Adds up the surroundings of the first
-    /// 16 dots that are far enough from the image border, and searches for the darkest point. The
-    /// search covers shifts up to `max_px` along each axis, in steps of `step_px`, with at most 6
-    /// steps per direction. Sets `cut_q8` to the contrast at this point, in 1/256 of the paper
-    /// level. Returns false if fewer than 8 dots can be added, or if the sum is black.
+    /// 16 dots that are far enough from the image border, and searches the summed image for its
+    /// darkest point. The search covers shifts up to `max_px` along each axis, in steps of
+    /// `step_px`, with at most 6 steps per direction. Sets `cut_q8` to the contrast at this point,
+    /// in 1/256 of the paper level. Returns false if fewer than 8 dots can be added, or if the sum
+    /// is black.
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int max_px, int step_px,
                        FixedVec& shift_px, int& cut_q8);
     /// Sets `x` and `y` to the centroids of the dark pixels in the dots' windows. Drops dots whose
@@ -289,15 +293,15 @@ struct Kernels {
                            MeasuredDots& dots);
     /// Reads cell bits from the grey levels at the four places. Each dot must be predicted to
     /// within a fraction of its displacement. The darkest place is taken as the dot. `depth_q8` is
-    /// the contrast of a typical dot, in 1/256 of the paper level. Compares the bits, and adds them
-    /// to lines, as `read_bits` does. Drops dots that are not read or have a wrong bit. Leaves
-    /// `projected` and `squares` at 0.
+    /// the contrast of a typical dot, in 1/256 of the paper level. Compares the bits with the code,
+    /// and adds them to lines, as `read_bits` does. Drops dots that are not read or have a wrong
+    /// bit. Leaves `projected` and `squares` at 0.
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int depth_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Measures predicted dots as `refine_centres` does, with radius kPredictedCentroidRadius_px.
     /// Drops dots whose offset exceeds `max_off_px`. `weight_px` is the factor from moment / weight
-    /// to an offset in px. If it is 0, the factor is estimated from dots in the middle of the list.
-    /// Returns the sums over the remaining dots.
+    /// to an offset in px. If `weight_px` is 0, the factor is estimated from dots in the middle of
+    /// the list. Returns the sums over the remaining dots.
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
                                float weight_px, MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with the code. Adds the bits to `columns`
@@ -328,8 +332,8 @@ struct Kernels {
     /// `own`. The lines must be sorted by decreasing loss. Returns false if
     /// - there are too many places,
     /// - there are fewer than two lines,
-    /// - the limit exceeds 200, or
-    /// - an alternative that shares none of the first four lines may lose less than the limit.
+    /// - `loss_limit` exceeds 200, or
+    /// - an alternative that shares none of the first four lines may lose less than `loss_limit`.
     bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,
                                 unsigned sequences, std::span<const LineLoss> lines, int loss_limit,
                                 SimilarPlaceList& list);

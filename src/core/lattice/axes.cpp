@@ -187,7 +187,8 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;
     // Unlike the paper, does not keep both medians as axes, but averages them into a square grid.
-    // Their deviation from a square is mostly scatter, not tilt. Averaging halves the variance.
+    // The medians deviate from a square mostly because of scatter, not tilt. Averaging halves the
+    // variance.
     const FixedVec twice_u{u.x + v.y, u.y - v.x};
     lattice.u_q16 = {twice_u.x * kLengthening_q8 / 2, twice_u.y * kLengthening_q8 / 2};
     lattice.v_q16 = {-lattice.u_q16.y, lattice.u_q16.x};

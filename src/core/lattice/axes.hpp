@@ -15,7 +15,7 @@ Status estimate_axes(std::span<const SeedEdge> edges, std::span<std::int32_t> me
                      Lattice& lattice);
 
 /// Returns true if u and v may be the axes of a square grid seen by a tilted camera. The ratio of
-/// their lengths must be at most 3:2. The sine of the angle from u to v must be at least 0.9.
+/// the two lengths must be at most 3:2. The sine of the angle from u to v must be at least 0.9.
 /// Angles increase from +x towards +y.
 bool is_nearly_square(FixedVec u, FixedVec v);
 /// Returns true if the grid axes at the centre of a plane are nearly square. The spacing along u

@@ -22,9 +22,9 @@ struct BucketedSeed {
     std::uint16_t begin = 0;  ///< index of the bucket's first seed
 };
 
-/// Chooses at most `seeds.size()` dots in a square around `centre_q8`. Uses the largest square that
-/// does not contain more dots, in steps of a histogram bin. Writes the dot indices to `seeds` and
-/// returns their number.
+/// Chooses at most `seeds.size()` dots in a square around `centre_q8`. Enlarges the square in steps
+/// of a histogram bin, as long as it does not contain more dots. Writes the dot indices to `seeds`
+/// and returns their number.
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds);
 

@@ -75,8 +75,8 @@ FloatPlane plane_from_waves(const Waves& waves) {
     return plane;
 }
 
-/// Inverse of the 3 x 3 normal matrix. Its elements are sums over the used dots. Each sums the
-/// products of two of x, y and 1.
+/// Inverse of the 3 x 3 normal matrix. Each matrix element is a sum over the used dots: the product
+/// of two of x, y and 1.
 struct Inverse {
     std::array<std::array<float, 3>, 3> m;
     bool is_regular = false;
@@ -153,7 +153,7 @@ bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane)
 }
 
 /// Returns true if the spacing is near `first_spacing`, and perspective changes the scale by less
-/// than kMaxFold within the reach.
+/// than kMaxFold within `reach` px of the origin.
 bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
     const float spacing = spacing_px(plane);
     const float fold = (std::abs(plane.tilt_x) + std::abs(plane.tilt_y)) * reach;
@@ -161,8 +161,8 @@ bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
            spacing < tuned::kMaxSpacing * first_spacing && fold < tuned::kMaxFold;
 }
 
-/// Returns the factor by which the reach changes for the next round. `fraction` is the fraction of
-/// dots within reach that are near one of their cell's places.
+/// Returns the factor by which `CellPass::reach_px` changes for the next round. `fraction` is the
+/// fraction of dots within this distance that are near one of their cell's places.
 float growth(float fraction) {
     if (fraction > tuned::kGoodFraction) return tuned::kGoodGrowth;
     return fraction > tuned::kFairFraction ? tuned::kFairGrowth : tuned::kPoorGrowth;
@@ -199,8 +199,8 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
     PatchDots& dots = patch.dots;
     const int count = dots.count;
     if (count < tuned::kMinDots) return false;
-    // Limits for the dots tested as origins and for the distances computed. If noise adds many
-    // dots, fewer of them are tested.
+    // Limits for the number of dots tested as origins, and for the number of distances computed. If
+    // noise adds many dots, fewer dots are tested.
     constexpr int kMaxCandidates = 64;
     constexpr int kMinCandidates = 16;
     constexpr int kMaxDistances = 32768;
@@ -264,8 +264,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
             break;
         pass.reach_px = std::min(std::max(pass.reach_px * growth(fraction), 4 * spacing), full);
     }
-    // Graphics may stop the reach before it includes the whole patch. A reach of 5 spacings is
-    // enough to read bits.
+    // Graphics may stop the fit before it covers the whole patch. A fit to the dots within 5
+    // spacings is enough to read bits.
     if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
     return true;

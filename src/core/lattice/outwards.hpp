@@ -1,6 +1,7 @@
 // Outwards: finds the grid of a patch, starting near its middle. Two plane waves through the
-// central dots give a first plane. The plane is then fitted to more and more dots, with perspective
-// once the reach exceeds four spacings (paper, sections II-B.2 and II-B.3).
+// central dots give a first plane. The plane is then fitted to more and more dots. The fit includes
+// perspective once it uses dots more than four spacings from the middle (paper, sections II-B.2 and
+// II-B.3).
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -31,7 +32,7 @@ struct PatchView {
     bool is_skewed = false;
 };
 
-/// Returns the view of a patch that dots cover completely.
+/// Returns the search parameters for a patch that dots cover completely.
 PatchView whole_view(const Patch& patch);
 
 /// Moves the dots' origin to the densest part of the patch. Intended for patches that the pattern

@@ -109,15 +109,15 @@ Wave ascend(Wave wave, Power power) {
     return wave;
 }
 
-/// Returns the lattice whose columns are the crests of `first` and whose rows are those of
-/// `second`. Its origin is near the centre.
+/// Returns the lattice whose columns are the crests of `first` and whose rows are the crests of
+/// `second`. The lattice origin is near the centre.
 Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave& second,
                    FixedVec centre_q8) {
     const FixedVec a = first.vector_q30();
     const FixedVec b = second.vector_q30();
     const std::int64_t area_q44 = std::max<std::int64_t>(cross(a, b) >> 16, 1);
     // Limit for the axis components, in 2^-16 px. Two waves in the same direction do not determine
-    // a grid. The caller rejects such a result later, but it must not overflow here.
+    // a grid. The caller rejects such a lattice later, but the components must not overflow here.
     constexpr std::int32_t kLongest_q16 = 4096 << 16;
     const auto entry = [&](std::int32_t part_q30) {
         return limited((std::int64_t{part_q30} << 30) / area_q44, kLongest_q16);

@@ -1,7 +1,8 @@
 // Periodogram search: finds the grid in frames with many missing or false dots. Axes estimated from
-// edges are unreliable there, because many edges connect false neighbours. The periodogram sums
-// over all dots near the centre, and its maximum is still at the true spacing and direction. Unlike
-// the paper, the second attempt has this extra step. See docs/differs-from-paper.md.
+// edges are unreliable in such frames, because many edges connect false neighbours. The periodogram
+// sums over all dots near the centre, and the periodogram's maximum is still at the true spacing
+// and direction. Unlike the paper, the second attempt has this extra step. See
+// docs/differs-from-paper.md.
 #pragma once
 
 #include "dotpose/trace.hpp"

@@ -18,9 +18,9 @@ namespace tuned = tuning::refine_grid;
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
-/// Moves the origin by the median offset of the dots near it (paper, eq. 6). Unlike the paper, adds
-/// the median to the origin. The subtraction in eq. 6 is a sign error, because offsets are measured
-/// from the estimated origin. A larger origin gives smaller grid coordinates.
+/// Moves the origin by the median offset of the dots near the origin (paper, eq. 6). Unlike the
+/// paper, adds the median to the origin. The subtraction in eq. 6 is a sign error, because offsets
+/// are measured from the estimated origin. A larger origin gives smaller grid coordinates.
 void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     std::array<std::int32_t, kMedianSample> x;
     std::array<std::int32_t, kMedianSample> y;
@@ -35,7 +35,7 @@ void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
                           FixedVec{median(std::span(x).first(n)), median(std::span(y).first(n))};
 }
 
-/// Agreement of the dots within reach with the grid.
+/// Agreement with the grid, for the dots whose cells are at most `reach_cells` from the origin.
 struct Judged : Regularity {
     std::int64_t squared_offsets_q20 = 0;  ///< sum of squared dot offsets
 };
@@ -105,9 +105,9 @@ void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, Ta
         plane = stepped(plane, scaled, step);
 }
 
-/// Fits the plane to the intersections of the dots within reach. Unlike the paper, does not
-/// continue with median lengths after eq. 6, but determines all terms by least squares.
-/// Displacements count as noise, and the reach grows from round to round.
+/// Fits the plane to the dots whose cells are at most `reach_cells` from the origin. Each dot is
+/// fitted to its nearest intersection. Unlike the paper, does not continue with median lengths
+/// after eq. 6, but determines all terms by least squares. Displacements count as noise.
 void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
     fit_to_targets(dots, plane, [&](const GridPoint& g) {

@@ -1,4 +1,5 @@
-// Regularity: agreement of the dots with a grid whose fit grows outwards.
+// Regularity: agreement of the dots with a grid whose fit grows outwards. The *reach* of the fit is
+// the maximum distance of a dot's cell from the origin, per axis, in cells.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +14,11 @@ namespace dotpose::core {
 inline constexpr std::int32_t kDisplacement_q16 = 65536 / 6;
 
 /// Distance from the origin up to which the first estimate is reliable, in cells. Errors of 3 % in
-/// spacing, 1 degree in direction and 1/20 cell in the origin add up to less than 1/3 cell there. A
-/// displaced dot is 1/3 cell away from the border of its cell.
+/// spacing, 1 degree in direction and 1/20 cell in the origin add up to less than 1/3 cell at this
+/// distance. A displaced dot is 1/3 cell away from the border of its cell.
 inline constexpr int kFirstReach_cells = 4;
 
-/// Statistics of the dots within reach.
+/// Statistics of the dots within the reach of a fit.
 struct Regularity {
     int dots = 0;
     int near_intersections = 0;
@@ -26,7 +27,7 @@ struct Regularity {
     int farthest_cell = 0;
 
     /// Returns true if at least kSettled_20th / 20 of the dots are near an intersection. The reach
-    /// may then grow.
+    /// of the fit may then grow.
     bool is_settled() const {
         return 20 * near_intersections >= tuning::regularity::kSettled_20th * dots;
     }
@@ -47,9 +48,10 @@ struct Regularity {
 };
 
 /// Extends a fit from kFirstReach_cells to the farthest dot. `fit(reach_cells)` fits the grid to
-/// the dots within reach, sets `found`, and returns false if the fit fails. Repeats the fit at each
-/// reach until enough dots are near an intersection, at most `max_rounds` times. A better fit
-/// assigns more dots to the correct cells. Returns false if a fit fails.
+/// the dots at most `reach_cells` from the origin, sets `found`, and returns false if the fit
+/// fails. Repeats the fit at each reach until enough dots are near an intersection, at most
+/// `max_rounds` times. A better fit assigns more dots to the correct cells. Returns false if a fit
+/// fails.
 template <typename Fit>
 bool fit_outwards(int max_rounds, const Regularity& found, Fit fit) {
     for (int reach = kFirstReach_cells;; reach += reach / 2 + 1) {

@@ -8,11 +8,11 @@ namespace dotpose::core::tuning {
 
 /// Growth of a grid fit (lattice/regularity).
 namespace regularity {
-/// Minimum fraction of dots near an intersection before the reach grows, in 1/20. One dot in twenty
-/// may be dirt.
+/// Minimum fraction of dots near an intersection before the fit extends to farther dots, in 1/20.
+/// One dot in twenty may be dirt.
 inline constexpr int kSettled_20th = 19;
-/// Minimum fraction of dots near an intersection in a grid, in 1/10. With dots at random places, it
-/// is one half.
+/// Minimum fraction of dots near an intersection in a grid, in 1/10. At random places, half the
+/// dots are near an intersection.
 inline constexpr int kMin_10ths = 7;
 }  // namespace regularity
 
@@ -20,15 +20,15 @@ inline constexpr int kMin_10ths = 7;
 namespace refine_grid {
 /// Maximum number of dots whose median offset corrects the origin.
 inline constexpr int kMedianSample = 256;
-/// Maximum number of fits at one reach. A better fit assigns more dots to the correct cells. The
-/// reach then grows in any case.
+/// Maximum number of fits before the fit extends to farther dots. A better fit assigns more dots to
+/// the correct cells.
 inline constexpr int kMaxRounds = 4;
 /// Maximum distance of a dot from the nearest of its cell's four places, in 2^-16 spacings. Dots at
-/// a larger distance are false. The value is slightly less than the displacement. It is not
+/// a larger distance are false. The value is slightly less than the displacement. The value is not
 /// critical: with half or twice the value, 1,994 frames are located, too.
 inline constexpr int kFar_q16 = 65536 / 8;
 /// Number of fits to the nearest places. The second fit assigns dots to places with the more
-/// precise plane of the first.
+/// precise plane of the first fit.
 inline constexpr int kPlaceRounds = 2;
 }  // namespace refine_grid
 
@@ -78,7 +78,8 @@ inline constexpr float kFaintWaves = 0.12F;
 inline constexpr float kFinest_px = 5.2F;
 inline constexpr float kCoarsest_px = 40;
 /// Limits of a plausible fit: minimum and maximum spacing relative to the first spacing, and
-/// maximum change in scale within the reach. They reject fits with half or twice the true spacing.
+/// maximum change in scale within the reach. These limits reject fits with half or twice the true
+/// spacing.
 inline constexpr float kMinSpacing = 0.7F;
 inline constexpr float kMaxSpacing = 1.4F;
 inline constexpr float kMaxFold = 0.7F;
@@ -86,8 +87,8 @@ inline constexpr float kMaxFold = 0.7F;
 /// count as noise in these rounds.
 inline constexpr float kFirstReach = 3;
 inline constexpr float kFirstMaxOffset = 0.42F;
-/// Range of the displacement in a first grid, in spacings. It is slightly wider than the range of
-/// 0.12 to 0.30 in docs/limits.md.
+/// Range of the displacement in a first grid, in spacings. This range is slightly wider than the
+/// range of 0.12 to 0.30 in docs/limits.md.
 inline constexpr float kMinDisplacement = 0.11F;
 inline constexpr float kMaxDisplacement = 0.32F;
 /// Maximum distance of a dot from the nearest of its cell's four places. This is kMaxOffsetPart
@@ -95,15 +96,15 @@ inline constexpr float kMaxDisplacement = 0.32F;
 /// nearly touch.
 inline constexpr float kMaxOffsetPart = 0.75F;
 inline constexpr float kMaxOffset = 0.18F;
-/// Minimum number of dots that a fit uses, and minimum fraction of the dots within reach that are
-/// near one of their cell's places. Below either minimum, the search ends without a grid.
-/// kMaxRounds is the maximum number of fits.
+/// Minimum number of dots that a fit uses, and minimum fraction of the dots within
+/// `CellPass::reach_px` that are near one of their cell's places. Below either minimum, the search
+/// ends without a grid. kMaxRounds is the maximum number of fits.
 inline constexpr float kMinUsed = 12;
 inline constexpr float kMinFraction = 0.4F;
 inline constexpr int kMaxRounds = 16;
-/// Growth factors of the reach from round to round. They depend on the fraction of dots near one of
-/// their cell's places: above kGoodFraction, above kFairFraction, or less. A poor plane shrinks the
-/// reach, so that it is first improved near the middle.
+/// Growth factors of `CellPass::reach_px` from round to round. The factor depends on the fraction
+/// of dots near one of their cell's places: above kGoodFraction, above kFairFraction, or less. If
+/// the plane is poor, the reach shrinks, to improve the plane near the middle first.
 inline constexpr float kGoodFraction = 0.9F;
 inline constexpr float kGoodGrowth = 1.8F;
 inline constexpr float kFairFraction = 0.8F;

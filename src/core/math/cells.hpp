@@ -20,12 +20,13 @@ class Cells {
         const FixedVec p = image_point_q8 - rounding_centre_q8_;
         return {p.x >> 5, p.y >> 5};
     }
-    /// Returns the plane point in 2^-16 spacings. Valid within 512 spacings of the centre.
+    /// Returns the plane point for an offset from the plane centre, in 2^-16 spacings. Valid within
+    /// 512 spacings of the centre.
     FixedVec plane_point_q16(FixedVec from_centre_q3) const {
         return rounding_plane_point_q16(from_centre_q3) - FixedVec{kHalf_q16, kHalf_q16};
     }
-    /// Returns the plane point plus half a spacing along both axes. Its integer part is the nearest
-    /// cell.
+    /// Returns the plane point plus half a spacing along both axes. The integer part of this sum is
+    /// the nearest cell.
     FixedVec rounding_plane_point_q16(FixedVec p) const {
         return {rounding_at_centre_q16_.x + ((du_q18_.x * p.x + dv_q18_.x * p.y) >> 5),
                 rounding_at_centre_q16_.y + ((du_q18_.y * p.x + dv_q18_.y * p.y) >> 5)};
@@ -40,8 +41,8 @@ class Cells {
   private:
     static constexpr std::int32_t kHalf_q16 = 1 << 15;
 
-    // The centre minus 1/16 px, and its plane point plus half a spacing. The right shifts then
-    // round to the nearest 1/8 px and to the nearest cell.
+    // Plane centre minus 1/16 px, and plane point of the centre plus half a spacing. With these
+    // offsets, the right shifts round to the nearest 1/8 px and to the nearest cell.
     FixedVec rounding_centre_q8_;
     FixedVec rounding_at_centre_q16_;
     FixedVec du_q18_;

@@ -8,7 +8,7 @@
 
 namespace dotpose::core {
 
-/// ln 2 as a sum of two numbers. The first number has nine significant bits, so its products with
+/// ln 2 as a sum of two numbers. kLn2High has nine significant bits, so products of kLn2High with
 /// integers up to 2^15 are exact.
 inline constexpr float kLn2High = 0.693359375F;
 inline constexpr float kLn2Low = -2.121944401e-4F;

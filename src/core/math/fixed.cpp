@@ -137,7 +137,7 @@ std::int32_t angle_bam(FixedVec direction) {
     };
     // First step in which |y| fits in 32 bits. The rotations increase the length to at most 1.65 *
     // 2^41. Before step i, |y| is at most 2^(1 - i) times the length. From step 12 on, |y| and the
-    // amount subtracted from it fit in 32 bits.
+    // amount subtracted from y fit in 32 bits.
     constexpr std::size_t kNarrow = 12;
     for (std::size_t i = 0; i < kNarrow; ++i)
         turn(x, y, x >> i, i);

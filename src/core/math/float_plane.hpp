@@ -36,14 +36,14 @@ struct FloatVec {
 };
 
 /// Returns the plane point of an image point, in spacings. `px` is relative to the plane centre.
-/// The divisor is at least 1/4, because the map folds where it reaches 0.
+/// Clamps the divisor to at least 1/4, because the map folds where the divisor reaches 0.
 FloatVec plane_point(const FloatPlane& plane, FloatVec px);
 
-/// Returns the same plane relative to the image point `to_px`. Approximate if the plane has a lens
-/// term.
+/// Returns the same plane with its centre moved to the image point `to_px`. Approximate if the
+/// plane has a lens term.
 FloatPlane recentred(const FloatPlane& plane, FloatVec to_px);
 
-/// Returns the spacing at the centre, in px.
+/// Returns the grid spacing at the plane centre, in px.
 inline float spacing_px(const FloatPlane& plane) {
     return 1 / std::sqrt(std::abs(plane.du_x * plane.dv_y - plane.dv_x * plane.du_y));
 }

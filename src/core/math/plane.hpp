@@ -17,9 +17,9 @@ struct GridPoint {
 /// in 32 bits.
 inline constexpr std::int32_t kBeyondReason = 1 << 28;
 
-/// Returns k r^2 in units of 2^-48. r is clamped to 4096 px, so the result fits in 64 bits for any
-/// k. Image points are rarely farther from the centre, but projected points on steeply tilted
-/// planes may be.
+/// Returns k |r|^2 in units of 2^-48, for an offset r from the distortion centre. Clamps |r| to
+/// 4096 px, so the result fits in 64 bits for any k. Image points are rarely farther away, but
+/// projected points on steeply tilted planes may be.
 inline std::int64_t bend_q48(std::int32_t k_q40, FixedVec r_q8) {
     constexpr std::int64_t kFarthest_q8 = 0xFFFFFFFF;
     return k_q40 * std::min(squared(r_q8) >> 8, kFarthest_q8);
@@ -38,21 +38,23 @@ PlaneFromImage plane_from_lattice(const Lattice& lattice, FixedVec centre_q8);
 /// and a camera without tilt.
 FixedVec plane_point_q16(const PlaneFromImage& plane, FixedVec image_point_q8);
 
-/// Returns the intersection nearest to an image point, and the point's offset from it (paper, eq.
-/// 3-5).
+/// Returns the intersection nearest to an image point, and the point's offset from this
+/// intersection (paper, eq. 3-5).
 GridPoint grid_point(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the image point of a plane point, in 2^-8 px. This is the inverse of `plane_point_q16`.
-/// Where the map folds, the result may be wrong, but its coordinates are at most 2^21 in magnitude.
+/// Where the map folds, the result may be wrong, but the coordinates are at most 2^21 in magnitude.
 FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point_q16);
 
-/// Returns the tangent at an image point: the affine plane with the same value and slope there.
+/// Returns the tangent at an image point: the affine plane with the same value and slope at this
+/// point.
 PlaneFromImage tangent(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Variant of `tangent` for an affine plane.
 PlaneFromImage affine_tangent(const PlaneFromImage& plane, FixedVec image_point_q8);
 
-/// Returns the divisor 1 + perspective . (x, y) + lens (x^2 + y^2), at least 1/4.
+/// Returns the divisor in the map from image to plane: 1 + perspective . (x, y) + lens (x^2 + y^2),
+/// but at least 1/4. (x, y) is the offset from the plane centre.
 std::int64_t divisor_q30(const PlaneFromImage& plane, FixedVec from_centre_q8);
 
 }  // namespace dotpose::core

@@ -40,8 +40,8 @@ class DotShape {
     /// Returns the variance of a quantity, given its derivatives with respect to the terms. The
     /// variance is scaled by the misfit.
     float variance(const Terms& derivatives) const;
-    /// Returns the reduced chi-squared of the fit, but at least 1. It is about 1 if only noise
-    /// remains.
+    /// Returns the reduced chi-squared of the fit, but at least 1. The result is about 1 if only
+    /// noise remains.
     float misfit() const { return misfit_; }
 
   private:

@@ -12,7 +12,7 @@ namespace tuned = tuning::fit;
 
 /// Returns the squared step length below which the fit has converged, in units of the pose's
 /// standard deviation. The limit is larger for planes with little perspective and lens distortion.
-/// Their fit is nearly linear, so one step ends close to the solution.
+/// The fit of such planes is nearly linear, so one step ends close to the solution.
 float settled(const FloatPlane& p, float reach) {
     const float nonlinear =
         (std::abs(p.tilt_x) + std::abs(p.tilt_y)) * reach + std::abs(p.bend) * reach * reach;
@@ -20,8 +20,8 @@ float settled(const FloatPlane& p, float reach) {
                       tuned::kMinSettled, tuned::kMaxSettled);
 }
 
-/// Returns true if the two limits select the same inliers, or if their relative difference is below
-/// kSameLimit.
+/// Returns true if the outlier limits `limit` and `next_limit` select the same inliers. Also
+/// returns true if the relative difference between the limits is below kSameLimit.
 bool keeps_dots(const FitSums& sums, float limit, float next_limit) {
     return (sums.outliers == 0 && sums.farthest <= next_limit) ||
            std::abs(next_limit - limit) < tuned::kSameLimit * limit;

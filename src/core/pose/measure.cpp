@@ -48,9 +48,9 @@ struct Window {
           sigma_q8(std::max<std::int32_t>(spacing_q8 * tuned::kSigma_128ths / 128,
                                           tuned::kMinSigma_q8)) {}
 
-    /// Crops a window to the pixels that have all neighbours in the image. Returns nullopt if the
-    /// central pixel is not one of them. Windows at the image border are cropped instead of
-    /// rejected, because border dots contribute most to angle and tilt.
+    /// Crops a window to the pixels that have all neighbours in the image. Returns nullopt if a
+    /// neighbour of the central pixel is outside the image. Windows at the image border are cropped
+    /// instead of rejected, because border dots contribute most to angle and tilt.
     std::optional<Box> box_around(const ImageView& image, int u, int v) const {
         const int last_u = image.width_px - 2;
         const int last_v = image.height_px - 2;
@@ -67,7 +67,7 @@ constexpr std::size_t kMaxInFours = kMaxSide_px + 3;
 /// Grey levels of a box, with defective pixels replaced.
 class Patch {
   public:
-    /// Loads the grey levels of a box, unless they are already loaded.
+    /// Loads the grey levels of a box, unless this box is already loaded.
     void load(const ImageView& image, const Box& box) {
         if (box == box_) return;
         box_ = box;
@@ -98,7 +98,7 @@ struct BorderBackground {
 
 /// Computes the paper level from the window sides that are in the image. There are at least two
 /// such sides, because no image is smaller than a window. If one of two opposite sides is missing,
-/// the slope between them is 0.
+/// the slope between these sides is 0.
 BorderBackground border_background(const Patch& patch, FixedVec pixel, int half) {
     const auto side = [](bool is_inside, int first, int last, auto level) -> std::optional<float> {
         if (!is_inside) return {};
@@ -130,7 +130,7 @@ BorderBackground border_background(const Patch& patch, FixedVec pixel, int half)
 }
 
 /// Fits a Gaussian dot to a window by one Gauss-Newton step. The dot is as wide as the window, and
-/// at a small `offset` from its centre. With d and offset in units of sigma, the darkness is
+/// at a small `offset` from the window centre. With d and offset in units of sigma, the darkness is
 ///
 ///     darkness(d) = height exp(-d^2 / 2) (1 + offset . d).
 ///
@@ -258,8 +258,9 @@ std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
     return dot;
 }
 
-/// Unlinks dots if their mass is below half the typical mass, or above kTooDark_halves / 2 times
-/// the typical mass. Such dots are dirt, graphics, or bare paper where a dot is missing.
+/// Unlinks dots from their cells if their mass is below half the typical mass, or above
+/// kTooDark_halves / 2 times the typical mass. Such dots are dirt, graphics, or bare paper where a
+/// dot is missing.
 void reject_mass_outliers(Grid& grid, std::span<DetectedDot> dots) {
     constexpr std::size_t kSample = tuned::kMedianSample;
     std::array<std::int32_t, kSample> masses;

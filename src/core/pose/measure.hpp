@@ -1,6 +1,7 @@
 // Measure: measures the precise centres of all dots, near their predicted places. The second
-// attempt needs this step, because its filter blurs the dots and its threshold misses some. Unlike
-// the paper, it uses windowed centroids, up to the image border (docs/differs-from-paper.md).
+// attempt needs this step, because the filter of the second attempt blurs the dots, and the
+// threshold misses some dots. Unlike the paper, this step uses windowed centroids, up to the image
+// border (docs/differs-from-paper.md).
 #pragma once
 
 #include "core/decode/grid.hpp"

@@ -24,8 +24,8 @@ constexpr float kBehind = tuned::kBehind;
 /// Sums over the dots in one part of the sheet. A dot is coherent if a displacement of the whole
 /// part can explain its residual.
 struct PartSums {
-    /// Four values: number of dots, their summed log odds for the single plane, number of coherent
-    /// dots, and their summed squared residuals.
+    /// Four values: number of dots, their summed log odds for the plane of the whole sheet, number
+    /// of coherent dots, and their summed squared residuals.
     Four counts;
     Four places;  ///< coherent dots: summed x and y, and summed residuals along x and y
     /// Coherent dots: summed xx, xy and yy, and summed cross products of place and residual. Places
@@ -93,7 +93,7 @@ struct Symmetric3 {
 };
 
 /// Least-squares affine map from the places of all coherent dots to their residuals. Gains are
-/// computed relative to this map, because it absorbs most of a step in the middle of the view.
+/// computed relative to this map, because the map absorbs most of a step in the middle of the view.
 class AffineFit {
   public:
     AffineFit() = default;
@@ -286,9 +286,10 @@ class Search {
                           std::max(max_of(here) - here.on_plane(), 0.0F));
     }
 
-    /// Returns the gain of separate planes over the single plane, as a log likelihood ratio. The
-    /// part with the reference point also has its own plane, because the single plane may be a
-    /// compromise. If the dots beyond the line have no common plane, their log odds are 0.
+    /// Returns the gain of separate planes over one plane for the whole sheet, as a log likelihood
+    /// ratio. The part with the reference point also has its own plane, because the plane of the
+    /// whole sheet may be a compromise. If the dots beyond the line have no common plane, their log
+    /// odds are 0.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));
@@ -322,7 +323,7 @@ PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, con
         search.try_direction(direction, best);
         direction = turned(direction, kSin, kSin);
     }
-    // A small rotation of the best line can increase the gain, but rarely doubles it.
+    // A small rotation of the best line can increase the gain, but rarely doubles the gain.
     if (best.gain < PaperStep::kPossible / 2) return best;
     float s = kSin;
     for (int halving = 0; halving < 5; ++halving) {

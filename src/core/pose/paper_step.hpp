@@ -17,8 +17,8 @@ struct PaperStep {
     static constexpr float kCertain = 23;
 
     FloatVec direction{1, 0};  ///< unit normal of the line, pointing beyond it
-    /// Distance from the reference point to the line, in spacings. Negative if the point is beyond
-    /// the line.
+    /// Distance from the reference point to the line, in spacings. Negative if the reference point
+    /// is beyond the line.
     float distance = 0;
     float gain = 0;  ///< natural log of the likelihood ratio, relative to a single plane
 };

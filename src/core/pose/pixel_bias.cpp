@@ -20,8 +20,8 @@ float sine_of_turns(float x) {
     return 0.775F * y + 0.225F * y * std::abs(y);
 }
 
-/// Returns the centre of a centroid window along one axis, in px. The kernels round it to a
-/// multiple of 1/4 px.
+/// Returns the centre of a centroid window along one axis, in px. The kernels round window centres
+/// to a multiple of 1/4 px.
 float place_of_window(std::int32_t window, std::int32_t sum, std::int32_t mass) {
     const float quarters =
         4 * static_cast<float>(sum) / static_cast<float>(std::max<std::int32_t>(mass, 1));
@@ -66,7 +66,7 @@ float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide
 struct CentroidError {
     float px;                  ///< centroid minus true centre
     DotShape::Terms by_shape;  ///< derivatives of `px` with respect to the shape terms
-    float slopes;              ///< slope of the moment, relative to the slope along u
+    float slopes;              ///< slope of the moment along the axis, divided by the slope along u
 };
 
 enum class Along : std::uint8_t { u, v };
@@ -113,7 +113,7 @@ class AxisBias {
 
     float amplitude_px() const { return amplitude_px_; }
     /// Returns the slope of the moment along this axis, relative to the slope along u. The ratio is
-    /// shrunk towards 1 if noise can explain the difference.
+    /// shrunk towards 1 if noise can explain its difference from 1.
     float slopes() const { return slopes_; }
     /// Returns the bias of a dot, in px. Also adds the sine of its phase to the mean.
     float of(float phase) {
@@ -138,8 +138,8 @@ class AxisBias {
 
 /// Returns the centroid error, in px, of a dot at offset `d` from its window centre. The moment is
 /// proportional to d - bend d^3. The kernels take a single Newton step, as if the moment were
-/// linear in d. They divide the moments of both axes by the slope along u at the window centre.
-/// `slopes` is the slope along v divided by the slope along u.
+/// linear in d. The kernels divide the moments of both axes by the slope along u at the window
+/// centre. `slopes` is the slope along v divided by the slope along u.
 FloatVec error_off_centre(float bend, float slopes, FloatVec d) {
     return {2 * bend * d.x * d.x * d.x,
             d.y * (slopes * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1)};
@@ -216,7 +216,7 @@ FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window
                    });
     DotShape shape;
     if (!shape.fit(stacks)) return {};
-    // Strong blur removes the bias. It also makes the dots larger than the model image.
+    // Strong blur removes the bias. Strong blur also makes the dots larger than the model image.
     if (std::min(shape.blur_2().x, shape.blur_2().y) > tuned::kBlurred_px2) return {};
     AxisBias along_u(shape, Along::u, window.radius_px);
     AxisBias along_v(shape, Along::v, window.radius_px);

@@ -49,7 +49,7 @@ class Scatter {
     float by_noise_ = 0;
 };
 
-/// One Gauss-Newton iteration. Computes the normal equations at the current pose, and solves them.
+/// One Gauss-Newton iteration. Computes and solves the normal equations at the current pose.
 class Round {
   public:
     Round(const ObservationBatches& batches, const PlaneFromImage& pose)

@@ -1,7 +1,7 @@
-// Refine: fits the pose to all dots. A known position determines where each dot is printed,
-// including its displacement. The pose is the least-squares map from the measured centres to these
-// places. Uses single precision. Unlike the paper, which computes the pose from the grid (eq.
-// 10-12), this fit does not treat displacements as noise.
+// Refine: fits the pose to all dots in view, at a known position. A known position determines where
+// each dot is printed, including its displacement. The pose is the least-squares map from the
+// measured centres to these places. Uses single precision. Unlike the paper, which computes the
+// pose from the grid (eq. 10-12), this fit does not treat displacements as noise.
 #pragma once
 
 #include "core/fit/solve_plane.hpp"

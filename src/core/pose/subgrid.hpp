@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Returns the plane of the grid, rotated upright. Its origin is `Decoding::place`.
+/// Returns the plane of the grid, rotated upright. The plane's origin is `Decoding::place`.
 PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn pattern_from_grid);
 
 /// Writes the plane and the place of its origin into the fix. Also writes the position, section,

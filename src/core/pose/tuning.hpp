@@ -20,9 +20,9 @@ inline constexpr int kMinHalf_q8 = 768;
 /// µm. A value of 24 gives only 1,904 frames, 3.58 µm and 9.19 µm.
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
-/// Maximum squared distance between a dot and its place, in units of sigma^2. The limit can be
-/// large, because the pose fit rejects dirt as outliers. A smaller limit would also reject badly
-/// printed dots. This would cost accuracy and hide print errors.
+/// Maximum squared distance between a dot and its predicted place, in units of sigma^2. The limit
+/// can be large, because the pose fit rejects dirt as outliers. A smaller limit would also reject
+/// badly printed dots. This would cost accuracy and hide print errors.
 inline constexpr int kFarthest_2 = 9;
 /// Maximum number of Gauss-Newton iterations. The fit ends early after a step shorter than
 /// kSettled_q8, in 1/256 px.
@@ -107,7 +107,8 @@ inline constexpr float kBlurred_px2 = 0.7F * 0.7F;
 inline constexpr float kOfModel = 0.01F;
 inline constexpr float kMisfit = 2.5F;
 inline constexpr float kOfMisfit = 0.025F;
-/// Relative difference between the slopes along u and v that noise alone causes for round dots.
+/// Relative difference between the moment slopes along u and v (`AxisBias::slopes`) that noise
+/// alone causes for round dots.
 inline constexpr float kSlopes = 0.03F;
 }  // namespace bias
 
@@ -115,20 +116,20 @@ inline constexpr float kSlopes = 0.03F;
 namespace uneven {
 /// Limits for the scatter between blocks. The scatter is measured as its excess over chance, in
 /// standard deviations.
-/// - kMaybeLine: above it, the second attempt searches for a line that divides the sheet. The limit
-///   is low because the plane absorbs most of a step. The dots of the second attempt are also
-///   noisier than those of fast attempts.
-/// - kShared: above it, the mean block residuals increase the covariance. 1 in 20 flat sheets
-///   exceeds it.
-/// - kSuspect: above it, fast attempts search for a line. Up to this limit, one side of a line
-///   counts as even.
-/// - kUneven: above it, a sheet without a line counts as uneven. At most about 1 in 1,000 flat
-///   sheets exceeds it.
+/// - kMaybeLine: above this limit, the second attempt searches for a line that divides the sheet.
+///   The limit is low because the plane absorbs most of a step. The dots of the second attempt are
+///   also noisier than those of fast attempts.
+/// - kShared: above this limit, the mean block residuals increase the covariance. 1 in 20 flat
+///   sheets exceeds this limit.
+/// - kSuspect: above this limit, fast attempts search for a line. Up to this limit, one side of a
+///   line counts as even.
+/// - kUneven: above this limit, a sheet without a line counts as uneven. At most about 1 in 1,000
+///   flat sheets exceeds this limit.
 ///
 /// `dotpose_tables slips` measures these fractions.
 inline constexpr float kMaybeLine = 0.9F;
-/// Number of dots up to which kMaybeLine applies. Beyond it, the limit grows with the square root
-/// of the number, because block residuals become more significant on any sheet.
+/// Number of dots up to which kMaybeLine applies. With more dots, the limit is kMaybeLine *
+/// sqrt(dots / kMaybeLineDots), because block residuals become more significant on any sheet.
 inline constexpr float kMaybeLineDots = 200;
 inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
@@ -144,17 +145,18 @@ inline constexpr int kManyDots = 1000;
 inline constexpr int kMinAlong = 2;
 inline constexpr int kFewAlong = 6;
 inline constexpr int kDotsPerBlock = 4;
-/// Factors by which the variance of the displacement of a block, along one axis, is added to the
-/// covariance of the pose: kOfPlace * variance for x and for y, and kOfTurn * variance / side^2 for
-/// the angle, where side is the side of a block. docs/integrity.md compares the result with the
-/// errors on bent sheets.
+/// Factors for the pose variance that block displacements cause. Let v be the variance of a block's
+/// displacement along one axis, and s the block side. The pose variance grows by kOfPlace * v for x
+/// and for y, and by kOfTurn * v / s^2 for the angle. docs/integrity.md compares the result with
+/// the errors on bent sheets.
 inline constexpr float kOfPlace = 2;
 inline constexpr float kOfTurn = 8;
 /// Standard deviation of mean block residuals due to pixel bias. If the phase drifts slowly over
-/// the view, this bias differs between blocks and averages out over the view. It is not evidence of
-/// an uneven sheet.
+/// the view, this bias differs between blocks and averages out over the view. Such a bias is not
+/// evidence of an uneven sheet.
 inline constexpr float kPixelBias_px = 0.004F;
-/// Distance from the line, in spacings, within which the reference point may be on either side.
+/// Distance from the dividing line, in spacings, within which the reference point may be on either
+/// side.
 inline constexpr float kNearLine = 1.2F;
 }  // namespace uneven
 
@@ -164,7 +166,7 @@ namespace paper_step {
 /// of the odds relative to a random place in the cell.
 inline constexpr float kOnPlane = 5;
 /// Maximum squared residual that a displaced part of the sheet can explain, in units of the
-/// variance.
+/// residual variance.
 inline constexpr float kTogether = 36;
 /// Maximum distance, in spacings, by which the reference point may be beyond the line.
 inline constexpr float kBehind = 0.5F;
@@ -173,11 +175,12 @@ inline constexpr float kMinBeyond = 12;
 /// Outlier limit in the first iteration of a fit to one side, in spacings^2. This iteration starts
 /// from a plane fitted to both sides.
 inline constexpr float kFarOff = 0.04F;
-/// Distance from the line, in spacings, within which dots belong to neither side. It is the
-/// uncertainty of the line.
+/// Distance from the line, in spacings, within which dots belong to neither side. The line's
+/// position is uncertain by about this distance.
 inline constexpr float kMargin = 0.8F;
 /// Search for a residual that the dots beyond the line share. Uses dots within kReach spacings of
-/// the reference point. At least kMinAgreeing dots must agree within kAgreement (spacings^2).
+/// the reference point. At least kMinAgreeing dots must have this residual, up to a squared
+/// difference of kAgreement, in spacings^2.
 inline constexpr float kReach = 10;
 inline constexpr int kMinAgreeing = 8;
 inline constexpr float kAgreement = 0.08F * 0.08F;

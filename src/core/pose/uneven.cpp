@@ -105,7 +105,8 @@ void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     add(tuned::kOfTurn * variance / (blocks.side() * blocks.side()), 2, fit);
 }
 
-/// Increases the covariance if the line is so close that the reference point may be on either side.
+/// Increases the covariance if the reference point is so close to the dividing line that it may be
+/// on either side.
 void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                      const SplitFit& split, PoseFit& fit) {
     if (split.step.distance > tuned::kNearLine) return;
@@ -146,7 +147,7 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
 }
 
 /// Searches for a line if there are many outliers, or if the scatter between blocks is high.
-/// `min_excess` is its limit, as the excess over chance in standard deviations.
+/// `min_excess` is the limit for `GroupScatter::excess`, in standard deviations.
 void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dots,
                      const Blocks& blocks, FloatVec reference_px, FloatPlane& plane, PoseFit& fit) {
     const float excess = blocks.scatter().excess();
@@ -156,7 +157,7 @@ void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dot
         widen_by_blocks(blocks, fit);
 }
 
-/// Returns the excess above which the second attempt searches for a line, in standard deviations.
+/// Returns the value of `GroupScatter::excess` above which the second attempt searches for a line.
 /// With more dots, small block residuals become more significant on any sheet, for example due to
 /// pixel bias. The limit therefore increases. Residuals at a line also become more significant, and
 /// still exceed the limit.

@@ -14,9 +14,9 @@ namespace dotpose::core {
 void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                 FloatPlane& plane, PoseFit& fit);
 
-/// Overload for a plane that was fitted to observations. Takes longer, because it searches for a
-/// line at a much lower correlation. `dots` provides memory for the observations. If this memory is
-/// too small, the surface counts as even.
+/// Overload for a plane that was fitted to observations. Takes longer, because this overload
+/// searches for a line at a much lower correlation. `dots` provides memory for the observations. If
+/// this memory is too small, the surface counts as even.
 void fit_uneven(const Kernels& kernels, const Observations& observations, FixedVec reference_q8,
                 MeasuredDots& dots, PlaneFromImage& plane, PoseFit& fit);
 

@@ -32,7 +32,7 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
     const auto add_row = [&](int reach) {
 #pragma GCC unroll 16
         for (int x = -reach; x <= reach; ++x) {
-            // Most pixels are paper. A negative difference identifies them without a second
+            // Most pixels are paper. A negative difference identifies paper without a second
             // comparison.
             const std::int32_t darkness = level - row[Half + x];
             if (darkness < 0) continue;
