@@ -1,15 +1,21 @@
 #include "device/attempt.hpp"
 
+#include <algorithm>
+
 #include "core/decode/likelihood.hpp"
 #include "core/decode/nominal.hpp"
 #include "core/decode/position.hpp"
+#include "core/decode/upright.hpp"
 #include "core/decode/window.hpp"
 #include "core/integrity/verify.hpp"
 #include "core/pose/subgrid.hpp"
 #include "core/steps.hpp"
 #include "device/affine_pose.hpp"
 #include "device/grow.hpp"
+#include "device/hard_block.hpp"
 #include "device/origin.hpp"
+#include "device/sheet_odds.hpp"
+#include "device/sheet_search.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -49,6 +55,35 @@ Status find_grid(const DeviceOptions& options, Workspace& w) {
     return grown;
 }
 
+/// Minimum number of columns and of rows of a grid on a known sheet.
+constexpr int kMinKnownSide = 3;
+
+/// Reads the bits of the dots. Error: grid_too_small.
+Status read_bits(Workspace& w) {
+    return assign_affine_likelihoods(w.found_dots(), w.grid_from_image, w.grid,
+                                     w.known.any() ? kMinKnownSide : kWindowSide);  // II-B.4
+}
+
+/// Finds the place of the bits on the known sheets. Returns false if the place is not certain.
+bool read_on_sheets(const DeviceOptions& options, Workspace& w) {
+    Decoding& decoding = w.decoding;
+    decoding.region = choose_window(w.grid, kMaxComparedLines);
+    const HardBlock block(w.grid, decoding.region);
+    const auto found = find_on_sheets(block, options.code, w.known.regions, options.integrity);
+    if (!found) return false;
+    const QuarterTurn turn{found->quarters};
+    if (!is_certain_place(w.known, options.code, block.lines(Axis::x, turn.quarters),
+                          block.lines(Axis::y, turn.quarters), found->corner, options.integrity,
+                          w.fix))
+        return false;
+    const FixedVec corner = turn(Upright(w.grid, decoding.region, turn).corner());
+    decoding.pattern_from_grid = turn;
+    decoding.place = moved(options.code, found->corner, -corner.x, -corner.y);
+    decoding.bits = 2 * block.dots();
+    decoding.p_wrong_log2_q8 = {256 * w.fix.p_wrong_log2, kNever_q8};
+    return true;
+}
+
 /// Finds the position in the code from the bits.
 Status read_position(const DeviceOptions& options, Workspace& w) {
     // The decoder does not need the 8 x 8 window of the paper. The window is computed only for
@@ -65,6 +100,17 @@ Status verify_position(const DeviceOptions& options, Workspace& w) {
     const Status status =
         verify_quickly(w.grid, options.code, w.decoding, options.integrity, w.line_scores, w.fix);
     return status == Status::ok ? status : refused(status, w);
+}
+
+/// Finds a certain place in the code, first on the known sheets.
+Status find_place(const DeviceOptions& options, Workspace& w) {
+    if (w.known.any()) {
+        if (read_on_sheets(options, w)) return Status::ok;
+        if (w.known.are_all()) return Status::not_certain;
+        if (std::min(w.grid.columns, w.grid.rows) < kWindowSide) return Status::grid_too_small;
+    }
+    const Status status = read_position(options, w);  // II-B.5-7
+    return status == Status::ok ? verify_position(options, w) : status;
 }
 
 /// Fits the pose to the dots, each at its printed place in the code.
@@ -86,11 +132,8 @@ Status measure_pose(const DeviceOptions& options, Workspace& w) {
 const Fix& finish_device_attempt(const DeviceOptions& options, Workspace& w) {
     Status status = find_dots(options, w);                     // II-B.1
     if (status == Status::ok) status = find_grid(options, w);  // II-B.2-3
-    if (status == Status::ok) {
-        status = assign_affine_likelihoods(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4
-    }
-    if (status == Status::ok) status = read_position(options, w);  // II-B.5-7
-    if (status == Status::ok) status = verify_position(options, w);
+    if (status == Status::ok) status = read_bits(w);             // II-B.4
+    if (status == Status::ok) status = find_place(options, w);   // II-B.5-7
     if (status == Status::ok) status = measure_pose(options, w);  // II-B.8
     w.fix.status = status;
     return w.fix;

@@ -70,7 +70,17 @@ template class DeviceMemoryFor<188, 120>;
 template class DeviceMemoryFor<320, 240>;
 
 DeviceLocator::DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options)
-    : RowLocator(memory.workspace_, options) {}
+    : RowLocator(memory.workspace_, options) {
+    // Another locator may have used the memory before, with known sheets.
+    workspace().set_known({});
+}
+
+Status DeviceLocator::set_known(std::span<const KnownRegion> regions, OtherSheets others) {
+    const core::KnownSheets sheets{regions, others};
+    if (!sheets.are_valid()) return Status::bad_argument;
+    workspace().set_known(sheets);
+    return Status::ok;
+}
 
 core::DeviceWorkspace& DeviceLocator::workspace() {
     return static_cast<core::DeviceWorkspace&>(*workspace_);

@@ -89,7 +89,7 @@ int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
 bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     const int cells = leave_out_edges(spacing_q8, tracking);
     const int width_px = tracking.width_px - 2 * tracking.left_out_px;
-    if (std::min(width_px, tracking.height_px) < kMinFrameSide_px) return false;
+    if (std::min(width_px, tracking.height_px) < tracking.min_side_px) return false;
     tracking.first_cell = kMaxComparedLines / 2 - cells;
     tracking.last_cell = kMaxComparedLines / 2 + cells - 1;
     tracking.stride_px = stride_of(tracking.width_px);

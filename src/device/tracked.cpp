@@ -5,9 +5,11 @@
 #include "core/pose/subgrid.hpp"
 #include "core/steps.hpp"
 #include "device/coded_cells.hpp"
+#include "device/hard_block.hpp"
 #include "device/newest_rows.hpp"
 #include "device/predicted.hpp"
 #include "device/read_dots.hpp"
+#include "device/sheet_odds.hpp"
 #include "device/shift.hpp"
 #include "device/tracked_pose.hpp"
 #include "device/turn.hpp"
@@ -56,15 +58,27 @@ Status read_rows(DeviceWorkspace& w) {
     return Status::ok;
 }
 
+/// Verifies the predicted place with the bits of the dots, first as a place on the known sheets.
+/// Error: not_certain.
+Status verify_place(const DeviceOptions& options, DeviceWorkspace& w) {
+    const Tracking& t = w.tracking;
+    if (w.known.any()) {
+        const TrackedBlock block(t.lines, options.code, t.corner);
+        if (is_certain_place(w.known, options.code, block.columns(), block.rows(), block.corner(),
+                             options.integrity, w.fix))
+            return Status::ok;
+        if (w.known.are_all()) return Status::not_certain;
+    }
+    return verify_tracked(options.code, t.lines, t.corner, options.integrity, w.decoding, w.fix);
+}
+
 /// Verifies the place with the bits of the dots, and fits the pose. Error: not_tracked.
 Status confirm(const DeviceOptions& options, DeviceWorkspace& w) {
     Tracking& t = w.tracking;
     if (t.status != Status::ok) return t.status;
     w.fix.dots_seen = dots_seen(t);
     w.decoding.place = t.corner;
-    const Status status =
-        verify_tracked(options.code, t.lines, t.corner, options.integrity, w.decoding, w.fix);
-    if (status != Status::ok) return Status::not_tracked;
+    if (verify_place(options, w) != Status::ok) return Status::not_tracked;
     w.fix.dots_used = fit_tracked_pose(t, w.pattern_from_image, w.fix.displacement_q16);
     if (w.fix.dots_used == 0) return Status::not_tracked;
     w.pattern_from_image.centre_q8.y += t.rows_above * 256;
@@ -84,6 +98,7 @@ Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& op
     t.height_px = height_px;
     t.first_kept = 0;
     t.min_contrast = static_cast<std::uint8_t>(options.min_contrast);
+    t.min_side_px = w.min_side_px;
     t.dots_measured = 0;
     t.offset_q8 = {};
     // Frames with lens distortion are not tracked. They are located without the prediction.

@@ -80,6 +80,7 @@ struct Tracking {
     /// intersection. Indexed by the quarter of the pixel that contains the intersection, and by
     /// Symbol.
     std::array<std::array<std::int16_t, 4>, 4> dot_pixels{};
+    std::int16_t min_side_px = 0;  ///< minimum width and height of the tracked part
     std::int16_t left_out_px = 0;  ///< number of columns to the left of the tracked part
     std::int16_t rows_above = 0;   ///< number of rows above the tracked part
     CellMap cells;
