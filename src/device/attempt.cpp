@@ -5,17 +5,13 @@
 #include "core/decode/likelihood.hpp"
 #include "core/decode/nominal.hpp"
 #include "core/decode/position.hpp"
-#include "core/decode/upright.hpp"
 #include "core/decode/window.hpp"
 #include "core/integrity/verify.hpp"
 #include "core/pose/subgrid.hpp"
 #include "core/steps.hpp"
 #include "device/affine_pose.hpp"
 #include "device/grow.hpp"
-#include "device/hard_block.hpp"
 #include "device/origin.hpp"
-#include "device/sheet_odds.hpp"
-#include "device/sheet_search.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -64,26 +60,6 @@ Status read_bits(Workspace& w) {
                                      w.known.any() ? kMinKnownSide : kWindowSide);  // II-B.4
 }
 
-/// Finds the place of the bits on the known sheets. Returns false if the place is not certain.
-bool read_on_sheets(const DeviceOptions& options, Workspace& w) {
-    Decoding& decoding = w.decoding;
-    decoding.region = choose_window(w.grid, kMaxComparedLines);
-    const HardBlock block(w.grid, decoding.region);
-    const auto found = find_on_sheets(block, options.code, w.known.regions, options.integrity);
-    if (!found) return false;
-    const QuarterTurn turn{found->quarters};
-    if (!is_certain_place(w.known, options.code, block.lines(Axis::x, turn.quarters),
-                          block.lines(Axis::y, turn.quarters), found->corner, options.integrity,
-                          w.fix))
-        return false;
-    const FixedVec corner = turn(Upright(w.grid, decoding.region, turn).corner());
-    decoding.pattern_from_grid = turn;
-    decoding.place = moved(options.code, found->corner, -corner.x, -corner.y);
-    decoding.bits = 2 * block.dots();
-    decoding.p_wrong_log2_q8 = {256 * w.fix.p_wrong_log2, kNever_q8};
-    return true;
-}
-
 /// Finds the position in the code from the bits.
 Status read_position(const DeviceOptions& options, Workspace& w) {
     // The decoder does not need the 8 x 8 window of the paper. The window is computed only for
@@ -103,10 +79,10 @@ Status verify_position(const DeviceOptions& options, Workspace& w) {
 }
 
 /// Finds a certain place in the code, first on the known sheets.
-Status find_place(const DeviceOptions& options, Workspace& w) {
-    if (w.known.any()) {
-        if (read_on_sheets(options, w)) return Status::ok;
-        if (w.known.are_all()) return Status::not_certain;
+Status find_place(const DeviceOptions& options, DeviceWorkspace& w) {
+    if (w.on_sheets != nullptr) {
+        if (w.on_sheets->read(options, w)) return Status::ok;
+        if (w.known.are_all() || w.line_scores.empty()) return Status::not_certain;
         if (std::min(w.grid.columns, w.grid.rows) < kWindowSide) return Status::grid_too_small;
     }
     const Status status = read_position(options, w);  // II-B.5-7
@@ -129,7 +105,7 @@ Status measure_pose(const DeviceOptions& options, Workspace& w) {
 
 }  // namespace
 
-const Fix& finish_device_attempt(const DeviceOptions& options, Workspace& w) {
+const Fix& finish_device_attempt(const DeviceOptions& options, DeviceWorkspace& w) {
     Status status = find_dots(options, w);                     // II-B.1
     if (status == Status::ok) status = find_grid(options, w);  // II-B.2-3
     if (status == Status::ok) status = read_bits(w);             // II-B.4

@@ -46,18 +46,22 @@ UsedLines lines_with_bits(std::span<const ComparedLine> lines) {
 
 }  // namespace
 
+int HardLines::wrong_with(const std::uint8_t* rolls, std::uint32_t added, int limit) const {
+    int wrong = 0;
+    const HardLine* line = first;
+    for (int i = count; i > 0 && wrong <= limit; --i, line += step) {
+        const std::uint32_t sum = *rolls++ + added;
+        wrong += line->wrong_at(sum < kSections ? sum : sum - kSections);
+    }
+    return wrong;
+}
+
 int HardLines::wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added,
                         int limit) const {
     std::array<std::uint8_t, kMaxComparedLines> rolls;
-    const auto first_roll = code::modulo_sections(
-        static_cast<std::uint32_t>(dotpose::roll(code, position)) + added);
-    code::follow_rolls(code, position, static_cast<int>(first_roll),
+    code::follow_rolls(code, position, dotpose::roll(code, position),
                        std::span(rolls).first(static_cast<std::size_t>(count)));
-    int wrong = 0;
-    const HardLine* line = first;
-    for (int i = 0; i < count && wrong <= limit; ++i, line += step)
-        wrong += line->wrong_at(rolls[static_cast<std::size_t>(i)]);
-    return wrong;
+    return wrong_with(rolls.data(), added, limit);
 }
 
 HardBlock::HardBlock(const Grid& grid, const GridRegion& region)

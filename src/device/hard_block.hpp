@@ -32,9 +32,11 @@ struct HardLines {
 
     const HardLine& operator[](int line) const { return first[line * step]; }
 
-    /// Returns the number of bits that contradict the code if the first line is at `position` and
-    /// the roll of each line is its roll in section 0 plus `added`. If the number exceeds `limit`,
-    /// returns any number above `limit`.
+    /// Returns the number of bits that contradict the code if the roll of line i is rolls[i] plus
+    /// `added`, modulo 63. If the number exceeds `limit`, returns any number above `limit`.
+    int wrong_with(const std::uint8_t* rolls, std::uint32_t added, int limit) const;
+    /// Returns the same for lines of which the first is at `position`. The rolls are those in
+    /// section 0 plus `added`.
     int wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added, int limit) const;
 };
 

@@ -73,15 +73,53 @@ class OddsOfOthers {
     int log2_q8_ = kNever_q8;
 };
 
-/// Numbers of places, columns and rows of all regions in a code. Places at which the block extends
-/// beyond a region are included.
-struct RegionSizes {
+/// Returns log2 of the number of places that a view may show, in units of 2^-8: the places in each of
+/// the four orientations on the regions in a code, including the places at which the block extends
+/// beyond a region. A tracked attempt tests only one place, but chooses among up to 2^10 planes.
+int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int rows) {
     std::uint64_t places = 0;
-    std::uint32_t columns_of_class = 0;  ///< number of columns of one class modulo 63
-    std::uint32_t rows_of_class = 0;
-};
+    for (const KnownRegion& region : sheets.regions) {
+        if (region.code != code) continue;
+        places += std::uint64_t{PositionRange(region.first.x, region.columns, columns).count} *
+                  PositionRange(region.first.y, region.rows, rows).count;
+    }
+    return log2_of_places_q8(std::max<std::uint64_t>(4 * places, 1024));
+}
+
+/// Returns log2 of an upper bound on the probability that an unknown sheet has the columns, or the
+/// rows, of a known sheet and agrees on the other axis, in units of 2^-8. Then the other axis can
+/// only have the positions of one class modulo 63.
+int unknown_sheet_log2_q8(const KnownSheets& sheets, CodeVariant code, const PlacedLines& x,
+                          const PlacedLines& y, int bits, int odds_per_bit_q8) {
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+    for (const KnownRegion& region : sheets.regions) {
+        if (region.code != code) continue;
+        columns +=
+            PositionRange(region.first.x, region.columns, x.lines.count).count / kSections + 1;
+        rows += PositionRange(region.first.y, region.rows, y.lines.count).count / kSections + 1;
+    }
+    const auto of_axis_q8 = [&](std::uint32_t positions, int wrong) {
+        return log2_of_places_q8(positions) +
+               agreement_log2_q8(Confidence::of_hard_bits(bits, wrong), odds_per_bit_q8);
+    };
+    return add_log2(of_axis_q8(columns, x.wrong), of_axis_q8(rows, y.wrong));
+}
 
 }  // namespace
+
+int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
+                   const IntegrityOptions& options) {
+    // Places with more wrong bits are found in large views only, and are not excluded here.
+    constexpr int kMaxTested = 8;
+    const int trials_q8 = trials_log2_q8(sheets, code, lines, lines);
+    for (int wrong = 0; wrong <= std::min(kMaxTested, 2 * dots); ++wrong) {
+        const Confidence both = Confidence::of_hard_bits(2 * dots, wrong);
+        const int chance_q8 = trials_q8 + agreement_log2_q8(both, odds_per_bit_q8(both));
+        if (chance_q8 > 256 * options.max_p_wrong_log2) return wrong - 1;
+    }
+    return 2 * dots;
+}
 
 bool is_certain_place(const KnownSheets& sheets, CodeVariant code, const HardLines& columns,
                           const HardLines& rows, const Place& corner,
@@ -98,7 +136,6 @@ bool is_certain_place(const KnownSheets& sheets, CodeVariant code, const HardLin
     const int odds_q8 = odds_per_bit_q8(both);
     if (odds_q8 == 0) return false;
 
-    RegionSizes sizes;
     OddsOfOthers others(code, odds_q8);
     for (const KnownRegion& region : sheets.regions) {
         if (region.code != code) continue;
@@ -106,23 +143,12 @@ bool is_certain_place(const KnownSheets& sheets, CodeVariant code, const HardLin
         const PositionRange of_y(region.first.y, region.rows, rows.count);
         others.add(x, region.section.u, of_x, y, region.section.v, of_y);
         others.add(y, region.section.v, of_y, x, region.section.u, of_x);
-        sizes.places += std::uint64_t{of_x.count} * of_y.count;
-        sizes.columns_of_class += of_x.count / kSections + 1;
-        sizes.rows_of_class += of_y.count / kSections + 1;
     }
-    // All orientations count. A tracked attempt tests only one place, but chooses among up to 2^10
-    // planes.
-    const int trials_q8 = log2_of_places_q8(std::max<std::uint64_t>(4 * sizes.places, 1024));
-    int sum_q8 = add_log2(others.log2_q8(), trials_q8 + agreement_log2_q8(both, odds_q8));
-    if (!sheets.are_all()) {
-        // An unknown sheet may have the columns or the rows of a known sheet.
-        const auto of_axis_q8 = [&](std::uint32_t lines, int wrong) {
-            return log2_of_places_q8(lines) +
-                   agreement_log2_q8(Confidence::of_hard_bits(bits, wrong), odds_q8);
-        };
-        sum_q8 = add_log2(sum_q8, add_log2(of_axis_q8(sizes.columns_of_class, x.wrong),
-                                           of_axis_q8(sizes.rows_of_class, y.wrong)));
-    }
+    const int chance_q8 = trials_log2_q8(sheets, code, columns.count, rows.count) +
+                          agreement_log2_q8(both, odds_q8);
+    int sum_q8 = add_log2(others.log2_q8(), chance_q8);
+    if (!sheets.are_all())
+        sum_q8 = add_log2(sum_q8, unknown_sheet_log2_q8(sheets, code, x, y, bits, odds_q8));
     fix.p_wrong_log2 = std::min((sum_q8 + 255) >> 8, 0);
     if (fix.p_wrong_log2 > options.max_p_wrong_log2) return false;
     fix.prior = sheets.are_all() ? Prior::only_sheets : Prior::sheets;

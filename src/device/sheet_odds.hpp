@@ -11,6 +11,12 @@
 
 namespace dotpose::core {
 
+/// Returns the maximum number of wrong bits, on both axes together, of a place that may be certain.
+/// `dots` is the number of bits of each axis, and `lines` the number of columns or rows, whichever is
+/// larger. Returns -1 if no place of so few bits is certain.
+int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
+                   const IntegrityOptions& options);
+
 /// Returns true if a place on the known sheets is certain: the bound is within the limit, and not
 /// too many bits contradict the place. `columns` and `rows` are the lines of the upright block, and
 /// `corner` is the place where the first column and the first row cross. Sets `bit_errors` and

@@ -7,7 +7,6 @@
 #include <span>
 
 #include "device/hard_block.hpp"
-#include "dotpose/device_options.hpp"
 #include "dotpose/known_region.hpp"
 
 namespace dotpose::core {
@@ -19,12 +18,11 @@ struct SheetPlace {
     std::array<int, 2> wrong{};  ///< numbers of x bits and of y bits that contradict the place
 };
 
-/// Finds the place, in any orientation of the block, that contradicts the fewest bits. Tests only
-/// places at which all bits agree in one of a few pairs of adjacent lines, and at which the
-/// fraction of wrong bits is plausible. Returns nullopt if there is no such place. Regions in other
-/// codes are ignored.
+/// Finds the place, in any orientation of the block, that contradicts the fewest bits: at most
+/// `max_wrong` on both axes together. Tests only places at which all bits agree in one of a few
+/// pairs of adjacent lines. Returns nullopt if there is no such place. Ignores regions in other
+/// codes.
 std::optional<SheetPlace> find_on_sheets(const HardBlock& block, CodeVariant code,
-                                         std::span<const KnownRegion> regions,
-                                         const IntegrityOptions& options);
+                                         std::span<const KnownRegion> regions, int max_wrong);
 
 }  // namespace dotpose::core

@@ -5,11 +5,9 @@
 #include "core/pose/subgrid.hpp"
 #include "core/steps.hpp"
 #include "device/coded_cells.hpp"
-#include "device/hard_block.hpp"
 #include "device/newest_rows.hpp"
 #include "device/predicted.hpp"
 #include "device/read_dots.hpp"
-#include "device/sheet_odds.hpp"
 #include "device/shift.hpp"
 #include "device/tracked_pose.hpp"
 #include "device/turn.hpp"
@@ -62,11 +60,8 @@ Status read_rows(DeviceWorkspace& w) {
 /// Error: not_certain.
 Status verify_place(const DeviceOptions& options, DeviceWorkspace& w) {
     const Tracking& t = w.tracking;
-    if (w.known.any()) {
-        const TrackedBlock block(t.lines, options.code, t.corner);
-        if (is_certain_place(w.known, options.code, block.columns(), block.rows(), block.corner(),
-                             options.integrity, w.fix))
-            return Status::ok;
+    if (w.on_sheets != nullptr) {
+        if (w.on_sheets->verify(options, w)) return Status::ok;
         if (w.known.are_all()) return Status::not_certain;
     }
     return verify_tracked(options.code, t.lines, t.corner, options.integrity, w.decoding, w.fix);

@@ -68,7 +68,7 @@ struct DesktopWorkspace : DeviceWorkspace {
 
     /// Sets the known sheets. On known sheets, smaller images and patches can be located.
     void set_known(const KnownSheets& sheets) {
-        Workspace::set_known(sheets);
+        DeviceWorkspace::set_known(sheets);
         patch->min_side_px = sheets.any() ? kMinKnownFrameSide_px : Patch::kMinSide_px;
     }
 };
