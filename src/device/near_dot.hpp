@@ -15,9 +15,11 @@
 namespace dotpose::core {
 
 /// Distance, in px, from the middle of a square to its outermost pixels. kHalf_px is for the square
-/// around an intersection, which contains the dot in all four displacements. kDotHalf_px is for the
-/// square around the centre of a dot. Valid for spacings of 7 to 13 px.
+/// around an intersection, which contains the dot in all four displacements, at spacings of 7 to 13
+/// px. kFineHalf_px is for spacings below 7 px. kDotHalf_px is for the square around the centre of a
+/// dot.
 inline constexpr int kHalf_px = 4;
+inline constexpr int kFineHalf_px = 2;
 inline constexpr int kDotHalf_px = 2;
 
 /// Returns the pixel nearest to a place.
@@ -37,10 +39,10 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
 /// square, which no dot reaches.
 [[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking,
                                                         const std::uint8_t* at) {
-    constexpr int kSide_px = 2 * kHalf_px;
-    const std::uint8_t* const top = at - kHalf_px * tracking.stride_px - kHalf_px;
-    const std::uint8_t* const bottom = top + kSide_px * tracking.stride_px;
-    return (top[0] + top[kSide_px] + bottom[0] + bottom[kSide_px]) >> 2;
+    const int half = tracking.half_px;
+    const std::uint8_t* const top = at - half * tracking.stride_px - half;
+    const std::uint8_t* const bottom = top + 2 * half * tracking.stride_px;
+    return (top[0] + top[2 * half] + bottom[0] + bottom[2 * half]) >> 2;
 }
 
 /// Sets `Tracking::dot_pixels`, the pixels that `read_symbol` reads. Returns false if any of these

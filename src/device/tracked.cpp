@@ -5,6 +5,7 @@
 #include "core/pose/subgrid.hpp"
 #include "core/steps.hpp"
 #include "device/coded_cells.hpp"
+#include "device/near_dot.hpp"
 #include "device/newest_rows.hpp"
 #include "device/predicted.hpp"
 #include "device/read_dots.hpp"
@@ -33,7 +34,7 @@ Status settle(Tracking& tracking) {
         // Until `find_turn` measures the mass of dots, the threshold is midway between paper and
         // ink, and the range of masses is wide.
         tracking.cut_q8 = 128 * shifts.depth() / paper;
-        tracking.min_mass = paper / 8 + 16;
+        tracking.min_mass = tracking.half_px == kFineHalf_px ? paper / 16 : paper / 8 + 16;
         tracking.max_mass = INT16_MAX;
         if (find_turn(tracking)) return Status::ok;
     }

@@ -88,6 +88,7 @@ struct Tracking {
     FixedVec du_q20;
     FixedVec dv_q20;
     std::int32_t displacement_q12 = 0;
+    int half_px = 0;       ///< see kHalf_px
     int rows_kept = 0;     ///< maximum number of rows in memory
     int rows_needed = 0;   ///< number of newest rows that are still needed after dots were read;
                            ///< less than half of rows_kept
