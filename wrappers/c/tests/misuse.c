@@ -133,6 +133,7 @@ static void making(void) {
     CHECK(dotpose_locator_bytes(DOTPOSE_KIND_DEVICE) <= DOTPOSE_DEVICE_BYTES);
     CHECK(dotpose_locator_bytes(DOTPOSE_KIND_DEVICE_160X120) <= DOTPOSE_DEVICE_160X120_BYTES);
     CHECK(dotpose_locator_bytes(DOTPOSE_KIND_DEVICE_320X240) <= DOTPOSE_DEVICE_320X240_BYTES);
+    CHECK(dotpose_locator_bytes(DOTPOSE_KIND_DEVICE_36X36) <= DOTPOSE_DEVICE_36X36_BYTES);
     CHECK(DOTPOSE_DEVICE_160X120_BYTES < DOTPOSE_DEVICE_BYTES);
     CHECK(dotpose_locator_bytes(DOTPOSE_KIND_SMALL) < dotpose_locator_bytes(DOTPOSE_KIND_LARGE));
     CHECK(dotpose_locator_bytes(-1) == 0 && dotpose_locator_bytes(5) == 0);
@@ -303,7 +304,8 @@ static void predictions(void) {
 
 static void known_sheets(dotpose_locator* large, dotpose_locator* device) {
     dotpose_region sheet = {DOTPOSE_CODE_ANOTO, 0, 0, 0, 1024, 2048, 393, 564};
-    EXPECT(WRONG_KIND, dotpose_set_known(device, &sheet, 1, DOTPOSE_OTHERS_POSSIBLE));
+    EXPECT(OK, dotpose_set_known(device, &sheet, 1, DOTPOSE_OTHERS_IMPOSSIBLE));
+    EXPECT(OK, dotpose_set_known(device, NULL, 0, DOTPOSE_OTHERS_POSSIBLE));
     EXPECT(NULL_POINTER, dotpose_set_known(NULL, &sheet, 1, DOTPOSE_OTHERS_POSSIBLE));
     EXPECT(NULL_POINTER, dotpose_set_known(large, NULL, 1, DOTPOSE_OTHERS_POSSIBLE));
     EXPECT(BAD_VALUE, dotpose_set_known(large, &sheet, 1, 2));
