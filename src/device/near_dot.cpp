@@ -20,15 +20,25 @@ bool lay_dot_pixels(Tracking& tracking) {
     return true;
 }
 
+namespace {
+
+/// Not inlined, because only fine grids need it, and the code of other grids needs the registers.
+DOTPOSE_NOINLINE bool measure_fine_square(const Tracking& tracking, FixedVec intersection_q16,
+                                          std::int32_t level, NearDot& dot) {
+    return measure_square<kFineHalf_px>(tracking, intersection_q16, level, dot);
+}
+
+}  // namespace
+
 bool measure_around(const Tracking& tracking, FixedVec intersection_q16, NearDot& dot) {
     const FixedVec pixel = pixel_at(intersection_q16);
     if (!is_kept(tracking, pixel, tracking.half_px)) return false;
     const std::int32_t paper = paper_around(tracking, kept_row(tracking, pixel.y) + pixel.x);
     const std::int32_t level = paper - ((paper * tracking.cut_q8) >> 8);
     if (paper == 0) return false;
-    return tracking.half_px == kHalf_px
-               ? measure_square<kHalf_px>(tracking, intersection_q16, level, dot)
-               : measure_square<kFineHalf_px>(tracking, intersection_q16, level, dot);
+    if (tracking.half_px != kHalf_px)
+        return measure_fine_square(tracking, intersection_q16, level, dot);
+    return measure_square<kHalf_px>(tracking, intersection_q16, level, dot);
 }
 
 }  // namespace dotpose::core

@@ -39,10 +39,10 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
 /// square, which no dot reaches.
 [[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking,
                                                         const std::uint8_t* at) {
-    const int half = tracking.half_px;
-    const std::uint8_t* const top = at - half * tracking.stride_px - half;
-    const std::uint8_t* const bottom = top + 2 * half * tracking.stride_px;
-    return (top[0] + top[2 * half] + bottom[0] + bottom[2 * half]) >> 2;
+    const std::uint8_t* const top = at + tracking.corner_offset;
+    const std::uint8_t* const bottom = top + tracking.corners_apart;
+    const int side_px = 2 * tracking.half_px;
+    return (top[0] + top[side_px] + bottom[0] + bottom[side_px]) >> 2;
 }
 
 /// Sets `Tracking::dot_pixels`, the pixels that `read_symbol` reads. Returns false if any of these

@@ -96,6 +96,8 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     tracking.stride_px = stride_of(tracking.width_px);
     tracking.rows_kept = static_cast<int>(tracking.rows.size()) / tracking.stride_px;
     tracking.half_px = spacing_q8 < kFine_px * 256 ? kFineHalf_px : kHalf_px;
+    tracking.corner_offset = -tracking.half_px * (tracking.stride_px + 1);
+    tracking.corners_apart = 2 * tracking.half_px * tracking.stride_px;
     tracking.rows_needed = 2 * tracking.half_px + 3;
     if (2 * tracking.rows_needed + kRowsAtOnce > tracking.rows_kept) return false;
     // If there is room for all rows, the whole frame determines the error of the prediction.

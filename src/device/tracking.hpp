@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -65,6 +66,11 @@ struct Tracking {
     int rows_taken = 0;
     int first_kept = 0;  ///< row of the image that is stored first in memory
     int stride_px = 0;
+    int half_px = 0;  ///< see kHalf_px
+    /// Offset of the upper left corner of the square around an intersection from its middle pixel,
+    /// and offset of the lower corners from the upper ones, in bytes.
+    std::ptrdiff_t corner_offset = 0;
+    std::ptrdiff_t corners_apart = 0;
     std::span<std::uint8_t> rows;  ///< the newest rows of the image
     int cut_q8 = 0;  ///< minimum contrast of a dark pixel, in 1/256 of the paper level
     std::int32_t min_mass = 0;
@@ -88,7 +94,6 @@ struct Tracking {
     FixedVec du_q20;
     FixedVec dv_q20;
     std::int32_t displacement_q12 = 0;
-    int half_px = 0;       ///< see kHalf_px
     int rows_kept = 0;     ///< maximum number of rows in memory
     int rows_needed = 0;   ///< number of newest rows that are still needed after dots were read;
                            ///< less than half of rows_kept
