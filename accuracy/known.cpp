@@ -148,8 +148,8 @@ bool known_table(TableRun& run) {
     if (foreign > 0) {
         is_right &= print_row(
             size, run.count<KnownTally>("frames", foreign, [&](std::uint64_t i, KnownTally& t) {
-                locate(draw_shot(setup_of(size, run.seed), i), options, sheets, OtherSheets::impossible,
-                       t);
+                locate(draw_shot(setup_of(size, run.seed), i), options, sheets,
+                       OtherSheets::impossible, t);
             }));
     }
     return is_right;

@@ -4,8 +4,8 @@
 
 /// Returns the options of the program. In small frames, a dot may have a single pixel.
 dotpose::DeviceOptions program_options();
-/// Makes a sheet known to the locator if the program is for frames that can only be located on known
-/// sheets.
+/// Makes a sheet known to the locator if the program is for frames that can only be located on
+/// known sheets.
 void set_known_sheet(dotpose::DeviceLocator& locator);
 
 /// Locates the frames in the file at `path`, a sequence of binary PGM images (P5, 8 bits, no

@@ -45,9 +45,10 @@ class AnyDeviceMemory {
 };
 
 /// Memory of a DeviceLocator on a small microcontroller, with a sensor of Width x Height px. The
-/// end of this header lists the supported sizes. Frames may be smaller. The memory for 36 x 36 px is for the sensors of optical
-/// mice, which can be located on known sheets only (DeviceLocator::set_known). The memories for a width of
-/// 160 or 188 px also support frames that are taller than Height.
+/// end of this header lists the supported sizes. Frames may be smaller. The memory for 36 x 36 px
+/// is for the sensors of optical mice, which can be located on known sheets only
+/// (DeviceLocator::set_known). The memories for a width of 160 or 188 px also support frames that
+/// are taller than Height.
 template <int Width, int Height>
 class DeviceMemoryFor : public AnyDeviceMemory {
   public:
@@ -55,7 +56,8 @@ class DeviceMemoryFor : public AnyDeviceMemory {
 
   private:
     static constexpr std::size_t kBytes = bytes_for(Width, Height);
-    static_assert(kBytes > 0, "the supported sizes are 36 x 36, 160 x 120, 188 x 120 and 320 x 240 px");
+    static_assert(kBytes > 0,
+                  "the supported sizes are 36 x 36, 160 x 120, 188 x 120 and 320 x 240 px");
     alignas(8) std::array<std::byte, kBytes> bytes_;
 };
 

@@ -19,9 +19,7 @@ struct HardLine {
     std::uint32_t seen = 0;  ///< 1 if the bit of the cell was read
 
     /// Returns the number of bits that contradict a line whose first cell has the roll `roll`.
-    int wrong_at(std::size_t roll) const {
-        return bits_in((code::kMainWords[roll] ^ bits) & seen);
-    }
+    int wrong_at(std::size_t roll) const { return bits_in((code::kMainWords[roll] ^ bits) & seen); }
 };
 
 /// The lines of one axis of a block in one orientation, from the first to the last line.

@@ -16,8 +16,8 @@ namespace dotpose::core {
 
 /// Distance, in px, from the middle of a square to its outermost pixels. kHalf_px is for the square
 /// around an intersection, which contains the dot in all four displacements, at spacings of 7 to 13
-/// px. kFineHalf_px is for spacings below 7 px. kDotHalf_px is for the square around the centre of a
-/// dot.
+/// px. kFineHalf_px is for spacings below 7 px. kDotHalf_px is for the square around the centre of
+/// a dot.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kFineHalf_px = 2;
 inline constexpr int kDotHalf_px = 2;

@@ -35,8 +35,8 @@ bool is_sane(const Prediction& prediction) {
 }
 
 /// Sets `cells` to the inverse of a plane. `at_q16` is the centre of the plane relative to cell (0,
-/// 0), in 2^-16 spacings, and `finest_px` is the minimum spacing. Returns false if the spacing of the cells cannot be tracked, or if the
-/// cells are not nearly square.
+/// 0), in 2^-16 spacings, and `finest_px` is the minimum spacing. Returns false if the spacing of
+/// the cells cannot be tracked, or if the cells are not nearly square.
 bool invert(const PlaneFromImage& plane, FixedVec at_q16, int finest_px, CellMap& cells) {
     const FixedVec du = plane.du_q24;
     const FixedVec dv = plane.dv_q24;
@@ -102,10 +102,9 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     if (2 * tracking.rows_needed + kRowsAtOnce > tracking.rows_kept) return false;
     // If there is room for all rows, the whole frame determines the error of the prediction.
     const bool keeps_frame = tracking.height_px <= tracking.rows_kept;
-    tracking.first_rows = keeps_frame
-                              ? tracking.height_px
-                              : std::min<std::int32_t>(13 * spacing_q8 / (4 * 256),
-                                                       tracking.rows_kept);
+    tracking.first_rows =
+        keeps_frame ? tracking.height_px
+                    : std::min<std::int32_t>(13 * spacing_q8 / (4 * 256), tracking.rows_kept);
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
 }
 

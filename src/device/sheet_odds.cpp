@@ -50,17 +50,15 @@ class OddsOfOthers {
              const PlacedLines& other, std::uint32_t section, const PositionRange& range) {
         if (!same_range.contains(same.position)) return;
         const bool is_same_section = same_section == same.section && section == other.section;
-        const std::uint32_t wanted_class =
-            code::modulo_sections(added_to_rolls(same.section, other.position) + kSections -
-                                  same_section);
+        const std::uint32_t wanted_class = code::modulo_sections(
+            added_to_rolls(same.section, other.position) + kSections - same_section);
         const std::uint32_t first_class = code::modulo_sections(range.first);
         const std::uint32_t added = added_to_rolls(section, same.position);
         for (std::uint32_t i = code::modulo_sections(wanted_class + kSections - first_class);
              i < range.count; i += kSections) {
             const std::uint32_t position = range.first + i;
             if (is_same_section && position == other.position) continue;
-            const int lost =
-                other.lines.wrong_at(code_, position, added, kMaxBits) - other.wrong;
+            const int lost = other.lines.wrong_at(code_, position, added, kMaxBits) - other.wrong;
             log2_q8_ = add_log2(log2_q8_, -lost * odds_per_bit_q8_);
         }
     }
@@ -73,9 +71,10 @@ class OddsOfOthers {
     int log2_q8_ = kNever_q8;
 };
 
-/// Returns log2 of the number of places that a view may show, in units of 2^-8: the places in each of
-/// the four orientations on the regions in a code, including the places at which the block extends
-/// beyond a region. A tracked attempt tests only one place, but chooses among up to 2^10 planes.
+/// Returns log2 of the number of places that a view may show, in units of 2^-8: the places in each
+/// of the four orientations on the regions in a code, including the places at which the block
+/// extends beyond a region. A tracked attempt tests only one place, but chooses among up to 2^10
+/// planes.
 int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int rows) {
     std::uint64_t places = 0;
     for (const KnownRegion& region : sheets.regions) {
@@ -122,8 +121,8 @@ int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int li
 }
 
 bool is_certain_place(const KnownSheets& sheets, CodeVariant code, const HardLines& columns,
-                          const HardLines& rows, const Place& corner,
-                          const IntegrityOptions& options, Fix& fix) {
+                      const HardLines& rows, const Place& corner, const IntegrityOptions& options,
+                      Fix& fix) {
     const int bits = number_of_bits(columns);
     if (bits == 0 || !sheets.show(code, corner, columns.count, rows.count)) return false;
     PlacedLines x{columns, corner.cell.x, corner.section.u, 0};
@@ -144,8 +143,8 @@ bool is_certain_place(const KnownSheets& sheets, CodeVariant code, const HardLin
         others.add(x, region.section.u, of_x, y, region.section.v, of_y);
         others.add(y, region.section.v, of_y, x, region.section.u, of_x);
     }
-    const int chance_q8 = trials_log2_q8(sheets, code, columns.count, rows.count) +
-                          agreement_log2_q8(both, odds_q8);
+    const int chance_q8 =
+        trials_log2_q8(sheets, code, columns.count, rows.count) + agreement_log2_q8(both, odds_q8);
     int sum_q8 = add_log2(others.log2_q8(), chance_q8);
     if (!sheets.are_all())
         sum_q8 = add_log2(sum_q8, unknown_sheet_log2_q8(sheets, code, x, y, bits, odds_q8));

@@ -12,8 +12,8 @@
 namespace dotpose::core {
 
 /// Returns the maximum number of wrong bits, on both axes together, of a place that may be certain.
-/// `dots` is the number of bits of each axis, and `lines` the number of columns or rows, whichever is
-/// larger. Returns -1 if no place of so few bits is certain.
+/// `dots` is the number of bits of each axis, and `lines` the number of columns or rows, whichever
+/// is larger. Returns -1 if no place of so few bits is certain.
 int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
                    const IntegrityOptions& options);
 
@@ -22,7 +22,7 @@ int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int li
 /// `corner` is the place where the first column and the first row cross. Sets `bit_errors` and
 /// `p_wrong_log2` of the fix, and `prior` if the result is true.
 bool is_certain_place(const KnownSheets& sheets, CodeVariant code, const HardLines& columns,
-                          const HardLines& rows, const Place& corner,
-                          const IntegrityOptions& options, Fix& fix);
+                      const HardLines& rows, const Place& corner, const IntegrityOptions& options,
+                      Fix& fix);
 
 }  // namespace dotpose::core

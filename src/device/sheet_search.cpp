@@ -9,8 +9,8 @@ namespace dotpose::core {
 namespace {
 
 constexpr int kTurns = 4;
-/// Maximum number of pairs of lines, on each axis, that are tried. Pairs are disjoint, so a bit error
-/// spoils only one pair of each axis.
+/// Maximum number of pairs of lines, on each axis, that are tried. Pairs are disjoint, so a bit
+/// error spoils only one pair of each axis.
 constexpr int kMaxPairs = 3;
 
 /// The rolls at which all bits of a line agree with the main sequence: one roll for a line of at
@@ -148,8 +148,8 @@ class SheetSearch {
 
 void SheetSearch::search(const KnownRegion& region, const PairsOfLines& pairs) {
     const RegionAxis along(region, pairs.axis());
-    const auto margin = static_cast<std::uint32_t>(std::max(block_.lines(pairs.axis(), 0).count,
-                                                            block_.lines(pairs.axis(), 1).count));
+    const auto margin = static_cast<std::uint32_t>(
+        std::max(block_.lines(pairs.axis(), 0).count, block_.lines(pairs.axis(), 1).count));
     // Positions of the first line of a pair, if any line of the block is on the region.
     const std::uint32_t begin = along.first < margin ? 0 : along.first - margin;
     const std::uint32_t end = along.first + along.size + margin;
@@ -209,13 +209,12 @@ void SheetSearch::test_crossing(const KnownRegion& region, Axis axis, int quarte
         const int wrong_across = crossing.wrong_at(code_, position_across, added_across, limit);
         if (wrong_across > limit) continue;
         max_wrong_ = wrong + wrong_across - 1;
-        best_ = axis == Axis::x
-                    ? SheetPlace{quarters,
-                                 {{position, position_across}, region.section},
-                                 {wrong, wrong_across}}
-                    : SheetPlace{quarters,
-                                 {{position_across, position}, region.section},
-                                 {wrong_across, wrong}};
+        best_ = axis == Axis::x ? SheetPlace{quarters,
+                                             {{position, position_across}, region.section},
+                                             {wrong, wrong_across}}
+                                : SheetPlace{quarters,
+                                             {{position_across, position}, region.section},
+                                             {wrong_across, wrong}};
     }
 }
 

@@ -51,8 +51,8 @@ struct DeviceCapacity {
     int max_runs = 0;
 };
 
-/// Capacities for each frame size, for a spacing of about 11 px, or 6 px for 36 x 36 px. Each size is also listed in
-/// dotpose/memory.hpp.
+/// Capacities for each frame size, for a spacing of about 11 px, or 6 px for 36 x 36 px. Each size
+/// is also listed in dotpose/memory.hpp.
 template <int Width, int Height>
 inline constexpr DeviceCapacity kDeviceCapacity{};
 template <>
@@ -167,8 +167,8 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
         return *static_cast<Stages*>(static_cast<void*>(memory.data()));
     }
 
-    alignas(8)
-        std::array<std::byte, std::max(sizeof(FreshDots), sizeof(TrackedDots))> dot_memory_{};
+    alignas(
+        8) std::array<std::byte, std::max(sizeof(FreshDots), sizeof(TrackedDots))> dot_memory_{};
     alignas(
         8) std::array<std::byte, std::max({sizeof(PixelStages), sizeof(LatticeStages),
                                            sizeof(DecodeStages), sizeof(TrackedStages)})> memory_{};

@@ -383,8 +383,8 @@ dotpose_status dotpose_device_init(void* memory, size_t bytes, const dotpose_opt
                                    dotpose_locator** locator);
 /* Sets up a locator of DOTPOSE_KIND_DEVICE_36X36, DOTPOSE_KIND_DEVICE_160X120 or
  * DOTPOSE_KIND_DEVICE_320X240 in the same way. */
-dotpose_status dotpose_device_36x36_init(void* memory, size_t bytes,
-                                         const dotpose_options* options, dotpose_locator** locator);
+dotpose_status dotpose_device_36x36_init(void* memory, size_t bytes, const dotpose_options* options,
+                                         dotpose_locator** locator);
 dotpose_status dotpose_device_160x120_init(void* memory, size_t bytes,
                                            const dotpose_options* options,
                                            dotpose_locator** locator);

@@ -31,7 +31,7 @@ constexpr std::array<Kind, DOTPOSE_KIND_DEVICE_36X36 + 1> kKinds{
 
 const Kind* find_kind(std::int32_t kind) {
     return c::is_one_of(kind, DOTPOSE_KIND_DEVICE_36X36) ? &kKinds[static_cast<std::size_t>(kind)]
-                                                           : nullptr;
+                                                         : nullptr;
 }
 
 }  // namespace

@@ -26,8 +26,7 @@ class DrawnGrid {
   public:
     /// The upper left cell of the rectangle is at `at`.
     DrawnGrid(const KnownRegion& sheet, Cell at, const Drawing& drawing, Rng& rng) {
-        const QuarterTurn from_pattern =
-            QuarterTurn{drawing.quarters}.inverse();
+        const QuarterTurn from_pattern = QuarterTurn{drawing.quarters}.inverse();
         const FixedVec last = from_pattern({drawing.columns - 1, drawing.rows - 1});
         grid_.i0 = std::min(last.x, 0);
         grid_.j0 = std::min(last.y, 0);
@@ -42,17 +41,14 @@ class DrawnGrid {
                 const int x = x_bit(symbol) ^ static_cast<int>(rng.uniform() < drawing.wrong);
                 const int y = y_bit(symbol) ^ static_cast<int>(rng.uniform() < drawing.wrong);
                 if (rng.uniform() < drawing.missing) continue;
-                const core::Bits bits = core::turned(
-                    from_pattern, {weight_of(x), weight_of(y), 0});
+                const core::Bits bits = core::turned(from_pattern, {weight_of(x), weight_of(y), 0});
                 const FixedVec cell = from_pattern({i, j});
                 grid_.at(cell.x, cell.y) = {bits.x, bits.y, 0};
             }
         }
     }
     const core::Grid& grid() const { return grid_; }
-    GridRegion region() const {
-        return {grid_.i0, grid_.j0, grid_.columns, grid_.rows};
-    }
+    GridRegion region() const { return {grid_.i0, grid_.j0, grid_.columns, grid_.rows}; }
 
   private:
     static std::int8_t weight_of(int bit) {

@@ -1,10 +1,10 @@
 // Tests device locators that know their sheets, with small frames.
 #include "device/on_sheets.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numbers>
+
+#include <gtest/gtest.h>
 
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/random.hpp"

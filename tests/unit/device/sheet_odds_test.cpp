@@ -1,5 +1,5 @@
-// Tests the bound on the probability of a wrong place on known sheets against the sum of the odds of
-// all places one by one, in double precision.
+// Tests the bound on the probability of a wrong place on known sheets against the sum of the odds
+// of all places one by one, in double precision.
 #include "device/sheet_odds.hpp"
 
 #include <cmath>
@@ -79,8 +79,7 @@ TEST(SheetOdds, BoundIsAboveTheSumOverAllPlaces) {
             chance += term;
             term *= (2.0 * block.dots() - k) / (k + 1);
         }
-        const double expected_log2 =
-            std::log2(std::exp2(sum_log2) + 4 * 145 * 135 * chance);
+        const double expected_log2 = std::log2(std::exp2(sum_log2) + 4 * 145 * 135 * chance);
         // Rounding up costs 1. Chernoff's bound exceeds the binomial sum by at most 3.
         EXPECT_LE(fix.p_wrong_log2, expected_log2 + 4) << trial;
     }
