@@ -79,8 +79,9 @@ void set_up() {
     write(kConfiguration, 0x40);  // the LED is always on
 }
 
-/// Reads the pixels of the captured frame. The first pixel is in the lower left corner, and the
-/// pixels of a column follow from bottom to top. Each byte has six bits of the level.
+/// Reads the pixels of the captured frame, column by column from the lower left corner. Each byte
+/// has six bits of the level. The order was not verified on a sensor: if frames are `mirrored`,
+/// reverse the columns.
 void read_pixels() {
     gpio_put(kSelect, false);
     transfer(kPixelBurst);
