@@ -8,7 +8,6 @@
 #include <span>
 
 #include "core/detect/smooth.hpp"
-#include "core/known_sheets.hpp"
 #include "core/other_codes.hpp"
 #include "core/patch_memory.hpp"
 #include "core/workspace.hpp"
@@ -63,16 +62,13 @@ struct DesktopWorkspace : DeviceWorkspace {
     std::span<std::uint8_t> row_rolls;
     Smoothing smoothing;
     OtherCodes other_codes;
-    KnownSheets known;
     EarlierBits earlier;
     PushedImage pushed;
     bool is_mirrored = false;  ///< true if an attempt found the mirrored code
 
     /// Sets the known sheets. On known sheets, smaller images and patches can be located.
     void set_known(const KnownSheets& sheets) {
-        known = sheets;
-        min_side_px =
-            static_cast<std::int16_t>(sheets.any() ? kMinKnownFrameSide_px : kMinFrameSide_px);
+        DeviceWorkspace::set_known(sheets);
         patch->min_side_px = sheets.any() ? kMinKnownFrameSide_px : Patch::kMinSide_px;
     }
 };

@@ -309,7 +309,9 @@ enum {
     DOTPOSE_KIND_SMALL = 1,  /* images up to 188 px wide, 290 KB */
     DOTPOSE_KIND_LARGE = 2,  /* images up to 4096 x 4096 px, 3 MB */
     DOTPOSE_KIND_DEVICE_160X120 = 3, /* like DEVICE, for images up to 160 px wide, 11 KB */
-    DOTPOSE_KIND_DEVICE_320X240 = 4  /* like DEVICE, for images up to 320 x 240 px, 23 KB */
+    DOTPOSE_KIND_DEVICE_320X240 = 4, /* like DEVICE, for images up to 320 x 240 px, 23 KB */
+    /* Like DEVICE, for images up to 36 px wide, of optical mice, on known sheets only, 5 KB. */
+    DOTPOSE_KIND_DEVICE_36X36 = 5
 };
 
 /* Attempts that a locator makes. A device locator always makes the device attempt. */
@@ -361,6 +363,7 @@ typedef struct dotpose_locator dotpose_locator;
  * same for the other device kinds.
  *     static uint64_t memory[DOTPOSE_DEVICE_BYTES / 8]; */
 #define DOTPOSE_DEVICE_BYTES (sizeof(void*) == 4 ? 12736u : 13504u)
+#define DOTPOSE_DEVICE_36X36_BYTES (sizeof(void*) == 4 ? 4752u : 5040u)
 #define DOTPOSE_DEVICE_160X120_BYTES (sizeof(void*) == 4 ? 10768u : 12000u)
 #define DOTPOSE_DEVICE_320X240_BYTES (sizeof(void*) == 4 ? 23232u : 25232u)
 
@@ -377,8 +380,10 @@ dotpose_status dotpose_locator_init(void* memory, size_t bytes, int32_t kind,
  * and its linker removes unused sections, it does not contain the other kinds. */
 dotpose_status dotpose_device_init(void* memory, size_t bytes, const dotpose_options* options,
                                    dotpose_locator** locator);
-/* Sets up a locator of DOTPOSE_KIND_DEVICE_160X120 or DOTPOSE_KIND_DEVICE_320X240 in the same
- * way. */
+/* Sets up a locator of DOTPOSE_KIND_DEVICE_36X36, DOTPOSE_KIND_DEVICE_160X120 or
+ * DOTPOSE_KIND_DEVICE_320X240 in the same way. */
+dotpose_status dotpose_device_36x36_init(void* memory, size_t bytes, const dotpose_options* options,
+                                         dotpose_locator** locator);
 dotpose_status dotpose_device_160x120_init(void* memory, size_t bytes,
                                            const dotpose_options* options,
                                            dotpose_locator** locator);
@@ -420,8 +425,8 @@ enum {
  * 24 x 24 px, are then sufficient. The locator reads `regions` in each frame, so the array must
  * remain valid and unchanged. If `count` is 0, all places are possible again. Discards a frame that
  * was begun. Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not inside
- * the plane, or has a code or section that does not exist. Returns WRONG_KIND for device
- * locators. */
+ * the plane, or has a code or section that does not exist. Device locators search only the regions
+ * in their code. */
 dotpose_status dotpose_set_known(dotpose_locator* locator, const dotpose_region* regions,
                                  size_t count, int32_t others);
 

@@ -23,8 +23,10 @@ Status assign_likelihoods(std::span<const DetectedDot> dots, const PlaneFromImag
                           Grid& grid);
 
 /// Faster variant of `assign_likelihoods` for a plane without perspective or lens distortion.
+/// Error: grid_too_small, if the dots extend over fewer than `min_side` columns or rows.
 Status assign_affine_likelihoods(std::span<const DetectedDot> dots,
-                                 const PlaneFromImage& grid_from_image, Grid& grid);
+                                 const PlaneFromImage& grid_from_image, Grid& grid,
+                                 int min_side = kWindowSide);
 
 /// Returns the quality |P^(x) P^(y)| of a cell, at most 127 * 127. The quality is high if the dot
 /// of the cell is close to the place of a symbol.

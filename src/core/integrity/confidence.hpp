@@ -67,6 +67,11 @@ class Confidence {
 int odds_per_bit_q8(const Confidence& confidence);
 
 /// Returns log2 of an upper bound on the probability that random bits of these weights agree with
+/// one given place at least as well as the bits that were read, in units of 2^-8 (Chernoff). The
+/// result is an upper bound for any value of `odds_per_bit_q8`.
+int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8);
+
+/// Returns log2 of an upper bound on the probability that random bits of these weights agree with
 /// the code at least as well as the bits that were read, at any position, in any section, and in
 /// any of the four orientations. An axis has L * 63 * 4 hypotheses (position, section and
 /// orientation), where L = 410,815,348 is the number of positions. Chernoff's bound, with weights
