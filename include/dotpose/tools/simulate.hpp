@@ -58,6 +58,10 @@ struct CameraModel {
     /// 75 % of the side of the image along each axis. The pose applies to the time of the middle
     /// row. (0, 0) for a global shutter.
     Vec2 readout_px;
+    /// Rotation of the scene about the pose point while a rolling shutter reads the rows, from the
+    /// image x axis towards the image y axis. The motion of `readout_px` comes on top. Limited to
+    /// rotations at which the image does not fold: about 60 degrees in an image of 4:3.
+    double readout_turn_rad = 0;
 };
 
 /// Pose of the camera. The pattern point under the image centre is cell + fraction.
@@ -188,9 +192,14 @@ class Projection {
     void offsets_from_row(Vec2 first_pixel, std::span<Vec2> offsets_mm) const;
 
   private:
+    /// Returns the undistorted point, in px from the image centre, at which a point of the middle
+    /// row's time is seen at `time`. Time is in readouts, and 0 at the middle row.
+    Vec2 moved(Vec2 undistorted, double time) const;
+
     Vec2 centre_px_;
     double height_px_;
     Vec2 readout_px_;
+    double readout_turn_rad_;
     double k_;
     double focal_px_;
     double distance_mm_;
