@@ -67,7 +67,7 @@ const kOptionsBytes = 96;
 const kOptionOffsets = { code: 4, effort: 8, show_stages: 88 };
 const kDoubleOffsets = { spacing_mm: 16, lens_k_per_px2: 24, max_p_wrong: 64 };
 /** Sizes of other structs in dotpose.h. */
-const kPredictionBytes = 72;
+const kPredictionBytes = 76;
 const kEvidenceBytes = 36;
 const kReadingBytes = 28;
 const kDotBytes = 16;
