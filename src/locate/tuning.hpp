@@ -41,7 +41,11 @@ inline constexpr float kMaxFall = 0.95F;
 inline constexpr float kStep = 0.4F;
 inline constexpr float kStepParts = 32;
 /// Minimum ratio of the agreements of a better grid and of the best grid so far.
-inline constexpr float kMinGain = 1.0005F;
+inline constexpr float kBetter = 1.0005F;
+/// Minimum ratio of the squared residuals that the rotation explains to the squared residuals that
+/// remain, if the remaining residuals of neighbouring dots are not correlated, and otherwise.
+inline constexpr float kMinGainIfEven = 0.5F;
+inline constexpr float kMinGain = 3;
 /// Maximum variance of the offsets of the dots from the places of their cells, per axis, in
 /// spacings^2. In a false grid, the offsets are evenly distributed over circles with a radius of
 /// 0.18 spacings, which have a variance of 0.008.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/detect/derotate.hpp"
+#include "core/detect/undistort.hpp"
 #include "core/lattice/outwards.hpp"
 #include "core/pose/float_fit.hpp"
 #include "locate/confirm.hpp"
@@ -98,7 +99,7 @@ class TurnSearch {
         turn.rad_per_row += step;
         turn.drift = drift_of(grid_.grid_from_image);
         PatchGrid grid;
-        if (!fits(turn, grid) || grid.agreement <= tuned::kMinGain * grid_.agreement) return false;
+        if (!fits(turn, grid) || grid.agreement <= tuned::kBetter * grid_.agreement) return false;
         turn_ = turn;
         grid_ = grid;
         return true;
@@ -115,23 +116,27 @@ class TurnSearch {
 };
 
 /// Writes the rotation into the fix. The dots of the trace become those of the original image.
-void write_turn(const ReadoutTurn& turn, const ImageView& image, DesktopWorkspace& w) {
+void write_turn(const ReadoutTurn& turn, const ImageView& image, const FixedLens& lens,
+                DesktopWorkspace& w) {
     w.fix.readout_turn_rad = -turn.rad_per_row * static_cast<float>(image.height_px);
-    const FloatVec centre = centre_px(image);
+    const FixedVec centre_q8{(image.width_px - 1) * 128, (image.height_px - 1) * 128};
     for (DetectedDot& dot : w.dots.first(static_cast<std::size_t>(w.dot_count))) {
-        const FloatVec at{static_cast<float>(dot.centre_q8.x) / 256 - centre.x,
-                          static_cast<float>(dot.centre_q8.y) / 256 - centre.y};
+        const FixedVec at_q8 = distorted(lens, centre_q8, dot.centre_q8) - centre_q8;
+        const FloatVec at{static_cast<float>(at_q8.x) / 256, static_cast<float>(at_q8.y) / 256};
         const FloatVec seen = turn.seen_from(at, at.y, 6);
-        dot.centre_q8 = {static_cast<std::int32_t>(std::floor((seen.x + centre.x) * 256 + 0.5F)),
-                         static_cast<std::int32_t>(std::floor((seen.y + centre.y) * 256 + 0.5F))};
+        const FixedVec seen_q8{static_cast<std::int32_t>(std::floor(seen.x * 256 + 0.5F)),
+                               static_cast<std::int32_t>(std::floor(seen.y * 256 + 0.5F))};
+        dot.centre_q8 = undistorted(lens, centre_q8, centre_q8 + seen_q8);
     }
 }
 
-/// Returns true if the rotation explains at least a third of the squared residuals that the dots
-/// would have without it.
-bool explains_third(const TurnFit& fit, int dots) {
-    return 2 * fit.turn.rad_per_row * fit.turn.rad_per_row >=
-           static_cast<float>(dots) * fit.variance;
+/// Returns true if the rotation explains the residuals that the dots would have without it: a third
+/// of their squares or, if the remaining residuals are correlated, three quarters. A wrinkled sheet
+/// may have residuals that are partly those of a rotation.
+bool is_significant(const TurnFit& fit, int dots, Surface surface) {
+    const float min_gain = surface == Surface::even ? tuned::kMinGainIfEven : tuned::kMinGain;
+    return fit.turn.rad_per_row * fit.turn.rad_per_row >=
+           min_gain * static_cast<float>(dots) * fit.variance;
 }
 
 /// Calls `locate(view)` with the image without the rotation, and fits the rotation to the measured
@@ -171,8 +176,9 @@ Confirmation confirm_turning(const Kernels& kernels, const ImageView& image,
         return c;
     });
     if (confirmation != Confirmation::ok) return confirmation;
-    if (!explains_third(w.rolling.fit, w.fix.dots_used)) return Confirmation::implausible;
-    write_turn(turn, image, w);
+    if (!is_significant(w.rolling.fit, w.fix.dots_used, w.fix.surface))
+        return Confirmation::implausible;
+    write_turn(turn, image, options.lens, w);
     return Confirmation::ok;
 }
 
@@ -241,7 +247,7 @@ bool shows_turn(const Kernels& kernels, const ImageView& image, const DeviceOpti
                      displacement * displacement, displacement, plane, fit) &&
            fit_turn(kernels, {0, axis_of(options.lens), drift_of(plane)}, {}, w.measured, plane,
                     fit, turn) &&
-           explains_third(turn, fit.dots);
+           is_significant(turn, fit.dots, Surface::even);
 }
 
 bool locate_turning(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
@@ -280,7 +286,9 @@ bool locate_tracked_turning(const Kernels& kernels, const ImageView& image,
         return is_located ? Confirmation::ok : Confirmation::implausible;
     });
     if (confirmation != Confirmation::ok) return false;
-    write_turn(turn, image, w);
+    write_turn(turn, image, options.lens, w);
+    // The next frame is predicted without a rotation.
+    if (!is_significant(w.rolling.fit, w.fix.dots_used, w.fix.surface)) w.fix.readout_turn_rad = 0;
     return true;
 }
 

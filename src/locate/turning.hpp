@@ -10,15 +10,15 @@
 namespace dotpose::core {
 
 /// Returns true if the fix of a first or tracked attempt has large or correlated residuals, and a
-/// rotation during the readout may explain at least a third of their squares. Uses the measured dots of
+/// rotation during the readout may explain them. Uses the measured dots of
 /// the attempt, and changes them.
 bool shows_turn(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                 DesktopWorkspace& w);
 
 /// Searches a patch at the image centre for a grid and a rotation, removes the rotation from the
 /// image, and measures the dots of the whole image. Returns true, and sets the fix of the
-/// workspace, if a fix was found and its rotation explains at least a third of the squared
-/// residuals of the dots. Otherwise, restores the fix.
+/// workspace, if a fix was found and its rotation is significant. Otherwise, restores the
+/// fix.
 bool locate_turning(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                     DesktopWorkspace& w);
 

@@ -59,9 +59,19 @@ Projection::Projection(const CameraModel& camera, const CameraPose& pose)
 }
 
 Vec2 Projection::moved(Vec2 undistorted, double time) const {
-    const Vec2 turned = readout_turn_rad_ == 0 ? undistorted
-                                               : rotated(undistorted, time * readout_turn_rad_);
-    return {turned.x + time * readout_px_.x, turned.y + time * readout_px_.y};
+    const Vec2 turned =
+        readout_turn_rad_ == 0 ? undistorted : rotated(undistorted, time * readout_turn_rad_);
+    const Vec2 way = way_at(time);
+    return {turned.x + way.x, turned.y + way.y};
+}
+
+Vec2 Projection::way_at(double time) const {
+    const Vec2 way{time * readout_px_.x, time * readout_px_.y};
+    const double half_rad = time * readout_turn_rad_ / 2;
+    if (half_rad == 0) return way;
+    const Vec2 chord = rotated(way, half_rad);
+    const double shorter = std::sin(half_rad) / half_rad;
+    return {shorter * chord.x, shorter * chord.y};
 }
 
 Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
@@ -106,7 +116,9 @@ Vec2 Projection::offset_from_pixel(Vec2 pixel) const {
     double rx = dx * scale - time * (readout_px_.x / focal_px_);
     double ry = dy * scale - time * (readout_px_.y / focal_px_);
     if (readout_turn_rad_ != 0) {
-        const Vec2 before = rotated({rx, ry}, -time * readout_turn_rad_);
+        const Vec2 way = way_at(time);
+        const Vec2 before = rotated({dx * scale - way.x / focal_px_, dy * scale - way.y / focal_px_},
+                                    -time * readout_turn_rad_);
         rx = before.x;
         ry = before.y;
     }

@@ -30,22 +30,24 @@ inline FloatVec rotated(FloatVec v, UnitVec by) {
 /// to bottom. Points are in px relative to the image centre, so the middle row is row 0. It shows
 /// the scene before any motion.
 ///
-/// The point p of the scene is seen at
+/// The scene moves by drift + rad_per_row (p - axis)', where ' is a turn by a right angle, for each
+/// row that is read. Its point p is seen at
 ///
-///     seen = axis + row drift + R(row rad_per_row) (p - axis), where row = seen.y.
+///     seen = axis + R(row rad_per_row) (p - axis) + way(row), where row = seen.y.
 ///
 /// Without the rotation, it would be seen at p + row drift, an affine map of the scene. The
 /// functions convert between these two images. Without a rotation, both are equal.
 struct ReadoutTurn {
     float rad_per_row = 0;
-    FloatVec axis;   ///< centre of the rotation in the middle row
-    FloatVec drift;  ///< motion of this centre in the image, in px per row
+    FloatVec axis;   ///< the point that the rotation does not move
+    FloatVec drift;  ///< motion of this point in the image, in px per row
 
     /// Returns the point at which the scene that is seen at `seen` would be seen without the
     /// rotation.
     FloatVec without_turn(FloatVec seen) const {
         const float row = seen.y;
-        const FloatVec turned{seen.x - axis.x - row * drift.x, seen.y - axis.y - row * drift.y};
+        const FloatVec moved = way(row);
+        const FloatVec turned{seen.x - axis.x - moved.x, seen.y - axis.y - moved.y};
         const FloatVec p = rotated(turned, small_unit(-rad_per_row * row));
         const float still_row = (p.y + axis.y) / (1 - drift.y);
         return {p.x + axis.x + still_row * drift.x, still_row};
@@ -59,11 +61,22 @@ struct ReadoutTurn {
                          still.y - still.y * drift.y - axis.y};
         for (;; --steps) {
             const FloatVec turned = rotated(p, small_unit(rad_per_row * row));
-            const FloatVec seen{axis.x + row * drift.x + turned.x,
-                                axis.y + row * drift.y + turned.y};
+            const FloatVec moved = way(row);
+            const FloatVec seen{axis.x + moved.x + turned.x, axis.y + moved.y + turned.y};
             if (steps == 0) return seen;
-            row += (seen.y - row) / std::max(1 - drift.y - rad_per_row * turned.x, kMinClosing);
+            const float fall = drift.y + rad_per_row * (seen.x - axis.x);
+            row += (seen.y - row) / std::max(1 - fall, kMinClosing);
         }
+    }
+
+  private:
+    /// Returns the motion of the point `axis` of the scene until a row is read. Its direction
+    /// turns with the scene, so the way is an arc.
+    FloatVec way(float row) const {
+        const float half = rad_per_row * row / 2;
+        const FloatVec chord = rotated(drift, small_unit(half));
+        const float length = row * (1 - half * half / 6);
+        return {length * chord.x, length * chord.y};
     }
 };
 

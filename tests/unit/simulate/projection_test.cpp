@@ -84,10 +84,13 @@ TEST(Projection, ATurningSceneIsSeenInEachRowAtTheAngleOfItsTime) {
             const Vec2 offset_mm{kMm * still_px.x, kMm * still_px.y};
             const Vec2 seen = pixel(rolling, {}, offset_mm);
             const double time = (seen.y - kCentreV) / 120;
-            // As a complex number, the point is multiplied by exp(i turn), and then moved.
+            // The scene turns about a fixed point c of the image, at which the motion and that of
+            // the rotation cancel: 10 + 6 i + i turn c = 0, in complex numbers.
+            const std::complex<double> i(0, 1);
+            const std::complex<double> c = std::complex(10.0, 6.0) * i / radians(turn_deg);
             const std::complex<double> expected =
-                std::complex(still_px.x, still_px.y) * std::polar(1.0, radians(turn_deg) * time) +
-                std::complex(10 * time, 6 * time);
+                c + (std::complex(still_px.x, still_px.y) - c) *
+                        std::polar(1.0, radians(turn_deg) * time);
             expect_near(seen, {kCentreU + expected.real(), kCentreV + expected.imag()}, 1e-6);
             expect_near(Projection(rolling, {}).offset_from_pixel(seen), offset_mm, 1e-6);
         }
