@@ -72,7 +72,7 @@ class SmallMemory {
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory of a Locator for images up to 4096 x 4096 px: about 4.3 MB.
+/// Memory of a Locator for images up to 4096 x 4096 px: about 4.4 MB.
 class LargeMemory {
   public:
     LargeMemory();

@@ -312,8 +312,8 @@ dotpose_status dotpose_prediction_move(dotpose_prediction* prediction, int32_t c
 /* Kinds of locators, with the memory that they need. */
 enum {
     DOTPOSE_KIND_DEVICE = 0, /* microcontrollers: integers only, images up to 188 px wide, 13 KB */
-    DOTPOSE_KIND_SMALL = 1,  /* images up to 188 px wide, 250 KB */
-    DOTPOSE_KIND_LARGE = 2,  /* images up to 4096 x 4096 px, 1.7 MB */
+    DOTPOSE_KIND_SMALL = 1,  /* images up to 188 px wide, 330 KB */
+    DOTPOSE_KIND_LARGE = 2,  /* images up to 4096 x 4096 px, 4.4 MB */
     DOTPOSE_KIND_DEVICE_160X120 = 3, /* like DEVICE, for images up to 160 px wide, 11 KB */
     DOTPOSE_KIND_DEVICE_320X240 = 4  /* like DEVICE, for images up to 320 x 240 px, 23 KB */
 };
