@@ -185,16 +185,15 @@ inline void add_camera_faults(std::vector<Limit>& limits) {
             limits.back().is_held = percent == 10 || !is_device;
         }
         for (const int degrees : {2, 10, 20, 40, 60}) {
-            limits.push_back({"rolling shutter, turned by " + std::to_string(degrees) +
-                                  " degrees while it reads the rows" +
-                                  (is_device ? "" : ", 640 x 480 at 20 px"),
-                              [=](Shot& shot) {
-                                  const double sign = direction_of(shot).x < 0 ? -1 : 1;
-                                  shot.camera.readout_turn_rad =
-                                      sign * degrees * std::numbers::pi / 180;
-                              },
-                              camera});
-            limits.back().is_held = degrees < 60 || !is_device;
+            limits.push_back(
+                {"rolling shutter, turned by " + std::to_string(degrees) +
+                     " degrees while it reads the rows" + (is_device ? "" : ", 640 x 480 at 20 px"),
+                 [=](Shot& shot) {
+                     const double sign = direction_of(shot).x < 0 ? -1 : 1;
+                     shot.camera.readout_turn_rad = sign * degrees * std::numbers::pi / 180;
+                 },
+                 camera});
+            limits.back().is_held = degrees < 40 || !is_device;
         }
         limits.push_back({std::string("rolling shutter, moved by 30 % of the image height and "
                                       "turned by 10 degrees while it reads the rows") +

@@ -172,7 +172,8 @@ std::vector<Field> deviation_fields(const Record& record) {
     };
 }
 
-/// Returns the fields of the camera's velocity and turn rate during the readout of a rolling shutter.
+/// Returns the fields of the camera's velocity and turn rate during the readout of a rolling
+/// shutter.
 std::vector<Field> velocity_fields(const Record& record, Units units) {
     const auto text = [&](bool is_known, double per_s) {
         const double length = units == Units::ros ? 1e-3 : 1;

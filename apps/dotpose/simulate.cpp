@@ -358,9 +358,9 @@ void add_drive_options(Command& command, SimulateArguments& arguments) {
     };
     add("--speed", arguments.drive.speed_mm_s, "MM/S", "Speed of the robot")->needs(drive);
     add("--fps", arguments.drive.fps, "N", "Frames per second of the drive or video");
-    for (const char* fixed :
-         {"--at", "--angle", "--section", "--code", "--spacing", "--dot", "--displacement",
-          "--tilt", "--motion", "--readout", "--readout-turn", "--covered", "--islands", "--table", "--scene"}) {
+    for (const char* fixed : {"--at", "--angle", "--section", "--code", "--spacing", "--dot",
+                              "--displacement", "--tilt", "--motion", "--readout", "--readout-turn",
+                              "--covered", "--islands", "--table", "--scene"}) {
         drive->excludes(command.get_option(fixed));
     }
 }

@@ -26,11 +26,11 @@ constexpr std::size_t kMinPoseDots = 12;
 /// printed + displacement * displaced = place + (c, -s; s, c) (x, y) + t v.
 /// (x, y) is in mm from `middle`. All other lengths are in spacings, corrected for the print scale.
 /// The parameters are place, c, s and the displacement. The displacement is fitted because ink and
-/// blur change it. For a rolling shutter, the motion v and the turn of the camera during the readout
-/// are also fitted. t is the time at which the row of the dot is read, relative to the middle of the
-/// readout, as a fraction of the readout time, from -1/2 to 1/2. With a turn, (x, y) is rotated by
-/// t turn about the reference point, and v, the motion of this point, by t turn / 2: it is the chord
-/// of an arc.
+/// blur change it. For a rolling shutter, the motion v and the turn of the camera during the
+/// readout are also fitted. t is the time at which the row of the dot is read, relative to the
+/// middle of the readout, as a fraction of the readout time, from -1/2 to 1/2. With a turn, (x, y)
+/// is rotated by t turn about the reference point, and v, the motion of this point, by t turn / 2:
+/// it is the chord of an arc.
 constexpr int kParameters = 5;
 constexpr int kMovingParameters = 7;
 constexpr int kTurningParameters = 8;
@@ -88,17 +88,15 @@ PoseFit fit_pose(const std::vector<LocatedDot>& dots, const Camera& camera, cons
                 turn_y = t * (-p[3] * arm.y_mm + p[2] * arm.x_mm) + t * t / 2 * motion.x_mm;
             }
             equations.push_back(
-                {AxisEquation{
-                     {1, 0, x, -y, -print.x * dx(dots[i].symbol), way_x, -way_y, turn_x},
-                     print.x * dots[i].step.x},
+                {AxisEquation{{1, 0, x, -y, -print.x * dx(dots[i].symbol), way_x, -way_y, turn_x},
+                              print.x * dots[i].step.x},
                  AxisEquation{{0, 1, y, x, -print.y * dy(dots[i].symbol), way_y, way_x, turn_y},
                               print.y * dots[i].step.y}});
         }
         return fit_dots(equations, parameters);
     };
     PoseFit fit{{}, middle, camera.readout_ms ? turn_rad : 0};
-    static_cast<DotFit&>(fit) =
-        fit_near(fit, camera.readout_ms ? kMovingParameters : kParameters);
+    static_cast<DotFit&>(fit) = fit_near(fit, camera.readout_ms ? kMovingParameters : kParameters);
     constexpr int kRounds = 4;
     for (int round = 0; camera.readout_ms && round < kRounds; ++round) {
         static_cast<DotFit&>(fit) = fit_near(fit, kTurningParameters);
@@ -150,7 +148,9 @@ ReadoutVelocity velocity_of(const PoseFit& pose, double readout_ms, const AxisSc
     const std::array per_s{1000 / (readout_ms * print.x), 1000 / (readout_ms * print.y),
                            1000 / readout_ms};
     ReadoutVelocity velocity{per_s[0] * pose.parameters[kFirst],
-                             per_s[1] * pose.parameters[kFirst + 1], per_s[2] * pose.turn_rad, {}};
+                             per_s[1] * pose.parameters[kFirst + 1],
+                             per_s[2] * pose.turn_rad,
+                             {}};
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
             velocity.covariance[i][j] =

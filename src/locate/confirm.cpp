@@ -323,8 +323,8 @@ Confirmation finish(const Kernels& kernels, const ImageView& image, const Device
     FloatPlane& plane = hypothesis.pattern_from_image;
     const FloatVec bias_px2 = fit_without_bias(kernels, reader, view, image, hypothesis, fit);
     const FloatVec reference = reference_px(options, hypothesis);
-    if (w.rolling.is_fitted && !fit_turn(kernels, w.rolling.turn, reference, w.measured, plane, fit,
-                                         w.rolling.fit)) {
+    if (w.rolling.is_fitted &&
+        !fit_turn(kernels, w.rolling.turn, reference, w.measured, plane, fit, w.rolling.fit)) {
         return Confirmation::implausible;
     }
     fit_uneven(kernels, w.measured, reference, plane, fit);

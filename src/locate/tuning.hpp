@@ -36,6 +36,8 @@ namespace turning {
 /// side of the image while a row is read, in rows.
 inline constexpr float kMaxTurn_rad = 1.2F;
 inline constexpr float kMaxFall = 0.95F;
+/// Maximum motion of the scene while a row is read, in rows.
+inline constexpr float kMaxDrift = 0.9F;
 /// Step of the search for the rotation: the distance by which the dots in the corners of the patch
 /// move, in spacings. Fraction of this step at which the search ends.
 inline constexpr float kStep = 0.4F;

@@ -27,7 +27,8 @@ bool has_room(const ImageView& image, const DesktopWorkspace& w) {
 /// differs by a motion, which is part of the drift.
 FloatVec axis_of(const FixedLens& lens) {
     if (lens.k_q40 == 0) return {};
-    return {static_cast<float>(lens.centre_dx_q8) / 256, static_cast<float>(lens.centre_dy_q8) / 256};
+    return {static_cast<float>(lens.centre_dx_q8) / 256,
+            static_cast<float>(lens.centre_dy_q8) / 256};
 }
 
 /// Returns the maximum rotation, in rad per row. At faster rotations, the scene moves down nearly
@@ -49,13 +50,23 @@ float distance(FloatVec a, FloatVec b) {
     return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y));
 }
 
+/// Returns true if rotation and drift are in range. Returns false if either is NaN.
+bool is_possible(const ReadoutTurn& turn, const ImageView& image) {
+    return std::abs(turn.rad_per_row) <= max_rad_per_row(image) &&
+           std::abs(turn.drift.x) <= tuned::kMaxDrift && std::abs(turn.drift.y) <= tuned::kMaxDrift;
+}
+
 /// Searches for the rotation at which the dots of a patch agree best with a grid.
 class TurnSearch {
   public:
     /// The dots in the patch must be undistorted.
     TurnSearch(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                const PatchView& view, DesktopWorkspace& w)
-        : kernels_(kernels), view_(view), patch_(*w.patch), seen_(w.patch->dots),
+        : kernels_(kernels),
+          image_(image),
+          view_(view),
+          patch_(*w.patch),
+          seen_(w.patch->dots),
           middle_(middle_of(*w.patch, image)) {
         turn_.axis = axis_of(options.lens);
         step_ = tuned::kStep * view.spacing_px /
@@ -64,8 +75,8 @@ class TurnSearch {
 
     float step() const { return step_; }
 
-    /// Searches from a rotation in ever smaller steps. Returns false if the dots form no grid at the
-    /// first rotation.
+    /// Searches from a rotation in ever smaller steps. Returns false if the dots form no grid at
+    /// the first rotation.
     bool climb(float rad_per_row, FloatVec drift) {
         turn_.rad_per_row = rad_per_row;
         turn_.drift = drift;
@@ -85,8 +96,7 @@ class TurnSearch {
   private:
     bool fits(const ReadoutTurn& turn, PatchGrid& grid) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(seen_.count); ++i) {
-            const FloatVec at =
-                turn.without_turn({seen_.x[i] + middle_.x, seen_.y[i] + middle_.y});
+            const FloatVec at = turn.without_turn({seen_.x[i] + middle_.x, seen_.y[i] + middle_.y});
             patch_.dots.x[i] = at.x - middle_.x;
             patch_.dots.y[i] = at.y - middle_.y;
         }
@@ -99,13 +109,16 @@ class TurnSearch {
         turn.rad_per_row += step;
         turn.drift = drift_of(grid_.grid_from_image);
         PatchGrid grid;
-        if (!fits(turn, grid) || grid.agreement <= tuned::kBetter * grid_.agreement) return false;
+        if (!is_possible(turn, image_) || !fits(turn, grid) ||
+            grid.agreement <= tuned::kBetter * grid_.agreement)
+            return false;
         turn_ = turn;
         grid_ = grid;
         return true;
     }
 
     const Kernels& kernels_;
+    const ImageView& image_;
     PatchView view_;
     Patch& patch_;
     PatchDots seen_;
@@ -142,8 +155,7 @@ bool is_significant(const TurnFit& fit, int dots, Surface surface) {
 /// Calls `locate(view)` with the image without the rotation, and fits the rotation to the measured
 /// dots. Repeats both until the rotation no longer changes. Sets `turn` to the rotation.
 template <typename Locate>
-Confirmation settle(const ImageView& image, DesktopWorkspace& w, ReadoutTurn& turn,
-                    Locate locate) {
+Confirmation settle(const ImageView& image, DesktopWorkspace& w, ReadoutTurn& turn, Locate locate) {
     RollingImage& rolling = w.rolling;
     const float corner_px = corner_px_per_turn(image.width_px, image.height_px);
     Confirmation confirmation = Confirmation::implausible;
@@ -156,7 +168,7 @@ Confirmation settle(const ImageView& image, DesktopWorkspace& w, ReadoutTurn& tu
         if (confirmation != Confirmation::ok) return confirmation;
         const ReadoutTurn before = turn;
         turn = rolling.fit.turn;
-        if (!(std::abs(turn.rad_per_row) <= max_rad_per_row(image))) break;
+        if (!is_possible(turn, image)) break;
         const float moved = std::abs(turn.rad_per_row - before.rad_per_row) +
                             std::abs(turn.rad_per_row) * distance(turn.drift, before.drift);
         if (moved * corner_px < tuned::kSettled_px) return Confirmation::ok;
@@ -235,8 +247,8 @@ bool shows_turn(const Kernels& kernels, const ImageView& image, const DeviceOpti
                 DesktopWorkspace& w) {
     const Fix& fix = w.fix;
     if ((fix.surface == Surface::even && !is_rough(fix)) || !has_room(image, w)) return false;
-    // If the dots were measured around another point than the image centre, only the search can show
-    // whether there is a rotation.
+    // If the dots were measured around another point than the image centre, only the search can
+    // show whether there is a rotation.
     if (!(fix.pattern_from_image.centre_q8 == w.pattern_from_image.centre_q8)) return is_rough(fix);
     // The plane is fitted again, because the fix may be that of one side of a divided sheet.
     const float displacement = static_cast<float>(fix.displacement_q16) / 65536;
@@ -258,8 +270,7 @@ bool locate_turning(const Kernels& kernels, const ImageView& image, const Device
     for (const int scale : {1, 2, 4}) {
         if (!place_patch(image, {image.width_px / 2, image.height_px / 2}, scale, w)) break;
         if (!find_patch_dots(kernels, image, options, w)) continue;
-        const Confirmation confirmation =
-            locate_turning_in_patch(kernels, image, options, w, turn);
+        const Confirmation confirmation = locate_turning_in_patch(kernels, image, options, w, turn);
         if (confirmation == Confirmation::ok) {
             w.fix.attempt = Attempt::first;
             return true;
@@ -278,7 +289,7 @@ bool locate_tracked_turning(const Kernels& kernels, const ImageView& image,
     turn.axis = axis_of(options.lens);
     turn.rad_per_row = -prediction.readout_turn_rad / static_cast<float>(image.height_px);
     turn.drift = drift_of(float_plane(prediction.pattern_from_image));
-    if (!(std::abs(turn.rad_per_row) <= max_rad_per_row(image))) return false;
+    if (!is_possible(turn, image)) return false;
     Prediction next = prediction;
     const Confirmation confirmation = settle(image, w, turn, [&](const ImageView& still) {
         const bool is_located = locate_tracked(kernels, still, options, next, w);

@@ -169,8 +169,8 @@ class WorkspaceOf : public DesktopWorkspace {
     // A run may begin at every second pixel, and each run may begin a blob.
     static constexpr int kRuns = MaxWidth / 2 + 2;
 
-    // Size of the largest image that can be pushed row by row, or can be turned: 188 x 188 px for the sensor of the
-    // paper, otherwise 1280 x 1024 px.
+    // Size of the largest image that can be pushed row by row, or can be turned: 188 x 188 px for
+    // the sensor of the paper, otherwise 1280 x 1024 px.
     static constexpr std::size_t kPushed_px = std::min(MaxWidth * MaxWidth, 1280 * 1024);
 
     // Maximum number of lines that cross an image at any angle.

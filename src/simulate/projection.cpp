@@ -117,8 +117,9 @@ Vec2 Projection::offset_from_pixel(Vec2 pixel) const {
     double ry = dy * scale - time * (readout_px_.y / focal_px_);
     if (readout_turn_rad_ != 0) {
         const Vec2 way = way_at(time);
-        const Vec2 before = rotated({dx * scale - way.x / focal_px_, dy * scale - way.y / focal_px_},
-                                    -time * readout_turn_rad_);
+        const Vec2 before =
+            rotated({dx * scale - way.x / focal_px_, dy * scale - way.y / focal_px_},
+                    -time * readout_turn_rad_);
         rx = before.x;
         ry = before.y;
     }

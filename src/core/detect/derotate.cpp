@@ -54,8 +54,7 @@ ImageView derotated(const ImageView& image, const ReadoutTurn& turn,
         for (int u = 0; u < image.width_px; u += kStep_px) {
             const float x = static_cast<float>(u) - centre_u;
             const FloatVec middle = turn.seen_from({x + kStep_px / 2, y}, first.y + down, 1);
-            const FloatVec last =
-                turn.seen_from({x + kStep_px, y}, 2 * middle.y - first.y, 1);
+            const FloatVec last = turn.seen_from({x + kStep_px, y}, 2 * middle.y - first.y, 1);
             down = last.y - middle.y;
             const auto to_q8 = [](float px, float centre_px) {
                 return (px + centre_px) * kUnit + 0.5F;

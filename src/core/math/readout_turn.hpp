@@ -14,9 +14,10 @@ struct UnitVec {
     float sin = 0;
 };
 
-/// Returns the unit vector of an angle from -1 to 1 rad, with an error of at most 3e-6. Unlike the
-/// functions of the C library, gives the same bits on every processor.
+/// Returns the unit vector of an angle, which is clamped to -1 to 1 rad, with an error of at most
+/// 3e-6. Unlike the functions of the C library, gives the same bits on every processor.
 inline UnitVec small_unit(float rad) {
+    rad = std::clamp(rad, -1.0F, 1.0F);
     const float q = rad * rad;
     return {1 - q * (1.0F / 2 - q * (1.0F / 24 - q * (1.0F / 720 - q / 40320))),
             rad * (1 - q * (1.0F / 6 - q * (1.0F / 120 - q / 5040)))};
@@ -40,7 +41,7 @@ inline FloatVec rotated(FloatVec v, UnitVec by) {
 struct ReadoutTurn {
     float rad_per_row = 0;
     FloatVec axis;   ///< the point that the rotation does not move
-    FloatVec drift;  ///< motion of this point in the image, in px per row
+    FloatVec drift;  ///< motion of this point in the image, in px per row; below 1 down
 
     /// Returns the point at which the scene that is seen at `seen` would be seen without the
     /// rotation.
@@ -57,6 +58,7 @@ struct ReadoutTurn {
     /// the scene moves down. `row` is the approximate row of the result.
     FloatVec seen_from(FloatVec still, float row, int steps) const {
         constexpr float kMinClosing = 0.05F;
+        constexpr float kMaxRow = 4096;  // beyond every image
         const FloatVec p{still.x - still.y * drift.x - axis.x,
                          still.y - still.y * drift.y - axis.y};
         for (;; --steps) {
@@ -65,7 +67,8 @@ struct ReadoutTurn {
             const FloatVec seen{axis.x + moved.x + turned.x, axis.y + moved.y + turned.y};
             if (steps == 0) return seen;
             const float fall = drift.y + rad_per_row * (seen.x - axis.x);
-            row += (seen.y - row) / std::max(1 - fall, kMinClosing);
+            row = std::clamp(row + (seen.y - row) / std::max(1 - fall, kMinClosing), -kMaxRow,
+                             kMaxRow);
         }
     }
 

@@ -118,9 +118,10 @@ TEST(Turning, EveryFrameOfADriveIsTracked) {
             shot.camera.readout_px = {-drive.motion * kLarge.height_px, 0};
             const std::int64_t time_us = std::int64_t{i} * 20'000;
             const GreyImage image = render(shot);
-            const Fix fix = i < kFresh ? locator.locate(image.view())
-                                  : locator.locate(image.view(), tracker.predict(time_us, last, seen,
-                                                                                 DeviceOptions{}));
+            const Fix fix =
+                i < kFresh ? locator.locate(image.view())
+                           : locator.locate(image.view(),
+                                            tracker.predict(time_us, last, seen, DeviceOptions{}));
             ASSERT_EQ(fix.status, Status::ok) << drive.motion << ", frame " << i;
             EXPECT_TRUE(is_right(fix, shot));
             if (i >= kFresh) {
@@ -129,8 +130,7 @@ TEST(Turning, EveryFrameOfADriveIsTracked) {
             last = fix;
             seen = sighting_of(fix, time_us);
             tracker.update(time_us, &seen);
-            const double step =
-                kIntervals * drive.motion * kLarge.height_px / kLarge.spacing_px;
+            const double step = kIntervals * drive.motion * kLarge.height_px / kLarge.spacing_px;
             const double along = theta + kIntervals * drive.turn_deg * kDegree / 2;
             x += step * std::cos(along);
             y += step * std::sin(along);

@@ -88,9 +88,8 @@ TEST(Projection, ATurningSceneIsSeenInEachRowAtTheAngleOfItsTime) {
             // the rotation cancel: 10 + 6 i + i turn c = 0, in complex numbers.
             const std::complex<double> i(0, 1);
             const std::complex<double> c = std::complex(10.0, 6.0) * i / radians(turn_deg);
-            const std::complex<double> expected =
-                c + (std::complex(still_px.x, still_px.y) - c) *
-                        std::polar(1.0, radians(turn_deg) * time);
+            const std::complex<double> expected = c + (std::complex(still_px.x, still_px.y) - c) *
+                                                          std::polar(1.0, radians(turn_deg) * time);
             expect_near(seen, {kCentreU + expected.real(), kCentreV + expected.imag()}, 1e-6);
             expect_near(Projection(rolling, {}).offset_from_pixel(seen), offset_mm, 1e-6);
         }
@@ -100,7 +99,8 @@ TEST(Projection, ATurningSceneIsSeenInEachRowAtTheAngleOfItsTime) {
 TEST(Projection, ADotToTheRightOfAClockwiseTurnIsSeenLower) {
     // At row v, the scene has turned by v / 120 of a radian. The point (60, 0) is seen at the row
     // with v = 60 sin(v / 120), that is at v = 0. The point (60, 10) solves
-    // v = 60 sin(v / 120) + 10 cos(v / 120), with the root v = 19.6450 found by iterating this equation.
+    // v = 60 sin(v / 120) + 10 cos(v / 120), with the root v = 19.6450 found by iterating this
+    // equation.
     CameraModel rolling;
     rolling.readout_turn_rad = 1;
     expect_near(pixel(rolling, {}, {60 * kMm, 0}), {kCentreU + 60, kCentreV}, 1e-9);

@@ -1,5 +1,7 @@
 // Tests the removal of the rotation during the readout from images and points, against the
 // simulated camera.
+#include "core/detect/derotate.hpp"
+
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -7,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/detect/derotate.hpp"
 #include "dotpose/tools/simulate.hpp"
 
 namespace dotpose::core_test {
@@ -24,9 +25,7 @@ CameraModel turning_camera(double turn_rad, Vec2 readout_px) {
 }
 
 core::ReadoutTurn turn_of(const CameraModel& camera) {
-    const auto per_row = [&](double value) {
-        return static_cast<float>(value / camera.height_px);
-    };
+    const auto per_row = [&](double value) { return static_cast<float>(value / camera.height_px); };
     return {per_row(camera.readout_turn_rad),
             {},
             {per_row(camera.readout_px.x), per_row(camera.readout_px.y)}};
