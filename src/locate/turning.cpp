@@ -74,6 +74,8 @@ class TurnSearch {
     }
 
     float step() const { return step_; }
+    /// Accepts cells that are any parallelograms, or only cells that are about square.
+    void accept_skewed(bool is_skewed) { view_.is_skewed = is_skewed; }
 
     /// Searches from a rotation in ever smaller steps. Returns false if the dots form no grid at
     /// the first rotation.
@@ -194,13 +196,12 @@ Confirmation confirm_turning(const Kernels& kernels, const ImageView& image,
     return Confirmation::ok;
 }
 
-/// Searches the patch for a grid, first at the rotation `turn` and then at rotations of increasing
-/// size, until a grid has a place in the code. Sets `turn` to the rotation of this grid. Returns
-/// false if there is no such grid.
+/// Searches for a grid, first at the rotation `turn` and then at rotations of increasing size,
+/// until a grid has a place in the code. Sets `turn` to the rotation of this grid. Returns false if
+/// there is no such grid.
 bool find_turning_hypothesis(const Kernels& kernels, const ImageView& image,
-                             const DeviceOptions& options, const PatchView& view,
-                             DesktopWorkspace& w, ReadoutTurn& turn, Hypothesis& hypothesis) {
-    TurnSearch search(kernels, image, options, view, w);
+                             const DeviceOptions& options, TurnSearch& search, DesktopWorkspace& w,
+                             ReadoutTurn& turn, Hypothesis& hypothesis) {
     const FloatVec middle = middle_of(*w.patch, image);
     const float max = max_rad_per_row(image);
     int climbs_left = tuned::kMaxClimbs;
@@ -230,12 +231,11 @@ Confirmation locate_turning_in_patch(const Kernels& kernels, const ImageView& im
     if (options.lens.k_q40 != 0) undistort(options.lens, middle_of(*w.patch, image), dots);
     PatchView view = whole_view(*w.patch);
     view.min_dots = min_dots(options, w);
-    const PatchDots seen = dots;
+    TurnSearch search(kernels, image, options, view, w);
     for (const bool is_skewed : {false, true}) {
-        dots = seen;
-        view.is_skewed = is_skewed;
+        search.accept_skewed(is_skewed);
         Hypothesis hypothesis;
-        if (find_turning_hypothesis(kernels, image, options, view, w, turn, hypothesis))
+        if (find_turning_hypothesis(kernels, image, options, search, w, turn, hypothesis))
             return confirm_turning(kernels, image, options, hypothesis, turn, w);
     }
     return Confirmation::implausible;
