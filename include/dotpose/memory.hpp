@@ -62,7 +62,7 @@ class DeviceMemoryFor : public AnyDeviceMemory {
 };
 
 /// Memory of a Locator for images up to 188 px wide, such as images of the paper's sensor: about
-/// 290 KB.
+/// 330 KB.
 class SmallMemory {
   public:
     SmallMemory();
@@ -71,12 +71,12 @@ class SmallMemory {
 
   private:
     friend class Locator;
-    static constexpr std::size_t kBytes = 284 * 1024;
+    static constexpr std::size_t kBytes = 320 * 1024;
     core::DesktopWorkspace* workspace_;
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory of a Locator for images up to 4096 x 4096 px: about 3 MB.
+/// Memory of a Locator for images up to 4096 x 4096 px: about 4.4 MB.
 class LargeMemory {
   public:
     LargeMemory();
@@ -85,7 +85,7 @@ class LargeMemory {
 
   private:
     friend class Locator;
-    static constexpr std::size_t kBytes = 3000 * 1024;
+    static constexpr std::size_t kBytes = 4280 * 1024;
     core::DesktopWorkspace* workspace_;
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };

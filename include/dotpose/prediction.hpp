@@ -33,6 +33,9 @@ struct Prediction {
     /// Standard deviation of the angle, as a binary angle: 2^31 is half a turn. Default: 1.4
     /// degrees. The search does not use this value; it always covers rotations of up to 4 degrees.
     std::int32_t sigma_theta_bam = 1 << 24;
+    /// Change of theta during the readout of a rolling shutter; see Fix. A DeviceLocator ignores
+    /// this value.
+    float readout_turn_rad = 0;
 
     /// Returns the prediction for a camera that does not move after the frame of `fix`. The fix
     /// must be ok.

@@ -13,6 +13,7 @@
 #include "core/pose/float_fit.hpp"
 #include "core/pose/subgrid.hpp"
 #include "core/pose/tuning.hpp"
+#include "core/pose/turn_fit.hpp"
 #include "core/pose/uneven.hpp"
 #include "core/steps.hpp"
 #include "locate/dot_reader.hpp"
@@ -223,6 +224,13 @@ void add_variance(FloatVec px2, const FloatPlane& plane, PoseFit& fit) {
     }
 }
 
+void add_covariance(const std::array<std::array<float, 3>, 3>& covariance, PoseFit& fit) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j)
+            fit.uneven[i][j] += covariance[i][j];
+    }
+}
+
 void write_fix(const ImageView& image, const DeviceOptions& options, const Hypothesis& hypothesis,
                const BitsRead& bits, const PoseFit& fit, DesktopWorkspace& w) {
     w.fix.dots_seen = bits.seen;
@@ -315,8 +323,14 @@ Confirmation finish(const Kernels& kernels, const ImageView& image, const Device
                     Hypothesis& hypothesis, PoseFit& fit, DesktopWorkspace& w) {
     FloatPlane& plane = hypothesis.pattern_from_image;
     const FloatVec bias_px2 = fit_without_bias(kernels, reader, view, image, hypothesis, fit);
-    fit_uneven(kernels, w.measured, reference_px(options, hypothesis), plane, fit);
+    const FloatVec reference = reference_px(options, hypothesis);
+    if (w.rolling.is_fitted &&
+        !fit_turn(kernels, w.rolling.turn, reference, w.measured, plane, fit, w.rolling.fit)) {
+        return Confirmation::implausible;
+    }
+    fit_uneven(kernels, w.measured, reference, plane, fit);
     add_variance(bias_px2, plane, fit);
+    if (w.rolling.is_fitted) add_covariance(w.rolling.fit.pose_covariance, fit);
     if (!is_plausible(image, plane)) return Confirmation::implausible;
     if (is_implausible(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))
         return Confirmation::uncertain;

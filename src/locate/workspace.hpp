@@ -8,8 +8,10 @@
 #include <span>
 
 #include "core/detect/smooth.hpp"
+#include "core/math/readout_turn.hpp"
 #include "core/other_codes.hpp"
 #include "core/patch_memory.hpp"
+#include "core/pose/turn_fit.hpp"
 #include "core/workspace.hpp"
 #include "device/workspace.hpp"
 #include "dotpose/image.hpp"
@@ -54,6 +56,15 @@ struct PushedImage {
     }
 };
 
+/// An image of a rolling shutter without the rotation of the scene during the readout, and the fit
+/// of this rotation.
+struct RollingImage {
+    std::span<std::uint8_t> memory;
+    bool is_fitted = false;  ///< true if `confirm` fits the rotation
+    ReadoutTurn turn;        ///< rotation that was removed from the image
+    TurnFit fit;             ///< fitted by the last `confirm`, if `is_fitted` is true
+};
+
 /// Memory of a Locator: the memory of a DeviceLocator, and the memory that only a Locator needs.
 struct DesktopWorkspace : DeviceWorkspace {
     Patch* patch = nullptr;
@@ -64,6 +75,7 @@ struct DesktopWorkspace : DeviceWorkspace {
     OtherCodes other_codes;
     EarlierBits earlier;
     PushedImage pushed;
+    RollingImage rolling;
     bool is_mirrored = false;  ///< true if an attempt found the mirrored code
 
     /// Sets the known sheets. On known sheets, smaller images and patches can be located.
@@ -101,6 +113,7 @@ class WorkspaceOf : public DesktopWorkspace {
         max_width_px = MaxWidth;
         keeps_every_stage = true;
         pushed.memory = pushed_;
+        rolling.memory = rolling_;
         patch = &patch_;
         measured.column = floats_[0];
         measured.row = floats_[1];
@@ -152,8 +165,8 @@ class WorkspaceOf : public DesktopWorkspace {
     // A run may begin at every second pixel, and each run may begin a blob.
     static constexpr int kRuns = MaxWidth / 2 + 2;
 
-    // Size of the largest image that can be pushed row by row: 188 x 188 px for the sensor of the
-    // paper, otherwise 1280 x 1024 px.
+    // Size of the largest image that can be pushed row by row, or can be turned: 188 x 188 px for
+    // the sensor of the paper, otherwise 1280 x 1024 px.
     static constexpr std::size_t kPushed_px = std::min(MaxWidth * MaxWidth, 1280 * 1024);
 
     // Maximum number of lines that cross an image at any angle.
@@ -189,6 +202,7 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<ComparedLine, 2 * kMaxComparedLines> tracked_lines_{};
     std::array<TrackedRow, kMaxComparedLines> grid_rows_{};
     std::array<std::uint8_t, kPushed_px> pushed_;
+    std::array<std::uint8_t, kPushed_px> rolling_;
 };
 
 /// Workspace for the 188 x 120 px sensor of the paper.

@@ -203,7 +203,7 @@ enum {
     DOTPOSE_PRIOR_ONLY_SHEETS = 2
 };
 
-/* The pose computed from one frame, with its evidence: 248 bytes. The members are listed in
+/* The pose computed from one frame, with its evidence: 256 bytes. The members are listed in
  * include/dotpose/fix_fields.def.
  *
  * The pose is the pattern position at the reference point of the image, by default the image
@@ -273,6 +273,11 @@ typedef struct dotpose_fix {
     /* Number of frames whose bits determined the position; more than 1 only if the motion between
      * the frames was given. */
     int32_t frames; /* 244 */
+    /* Change of theta during the readout of a rolling shutter, from the first to the last row, if
+     * the frame shows a significant rotation. */
+    float readout_turn_rad; /* 248 */
+    /* Zero. */
+    int32_t reserved; /* 252 */
 } dotpose_fix;
 
 /* Sets up a fix before the first call that writes to it. `bytes` is sizeof(dotpose_fix) in the
@@ -280,13 +285,14 @@ typedef struct dotpose_fix {
  * size does not match any version. */
 dotpose_status dotpose_fix_init(dotpose_fix* fix, size_t bytes);
 
-/* Expected position of the pattern in the next frame: 72 bytes. */
+/* Expected position of the pattern in the next frame: 76 bytes. */
 typedef struct dotpose_prediction {
     dotpose_plane pattern_from_image; /*  0 */
     dotpose_place place;              /* 44 */
     int32_t displacement_q16;         /* 60 */
     int32_t sigma_q16;                /* 64: standard deviation of x and of y, in spacings */
     int32_t sigma_theta_bam;          /* 68: standard deviation of theta */
+    float readout_turn_rad;           /* 72: change of theta during the readout of a frame */
 } dotpose_prediction;
 
 /* Returns a prediction that the next frame has the same pose as `fix`. A frame that confirms its
@@ -306,8 +312,8 @@ dotpose_status dotpose_prediction_move(dotpose_prediction* prediction, int32_t c
 /* Kinds of locators, with the memory that they need. */
 enum {
     DOTPOSE_KIND_DEVICE = 0, /* microcontrollers: integers only, images up to 188 px wide, 13 KB */
-    DOTPOSE_KIND_SMALL = 1,  /* images up to 188 px wide, 290 KB */
-    DOTPOSE_KIND_LARGE = 2,  /* images up to 4096 x 4096 px, 3 MB */
+    DOTPOSE_KIND_SMALL = 1,  /* images up to 188 px wide, 330 KB */
+    DOTPOSE_KIND_LARGE = 2,  /* images up to 4096 x 4096 px, 4.4 MB */
     DOTPOSE_KIND_DEVICE_160X120 = 3, /* like DEVICE, for images up to 160 px wide, 11 KB */
     DOTPOSE_KIND_DEVICE_320X240 = 4, /* like DEVICE, for images up to 320 x 240 px, 23 KB */
     /* Like DEVICE, for images up to 36 px wide, of optical mice, on known sheets only, 5 KB. */

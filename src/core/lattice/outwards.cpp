@@ -271,6 +271,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     // still be read if the final reach is at least 5 spacings.
     if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
+    grid.agreement = sums.used * pass.max_off * pass.max_off - sums.squares;
     return true;
 }
 
