@@ -11,6 +11,6 @@ namespace dotpose::core {
 /// places at which the 3 or 4 digits between these lines occur. The sum contains the odds of an
 /// alternative more than once if it shares more lines. A hopeless alternative
 /// (`LikelihoodRatios::is_hopeless`) contributes kNegligible.
-float sum_of_near_alternatives(const RankedLines& lines, int shared_lines);
+float sum_of_near_alternatives(const Kernels& kernels, const RankedLines& lines, int shared_lines);
 
 }  // namespace dotpose::core

@@ -20,8 +20,9 @@ namespace dotpose::core {
 /// uses the odds from alternatives.hpp for the axes in doubt. `others` contains the number of
 /// possible codes, and may be null if the code is given. Errors: not_certain, if the probability
 /// exceeds the limit or too many bits contradict the position.
-Status verify(const Grid& grid, CodeVariant code, const OtherCodes* others, Decoding& decoding,
-              const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
+Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const OtherCodes* others,
+              Decoding& decoding, const IntegrityOptions& options, std::span<ScoredLine> storage,
+              Fix& fix);
 
 /// Variant of `verify` that uses only integers and takes bounded time. Uses only the odds of the
 /// alternatives from quick_alternatives.hpp, so it refuses more positions. Returns the same errors
