@@ -127,7 +127,7 @@ Confirmation locate_around(const Kernels& kernels, const ImageView& image,
         if (find_hypothesis_around(kernels, image, options, around_px, scale, w, densest_px,
                                    hypothesis)) {
             const auto confirmation = confirm(kernels, image, options, hypothesis, w);
-            tries_left -= confirmation == Confirmation::uncertain ? 1 : 0;
+            tries_left -= confirmation == Confirmation::implausible ? 0 : 1;
             return confirmation;
         }
         const bool is_other_patch =
@@ -166,8 +166,12 @@ Confirmation locate_outwards(const Kernels& kernels, const ImageView& image,
         if (!place_patch(image, {image.width_px / 2, image.height_px / 2}, scale, w)) break;
         const Confirmation confirmation = locate_in_middle(kernels, image, options, w);
         if (confirmation == Confirmation::ok) return confirmation;
+        // Other patches of the same dots give the same bits.
+        const bool is_whole_image =
+            w.patch->width_px == image.width_px && w.patch->height_px == image.height_px;
+        if (confirmation == Confirmation::too_few_bits && is_whole_image) return confirmation;
         find_mirror_image(kernels, options, w);
-        if (confirmation == Confirmation::uncertain) break;
+        if (confirmation != Confirmation::implausible) break;
     }
     return locate_elsewhere(kernels, image, options, w);
 }
@@ -178,6 +182,7 @@ bool locate_first(const Kernels& kernels, const ImageView& image, const DeviceOp
                   DesktopWorkspace& w) {
     forget_frame(w);
     w.fix.status = Status::no_contrast;
+    w.shows_too_few_cells = false;
     Confirmation confirmation = locate_outwards(kernels, image, options, w);
     if (confirmation != Confirmation::ok && w.earlier.has_earlier()) {
         w.earlier.is_joining = true;
@@ -186,7 +191,8 @@ bool locate_first(const Kernels& kernels, const ImageView& image, const DeviceOp
         if (together == Confirmation::ok) confirmation = together;
     }
     w.fix.attempt = Attempt::first;
-    if (confirmation == Confirmation::uncertain) w.fix.status = Status::not_certain;
+    if (confirmation == Confirmation::uncertain || confirmation == Confirmation::too_few_bits)
+        w.fix.status = w.shows_too_few_cells ? Status::grid_too_small : Status::not_certain;
     return confirmation == Confirmation::ok;
 }
 

@@ -115,6 +115,7 @@ class Cascade {
                 if (!doubtful) doubtful = in_doubt(code, judgement);
             }
             if (doubtful && doubtful->fix.status == Status::ambiguous_code) break;
+            if (w_.shows_too_few_cells) break;
         }
         if (!doubtful)
             doubtful = CodeReading{failure.value_or(Fix{}), codes_.likeliest(), evidence_};

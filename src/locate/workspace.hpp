@@ -77,6 +77,9 @@ struct DesktopWorkspace : DeviceWorkspace {
     PushedImage pushed;
     RollingImage rolling;
     bool is_mirrored = false;  ///< true if an attempt found the mirrored code
+    /// True if the first attempt found fewer cells than a position needs to be certain without
+    /// known sheets.
+    bool shows_too_few_cells = false;
 
     /// Sets the known sheets. On known sheets, smaller images and patches can be located.
     void set_known(const KnownSheets& sheets) {

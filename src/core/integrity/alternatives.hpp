@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
+#include "core/kernels/kernels.hpp"
 
 namespace dotpose::core {
 
@@ -11,6 +12,6 @@ namespace dotpose::core {
 /// and share few adjacent lines. A far alternative contributes either its individual odds or its
 /// expected odds. All other odds in the sum are exact or upper bounds. The sum is only as precise
 /// as a comparison with 2^limit_log2 requires. Returns 0 if there are at most 5 lines.
-int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2 = 0);
+int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2 = 0);
 
 }  // namespace dotpose::core

@@ -20,6 +20,7 @@ namespace dotpose::core {
 ///
 /// If the remainder exceeds `max_odds`, the fix will be refused. In this case, returns the
 /// remainder without evaluating any pairs.
-float sum_of_double_alternatives(const RankedLines& lines, float negligible, float max_odds);
+float sum_of_double_alternatives(const Kernels& kernels, const RankedLines& lines, float expected,
+                                 float negligible, float max_odds);
 
 }  // namespace dotpose::core

@@ -15,7 +15,8 @@ inline constexpr int kMinFound = 7;
 
 /// Returns, for each n, the expected sum of the odds of all double alternatives that share fewer
 /// than n anchors. The anchors are the lines of ranks 0 to `anchors` - 1.
-std::array<float, kMinFound + 1> expected_double_alternatives(const RankedLines& lines,
+std::array<float, kMinFound + 1> expected_double_alternatives(const Kernels& kernels,
+                                                              const RankedLines& lines,
                                                               int anchors);
 
 }  // namespace dotpose::core

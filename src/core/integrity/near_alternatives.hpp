@@ -7,10 +7,10 @@
 namespace dotpose::core {
 
 /// Returns an upper bound on the summed odds of all alternatives that share at least `shared_lines`
-/// (4 or 5) adjacent lines. For each run of `shared_lines` lines, combines the places in the four
-/// secondary sequences that have the digits of the reading in all steps of the run. An alternative
-/// that shares a longer run is included once for each run of `shared_lines` lines that it shares. A
-/// hopeless alternative (`LikelihoodRatios::is_hopeless`) contributes kNegligible.
-float sum_of_near_alternatives(const RankedLines& lines, int shared_lines);
+/// (4 or 5) adjacent lines. Enumerates the alternatives by finding, in each secondary sequence, all
+/// places at which the 3 or 4 digits between these lines occur. The sum contains the odds of an
+/// alternative more than once if it shares more lines. A hopeless alternative
+/// (`LikelihoodRatios::is_hopeless`) contributes kNegligible.
+float sum_of_near_alternatives(const Kernels& kernels, const RankedLines& lines, int shared_lines);
 
 }  // namespace dotpose::core

@@ -16,13 +16,13 @@ namespace dotpose::core {
 
 /// Sets `bit_errors` and `p_wrong_log2` of the fix, and `bits` and `p_wrong_log2_q8` of the
 /// decoding. The probability includes chance, alternatives and seams. First uses the odds of the
-/// alternatives from quick_alternatives.hpp. If the probability then exceeds min(limit, 2^-30),
-/// uses the odds from alternatives.hpp for each axis whose probability exceeds a sixteenth of this
-/// minimum. `others` contains the number of possible codes, and may be null if the code is given.
-/// Errors: not_certain, if the probability exceeds the limit or too many bits contradict the
-/// position.
-Status verify(const Grid& grid, CodeVariant code, const OtherCodes* others, Decoding& decoding,
-              const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
+/// alternatives from quick_alternatives.hpp. If the probability then exceeds the limit or 2^-30,
+/// uses the odds from alternatives.hpp for the axes in doubt. `others` contains the number of
+/// possible codes, and may be null if the code is given. Errors: not_certain, if the probability
+/// exceeds the limit or too many bits contradict the position.
+Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const OtherCodes* others,
+              Decoding& decoding, const IntegrityOptions& options, std::span<ScoredLine> storage,
+              Fix& fix);
 
 /// Variant of `verify` that uses only integers and takes bounded time. Uses only the odds of the
 /// alternatives from quick_alternatives.hpp, so it refuses more positions. Returns the same errors
