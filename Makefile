@@ -90,9 +90,9 @@ endif
 # With ARGS=--quick: Cortex-M0+ only.
 cores = cortex-m0plus $(if $(findstring --quick,$(ARGS)),,mips32r2)
 budget: $(RELEASE)/build.ninja $(patsubst %,build/%/build.ninja,$(cores) $(more_cores))
-	$(BUILD) release -j $(JOBS) --target dotpose_cli dotpose_frames dotpose_count dotpose_golden_files \
-	    $(more_frames)
-	set -e; for core in $(cores); do $(BUILD) $$core -j $(JOBS); done
+	$(BUILD) release -j $(JOBS) --target dotpose_cli dotpose_frames dotpose_frames_36x36 dotpose_count \
+	    dotpose_golden_files $(more_frames)
+	set -e; for core in $(cores); do $(BUILD) $$core -j $(JOBS) --target all dotpose_firmware_36x36; done
 	$(if $(more_cores),set -e; for core in cortex-m0plus mips32r2 $(more_cores); do \
 	    $(BUILD) $$core -j $(JOBS) --target dotpose_firmware_of_all_sizes; done)
 	firmware/budget $(ARGS)

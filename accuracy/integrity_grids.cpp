@@ -8,6 +8,7 @@
 #include "core/decode/window.hpp"
 #include "core/integrity/confidence.hpp"
 #include "core/integrity/verify.hpp"
+#include "core/kernels/select.hpp"
 #include "dotpose/tools/random.hpp"
 #include "integrity.hpp"
 
@@ -188,8 +189,8 @@ void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, IntegrityT
         return;
     }
     Fix fix;
-    const Status status =
-        core::verify(reading.grid, reading.code, nullptr, decoding, kAcceptAll, storage, fix);
+    const Status status = core::verify(core::kernels(), reading.grid, reading.code, nullptr,
+                                       decoding, kAcceptAll, storage, fix);
     if (status != Status::ok) {
         ++tally.unread;
         return;

@@ -1,7 +1,7 @@
 // Counts how many small views of known sheets are located, and how many views of unknown sheets are
 // wrongly located on known sheets. Prints tables in Markdown.
 //
-//   dotpose_tables known [--frames N] [--foreign N] [--sheets N] [--seed S]
+//   dotpose_tables known [--frames N] [--foreign N] [--sheets N] [--device] [--seed S]
 //
 // The exit status is 1 if a fix is wrong.
 #include <array>
@@ -73,9 +73,9 @@ Shot draw_on_page(const ViewSize& size, std::uint64_t seed, std::uint64_t index,
     return shot;
 }
 
-void locate(const Shot& shot, std::span<const KnownRegion> sheets, OtherSheets others,
-            KnownTally& tally) {
-    Locator locator(thread_memory(), DeviceOptions{});
+void locate(const Shot& shot, const DeviceOptions& options, std::span<const KnownRegion> sheets,
+            OtherSheets others, KnownTally& tally) {
+    Locator locator(thread_memory(), options);
     static_cast<void>(locator.set_known(sheets, others));
     Outcome outcome;
     const GreyImage image = render(shot);
@@ -119,9 +119,16 @@ bool known_table(TableRun& run) {
     run.add_count("--frames", frames, "Number of frames of each size");
     run.add_count("--foreign", foreign, "Number of frames of unknown sheets");
     run.add_count("--sheets", sheet_count, "Number of known sheets");
+    bool as_device = false;
+    run.command.add_flag("--device", as_device, "Locate as a DeviceLocator");
     run.add_seed();
     run.add_threads();
     if (!run.parse()) return true;
+    DeviceOptions options;
+    if (as_device) {
+        options.effort = Effort::device;
+        options.blobs.min_area_px = 1;
+    }
     const std::vector<KnownRegion> sheets = sheets_of(std::max<std::uint64_t>(sheet_count, 1));
 
     bool is_right = true;
@@ -132,7 +139,7 @@ bool known_table(TableRun& run) {
             if (frames == 0) break;
             is_right &= print_row(
                 size, run.count<KnownTally>("frames", frames, [&](std::uint64_t i, KnownTally& t) {
-                    locate(draw_on_page(size, run.seed, i, sheets), sheets, others, t);
+                    locate(draw_on_page(size, run.seed, i, sheets), options, sheets, others, t);
                 }));
         }
     }
@@ -141,7 +148,8 @@ bool known_table(TableRun& run) {
     if (foreign > 0) {
         is_right &= print_row(
             size, run.count<KnownTally>("frames", foreign, [&](std::uint64_t i, KnownTally& t) {
-                locate(draw_shot(setup_of(size, run.seed), i), sheets, OtherSheets::impossible, t);
+                locate(draw_shot(setup_of(size, run.seed), i), options, sheets,
+                       OtherSheets::impossible, t);
             }));
     }
     return is_right;

@@ -96,6 +96,22 @@ struct TiltTimes {
 std::vector<TiltTimes> time_tilted_frames(bool is_quick);
 std::string tilt_table(const std::vector<TiltTimes>& times);
 
+// ---- Small frames: small.cpp ----
+
+/// Results for square nominal frames of one size with one spacing.
+struct SmallTimes {
+    int side_px = 0;
+    double spacing_px = 0;
+    int frames = 0;
+    int located = 0;
+    int by_first_attempt = 0;  ///< number of frames located by the first attempt
+    double median_us = 0;
+    double longest_us = 0;
+};
+/// Locates small frames. Throws Error if a fix is wrong.
+std::vector<SmallTimes> time_small_frames(bool is_quick);
+std::string small_table(const std::vector<SmallTimes>& times);
+
 // ---- Hard frames: hard.cpp ----
 
 /// Results for hard frames of 188 x 120 px. The time of a frame is the time of its faster pass.

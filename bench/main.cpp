@@ -159,6 +159,7 @@ void run(const Arguments& arguments) {
     const Varied varied =
         arguments.is_quick ? time_varied_frames(200, 2) : time_varied_frames(2000, 10);
     const std::vector<TiltTimes> tilts = time_tilted_frames(arguments.is_quick);
+    const std::vector<SmallTimes> small = time_small_frames(arguments.is_quick);
     const HardTimes hard = time_hard_frames(arguments.is_quick ? 500 : 20'000);
     const std::string load =
         fmt::format("- load average before: {}; after: {}\n", load_before, load_average());
@@ -169,8 +170,8 @@ void run(const Arguments& arguments) {
         {"machine", machine_list() + load}, {"aims", aims_table(sizes, varied, tilts, hard)},
         {"sizes", size_table(sizes)},       {"dots", dots_table(by_dots)},
         {"varied", varied_table(varied)},   {"tilts", tilt_table(tilts)},
-        {"hard", hard_table(hard)},         {"stages", stage_table(results)},
-        {"code", code_table(results)}};
+        {"small", small_table(small)},      {"hard", hard_table(hard)},
+        {"stages", stage_table(results)},   {"code", code_table(results)}};
     draw::write_file(arguments.out / "pixels.svg",
                      [&](std::ostream& out) { draw_pixels(out, sizes); });
     draw::write_file(arguments.out / "dots.svg",

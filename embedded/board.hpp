@@ -5,8 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-// Frame size for which the memory is dimensioned: 160 x 120, 188 x 120 or 320 x 240 px. Change the
-// size here, or define the two macros on the compiler's command line.
+// Frame size for which the memory is dimensioned: 36 x 36 (with known sheets only), 160 x 120, 188
+// x 120 or 320 x 240 px. Change the size here, or define the two macros on the compiler's command
+// line.
 #ifndef DOTPOSE_FRAME_WIDTH_PX
 #define DOTPOSE_FRAME_WIDTH_PX 188
 #define DOTPOSE_FRAME_HEIGHT_PX 120

@@ -3,8 +3,6 @@
 #include <array>
 #include <cstdint>
 
-#include <dotpose/locate.hpp>
-
 #include "host.hpp"
 #include "markers.hpp"
 #include "number.hpp"
@@ -23,9 +21,13 @@ using namespace dotpose;
 
 constexpr int kMaxWidth_px = DOTPOSE_FRAME_WIDTH_PX;
 constexpr int kMaxHeight_px = 9999;
+constexpr bool kNeedsSheet = kMaxWidth_px < kMinFrameSide_px;
+/// A page of A4 with a spacing of 0.508 mm, in flash memory.
+constexpr KnownRegion kSheets[] = {
+    {.section = {}, .first = {1024, 1024}, .columns = 393, .rows = 564}};
 
 DeviceMemoryFor<DOTPOSE_FRAME_WIDTH_PX, DOTPOSE_FRAME_HEIGHT_PX> memory;
-DeviceLocator locator(memory);
+DeviceLocator locator(memory, program_options());
 // Rows are word-aligned, as with DMA from a camera. Aligned rows are copied by words.
 alignas(4) std::array<std::uint8_t, kMaxWidth_px> row;
 
@@ -135,7 +137,18 @@ void print_fix(const Fix& fix) {
 
 }  // namespace
 
+DeviceOptions program_options() {
+    DeviceOptions options;
+    if (kNeedsSheet) options.blobs.min_area_px = 1;
+    return options;
+}
+
+void set_known_sheet(DeviceLocator& to) {
+    if constexpr (kNeedsSheet) static_cast<void>(to.set_known(kSheets, OtherSheets::impossible));
+}
+
 int locate_frames(const char* path) {
+    set_known_sheet(locator);
     if (!host::open(path)) {
         host::print("cannot open the file of frames\n");
         return 1;

@@ -1,5 +1,13 @@
 #pragma once
 
+#include <dotpose/locate.hpp>
+
+/// Returns the options of the program. In small frames, a dot may have a single pixel.
+dotpose::DeviceOptions program_options();
+/// Makes a sheet known to the locator if the program is for frames that can only be located on
+/// known sheets.
+void set_known_sheet(dotpose::DeviceLocator& locator);
+
 /// Locates the frames in the file at `path`, a sequence of binary PGM images (P5, 8 bits, no
 /// comments). If a prediction precedes an image, the image is tracked. A prediction is a line with
 /// the letter T and the integers of Place (x, y, u, v), PlaneFromImage (centre, at_centre, du, dv)

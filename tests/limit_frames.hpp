@@ -184,6 +184,28 @@ inline void add_camera_faults(std::vector<Limit>& limits) {
             // cells.
             limits.back().is_held = percent == 10 || !is_device;
         }
+        for (const int degrees : {2, 10, 20, 40, 60}) {
+            limits.push_back(
+                {"rolling shutter, turned by " + std::to_string(degrees) +
+                     " degrees while it reads the rows" + (is_device ? "" : ", 640 x 480 at 20 px"),
+                 [=](Shot& shot) {
+                     const double sign = direction_of(shot).x < 0 ? -1 : 1;
+                     shot.camera.readout_turn_rad = sign * degrees * std::numbers::pi / 180;
+                 },
+                 camera});
+            limits.back().is_held = degrees < 40 || !is_device;
+        }
+        limits.push_back({std::string("rolling shutter, moved by 30 % of the image height and "
+                                      "turned by 10 degrees while it reads the rows") +
+                              (is_device ? "" : ", 640 x 480 at 20 px"),
+                          [=](Shot& shot) {
+                              const double length_px = 0.3 * camera.height_px;
+                              const Vec2 along = direction_of(shot);
+                              shot.camera.readout_px = {length_px * along.x, length_px * along.y};
+                              shot.camera.readout_turn_rad = 10 * std::numbers::pi / 180;
+                          },
+                          camera});
+        limits.back().is_held = !is_device;
         for (const int degrees : {10, 20, 25, 30}) {
             limits.push_back({"tilt " + std::to_string(degrees) + " degrees" +
                                   (is_device ? "" : ", 640 x 480 at 20 px"),

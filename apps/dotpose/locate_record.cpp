@@ -172,7 +172,8 @@ std::vector<Field> deviation_fields(const Record& record) {
     };
 }
 
-/// Returns the fields of the camera's velocity during the readout of a rolling shutter.
+/// Returns the fields of the camera's velocity and turn rate during the readout of a rolling
+/// shutter.
 std::vector<Field> velocity_fields(const Record& record, Units units) {
     const auto text = [&](bool is_known, double per_s) {
         const double length = units == Units::ros ? 1e-3 : 1;
@@ -181,14 +182,20 @@ std::vector<Field> velocity_fields(const Record& record, Units units) {
     };
     const bool is_known = record.velocity.has_value();
     const ReadoutVelocity v = record.velocity.value_or(ReadoutVelocity{});
+    const auto degrees = [&](double rad_s) {
+        return is_known ? decimal(rad_s * 180 / std::numbers::pi, 3) : std::string();
+    };
     if (units == Units::ros) {
         return {{"velocity_x_pattern_m_s", text(is_known, v.x_per_s)},
-                {"velocity_y_pattern_m_s", text(is_known, -v.y_per_s)}};
+                {"velocity_y_pattern_m_s", text(is_known, -v.y_per_s)},
+                {"yaw_rate_pattern_rad_s", is_known ? decimal(-v.turn_rad_s, 6) : std::string()}};
     }
     return {{"velocity_x_mm_s", text(is_known, v.x_per_s)},
             {"velocity_y_mm_s", text(is_known, v.y_per_s)},
             {"sigma_velocity_x_mm_s", text(is_known, std::sqrt(v.covariance[0][0]))},
-            {"sigma_velocity_y_mm_s", text(is_known, std::sqrt(v.covariance[1][1]))}};
+            {"sigma_velocity_y_mm_s", text(is_known, std::sqrt(v.covariance[1][1]))},
+            {"turn_rate_deg_s", degrees(v.turn_rad_s)},
+            {"sigma_turn_rate_deg_s", degrees(std::sqrt(v.covariance[2][2]))}};
 }
 
 /// Returns the fields of the spacing in the image and of the time taken.

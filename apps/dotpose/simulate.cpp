@@ -89,6 +89,7 @@ struct SimulateArguments {
     Pair at_grid;
     Pair motion_px;
     Pair readout_px;
+    std::optional<double> readout_turn_deg;
     Pair tilt_deg;
     Pair covered;
     int islands = 0;
@@ -113,6 +114,8 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
     if (arguments.graphics) seen.graphics = *arguments.graphics;
     if (arguments.motion_px.given()) seen.motion_px = to_vec(arguments.motion_px);
     if (arguments.readout_px.given()) shot.camera.readout_px = to_vec(arguments.readout_px);
+    if (arguments.readout_turn_deg)
+        shot.camera.readout_turn_rad = *arguments.readout_turn_deg / kDegrees;
 
     CameraPose& pose = shot.pose;
     if (arguments.angle_deg) {
@@ -320,6 +323,10 @@ void add_overrides(Command& command, SimulateArguments& arguments) {
     add_pair(command, "--motion", "U,V", arguments.motion_px, "Motion during exposure, in px");
     add_pair(command, "--readout", "U,V", arguments.readout_px,
              "Motion while a rolling shutter reads the rows, in px");
+    command
+        .add_option("--readout-turn", arguments.readout_turn_deg,
+                    "Rotation of the scene while a rolling shutter reads the rows, clockwise")
+        ->type_name("DEG");
     for (std::size_t i = 0; i < std::size(kNumberOptions); ++i) {
         const NumberOption& option = kNumberOptions[i];
         command.add_option(option.flag, arguments.numbers[i], option.help)->type_name(option.unit);
@@ -351,9 +358,9 @@ void add_drive_options(Command& command, SimulateArguments& arguments) {
     };
     add("--speed", arguments.drive.speed_mm_s, "MM/S", "Speed of the robot")->needs(drive);
     add("--fps", arguments.drive.fps, "N", "Frames per second of the drive or video");
-    for (const char* fixed :
-         {"--at", "--angle", "--section", "--code", "--spacing", "--dot", "--displacement",
-          "--tilt", "--motion", "--readout", "--covered", "--islands", "--table", "--scene"}) {
+    for (const char* fixed : {"--at", "--angle", "--section", "--code", "--spacing", "--dot",
+                              "--displacement", "--tilt", "--motion", "--readout", "--readout-turn",
+                              "--covered", "--islands", "--table", "--scene"}) {
         drive->excludes(command.get_option(fixed));
     }
 }

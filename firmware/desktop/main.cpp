@@ -6,7 +6,6 @@
 #include <cstring>
 #include <numbers>
 
-#include <dotpose/locate.hpp>
 #include <dotpose/tools/grey_image.hpp>
 #include <dotpose/tools/random.hpp>
 
@@ -46,8 +45,10 @@ class Predictor {
     /// degrees, followed by the image.
     void write(const dotpose::GreyImage& image) {
         using namespace dotpose;
-        const DeviceOptions options;
-        const Fix fix = DeviceLocator(memory_, options).locate(image.view());
+        const DeviceOptions options = program_options();
+        DeviceLocator locator(memory_, options);
+        set_known_sheet(locator);
+        const Fix fix = locator.locate(image.view());
         if (fix.status != Status::ok) return;
         const double shift_q16 = 32768 * std::sqrt(rng_.uniform());
         const double direction_rad = rng_.uniform(-std::numbers::pi, std::numbers::pi);

@@ -84,8 +84,12 @@ struct Fix {
     /// value and orientation at the reference point. `Prediction` uses this map.
     PlaneFromImage pattern_from_image;
     Place place;                        ///< origin of `pattern_from_image`
-    std::int32_t displacement_q16 = 0;  ///< typical distance between a dot and its intersection, in
-                                        ///< 2^-16 spacings
+    std::int32_t displacement_q16 = 0;  ///< typical distance of a dot from its intersection, in
+                                        ///< 2^-16 spacing
+    /// Change of theta during the readout of a rolling shutter, from the first to the last row. 0
+    /// if the frame shows no significant rotation. The pose and `pattern_from_image` are those of
+    /// the middle row.
+    float readout_turn_rad = 0;
 
     /// Covariance of (x, y, theta), with x and y in spacings and theta in radians.
     float covariance[3][3] = {};

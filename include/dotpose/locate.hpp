@@ -217,7 +217,15 @@ class DeviceLocator : public RowLocator {
     /// The rules for memory and options are the same as for Locator.
     explicit DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options = {});
 
-    /// Locates the pattern in an image, in the code of the options.
+    /// Sets the regions of the code plane that are printed on the sheets that may be in view, as
+    /// Locator::set_known does. Searches the regions first, and the rest of the plane only if other
+    /// sheets are possible. Regions in another code than `options().code` have no effect. A search
+    /// needs no memory, and takes time in proportion to the columns and rows of the regions: use
+    /// it for a few sheets.
+    Status set_known(std::span<const KnownRegion> regions,
+                     OtherSheets others = OtherSheets::possible);
+
+    /// Returns the pose of an image, in the code of the options.
     Fix locate(const ImageView& image);
     /// Measures the dots of an image at their predicted places. A frame that does not confirm the
     /// prediction is located without the prediction.

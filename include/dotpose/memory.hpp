@@ -32,6 +32,7 @@ class AnyDeviceMemory {
     /// Returns the size of a workspace in bytes, or 0 if frames of this size are not supported.
     static constexpr std::size_t bytes_for(int width_px, int height_px) {
         const bool has_32_bits = sizeof(void*) == 4;
+        if (width_px == 36 && height_px == 36) return has_32_bits ? 4'624 : 4'848;
         if (width_px == 160 && height_px == 120) return has_32_bits ? 10'640 : 11'808;
         if (width_px == 188 && height_px == 120) return has_32_bits ? 12'608 : 13'312;
         if (width_px == 320 && height_px == 240) return has_32_bits ? 23'104 : 25'040;
@@ -45,8 +46,10 @@ class AnyDeviceMemory {
 };
 
 /// Memory of a DeviceLocator on a small microcontroller, with a sensor of Width x Height px. The
-/// end of this header lists the supported sizes. Frames may be smaller. The memories for a width of
-/// 160 or 188 px also support frames that are taller than Height.
+/// end of this header lists the supported sizes. Frames may be smaller. The memory for 36 x 36 px
+/// is for the sensors of optical mice, which can be located on known sheets only
+/// (DeviceLocator::set_known). The memories for a width of 160 or 188 px also support frames that
+/// are taller than Height.
 template <int Width, int Height>
 class DeviceMemoryFor : public AnyDeviceMemory {
   public:
@@ -54,12 +57,13 @@ class DeviceMemoryFor : public AnyDeviceMemory {
 
   private:
     static constexpr std::size_t kBytes = bytes_for(Width, Height);
-    static_assert(kBytes > 0, "the supported sizes are 160 x 120, 188 x 120 and 320 x 240 px");
+    static_assert(kBytes > 0,
+                  "the supported sizes are 36 x 36, 160 x 120, 188 x 120 and 320 x 240 px");
     alignas(8) std::array<std::byte, kBytes> bytes_;
 };
 
 /// Memory of a Locator for images up to 188 px wide, such as images of the paper's sensor: about
-/// 290 KB.
+/// 330 KB.
 class SmallMemory {
   public:
     SmallMemory();
@@ -68,12 +72,12 @@ class SmallMemory {
 
   private:
     friend class Locator;
-    static constexpr std::size_t kBytes = 284 * 1024;
+    static constexpr std::size_t kBytes = 320 * 1024;
     core::DesktopWorkspace* workspace_;
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory of a Locator for images up to 4096 x 4096 px: about 3 MB.
+/// Memory of a Locator for images up to 4096 x 4096 px: about 4.4 MB.
 class LargeMemory {
   public:
     LargeMemory();
@@ -82,11 +86,12 @@ class LargeMemory {
 
   private:
     friend class Locator;
-    static constexpr std::size_t kBytes = 3000 * 1024;
+    static constexpr std::size_t kBytes = 4280 * 1024;
     core::DesktopWorkspace* workspace_;
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 
+extern template class DeviceMemoryFor<36, 36>;    ///< 4.5 KB with 32-bit pointers
 extern template class DeviceMemoryFor<160, 120>;  ///< 11 KB with 32-bit pointers
 extern template class DeviceMemoryFor<188, 120>;  ///< 13 KB with 32-bit pointers
 extern template class DeviceMemoryFor<320, 240>;  ///< 23 KB with 32-bit pointers

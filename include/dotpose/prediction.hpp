@@ -33,6 +33,9 @@ struct Prediction {
     /// Standard deviation of the angle, as a binary angle: 2^31 is half a turn. Default: 1.4
     /// degrees. The search ignores this value and always covers rotations of up to 4 degrees.
     std::int32_t sigma_theta_bam = 1 << 24;
+    /// Change of theta during the readout of a rolling shutter; see Fix. A DeviceLocator ignores
+    /// this value.
+    float readout_turn_rad = 0;
 
     /// Returns a prediction for a camera that has not moved since `fix`. The fix must be ok.
     static Prediction like(const Fix& fix);

@@ -8,10 +8,10 @@
 
 namespace dotpose::calibrate {
 
-/// Equation of one dot along one axis: row . parameters = wanted. In a fit with fewer than 7
+/// Equation of one dot along one axis: row . parameters = wanted. In a fit with fewer than 8
 /// parameters, the last coefficients are ignored.
 struct AxisEquation {
-    std::array<double, 7> row{};
+    std::array<double, 8> row{};
     double wanted = 0;
 };
 /// Equations of one dot along both axes.

@@ -26,22 +26,33 @@ constexpr std::size_t kMinPoseDots = 12;
 /// printed + displacement * displaced = place + (c, -s; s, c) (x, y) + t v.
 /// (x, y) is in mm from `middle`. All other lengths are in spacings, corrected for the print scale.
 /// The parameters are place, c, s and the displacement. The displacement is fitted because ink and
-/// blur change it. For a rolling shutter, v is also fitted. v is the motion of the camera during
-/// the readout. t is the time at which the row of the dot is read, relative to the middle of the
-/// readout, as a fraction of the readout time, from -1/2 to 1/2.
+/// blur change it. For a rolling shutter, the motion v and the turn of the camera during the
+/// readout are also fitted. t is the time at which the row of the dot is read, relative to the
+/// middle of the readout, as a fraction of the readout time, from -1/2 to 1/2. With a turn, (x, y)
+/// is rotated by t turn about the reference point, and v, the motion of this point, by t turn / 2:
+/// it is the chord of an arc.
 constexpr int kParameters = 5;
-constexpr int kRollingParameters = 7;
-
-int parameters_of(const Camera& camera) {
-    return camera.readout_ms ? kRollingParameters : kParameters;
-}
+constexpr int kMovingParameters = 7;
+constexpr int kTurningParameters = 8;
 
 struct PoseFit : DotFit {
     CameraPoint middle;
+    double turn_rad = 0;  ///< turn of the camera during the readout
 };
 
-PoseFit fit_pose(const std::vector<LocatedDot>& dots, const Camera& camera,
-                 const AxisScale& print) {
+/// Returns the vector from `from` to `to`, turned by an angle.
+CameraPoint turned(CameraPoint from, CameraPoint to, double angle_rad) {
+    const double c = std::cos(angle_rad);
+    const double s = std::sin(angle_rad);
+    const double x = to.x_mm - from.x_mm;
+    const double y = to.y_mm - from.y_mm;
+    return {c * x - s * y, s * x + c * y};
+}
+
+/// Fits the pose. `reference` is the reference point. The equation is linear in the turn near
+/// `turn_rad`, so the fit for a rolling shutter is repeated.
+PoseFit fit_pose(const std::vector<LocatedDot>& dots, const Camera& camera, const AxisScale& print,
+                 CameraPoint reference, double turn_rad) {
     std::vector<CameraPoint> points;
     CameraPoint middle;
     for (const LocatedDot& dot : dots) {
@@ -49,18 +60,49 @@ PoseFit fit_pose(const std::vector<LocatedDot>& dots, const Camera& camera,
         middle.x_mm += points.back().x_mm / static_cast<double>(dots.size());
         middle.y_mm += points.back().y_mm / static_cast<double>(dots.size());
     }
-    std::vector<DotEquation> equations;
-    for (std::size_t i = 0; i < dots.size(); ++i) {
-        const double x = points[i].x_mm - middle.x_mm;
-        const double y = points[i].y_mm - middle.y_mm;
-        const double t =
-            (distorted(camera, dots[i].pixel).v - (camera.height_px - 1) / 2.0) / camera.height_px;
-        equations.push_back({AxisEquation{{1, 0, x, -y, -print.x * dx(dots[i].symbol), t, 0},
-                                          print.x * dots[i].step.x},
-                             AxisEquation{{0, 1, y, x, -print.y * dy(dots[i].symbol), 0, t},
-                                          print.y * dots[i].step.y}});
+    const auto fit_near = [&](const PoseFit& last, int parameters) {
+        const double turn = last.turn_rad;
+        const auto& p = last.parameters;
+        const CameraPoint motion =
+            p.empty() ? CameraPoint{} : CameraPoint{p[kParameters], p[kParameters + 1]};
+        std::vector<DotEquation> equations;
+        for (std::size_t i = 0; i < dots.size(); ++i) {
+            double x = points[i].x_mm - middle.x_mm;
+            double y = points[i].y_mm - middle.y_mm;
+            const double t = (distorted(camera, dots[i].pixel).v - (camera.height_px - 1) / 2.0) /
+                             camera.height_px;
+            const CameraPoint arm = turned(reference, points[i], t * turn);
+            if (turn != 0) {
+                x = arm.x_mm + reference.x_mm - middle.x_mm;
+                y = arm.y_mm + reference.y_mm - middle.y_mm;
+            }
+            const double half = t * turn / 2;
+            const double way = half == 0 ? t : t * std::sin(half) / half;
+            const double way_x = way * std::cos(half);
+            const double way_y = way * std::sin(half);
+            // Derivative of the place of the dot with respect to the turn.
+            double turn_x = 0;
+            double turn_y = 0;
+            if (!p.empty()) {
+                turn_x = t * (-p[2] * arm.y_mm - p[3] * arm.x_mm) - t * t / 2 * motion.y_mm;
+                turn_y = t * (-p[3] * arm.y_mm + p[2] * arm.x_mm) + t * t / 2 * motion.x_mm;
+            }
+            equations.push_back(
+                {AxisEquation{{1, 0, x, -y, -print.x * dx(dots[i].symbol), way_x, -way_y, turn_x},
+                              print.x * dots[i].step.x},
+                 AxisEquation{{0, 1, y, x, -print.y * dy(dots[i].symbol), way_y, way_x, turn_y},
+                              print.y * dots[i].step.y}});
+        }
+        return fit_dots(equations, parameters);
+    };
+    PoseFit fit{{}, middle, camera.readout_ms ? turn_rad : 0};
+    static_cast<DotFit&>(fit) = fit_near(fit, camera.readout_ms ? kMovingParameters : kParameters);
+    constexpr int kRounds = 4;
+    for (int round = 0; camera.readout_ms && round < kRounds; ++round) {
+        static_cast<DotFit&>(fit) = fit_near(fit, kTurningParameters);
+        fit.turn_rad += fit.parameters[kMovingParameters];
     }
-    return {fit_dots(equations, parameters_of(camera)), middle};
+    return fit;
 }
 
 std::uint32_t to_bam(double angle_rad) {
@@ -98,16 +140,19 @@ void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& p
     }
 }
 
-/// Returns the velocity during the readout of a rolling shutter, from the last two parameters.
+/// Returns the velocity during the readout of a rolling shutter, from the last three parameters.
 ReadoutVelocity velocity_of(const PoseFit& pose, double readout_ms, const AxisScale& print) {
     constexpr int kFirst = kParameters;
     // Factors that convert the motion during the readout, along x and y, to a velocity in nominal
-    // spacings per second.
-    const std::array per_s{1000 / (readout_ms * print.x), 1000 / (readout_ms * print.y)};
-    ReadoutVelocity velocity{
-        per_s[0] * pose.parameters[kFirst], per_s[1] * pose.parameters[kFirst + 1], {}};
-    for (int i = 0; i < 2; ++i) {
-        for (int j = 0; j < 2; ++j) {
+    // spacings per second, and the turn to rad per second.
+    const std::array per_s{1000 / (readout_ms * print.x), 1000 / (readout_ms * print.y),
+                           1000 / readout_ms};
+    ReadoutVelocity velocity{per_s[0] * pose.parameters[kFirst],
+                             per_s[1] * pose.parameters[kFirst + 1],
+                             per_s[2] * pose.turn_rad,
+                             {}};
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
             velocity.covariance[i][j] =
                 per_s[i] * per_s[j] * pose.covariance(kFirst + i, kFirst + j);
         }
@@ -153,12 +198,12 @@ MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const T
         std::atan2(std::sin(fix.theta_rad()) * print.y, std::cos(fix.theta_rad()) * print.x);
     const auto dots = dots_read(trace);
     if (camera.paper && dots.size() >= kMinPoseDots) {
-        const PoseFit pose = fit_pose(dots, camera, print);
-        if (camera.readout_ms) velocity = velocity_of(pose, *camera.readout_ms, print);
         const PixelPoint reference{
             (camera.width_px - 1) / 2.0 + trace.options.reference_dx_q8 / 256.0,
             (camera.height_px - 1) / 2.0 + trace.options.reference_dy_q8 / 256.0};
         const CameraPoint at = on_paper(camera, reference);
+        const PoseFit pose = fit_pose(dots, camera, print, at, fix.readout_turn_rad);
+        if (camera.readout_ms) velocity = velocity_of(pose, *camera.readout_ms, print);
         const double x = at.x_mm - pose.middle.x_mm;
         const double y = at.y_mm - pose.middle.y_mm;
         const auto& p = pose.parameters;

@@ -1,6 +1,7 @@
 // Known sheets: the parts of the code plane that may be in view.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -24,12 +25,24 @@ struct PositionRange {
     friend bool operator==(const PositionRange&, const PositionRange&) = default;
 };
 
-/// The known sheets, and whether other sheets may be in view.
+/// Returns true if a region is not empty, is inside the plane, and has a code and a section that
+/// exist.
+inline bool is_valid(const KnownRegion& region) {
+    const auto is_in_plane = [](std::uint32_t first, std::uint32_t size) {
+        return size > 0 && first < kPositionsPerAxis && size <= kPositionsPerAxis - first;
+    };
+    return static_cast<int>(region.code) < kCodeVariantCount && region.section.u < kSections &&
+           region.section.v < kSections && is_in_plane(region.first.x, region.columns) &&
+           is_in_plane(region.first.y, region.rows);
+}
+
+/// The known sheets of a locator, and whether other sheets are possible.
 struct KnownSheets {
     std::span<const KnownRegion> regions;
     OtherSheets others = OtherSheets::possible;
 
     bool any() const { return !regions.empty(); }
+    bool are_valid() const { return std::all_of(regions.begin(), regions.end(), is_valid); }
     bool are_all() const { return any() && others == OtherSheets::impossible; }
     /// Returns true if a block is at least partly on a known sheet. `corner` is the place of its
     /// upper left cell.

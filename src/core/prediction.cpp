@@ -23,6 +23,7 @@ Prediction Prediction::like(const Fix& fix) {
     prediction.pattern_from_image = fix.pattern_from_image;
     prediction.place = fix.place;
     prediction.displacement_q16 = fix.displacement_q16;
+    prediction.readout_turn_rad = fix.readout_turn_rad;
     return prediction;
 }
 

@@ -26,9 +26,8 @@ bool are_valid(const DeviceOptions& options) {
 
 Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w) {
     if (!are_valid(options)) return Status::bad_argument;
-    // True if the locator makes first or tracked attempts. Only these attempts accept images
-    // smaller than kMinFrameSide_px.
-    const bool may_be_small = options.effort != Effort::device && options.decoder == Decoder::all;
+    // The second attempt does not locate images that are smaller than kMinFrameSide_px.
+    const bool may_be_small = options.effort == Effort::device || options.decoder == Decoder::all;
     if (std::min(width_px, height_px) < (may_be_small ? w.min_side_px : kMinFrameSide_px))
         return Status::image_too_small;
     if (width_px > w.max_width_px || height_px > w.max_height_px) return Status::image_too_large;
@@ -94,10 +93,10 @@ Status find_dots(const DeviceOptions& options, Workspace& w) {
     sift_dots(options.blobs, dot_list(w));
     w.fix.dots_seen = w.dot_count;
     if (!w.threshold.has_contrast) return Status::no_contrast;
-    // Later stages average over the dots, so they need at least one dot even if min_dots is 0.
-    if (w.dot_count < std::max(options.lattice.min_dots, 1)) return Status::too_few_dots;
-    // Undistorts the dots (paper, eq. 1-2).
-    undistort(options.lens, image_centre_q8(w.threshold), first(w.dots, w.dot_count));
+    // Requires at least one dot even if min_dots is 0, because later stages compute means over the
+    // dots.
+    if (w.dot_count < std::max(min_dots(options, w), 1)) return Status::too_few_dots;
+    undistort(options.lens, image_centre_q8(w.threshold), first(w.dots, w.dot_count));  // eq. 1-2
     return Status::ok;
 }
 

@@ -2,6 +2,8 @@
 // appear in Fig. 1 of the paper.
 #pragma once
 
+#include <algorithm>
+
 #include "core/detect/adaptive_threshold.hpp"
 #include "core/detect/blobs.hpp"
 #include "core/workspace.hpp"
@@ -47,7 +49,13 @@ inline void detect_row(const std::uint8_t* pixels, const DeviceOptions& options,
 /// Detects all blobs in an image.
 void detect_image(const ImageView& image, const DeviceOptions& options, Workspace& w);
 
-/// Selects the dots among the blobs, and undistorts them. Errors: no_contrast, too_few_dots.
+/// Returns the minimum number of dots of a grid. On known sheets, fewer dots determine a place.
+inline int min_dots(const DeviceOptions& options, const Workspace& w) {
+    return w.known.any() ? std::min(options.lattice.min_dots, kMinKnownDots)
+                         : options.lattice.min_dots;
+}
+
+/// Selects the dots among the blobs and undistorts them. Errors: no_contrast, too_few_dots.
 Status find_dots(const DeviceOptions& options, Workspace& w);
 
 /// Finds the directions and spacings of the grid from edges between neighbouring dots. Uses at most

@@ -13,6 +13,7 @@
 #include "core/decode/grid.hpp"
 #include "core/detect/blobs.hpp"
 #include "core/kernels/scores.hpp"
+#include "core/known_sheets.hpp"
 #include "core/lattice/neighbours.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/image.hpp"
@@ -26,6 +27,7 @@ struct Workspace {
     std::int16_t max_height_px = kMaxFrameSide_px;
     /// True if stages do not share memory. The results of every stage then remain available.
     bool keeps_every_stage = false;
+    KnownSheets known;
     // detect
     AdaptiveThreshold threshold;
     OpenBlobs open;
@@ -56,6 +58,12 @@ struct Workspace {
 
     std::span<const DetectedDot> found_dots() const {
         return dots.first(static_cast<std::size_t>(dot_count));
+    }
+    /// Sets the known sheets. On known sheets, smaller images can be located.
+    void set_known(const KnownSheets& sheets) {
+        known = sheets;
+        min_side_px =
+            static_cast<std::int16_t>(sheets.any() ? kMinKnownFrameSide_px : kMinFrameSide_px);
     }
 };
 

@@ -1,5 +1,7 @@
 #include "device/attempt.hpp"
 
+#include <algorithm>
+
 #include "core/decode/likelihood.hpp"
 #include "core/decode/nominal.hpp"
 #include "core/decode/position.hpp"
@@ -50,6 +52,15 @@ Status find_grid(const DeviceOptions& options, Workspace& w) {
     return grown;
 }
 
+/// Minimum number of columns and of rows of a grid on a known sheet.
+constexpr int kMinKnownSide = 3;
+
+/// Reads the bits of the dots. Error: grid_too_small.
+Status read_bits(Workspace& w) {
+    return assign_affine_likelihoods(w.found_dots(), w.grid_from_image, w.grid,
+                                     w.known.any() ? kMinKnownSide : kWindowSide);  // II-B.4
+}
+
 /// Finds the position in the code from the bits.
 Status read_position(const DeviceOptions& options, Workspace& w) {
     // The decoder does not need the 8 x 8 window of the paper. The window is computed only for
@@ -68,6 +79,17 @@ Status verify_position(const DeviceOptions& options, Workspace& w) {
     return status == Status::ok ? status : refused(status, w);
 }
 
+/// Finds a certain place in the code, first on the known sheets.
+Status find_place(const DeviceOptions& options, DeviceWorkspace& w) {
+    if (w.on_sheets != nullptr) {
+        if (w.on_sheets->read(options, w)) return Status::ok;
+        if (w.known.are_all() || w.line_scores.empty()) return Status::not_certain;
+        if (std::min(w.grid.columns, w.grid.rows) < kWindowSide) return Status::grid_too_small;
+    }
+    const Status status = read_position(options, w);  // II-B.5-7
+    return status == Status::ok ? verify_position(options, w) : status;
+}
+
 /// Fits the pose to the dots, each at its printed place in the code.
 Status measure_pose(const DeviceOptions& options, Workspace& w) {
     const Nominal nominal(w.grid, options.code, w.decoding);
@@ -84,14 +106,11 @@ Status measure_pose(const DeviceOptions& options, Workspace& w) {
 
 }  // namespace
 
-const Fix& finish_device_attempt(const DeviceOptions& options, Workspace& w) {
-    Status status = find_dots(options, w);                     // II-B.1
-    if (status == Status::ok) status = find_grid(options, w);  // II-B.2-3
-    if (status == Status::ok) {
-        status = assign_affine_likelihoods(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4
-    }
-    if (status == Status::ok) status = read_position(options, w);  // II-B.5-7
-    if (status == Status::ok) status = verify_position(options, w);
+const Fix& finish_device_attempt(const DeviceOptions& options, DeviceWorkspace& w) {
+    Status status = find_dots(options, w);                        // II-B.1
+    if (status == Status::ok) status = find_grid(options, w);     // II-B.2-3
+    if (status == Status::ok) status = read_bits(w);              // II-B.4
+    if (status == Status::ok) status = find_place(options, w);    // II-B.5-7
     if (status == Status::ok) status = measure_pose(options, w);  // II-B.8
     w.fix.status = status;
     return w.fix;

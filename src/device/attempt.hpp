@@ -2,13 +2,13 @@
 // integer arithmetic and in bounded time.
 #pragma once
 
-#include "core/workspace.hpp"
+#include "device/workspace.hpp"
 #include "dotpose/device_options.hpp"
 
 namespace dotpose::core {
 
 /// Finds the grid, the position and the pose of a frame from its blobs. Sets and returns the fix of
 /// the workspace.
-const Fix& finish_device_attempt(const DeviceOptions& options, Workspace& w);
+const Fix& finish_device_attempt(const DeviceOptions& options, DeviceWorkspace& w);
 
 }  // namespace dotpose::core

@@ -65,12 +65,23 @@ template <int Width, int Height>
 DeviceMemoryFor<Width, Height>::DeviceMemoryFor() {
     workspace_ = core::make_workspace<core::DeviceWorkspaceFor<Width, Height>>(bytes_);
 }
+template class DeviceMemoryFor<36, 36>;
 template class DeviceMemoryFor<160, 120>;
 template class DeviceMemoryFor<188, 120>;
 template class DeviceMemoryFor<320, 240>;
 
 DeviceLocator::DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options)
-    : RowLocator(memory.workspace_, options) {}
+    : RowLocator(memory.workspace_, options) {
+    // Another locator may have used the memory before, with known sheets.
+    workspace().forget_known();
+}
+
+Status DeviceLocator::set_known(std::span<const KnownRegion> regions, OtherSheets others) {
+    const core::KnownSheets sheets{regions, others};
+    if (!sheets.are_valid()) return Status::bad_argument;
+    workspace().set_known(sheets);
+    return Status::ok;
+}
 
 core::DeviceWorkspace& DeviceLocator::workspace() {
     return static_cast<core::DeviceWorkspace&>(*workspace_);

@@ -18,6 +18,7 @@ namespace dotpose::core {
 /// around an intersection. This square contains the dot at any of its four places. kDotHalf_px is
 /// for the square around the centre of a dot. Valid for spacings of 7 to 13 px.
 inline constexpr int kHalf_px = 4;
+inline constexpr int kFineHalf_px = 2;
 inline constexpr int kDotHalf_px = 2;
 
 /// Returns the pixel nearest to a place.
@@ -37,10 +38,10 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
 /// square around this pixel. No dot reaches the corners.
 [[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking,
                                                         const std::uint8_t* at) {
-    constexpr int kSide_px = 2 * kHalf_px;
-    const std::uint8_t* const top = at - kHalf_px * tracking.stride_px - kHalf_px;
-    const std::uint8_t* const bottom = top + kSide_px * tracking.stride_px;
-    return (top[0] + top[kSide_px] + bottom[0] + bottom[kSide_px]) >> 2;
+    const std::uint8_t* const top = at + tracking.corner_offset;
+    const std::uint8_t* const bottom = top + tracking.corners_apart;
+    const int side_px = 2 * tracking.half_px;
+    return (top[0] + top[side_px] + bottom[0] + bottom[side_px]) >> 2;
 }
 
 /// Sets `Tracking::dot_pixels`, the pixels that `read_symbol` reads. Returns false if any of these

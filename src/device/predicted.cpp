@@ -9,8 +9,9 @@ namespace dotpose::core {
 namespace {
 
 /// Range of grid spacings, in px, that can be tracked. In this range, dots fit in the squares that
-/// are read.
-constexpr int kFinest_px = 7;
+/// are read. Spacings below kFine_px are tracked on known sheets only.
+constexpr int kFinest_px = 5;
+constexpr int kFine_px = 7;
 constexpr int kCoarsest_px = 13;
 /// Range of displacements that can be tracked: a twelfth to a third of the spacing.
 constexpr std::int32_t kMinDisplacement_q16 = 65536 / 12;
@@ -34,15 +35,15 @@ bool is_sane(const Prediction& prediction) {
 }
 
 /// Sets `cells` to the inverse of a plane. `at_q16` is the centre of the plane relative to cell (0,
-/// 0), in 2^-16 spacings. Returns false if the spacing of the cells cannot be tracked, or if the
-/// cells are not nearly square.
-bool invert(const PlaneFromImage& plane, FixedVec at_q16, CellMap& cells) {
+/// 0), in 2^-16 spacings, and `finest_px` is the minimum spacing. Returns false if the spacing of
+/// the cells cannot be tracked, or if the cells are not nearly square.
+bool invert(const PlaneFromImage& plane, FixedVec at_q16, int finest_px, CellMap& cells) {
     const FixedVec du = plane.du_q24;
     const FixedVec dv = plane.dv_q24;
     const std::int64_t det_q24 = cross(du, dv) >> 24;
     constexpr std::int64_t kOne_q24 = 1 << 24;
     if (det_q24 < kOne_q24 / (kCoarsest_px * kCoarsest_px) ||
-        det_q24 > kOne_q24 / (kFinest_px * kFinest_px))
+        det_q24 > kOne_q24 / (finest_px * finest_px))
         return false;
     const std::int64_t skew_q24 = dot(du, dv) >> 24;
     const std::int64_t stretch_q24 = (squared(du) - squared(dv)) >> 24;
@@ -89,15 +90,21 @@ int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
 bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     const int cells = leave_out_edges(spacing_q8, tracking);
     const int width_px = tracking.width_px - 2 * tracking.left_out_px;
-    if (std::min(width_px, tracking.height_px) < kMinFrameSide_px) return false;
+    if (std::min(width_px, tracking.height_px) < tracking.min_side_px) return false;
     tracking.first_cell = kMaxComparedLines / 2 - cells;
     tracking.last_cell = kMaxComparedLines / 2 + cells - 1;
     tracking.stride_px = stride_of(tracking.width_px);
     tracking.rows_kept = static_cast<int>(tracking.rows.size()) / tracking.stride_px;
-    tracking.rows_needed = 2 * kHalf_px + 3;
+    tracking.half_px = spacing_q8 < kFine_px * 256 ? kFineHalf_px : kHalf_px;
+    tracking.corner_offset = -tracking.half_px * (tracking.stride_px + 1);
+    tracking.corners_apart = 2 * tracking.half_px * tracking.stride_px;
+    tracking.rows_needed = 2 * tracking.half_px + 3;
     if (2 * tracking.rows_needed + kRowsAtOnce > tracking.rows_kept) return false;
-    tracking.first_rows = std::min<std::int32_t>(
-        {13 * spacing_q8 / (4 * 256), tracking.rows_kept, tracking.height_px});
+    // If there is room for all rows, the whole frame determines the error of the prediction.
+    const bool keeps_frame = tracking.height_px <= tracking.rows_kept;
+    tracking.first_rows =
+        keeps_frame ? tracking.height_px
+                    : std::min<std::int32_t>(13 * spacing_q8 / (4 * 256), tracking.rows_kept);
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
 }
 
@@ -147,7 +154,8 @@ Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, Track
                          (at.y >> 16) - kMaxComparedLines / 2};
     tracking.corner = moved(code, prediction.place, first.x, first.y);
     const FixedVec at_q16{at.x - first.x * 65536, at.y - first.y * 65536};
-    if (!invert(plane, at_q16, tracking.cells)) return Status::not_tracked;
+    const int finest_px = tracking.min_side_px < kMinFrameSide_px ? kFinest_px : kFine_px;
+    if (!invert(plane, at_q16, finest_px, tracking.cells)) return Status::not_tracked;
     const FixedVec along = tracking.cells.along_x_q16;
     const auto spacing_q8 =
         static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(squared(along))) >> 8);

@@ -5,28 +5,32 @@
 
 #include "core/math/fixed.hpp"
 #include "device/coded_cells.hpp"
+#include "device/near_dot.hpp"
 #include "device/newest_rows.hpp"
 #include "device/predicted.hpp"
 
 namespace dotpose::core {
 
 Shifts::Shifts(const Tracking& tracking) {
+    const bool is_fine = tracking.half_px == kFineHalf_px;
+    step_px_ = is_fine ? 1 : 2;
     // Only dots within two spacings of the middle column are used. A rotation relative to the
     // prediction has little effect on the sums over these dots.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
     // A rotation of 4 degrees (18/256 rad) about the image centre moves the first rows sideways.
     const int sideways_px = 18 * ((tracking.height_px - rows_) / 2) >> 8;
-    const auto steps = [](int reach_px) {
-        return std::min((reach_px + kStep_px - 1) / kStep_px, kMaxSteps);
+    const auto steps = [&](int reach_px) {
+        return std::min((reach_px + step_px_ - 1) / step_px_, kMaxSteps);
     };
     steps_ = {steps(tracking.reach_px + sideways_px), steps(tracking.reach_px)};
-    // Margin for the largest shift plus the displacement of a dot, so that every sampled pixel is
-    // in its row. Half a spacing is a safe upper bound on the displacement.
-    const int margin = kStep_px * steps_.x + (tracking.spacing_q8 >> 9) + 1;
+    // The dots are at most half a spacing from their intersections.
+    const int margin = step_px_ * steps_.x + (tracking.spacing_q8 >> 9) + 1;
     left_ = std::max(tracking.width_px / 2 - half, margin);
     right_ = std::min(tracking.width_px / 2 + half, tracking.width_px - margin);
     measure_paper(tracking);
+    // The dots of fine grids are hardly larger than a pixel, and pale.
+    cut_ = paper_ - paper_ / (is_fine ? 16 : 4);
     add_dots(tracking);
     divide_by_dots();
 }
@@ -49,11 +53,10 @@ void Shifts::measure_paper(const Tracking& tracking) {
         threshold = sum / std::max(count, 1);
     }
     paper_ = threshold;
-    cut_ = paper_ - paper_ / 4;
 }
 
 void Shifts::add_dots(const Tracking& tracking) {
-    const int reach = kStep_px * steps_.y;
+    const int reach = step_px_ * steps_.y;
     // Maximum distance of the cells visited from the middle cell, along each axis. These cells
     // contain all dots within two spacings of the middle column, and all dots that a shift may move
     // into the first rows, at any rotation of the grid.
@@ -79,15 +82,15 @@ void Shifts::add_dots(const Tracking& tracking) {
 }
 
 void Shifts::add_dot(const Tracking& tracking, int u, int v) {
-    const int left = u - kStep_px * steps_.x;
-    int row = v - kStep_px * steps_.y;
-    for (int y = 0; y <= 2 * steps_.y; ++y, row += kStep_px) {
+    const int left = u - step_px_ * steps_.x;
+    int row = v - step_px_ * steps_.y;
+    for (int y = 0; y <= 2 * steps_.y; ++y, row += step_px_) {
         if (static_cast<unsigned>(row) >= static_cast<unsigned>(rows_)) continue;
         ++dots_[static_cast<std::size_t>(y)];
         const std::uint8_t* pixel = kept_row(tracking, row) + left;
         std::uint16_t* sum = row_of(y);
         for (const std::uint16_t* end = sum + 2 * steps_.x + 1; sum != end;
-             ++sum, pixel += kStep_px) {
+             ++sum, pixel += step_px_) {
             const int darkness = cut_ - *pixel;
             if (darkness >= 0) *sum = static_cast<std::uint16_t>(*sum + darkness);
         }
@@ -133,14 +136,14 @@ bool Shifts::next(FixedVec& shift_q8) {
         }
     }
     if (best == 0) return false;
-    constexpr int kStep_q8 = kStep_px * 256;
+    const int step_q8 = step_px_ * 256;
     // Interpolates the maximum between the steps, from its two neighbours.
-    const auto between = [](int before, int here, int after) {
-        return (after - before) * kStep_q8 / std::max(before + here + after, 1);
+    const auto between = [step_q8](int before, int here, int after) {
+        return (after - before) * step_q8 / std::max(before + here + after, 1);
     };
     const std::uint16_t* const here = row_of(at.y) + at.x;
-    shift_q8 = {(at.x - steps_.x) * kStep_q8 + between(here[-1], here[0], here[1]),
-                (at.y - steps_.y) * kStep_q8 + between(here[-kPerRow], here[0], here[kPerRow])};
+    shift_q8 = {(at.x - steps_.x) * step_q8 + between(here[-1], here[0], here[1]),
+                (at.y - steps_.y) * step_q8 + between(here[-kPerRow], here[0], here[kPerRow])};
     depth_ = paper_ - cut_ + here[0];
     forget_around(at);
     return true;

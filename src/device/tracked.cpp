@@ -5,6 +5,7 @@
 #include "core/pose/subgrid.hpp"
 #include "core/steps.hpp"
 #include "device/coded_cells.hpp"
+#include "device/near_dot.hpp"
 #include "device/newest_rows.hpp"
 #include "device/predicted.hpp"
 #include "device/read_dots.hpp"
@@ -33,7 +34,7 @@ Status settle(Tracking& tracking) {
         // Until `find_turn` measures the mass of dots, the threshold is midway between paper and
         // ink, and the range of masses is wide.
         tracking.cut_q8 = 128 * shifts.depth() / paper;
-        tracking.min_mass = paper / 8 + 16;
+        tracking.min_mass = tracking.half_px == kFineHalf_px ? paper / 16 : paper / 8 + 16;
         tracking.max_mass = INT16_MAX;
         if (find_turn(tracking)) return Status::ok;
     }
@@ -56,15 +57,24 @@ Status read_rows(DeviceWorkspace& w) {
     return Status::ok;
 }
 
+/// Verifies the predicted place with the bits of the dots, first as a place on the known sheets.
+/// Error: not_certain.
+Status verify_place(const DeviceOptions& options, DeviceWorkspace& w) {
+    const Tracking& t = w.tracking;
+    if (w.on_sheets != nullptr) {
+        if (w.on_sheets->verify(options, w)) return Status::ok;
+        if (w.known.are_all()) return Status::not_certain;
+    }
+    return verify_tracked(options.code, t.lines, t.corner, options.integrity, w.decoding, w.fix);
+}
+
 /// Verifies the place with the bits of the dots, and fits the pose. Error: not_tracked.
 Status confirm(const DeviceOptions& options, DeviceWorkspace& w) {
     Tracking& t = w.tracking;
     if (t.status != Status::ok) return t.status;
     w.fix.dots_seen = dots_seen(t);
     w.decoding.place = t.corner;
-    const Status status =
-        verify_tracked(options.code, t.lines, t.corner, options.integrity, w.decoding, w.fix);
-    if (status != Status::ok) return Status::not_tracked;
+    if (verify_place(options, w) != Status::ok) return Status::not_tracked;
     w.fix.dots_used = fit_tracked_pose(t, w.pattern_from_image, w.fix.displacement_q16);
     if (w.fix.dots_used == 0) return Status::not_tracked;
     w.pattern_from_image.centre_q8.y += t.rows_above * 256;
@@ -84,6 +94,7 @@ Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& op
     t.height_px = height_px;
     t.first_kept = 0;
     t.min_contrast = static_cast<std::uint8_t>(options.min_contrast);
+    t.min_side_px = w.min_side_px;
     t.dots_measured = 0;
     t.offset_q8 = {};
     // Frames with lens distortion are not tracked. They are located without the prediction.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -65,6 +66,11 @@ struct Tracking {
     int rows_taken = 0;
     int first_kept = 0;  ///< row of the image that is stored first in memory
     int stride_px = 0;
+    int half_px = 0;  ///< see kHalf_px
+    /// Offset of the upper left corner of the square around an intersection from its middle pixel,
+    /// and offset of the lower corners from the upper ones, in bytes.
+    std::ptrdiff_t corner_offset = 0;
+    std::ptrdiff_t corners_apart = 0;
     std::span<std::uint8_t> rows;  ///< the newest rows of the image
     int cut_q8 = 0;  ///< minimum contrast of a dark pixel, in 1/256 of the paper level
     std::int32_t min_mass = 0;
@@ -80,6 +86,7 @@ struct Tracking {
     /// intersection. Indexed by the quarter of the pixel that contains the intersection, and by
     /// Symbol.
     std::array<std::array<std::int16_t, 4>, 4> dot_pixels{};
+    std::int16_t min_side_px = 0;  ///< minimum width and height of the tracked part
     std::int16_t left_out_px = 0;  ///< number of columns to the left of the tracked part
     std::int16_t rows_above = 0;   ///< number of rows above the tracked part
     CellMap cells;

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/workspace.hpp"
+#include "device/on_sheets.hpp"
 #include "device/tracking.hpp"
 #include "dotpose/image.hpp"
 
@@ -16,6 +17,16 @@ namespace dotpose::core {
 struct DeviceWorkspace : Workspace {
     bool is_tracking = false;  ///< true if the rows of the current frame are tracked
     Tracking tracking;
+    const SheetFunctions* on_sheets = nullptr;  ///< null if no sheets are known
+
+    void set_known(const KnownSheets& sheets) {
+        Workspace::set_known(sheets);
+        on_sheets = sheets.any() ? &kSheetFunctions : nullptr;
+    }
+    void forget_known() {
+        Workspace::set_known({});
+        on_sheets = nullptr;
+    }
 };
 
 /// Capacities of the workspace of a device: the maximum size of frames, and the maximum numbers of
@@ -26,8 +37,13 @@ struct DeviceCapacity {
     int height_px = kMaxFrameSide_px;
     int dots = 0;
     int grid_side = 0;
-    // Maximum numbers of runs and blobs of one row. These numbers far exceed the number of dots in
-    // a row, so further runs and blobs are noise or graphics.
+    /// Maximum number of lines of each axis that are compared with the whole plane; 0 if only known
+    /// sheets are read. -1 stands for all lines of the grid.
+    int scored_lines = -1;
+    /// Maximum number of dots from which the axes of the grid are found.
+    int seeds = 64;
+    // Maximum numbers of runs and blobs of one row. Both far exceed the number of dots in a row.
+    // Any further runs and blobs are noise or graphics.
     int runs = 0;
     int blobs = 0;
     // Maximum number of runs of a whole frame. The maximum bounds the time. The dots of a frame of
@@ -36,10 +52,19 @@ struct DeviceCapacity {
     int max_runs = 0;
 };
 
-/// Capacities for each frame size, for a spacing of about 11 px. Each size is also listed in
-/// dotpose/memory.hpp.
+/// Capacities for each frame size, for a spacing of about 11 px, or 6 px for 36 x 36 px. Each size
+/// is also listed in dotpose/memory.hpp.
 template <int Width, int Height>
 inline constexpr DeviceCapacity kDeviceCapacity{};
+template <>
+inline constexpr DeviceCapacity kDeviceCapacity<36, 36>{.width_px = 36,
+                                                        .dots = 96,
+                                                        .grid_side = 14,
+                                                        .scored_lines = 0,
+                                                        .seeds = 40,
+                                                        .runs = 20,
+                                                        .blobs = 16,
+                                                        .max_runs = 400};
 template <>
 inline constexpr DeviceCapacity kDeviceCapacity<160, 120>{
     .width_px = 160, .dots = 216, .grid_side = 20, .runs = 56, .blobs = 48, .max_runs = 1700};
@@ -61,7 +86,8 @@ inline constexpr DeviceCapacity kDeviceCapacity<320, 240>{.width_px = 320,
 template <DeviceCapacity kCapacity>
 class DeviceWorkspaceOf : public DeviceWorkspace {
   public:
-    static_assert(kCapacity.width_px >= 64, "kDeviceCapacity must have an entry for each size");
+    static_assert(kCapacity.width_px >= kMinKnownFrameSide_px,
+                  "kDeviceCapacity must have an entry for each size");
     static_assert(kCapacity.width_px <= kMaxSideWithLowTiles_px ||
                       kCapacity.height_px <= kMaxSideWithLowTiles_px,
                   "the workspace has memory for low tiles only");
@@ -101,7 +127,9 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
   private:
     static constexpr int kTiles = kCapacity.width_px / kTileWidth_px + 1;
     static constexpr int kLevels = kTiles * kTileWidth_px + kReadAhead_px;
-    static constexpr int kSeeds = 64;
+    static constexpr int kSeeds = kCapacity.seeds;
+    static constexpr int kScoredLines =
+        kCapacity.scored_lines < 0 ? kCapacity.grid_side : kCapacity.scored_lines;
 
     struct PixelStages {
         alignas(8)
@@ -121,7 +149,7 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
     };
     struct DecodeStages {
         std::array<GridCell, kCapacity.grid_side * kCapacity.grid_side> cells;
-        std::array<ScoredLine, 2 * kCapacity.grid_side> line_scores;
+        std::array<ScoredLine, 2 * kScoredLines> line_scores;
     };
     struct TrackedStages {
         std::array<std::uint8_t, 36 * kCapacity.width_px> rows;
@@ -140,7 +168,8 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
         return *static_cast<Stages*>(static_cast<void*>(memory.data()));
     }
 
-    alignas(8) std::array<std::byte, sizeof(FreshDots)> dot_memory_{};
+    alignas(
+        8) std::array<std::byte, std::max(sizeof(FreshDots), sizeof(TrackedDots))> dot_memory_{};
     alignas(
         8) std::array<std::byte, std::max({sizeof(PixelStages), sizeof(LatticeStages),
                                            sizeof(DecodeStages), sizeof(TrackedStages)})> memory_{};

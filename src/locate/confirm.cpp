@@ -13,6 +13,7 @@
 #include "core/pose/float_fit.hpp"
 #include "core/pose/subgrid.hpp"
 #include "core/pose/tuning.hpp"
+#include "core/pose/turn_fit.hpp"
 #include "core/pose/uneven.hpp"
 #include "core/steps.hpp"
 #include "locate/dot_reader.hpp"
@@ -123,6 +124,20 @@ Confirmation confirm_place(const Kernels& kernels, const DeviceOptions& options,
     return is_certain ? Confirmation::ok : Confirmation::uncertain;
 }
 
+/// Returns true if the image shows fewer cells than any position needs to be certain, because
+/// random bits would agree with some position. Uses the list of dots.
+bool shows_too_few_cells(const Kernels& kernels, const DeviceOptions& options, CellsInView view,
+                         MeasuredDots& dots) {
+    view.margin_px = 0;
+    kernels.list_cells(view, dots);
+    // A second attempt may use another plane, which may show a few more cells.
+    constexpr int kTolerance = 16;
+    const int cells = dots.count + dots.count / kTolerance + 1;
+    const Confidence axis = Confidence::of_hard_bits(cells, 0);
+    return chance_log2(axis, odds_per_bit_q8(Confidence::of_hard_bits(2 * cells, 0))) >
+           options.integrity.max_p_wrong_log2;
+}
+
 /// Writes the dots and their bits into the workspace, for the trace.
 void show(const Hypothesis& hypothesis, DesktopWorkspace& w) {
     const MeasuredDots& dots = w.measured;
@@ -221,6 +236,13 @@ void add_variance(FloatVec px2, const FloatPlane& plane, PoseFit& fit) {
     }
 }
 
+void add_covariance(const std::array<std::array<float, 3>, 3>& covariance, PoseFit& fit) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j)
+            fit.uneven[i][j] += covariance[i][j];
+    }
+}
+
 void write_fix(const ImageView& image, const DeviceOptions& options, const Hypothesis& hypothesis,
                const BitsRead& bits, const PoseFit& fit, DesktopWorkspace& w) {
     w.fix.dots_seen = bits.seen;
@@ -312,8 +334,14 @@ Confirmation finish(const Kernels& kernels, const ImageView& image, const Device
                     Hypothesis& hypothesis, PoseFit& fit, DesktopWorkspace& w) {
     FloatPlane& plane = hypothesis.pattern_from_image;
     const FloatVec bias_px2 = fit_without_bias(kernels, reader, view, image, hypothesis, fit);
-    fit_uneven(kernels, w.measured, reference_px(options, hypothesis), plane, fit);
+    const FloatVec reference = reference_px(options, hypothesis);
+    if (w.rolling.is_fitted &&
+        !fit_turn(kernels, w.rolling.turn, reference, w.measured, plane, fit, w.rolling.fit)) {
+        return Confirmation::implausible;
+    }
+    fit_uneven(kernels, w.measured, reference, plane, fit);
     add_variance(bias_px2, plane, fit);
+    if (w.rolling.is_fitted) add_covariance(w.rolling.fit.pose_covariance, fit);
     if (!is_plausible(image, plane)) return Confirmation::implausible;
     if (is_implausible(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))
         return Confirmation::uncertain;
@@ -369,6 +397,12 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
         if (decides && !hypothesis.is_certain) {
             const Confirmation place =
                 confirm_place(kernels, options, hypothesis, view, block, bits, w);
+            const bool are_clear = bits.read == bits.seen && bits.wrong_x + bits.wrong_y == 0;
+            if (place != Confirmation::ok && is_last && are_clear) {
+                w.shows_too_few_cells =
+                    !w.known.any() && shows_too_few_cells(kernels, options, view, dots);
+                return Confirmation::too_few_bits;
+            }
             if (place != Confirmation::ok) return place;
         }
         if (is_last && codes != nullptr) {
@@ -388,8 +422,8 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Devic
         OtherCodes* const codes = wanted_codes(w);
         const OtherCodes before = codes != nullptr ? *codes : OtherCodes{};
         hypothesis.is_exact = true;
-        if (measure_and_compare(kernels, image, options, hypothesis, w) == Confirmation::ok)
-            return Confirmation::ok;
+        const Confirmation exact = measure_and_compare(kernels, image, options, hypothesis, w);
+        if (exact == Confirmation::ok || exact == Confirmation::too_few_bits) return exact;
         hypothesis.is_exact = false;
         if (codes != nullptr)
             *codes = before;  // a rejected attempt provides no evidence about other codes

@@ -18,8 +18,10 @@ bool is_plausible(const ImageView& image, const FloatPlane& plane);
 /// Result of `confirm`.
 enum class Confirmation : std::uint8_t {
     ok,
-    implausible,  ///< the plane is not plausible, or the dots or bits contradict the hypothesis
-    uncertain,    ///< the hypothesis is plausible, but its position is not certain
+    implausible,   ///< the plane is not plausible, or the dots or their bits contradict the
+                   ///< hypothesis
+    uncertain,     ///< the hypothesis is plausible, but its position is not certain
+    too_few_bits,  ///< as `uncertain`, but all bits are clear and agree with the code
 };
 
 /// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose.

@@ -8,11 +8,10 @@
 #include "core/decode/bit_lines.hpp"
 #include "core/decode/exact_lines.hpp"
 #include "core/detect/patch.hpp"
-#include "core/integrity/known_places.hpp"
 #include "core/lattice/outwards.hpp"
 #include "core/steps.hpp"
 #include "locate/confirm.hpp"
-#include "locate/on_sheets.hpp"
+#include "locate/patch_hypothesis.hpp"
 #include "locate/tuning.hpp"
 
 namespace dotpose::core {
@@ -23,105 +22,9 @@ namespace tuned = tuning::first;
 constexpr int kPatchWidth_px = tuned::kPatchWidth_px;
 constexpr int kPatchHeight_px = tuned::kPatchHeight_px;
 
-/// Moves the dots to their undistorted image points.
-void undistort(const FixedLens& lens, FloatVec middle, PatchDots& dots) {
-    const FloatLens l = float_lens(lens);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
-        const float x = dots.x[i] + middle.x - l.centre_x;
-        const float y = dots.y[i] + middle.y - l.centre_y;
-        const float by = 1 / (1 + l.k * (x * x + y * y));
-        dots.x[i] = x * by + l.centre_x - middle.x;
-        dots.y[i] = y * by + l.centre_y - middle.y;
-    }
-}
-
-/// Returns the middle of a patch, in px relative to the image centre.
-FloatVec middle_of(const Patch& patch, const ImageView& image) {
-    return {middle_u_px(patch) - static_cast<float>(image.width_px - 1) / 2,
-            middle_v_px(patch) - static_cast<float>(image.height_px - 1) / 2};
-}
-
-/// Places a patch around an image point. Returns false if the patch is too small for a grid.
-bool place_patch(const ImageView& image, FixedVec around_px, int scale, DesktopWorkspace& w) {
-    return place_patch(image, around_px.x, around_px.y, kPatchWidth_px * scale,
-                       kPatchHeight_px * scale, scale, *w.patch);
-}
-
-/// Finds the dots of the patch. Also sets the status that is reported if no patch contains a grid.
-/// Returns false, without setting the status, if the patch has no contrast.
-bool find_patch_dots(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-                     DesktopWorkspace& w) {
-    Patch& patch = *w.patch;
-    patch.dots.count = 0;
-    kernels.fill_patch(image, patch);
-    kernels.smooth_patch(patch);
-    if (!measure_contrast(patch)) return false;
-    kernels.find_minima(patch);
-    w.fix.dots_seen = std::max(w.fix.dots_seen, patch.dots.count);
-    const bool are_few = w.fix.dots_seen < std::max(min_dots(options, w), 1);
-    w.fix.status = are_few ? Status::too_few_dots : Status::no_grid;
-    return true;
-}
-
-/// Finds the quarter turn of a block, and the place in the code of the turned block's cell (0, 0).
-/// Prefers places on known sheets. Returns false if no place is found.
-bool find_turn_and_place(const Kernels& kernels, const DeviceOptions& options,
-                         const BitBlock& block, DesktopWorkspace& w, int& quarters, Place& place) {
-    quarters = likeliest_turn(kernels, block);
-    const BitBlock upright = turned(quarters, block);
-    const bool is_exact = find_place_exactly(options.code, upright, place);
-    if (w.known.any() && !(is_exact && shows_sheet(w.known, options.code, place, upright))) {
-        if (const auto found = find_place_on_sheets(kernels, options, block, w.known)) {
-            quarters = found->quarters;
-            place = found->place;
-            return true;
-        }
-        if (w.known.are_all()) return false;
-    }
-    return is_exact ||
-           find_place(options.code, score_block(kernels, upright, w.line_scores), place);
-}
-
-/// In a series of frames, stores the current bits. If the frames are read together, replaces
-/// `block` with the bits of all frames instead. Returns false if the grids do not match.
-/// `grid_from_image` is relative to `from_centre`.
-bool join_earlier(const FloatPlane& grid_from_image, FloatVec from_centre, DesktopWorkspace& w,
-                  BitBlock& block) {
-    EarlierBits& earlier = w.earlier;
-    if (!earlier.is_in_series()) return true;
-    const FloatPlane grid = recentred(grid_from_image, {-from_centre.x, -from_centre.y});
-    if (!earlier.is_joining) {
-        earlier.note(block, grid, false);
-        return true;
-    }
-    const auto joined = earlier.join(block, grid);
-    if (joined) block = joined->block;
-    return joined.has_value();
-}
-
-/// Finds a place in the code from the dots of a patch. Dots and hypothesis are relative to
-/// `from_centre`. Returns false if no grid or no place is found.
-bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const PatchView& view,
-                     FloatVec from_centre, DesktopWorkspace& w, Hypothesis& hypothesis) {
-    Patch& patch = *w.patch;
-    PatchGrid grid;
-    if (!find_grid(kernels, patch, view, grid)) return false;
-    BitBlock block;
-    kernels.read_cells(patch.dots, grid.grid_from_image, grid.displacement, block.columns,
-                       block.rows);
-    if (!join_earlier(grid.grid_from_image, from_centre, w, block)) return false;
-    int quarters = 0;
-    if (!find_turn_and_place(kernels, options, block, w, quarters, hypothesis.place)) return false;
-    hypothesis.pattern_from_image = turned(quarters, grid.grid_from_image);
-    hypothesis.from_centre = from_centre;
-    hypothesis.displacement = grid.displacement;
-    hypothesis.depth_q8 = patch.dot_contrast_q8;
-    return true;
-}
-
-/// Sets `is_mirrored` of the workspace if a patch around the image centre shows the mirrored code.
-/// Accepts only places that `find_place_exactly` finds from adjacent lines without wrong bits.
-/// Leaves the dots of the patch mirrored.
+/// Sets `is_mirrored` of the workspace if the dots of a patch around the image centre show the
+/// mirrored code. A grid counts as mirrored only if adjacent lines without wrong bits determine a
+/// place (`find_place_exactly`). Mirrors the dots of the patch and does not restore them.
 void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, DesktopWorkspace& w) {
     if (w.is_mirrored) return;
     Patch& patch = *w.patch;
@@ -223,7 +126,7 @@ Confirmation locate_around(const Kernels& kernels, const ImageView& image,
         if (find_hypothesis_around(kernels, image, options, around_px, scale, w, densest_px,
                                    hypothesis)) {
             const auto confirmation = confirm(kernels, image, options, hypothesis, w);
-            tries_left -= confirmation == Confirmation::uncertain ? 1 : 0;
+            tries_left -= confirmation == Confirmation::implausible ? 0 : 1;
             return confirmation;
         }
         const bool is_other_patch =
@@ -260,8 +163,12 @@ Confirmation locate_outwards(const Kernels& kernels, const ImageView& image,
         if (!place_patch(image, {image.width_px / 2, image.height_px / 2}, scale, w)) break;
         const Confirmation confirmation = locate_in_middle(kernels, image, options, w);
         if (confirmation == Confirmation::ok) return confirmation;
+        // Other patches of the same dots give the same bits.
+        const bool is_whole_image =
+            w.patch->width_px == image.width_px && w.patch->height_px == image.height_px;
+        if (confirmation == Confirmation::too_few_bits && is_whole_image) return confirmation;
         find_mirror_image(kernels, options, w);
-        if (confirmation == Confirmation::uncertain) break;
+        if (confirmation != Confirmation::implausible) break;
     }
     return locate_elsewhere(kernels, image, options, w);
 }
@@ -272,6 +179,7 @@ bool locate_first(const Kernels& kernels, const ImageView& image, const DeviceOp
                   DesktopWorkspace& w) {
     forget_frame(w);
     w.fix.status = Status::no_contrast;
+    w.shows_too_few_cells = false;
     Confirmation confirmation = locate_outwards(kernels, image, options, w);
     if (confirmation != Confirmation::ok && w.earlier.has_earlier()) {
         w.earlier.is_joining = true;
@@ -280,7 +188,8 @@ bool locate_first(const Kernels& kernels, const ImageView& image, const DeviceOp
         if (together == Confirmation::ok) confirmation = together;
     }
     w.fix.attempt = Attempt::first;
-    if (confirmation == Confirmation::uncertain) w.fix.status = Status::not_certain;
+    if (confirmation == Confirmation::uncertain || confirmation == Confirmation::too_few_bits)
+        w.fix.status = w.shows_too_few_cells ? Status::grid_too_small : Status::not_certain;
     return confirmation == Confirmation::ok;
 }
 

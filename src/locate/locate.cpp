@@ -28,6 +28,7 @@
 #include "locate/second.hpp"
 #include "locate/tracked.hpp"
 #include "locate/tuning.hpp"
+#include "locate/turning.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -36,7 +37,7 @@ namespace tuned = tuning::cascade;
 
 /// Steps of the cascade. `resampled` is a second attempt that samples the bits again if the
 /// position is doubtful. This step takes three times as long as `second`.
-enum class Step : std::uint8_t { tracked, first, second, resampled, device };
+enum class Step : std::uint8_t { tracked, first, turning, second, resampled, device };
 
 /// Returns true if there is a grid of dots that could not be read in this code. Another code may
 /// succeed.
@@ -64,7 +65,13 @@ class Cascade {
         const CodeVariant predicted = options_.code;
         if (prediction != nullptr && attempt(Step::tracked, predicted)) {
             const Judgement judgement = judge(predicted);
-            if (judgement.is_certain) return accept(predicted, judgement);
+            const bool needs_turn = judgement.is_certain && prediction->readout_turn_rad == 0 &&
+                                    shows_turn(kernels(), image_, options_, w_);
+            if (judgement.is_certain && !needs_turn) return accept(predicted, judgement);
+            if (needs_turn && attempt(Step::turning, predicted)) {
+                const Judgement turned = judge(predicted);
+                if (turned.is_certain) return accept(predicted, turned);
+            }
         }
         CodeReading reading = locate_afresh();
         if (leaves_code_open(reading.fix.status)) add_evidence_of_another_sheet(reading);
@@ -80,10 +87,11 @@ class Cascade {
 
     CodeReading locate_afresh() {
         const bool is_paper = options_.decoder == Decoder::window;
-        if (!may_try_twice()) return make({is_paper ? Step::second : Step::first});
-        if (is_paper) return make({Step::second, Step::resampled});
-        if (codes_.is_known()) return make({Step::first, Step::resampled});
-        return make({Step::first, Step::second, Step::resampled});
+        if (is_paper)
+            return may_try_twice() ? make({Step::second, Step::resampled}) : make({Step::second});
+        if (!may_try_twice()) return make({Step::first, Step::turning});
+        if (codes_.is_known()) return make({Step::first, Step::turning, Step::resampled});
+        return make({Step::first, Step::turning, Step::second, Step::resampled});
     }
 
     /// Runs the steps in order, each in all codes worth trying, until a fix is certain. A step
@@ -98,7 +106,7 @@ class Cascade {
             for (const CodeVariant code : worth_trying(step)) {
                 if (!attempt(step, code)) {
                     if (code == codes_.likeliest()) failure = w_.fix;
-                    if (step != Step::first && !leaves_code_open(w_.fix.status)) break;
+                    if (step > Step::turning && !leaves_code_open(w_.fix.status)) break;
                     continue;
                 }
                 const Judgement judgement = judge(code);
@@ -106,6 +114,7 @@ class Cascade {
                 if (!doubtful) doubtful = in_doubt(code, judgement);
             }
             if (doubtful && doubtful->fix.status == Status::ambiguous_code) break;
+            if (w_.shows_too_few_cells) break;
         }
         if (!doubtful)
             doubtful = CodeReading{failure.value_or(Fix{}), codes_.likeliest(), evidence_};
@@ -134,9 +143,13 @@ class Cascade {
         if (!codes_.is_known()) others.log2_in_question_q8 = log2_of_odds_q8(codes_.number(code));
         switch (step) {
             case Step::tracked:
-                return locate_tracked(kernels(), image_, options_, *prediction_, w_);
+                return prediction_->readout_turn_rad == 0
+                           ? locate_tracked(kernels(), image_, options_, *prediction_, w_)
+                           : locate_tracked_turning(kernels(), image_, options_, *prediction_, w_);
             case Step::first:
                 return locate_first(kernels(), image_, options_, w_);
+            case Step::turning:
+                return locate_turning(kernels(), image_, options_, w_);
             case Step::second:
                 return attempt_second(code);
             case Step::resampled:
@@ -180,9 +193,13 @@ class Cascade {
         const CodeVariant read = code;
         if (judgement.other_odds > tuned::kBetterOdds && !remake(step, judgement.other))
             remake(step, read);
-        if (step == Step::first && is_rough(w_.fix) && may_try_twice()) {
+        if (step == Step::first) {
             const CodeVariant best = code;
-            if (!remake(Step::resampled, best)) remake(step, best);
+            const bool may_be_better = is_rough(w_.fix) && may_try_twice();
+            const bool needs_turn = shows_turn(kernels(), image_, options_, w_);
+            const bool is_better = (needs_turn && remake(Step::turning, best)) ||
+                                   (may_be_better && remake(Step::resampled, best));
+            if ((needs_turn || may_be_better) && !is_better) remake(step, best);
         }
         return accept(code, judgement);
     }

@@ -22,17 +22,9 @@ Locator::Locator(core::DesktopWorkspace* workspace, const DeviceOptions& options
 }
 
 Status Locator::set_known(std::span<const KnownRegion> regions, OtherSheets others) {
-    const auto is_in_plane = [](std::uint32_t first, std::uint32_t size) {
-        return size > 0 && first < kPositionsPerAxis && size <= kPositionsPerAxis - first;
-    };
-    for (const KnownRegion& region : regions) {
-        if (static_cast<int>(region.code) >= kCodeVariantCount || region.section.u >= kSections ||
-            region.section.v >= kSections || !is_in_plane(region.first.x, region.columns) ||
-            !is_in_plane(region.first.y, region.rows)) {
-            return Status::bad_argument;
-        }
-    }
-    workspace().set_known({regions, others});
+    const core::KnownSheets sheets{regions, others};
+    if (!sheets.are_valid()) return Status::bad_argument;
+    workspace().set_known(sheets);
     return Status::ok;
 }
 

@@ -79,8 +79,8 @@ Status read_position(const DeviceOptions& options, DesktopWorkspace& w) {
     // Finds the orientation and the position (paper, sections II-B.6 and II-B.7).
     Status status = decode(options, w);
     if (status == Status::ok) {
-        status = verify(w.grid, options.code, wanted_codes(w), w.decoding, options.integrity,
-                        w.line_scores, w.fix);
+        status = verify(kernels(), w.grid, options.code, wanted_codes(w), w.decoding,
+                        options.integrity, w.line_scores, w.fix);
     }
     if (status == Status::ok && !is_possible(options.code, w)) status = Status::not_certain;
     if (status != Status::ok && w.known.any() && read_on_sheets(options, w)) status = Status::ok;

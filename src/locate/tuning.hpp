@@ -30,7 +30,38 @@ inline constexpr float kSpacings[] = {1, 0.965F};
 inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F};
 }  // namespace first
 
-/// Tracked attempt (locate/tracked).
+/// Constants of images in which the scene rotates during the readout (locate/turning).
+namespace turning {
+/// Maximum rotation during the readout, and maximum distance by which the scene moves down at the
+/// side of the image while a row is read, in rows.
+inline constexpr float kMaxTurn_rad = 1.2F;
+inline constexpr float kMaxFall = 0.95F;
+/// Maximum motion of the scene while a row is read, in rows.
+inline constexpr float kMaxDrift = 0.9F;
+/// Step of the search for the rotation: the distance by which the dots in the corners of the patch
+/// move, in spacings. Fraction of this step at which the search ends.
+inline constexpr float kStep = 0.4F;
+inline constexpr float kStepParts = 32;
+/// Minimum ratio of the agreements of a better grid and of the best grid so far.
+inline constexpr float kBetter = 1.0005F;
+/// Minimum ratio of the squared residuals that the rotation explains to the squared residuals that
+/// remain, if the remaining residuals of neighbouring dots are not correlated, and otherwise.
+inline constexpr float kMinGainIfEven = 0.5F;
+inline constexpr float kMinGain = 3;
+/// Maximum variance of the offsets of the dots from the places of their cells, per axis, in
+/// spacings^2. In a false grid, the offsets are evenly distributed over circles with a radius of
+/// 0.18 spacings, which have a variance of 0.008.
+inline constexpr float kMaxVariance = 0.002F;
+/// Maximum number of grids whose place is searched. A grid without a place in the code is found
+/// again from the next rotations.
+inline constexpr int kMaxClimbs = 3;
+/// Correction of the rotation below which the image is not measured again: the distance by which
+/// the dots in the corners move. Smaller corrections are applied to the measured dots.
+inline constexpr float kSettled_px = 0.5F;
+inline constexpr int kMaxRounds = 5;
+}  // namespace turning
+
+/// Constants of the tracked attempt (locate/tracked).
 namespace tracked {
 /// Maximum distance along each axis, in spacings, of the dots that correct a prediction. The
 /// distance is small enough that an angular error does not match a dot to the wrong intersection.

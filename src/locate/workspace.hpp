@@ -8,9 +8,10 @@
 #include <span>
 
 #include "core/detect/smooth.hpp"
-#include "core/known_sheets.hpp"
+#include "core/math/readout_turn.hpp"
 #include "core/other_codes.hpp"
 #include "core/patch_memory.hpp"
+#include "core/pose/turn_fit.hpp"
 #include "core/workspace.hpp"
 #include "device/workspace.hpp"
 #include "dotpose/image.hpp"
@@ -55,7 +56,16 @@ struct PushedImage {
     }
 };
 
-/// Memory of a Locator. Extends the memory of a DeviceLocator.
+/// An image of a rolling shutter without the rotation of the scene during the readout, and the fit
+/// of this rotation.
+struct RollingImage {
+    std::span<std::uint8_t> memory;
+    bool is_fitted = false;  ///< true if `confirm` fits the rotation
+    ReadoutTurn turn;        ///< rotation that was removed from the image
+    TurnFit fit;             ///< fitted by the last `confirm`, if `is_fitted` is true
+};
+
+/// Memory of a Locator: the memory of a DeviceLocator, and the memory that only a Locator needs.
 struct DesktopWorkspace : DeviceWorkspace {
     Patch* patch = nullptr;
     MeasuredDots measured;
@@ -63,16 +73,17 @@ struct DesktopWorkspace : DeviceWorkspace {
     std::span<std::uint8_t> row_rolls;
     Smoothing smoothing;
     OtherCodes other_codes;
-    KnownSheets known;
     EarlierBits earlier;
     PushedImage pushed;
+    RollingImage rolling;
     bool is_mirrored = false;  ///< true if an attempt found the mirrored code
+    /// True if the first attempt found fewer cells than a position needs to be certain without
+    /// known sheets.
+    bool shows_too_few_cells = false;
 
     /// Sets the known sheets. With known sheets, smaller images and patches can be located.
     void set_known(const KnownSheets& sheets) {
-        known = sheets;
-        min_side_px =
-            static_cast<std::int16_t>(sheets.any() ? kMinKnownFrameSide_px : kMinFrameSide_px);
+        DeviceWorkspace::set_known(sheets);
         patch->min_side_px = sheets.any() ? kMinKnownFrameSide_px : Patch::kMinSide_px;
     }
 };
@@ -104,6 +115,7 @@ class WorkspaceOf : public DesktopWorkspace {
         max_width_px = MaxWidth;
         keeps_every_stage = true;
         pushed.memory = pushed_;
+        rolling.memory = rolling_;
         patch = &patch_;
         measured.column = floats_[0];
         measured.row = floats_[1];
@@ -193,6 +205,7 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<ComparedLine, 2 * kMaxComparedLines> tracked_lines_{};
     std::array<TrackedRow, kMaxComparedLines> grid_rows_{};
     std::array<std::uint8_t, kPushed_px> pushed_;
+    std::array<std::uint8_t, kPushed_px> rolling_;
 };
 
 /// Workspace for the paper's sensor, with 188 x 120 px.

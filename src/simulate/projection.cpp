@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "dotpose/tools/simulate.hpp"
@@ -18,12 +19,19 @@ Vec2 distorted(Vec2 undistorted, double k) {
     return {scale * undistorted.x, scale * undistorted.y};
 }
 
+Vec2 rotated(Vec2 v, double angle_rad) {
+    const double c = std::cos(angle_rad);
+    const double s = std::sin(angle_rad);
+    return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
 }  // namespace
 
 Projection::Projection(const CameraModel& camera, const CameraPose& pose)
     : centre_px_{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0},
       height_px_(camera.height_px),
       readout_px_(camera.readout_px),
+      readout_turn_rad_(camera.readout_turn_rad),
       k_(camera.k),
       focal_px_(camera.working_distance_mm / camera.mm_per_px),
       distance_mm_(camera.working_distance_mm) {
@@ -50,6 +58,22 @@ Projection::Projection(const CameraModel& camera, const CameraPose& pose)
     }
 }
 
+Vec2 Projection::moved(Vec2 undistorted, double time) const {
+    const Vec2 turned =
+        readout_turn_rad_ == 0 ? undistorted : rotated(undistorted, time * readout_turn_rad_);
+    const Vec2 way = way_at(time);
+    return {turned.x + way.x, turned.y + way.y};
+}
+
+Vec2 Projection::way_at(double time) const {
+    const Vec2 way{time * readout_px_.x, time * readout_px_.y};
+    const double half_rad = time * readout_turn_rad_ / 2;
+    if (half_rad == 0) return way;
+    const Vec2 chord = rotated(way, half_rad);
+    const double shorter = std::sin(half_rad) / half_rad;
+    return {shorter * chord.x, shorter * chord.y};
+}
+
 Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
     const auto camera_mm = [&](std::size_t i) {
         return x_axis_[i] * offset_mm.x + y_axis_[i] * offset_mm.y;
@@ -62,20 +86,23 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
     // time, and the time depends on the row. Newton's method solves row = seen_at(row).y. Without
     // motion and without distortion, the first step is exact.
     const auto seen_at = [&](double row_px) {
-        const double time = row_px / height_px_;
-        return distorted(
-            {undistorted.x + time * readout_px_.x, undistorted.y + time * readout_px_.y}, k_);
+        return distorted(moved(undistorted, row_px / height_px_), k_);
     };
     double row_px = 0;
     Vec2 seen = seen_at(row_px);
-    const bool is_rolling = readout_px_.x != 0 || readout_px_.y != 0;
-    constexpr int kSteps = 12;
-    for (int i = 0; is_rolling && i < kSteps && seen.x < kInvisible.x; ++i) {
+    const bool is_turning = readout_turn_rad_ != 0;
+    const bool is_rolling = is_turning || readout_px_.x != 0 || readout_px_.y != 0;
+    const int steps = is_turning ? 40 : 12;
+    for (int i = 0; is_rolling && i < steps && seen.x < kInvisible.x; ++i) {
         constexpr double kStep_px = 1e-3;
         const double slope = (seen_at(row_px + kStep_px).y - seen.y) / kStep_px;
         row_px += (seen.y - row_px) / (1 - slope);
+        // Far beside the image, a turning point may cross several rows as they are read, or none.
+        if (is_turning) row_px = std::clamp(row_px, -height_px_, height_px_);
         seen = seen_at(row_px);
     }
+    constexpr double kMaxError_px = 1e-6;
+    if (is_turning && std::abs(seen.y - row_px) > kMaxError_px) return kInvisible;
     return seen.x < kInvisible.x ? Vec2{centre_px_.x + seen.x, centre_px_.y + seen.y} : kInvisible;
 }
 
@@ -86,8 +113,16 @@ Vec2 Projection::offset_from_pixel(Vec2 pixel) const {
     const double scale = 1 / (focal_px_ * (1 + k_ * (dx * dx + dy * dy)));  // paper eq. 2
     // The viewing ray is (rx, ry, 1) * depth. On the paper, depth = distance + z. Therefore
     // x_axis.xy * ox + y_axis.xy * oy = (rx, ry) * (distance + x_axis.z * ox + y_axis.z * oy).
-    const double rx = dx * scale - time * (readout_px_.x / focal_px_);
-    const double ry = dy * scale - time * (readout_px_.y / focal_px_);
+    double rx = dx * scale - time * (readout_px_.x / focal_px_);
+    double ry = dy * scale - time * (readout_px_.y / focal_px_);
+    if (readout_turn_rad_ != 0) {
+        const Vec2 way = way_at(time);
+        const Vec2 before =
+            rotated({dx * scale - way.x / focal_px_, dy * scale - way.y / focal_px_},
+                    -time * readout_turn_rad_);
+        rx = before.x;
+        ry = before.y;
+    }
     const double a = x_axis_[0] - rx * x_axis_[2];
     const double b = y_axis_[0] - rx * y_axis_[2];
     const double c = x_axis_[1] - ry * x_axis_[2];

@@ -32,6 +32,12 @@ void check_camera(const CameraModel& camera, const CameraPose& pose) {
     require(within(camera.readout_px.x, -kMaxReadout * half_u, kMaxReadout * half_u) &&
                 within(camera.readout_px.y, -kMaxReadout * half_v, kMaxReadout * half_v),
             "the motion during the readout must be at most 75 % of the image");
+    // A turning point is seen once only if it moves down by less than a row while a row is read.
+    constexpr double kMaxFall = 0.95;
+    require(std::abs(camera.readout_turn_rad) * half_u + std::abs(camera.readout_px.y) <=
+                kMaxFall * camera.height_px,
+            "the rotation during the readout is too fast for this image: the scene would overtake "
+            "the rows");
     const double corner_square = half_u * half_u + half_v * half_v;
     // At |k| r^2 = 1, eq. 2 folds the image over itself if k is positive, or reaches infinity if k
     // is negative.

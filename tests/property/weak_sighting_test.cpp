@@ -13,6 +13,7 @@
 #include "core/decode/position.hpp"
 #include "core/decode/window.hpp"
 #include "core/integrity/verify.hpp"
+#include "core/kernels/select.hpp"
 #include "dotpose/tools/random.hpp"
 
 namespace dotpose {
@@ -79,7 +80,9 @@ int claim(View& view) {
     Fix fix;
     if (core::decode_all(grid, view.code, storage, decoding) != Status::ok) return 1;
     const IntegrityOptions all{0, 256};
-    if (core::verify(grid, view.code, nullptr, decoding, all, storage, fix) != Status::ok) return 1;
+    if (core::verify(core::kernels(), grid, view.code, nullptr, decoding, all, storage, fix) !=
+        Status::ok)
+        return 1;
     return decoding.place == view.place && decoding.pattern_from_grid.quarters == 0
                ? fix.p_wrong_log2
                : 1;

@@ -99,6 +99,7 @@ dotpose_status to_core(const dotpose_prediction& given, Prediction& prediction) 
     prediction.displacement_q16 = given.displacement_q16;
     prediction.sigma_q16 = given.sigma_q16;
     prediction.sigma_theta_bam = given.sigma_theta_bam;
+    prediction.readout_turn_rad = given.readout_turn_rad;
     return DOTPOSE_OK;
 }
 
@@ -161,6 +162,7 @@ void to_c(const Prediction& prediction, dotpose_prediction& result) {
     result.displacement_q16 = prediction.displacement_q16;
     result.sigma_q16 = prediction.sigma_q16;
     result.sigma_theta_bam = prediction.sigma_theta_bam;
+    result.readout_turn_rad = prediction.readout_turn_rad;
 }
 
 dotpose_status refuse(dotpose_status status, dotpose_fix& result) {

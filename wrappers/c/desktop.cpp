@@ -1,4 +1,4 @@
-// Functions that device locators do not support: known sheets, detection of the code, and the dots
+// Functions that device locators do not support: detection of the code, and the dots
 // of the last frame.
 #include <algorithm>
 #include <cstddef>
@@ -76,19 +76,6 @@ dotpose_status check_desktop(const dotpose_locator* locator) {
 }  // namespace
 
 extern "C" {
-
-dotpose_status dotpose_set_known(dotpose_locator* locator, const dotpose_region* regions,
-                                 size_t count, int32_t others) {
-    const dotpose_status status = check_desktop(locator);
-    if (status != DOTPOSE_OK) return status;
-    if (regions == nullptr && count != 0) return DOTPOSE_NULL_POINTER;
-    if (!c::is_one_of(others, OtherSheets::impossible)) return DOTPOSE_BAD_VALUE;
-    c::drop_frame(*locator);
-    const std::span known{reinterpret_cast<const KnownRegion*>(regions), count};
-    const Status set =
-        locator->actions->set_known(*locator->locator, known, static_cast<OtherSheets>(others));
-    return set == Status::ok ? DOTPOSE_OK : DOTPOSE_BAD_VALUE;
-}
 
 dotpose_status dotpose_locate_moved(dotpose_locator* locator, const uint8_t* pixels,
                                     int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,

@@ -25,6 +25,12 @@ dotpose_status dotpose_device_init(void* memory, std::size_t bytes, const dotpos
     return init<188, 120, DOTPOSE_DEVICE_BYTES>(memory, bytes, options, locator);
 }
 
+dotpose_status dotpose_device_36x36_init(void* memory, std::size_t bytes,
+                                         const dotpose_options* options,
+                                         dotpose_locator** locator) {
+    return init<36, 36, DOTPOSE_DEVICE_36X36_BYTES>(memory, bytes, options, locator);
+}
+
 dotpose_status dotpose_device_160x120_init(void* memory, std::size_t bytes,
                                            const dotpose_options* options,
                                            dotpose_locator** locator) {

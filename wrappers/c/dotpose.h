@@ -202,8 +202,8 @@ enum {
     DOTPOSE_PRIOR_ONLY_SHEETS = 2
 };
 
-/* The pose computed from one frame, with its evidence: 248 bytes. include/dotpose/fix_fields.def
- * lists the members.
+/* The pose computed from one frame, with its evidence: 256 bytes. The members are listed in
+ * include/dotpose/fix_fields.def.
  *
  * The pose is the pattern position at the reference point of the image, by default the image
  * centre. If `status` is not DOTPOSE_OK, x_mm, y_mm and theta_rad are NaN. Only `status`,
@@ -272,6 +272,11 @@ typedef struct dotpose_fix {
     /* Number of frames whose bits determined the position; more than 1 only if the motion between
      * the frames was given. */
     int32_t frames; /* 244 */
+    /* Change of theta during the readout of a rolling shutter, from the first to the last row, if
+     * the frame shows a significant rotation. */
+    float readout_turn_rad; /* 248 */
+    /* Zero. */
+    int32_t reserved; /* 252 */
 } dotpose_fix;
 
 /* Sets up a fix before the first call that writes to it. `bytes` is the caller's
@@ -279,13 +284,14 @@ typedef struct dotpose_fix {
  * the fix unchanged. */
 dotpose_status dotpose_fix_init(dotpose_fix* fix, size_t bytes);
 
-/* Expected place of the pattern in the next frame: 72 bytes. */
+/* Expected position of the pattern in the next frame: 76 bytes. */
 typedef struct dotpose_prediction {
     dotpose_plane pattern_from_image; /*  0 */
     dotpose_place place;              /* 44 */
     int32_t displacement_q16;         /* 60 */
     int32_t sigma_q16;                /* 64: standard deviation of x and y, in spacings */
     int32_t sigma_theta_bam;          /* 68: standard deviation of theta */
+    float readout_turn_rad;           /* 72: change of theta during the readout of a frame */
 } dotpose_prediction;
 
 /* Predicts that the next frame has the same pose as `fix`. A frame that confirms its prediction is
@@ -304,10 +310,12 @@ dotpose_status dotpose_prediction_move(dotpose_prediction* prediction, int32_t c
 /* Kinds of locators, and the memory they need. */
 enum {
     DOTPOSE_KIND_DEVICE = 0, /* microcontrollers: integers only, images up to 188 px wide, 13 KB */
-    DOTPOSE_KIND_SMALL = 1,  /* images up to 188 px wide, 290 KB */
-    DOTPOSE_KIND_LARGE = 2,  /* images up to 4096 x 4096 px, 3 MB */
+    DOTPOSE_KIND_SMALL = 1,  /* images up to 188 px wide, 330 KB */
+    DOTPOSE_KIND_LARGE = 2,  /* images up to 4096 x 4096 px, 4.4 MB */
     DOTPOSE_KIND_DEVICE_160X120 = 3, /* like DEVICE, for images up to 160 px wide, 11 KB */
-    DOTPOSE_KIND_DEVICE_320X240 = 4  /* like DEVICE, for images up to 320 x 240 px, 23 KB */
+    DOTPOSE_KIND_DEVICE_320X240 = 4, /* like DEVICE, for images up to 320 x 240 px, 23 KB */
+    /* Like DEVICE, for images up to 36 px wide, of optical mice, on known sheets only, 5 KB. */
+    DOTPOSE_KIND_DEVICE_36X36 = 5
 };
 
 /* Attempts that a locator makes. Device locators always make the device attempt. */
@@ -358,6 +366,7 @@ typedef struct dotpose_locator dotpose_locator;
 /* Sizes for static memory. Each size is at least dotpose_locator_bytes() for its kind.
  *     static uint64_t memory[DOTPOSE_DEVICE_BYTES / 8]; */
 #define DOTPOSE_DEVICE_BYTES (sizeof(void*) == 4 ? 12736u : 13504u)
+#define DOTPOSE_DEVICE_36X36_BYTES (sizeof(void*) == 4 ? 4752u : 5040u)
 #define DOTPOSE_DEVICE_160X120_BYTES (sizeof(void*) == 4 ? 10768u : 12000u)
 #define DOTPOSE_DEVICE_320X240_BYTES (sizeof(void*) == 4 ? 23232u : 25232u)
 
@@ -374,7 +383,10 @@ dotpose_status dotpose_locator_init(void* memory, size_t bytes, int32_t kind,
  * locators, the linker can remove the other kinds as unused sections. */
 dotpose_status dotpose_device_init(void* memory, size_t bytes, const dotpose_options* options,
                                    dotpose_locator** locator);
-/* Like dotpose_device_init, for DOTPOSE_KIND_DEVICE_160X120 and DOTPOSE_KIND_DEVICE_320X240. */
+/* Sets up a locator of DOTPOSE_KIND_DEVICE_36X36, DOTPOSE_KIND_DEVICE_160X120 or
+ * DOTPOSE_KIND_DEVICE_320X240 in the same way. */
+dotpose_status dotpose_device_36x36_init(void* memory, size_t bytes, const dotpose_options* options,
+                                         dotpose_locator** locator);
 dotpose_status dotpose_device_160x120_init(void* memory, size_t bytes,
                                            const dotpose_options* options,
                                            dotpose_locator** locator);
@@ -415,10 +427,9 @@ enum {
 /* Sets the regions of the sheets that may be in view. Views of about 30 dots then suffice, in
  * images of at least 24 x 24 px. The locator reads `regions` in each frame, so the array must
  * remain valid and unchanged. If `count` is 0, all places are possible again. Discards a frame that
- * was begun.
- *
- * Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not inside the plane,
- * or has a code or section that does not exist. Returns WRONG_KIND for device locators. */
+ * was begun. Returns BAD_VALUE, and keeps the previous regions, if a region is empty, is not inside
+ * the plane, or has a code or section that does not exist. Device locators search only the regions
+ * in their code. */
 dotpose_status dotpose_set_known(dotpose_locator* locator, const dotpose_region* regions,
                                  size_t count, int32_t others);
 

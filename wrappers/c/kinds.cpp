@@ -20,17 +20,18 @@ constexpr Kind kind_of() {
 }
 
 /// Properties of the kinds, indexed by DOTPOSE_KIND_.
-constexpr std::array<Kind, DOTPOSE_KIND_DEVICE_320X240 + 1> kKinds{
+constexpr std::array<Kind, DOTPOSE_KIND_DEVICE_36X36 + 1> kKinds{
     kind_of<DeviceMemory, DeviceLocator>(),
     kind_of<SmallMemory, Locator>(),
     kind_of<LargeMemory, Locator>(),
     kind_of<DeviceMemoryFor<160, 120>, DeviceLocator>(),
     kind_of<DeviceMemoryFor<320, 240>, DeviceLocator>(),
+    kind_of<DeviceMemoryFor<36, 36>, DeviceLocator>(),
 };
 
 const Kind* find_kind(std::int32_t kind) {
-    return c::is_one_of(kind, DOTPOSE_KIND_DEVICE_320X240) ? &kKinds[static_cast<std::size_t>(kind)]
-                                                           : nullptr;
+    return c::is_one_of(kind, DOTPOSE_KIND_DEVICE_36X36) ? &kKinds[static_cast<std::size_t>(kind)]
+                                                         : nullptr;
 }
 
 }  // namespace

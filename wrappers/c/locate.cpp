@@ -39,6 +39,19 @@ using namespace dotpose;
 
 extern "C" {
 
+dotpose_status dotpose_set_known(dotpose_locator* locator, const dotpose_region* regions,
+                                 size_t count, int32_t others) {
+    const dotpose_status status = c::check(locator);
+    if (status != DOTPOSE_OK) return status;
+    if (regions == nullptr && count != 0) return DOTPOSE_NULL_POINTER;
+    if (!c::is_one_of(others, OtherSheets::impossible)) return DOTPOSE_BAD_VALUE;
+    c::drop_frame(*locator);
+    const std::span known{reinterpret_cast<const KnownRegion*>(regions), count};
+    const Status set =
+        locator->actions->set_known(*locator->locator, known, static_cast<OtherSheets>(others));
+    return set == Status::ok ? DOTPOSE_OK : DOTPOSE_BAD_VALUE;
+}
+
 dotpose_status dotpose_set_options(dotpose_locator* locator, const dotpose_options* given) {
     dotpose_status status = c::check(locator);
     if (status != DOTPOSE_OK) return status;

@@ -22,11 +22,11 @@ struct Actions {
     Status (*begin)(RowLocator& locator, int width_px, int height_px, const Prediction* prediction);
     void (*push_row)(RowLocator& locator, const std::uint8_t* pixels);
     Fix (*finish)(RowLocator& locator);
+    Status (*set_known)(RowLocator& locator, std::span<const KnownRegion> regions,
+                        OtherSheets others);
     CodeReading (*locate_in_any_code)(RowLocator& locator, const ImageView& image,
                                       const Prediction* prediction, const CodeEvidence& evidence);
     CodeReading (*locate_in_code)(RowLocator& locator, const ImageView& image);
-    Status (*set_known)(RowLocator& locator, std::span<const KnownRegion> regions,
-                        OtherSheets others);
     Fix (*locate_moved)(RowLocator& locator, const ImageView& image, const MeasuredMotion& motion);
 };
 
@@ -51,6 +51,10 @@ constexpr Actions actions_of() {
         static_cast<Kind&>(locator).push_row(pixels);
     };
     actions.finish = [](RowLocator& locator) { return static_cast<Kind&>(locator).finish(); };
+    actions.set_known = [](RowLocator& locator, std::span<const KnownRegion> regions,
+                           OtherSheets others) {
+        return static_cast<Kind&>(locator).set_known(regions, others);
+    };
     if constexpr (std::is_same_v<Kind, Locator>) {
         actions.locate_in_any_code = [](RowLocator& locator, const ImageView& image,
                                         const Prediction* prediction,
@@ -61,10 +65,6 @@ constexpr Actions actions_of() {
         };
         actions.locate_in_code = [](RowLocator& locator, const ImageView& image) {
             return static_cast<Kind&>(locator).locate_in_code(image);
-        };
-        actions.set_known = [](RowLocator& locator, std::span<const KnownRegion> regions,
-                               OtherSheets others) {
-            return static_cast<Kind&>(locator).set_known(regions, others);
         };
         actions.locate_moved = [](RowLocator& locator, const ImageView& image,
                                   const MeasuredMotion& motion) {

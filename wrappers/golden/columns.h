@@ -37,4 +37,5 @@ static const golden_column golden_columns[] = {
     {'f', 9, offsetof(dotpose_fix, covariance_grid)},
     {'i', 1, offsetof(dotpose_fix, prior)},
     {'i', 1, offsetof(dotpose_fix, frames)},
+    {'f', 1, offsetof(dotpose_fix, readout_turn_rad)},
 };

@@ -32,14 +32,18 @@ Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace,
 
 /// Velocity of a camera over the paper, from one image of a rolling shutter.
 struct ReadoutVelocity {
-    /// Velocity along x and y of the pattern (y down), in spacings per second.
+    /// Velocity of the reference point along x and y of the pattern (y down), in spacings per
+    /// second.
     double x_per_s = 0;
     double y_per_s = 0;
-    std::array<std::array<double, 2>, 2> covariance{};
+    /// Turn rate: the change of theta, in rad per second.
+    double turn_rad_s = 0;
+    /// Covariance of (x_per_s, y_per_s, turn_rad_s).
+    std::array<std::array<double, 3>, 3> covariance{};
 };
 
 /// A fix refined by `with_camera`, and the velocity during the readout. Pose and velocity are
-/// fitted together to the dots. Rotation during the readout is not fitted. There is no velocity
+/// fitted together to the dots. There is no velocity
 /// without a fix, or if the camera file has no `readout_ms` or no view.
 struct MovingFix {
     Fix fix;

@@ -59,6 +59,11 @@ struct CameraModel {
     /// 75 % of the side of the image along each axis. The pose applies to the time of the middle
     /// row. (0, 0) for a global shutter.
     Vec2 readout_px;
+    /// Rotation of the scene about the image centre while a rolling shutter reads the rows, from
+    /// the image x axis towards the image y axis, in addition to the motion. Both rates are
+    /// constant, as for a camera on a robot that drives in a circle. The scene must not overtake
+    /// the rows: the limit is about 80 degrees in an image of 4:3.
+    double readout_turn_rad = 0;
 };
 
 /// Pose of the camera. The pattern point under the image centre is cell + fraction.
@@ -190,9 +195,16 @@ class Projection {
     void offsets_from_row(Vec2 first_pixel, std::span<Vec2> offsets_mm) const;
 
   private:
+    /// Returns the undistorted point, in px from the image centre, at which a point of the middle
+    /// row's time is seen at `time`. Time is in readouts, and 0 at the middle row.
+    Vec2 moved(Vec2 undistorted, double time) const;
+    /// Returns the motion of the pose point in the undistorted image until `time`, an arc.
+    Vec2 way_at(double time) const;
+
     Vec2 centre_px_;
     double height_px_;
     Vec2 readout_px_;
+    double readout_turn_rad_;
     double k_;
     double focal_px_;
     double distance_mm_;

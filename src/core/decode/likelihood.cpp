@@ -44,7 +44,7 @@ namespace {
 /// Fills the grid. `point_of(dot)` returns the dot's nearest cell and its offset from the cell
 /// centre.
 template <typename PointOf>
-Status assign(std::span<const DetectedDot> dots, PointOf point_of, Grid& grid) {
+Status assign(std::span<const DetectedDot> dots, int min_side, PointOf point_of, Grid& grid) {
     FixedVec min{INT32_MAX, INT32_MAX};
     FixedVec max{INT32_MIN, INT32_MIN};
     for (const DetectedDot& dot : dots) {
@@ -52,7 +52,7 @@ Status assign(std::span<const DetectedDot> dots, PointOf point_of, Grid& grid) {
         min = {std::min(min.x, cell.x), std::min(min.y, cell.y)};
         max = {std::max(max.x, cell.x), std::max(max.y, cell.y)};
     }
-    if (dots.empty() || max.x - min.x + 1 < kWindowSide || max.y - min.y + 1 < kWindowSide) {
+    if (dots.empty() || max.x - min.x + 1 < min_side || max.y - min.y + 1 < min_side) {
         return Status::grid_too_small;
     }
     lay_out(min, max, grid);
@@ -88,16 +88,16 @@ Status assign_likelihoods(std::span<const DetectedDot> dots, const PlaneFromImag
         return grid_point(grid_from_image, dot.centre_q8);
     };
     return is_affine(grid_from_image) ? assign_affine_likelihoods(dots, grid_from_image, grid)
-                                      : assign(dots, exactly, grid);
+                                      : assign(dots, kWindowSide, exactly, grid);
 }
 
 Status assign_affine_likelihoods(std::span<const DetectedDot> dots,
-                                 const PlaneFromImage& grid_from_image, Grid& grid) {
+                                 const PlaneFromImage& grid_from_image, Grid& grid, int min_side) {
     const Cells cells(grid_from_image);
     const auto quickly = [&](const DetectedDot& dot) {
         return cells(cells.from_centre_q3(dot.centre_q8));
     };
-    return assign(dots, quickly, grid);
+    return assign(dots, min_side, quickly, grid);
 }
 
 }  // namespace dotpose::core

@@ -23,7 +23,8 @@ Status assign_likelihoods(std::span<const DetectedDot> dots, const PlaneFromImag
 
 /// Faster variant of `assign_likelihoods`, for a plane without perspective or lens distortion.
 Status assign_affine_likelihoods(std::span<const DetectedDot> dots,
-                                 const PlaneFromImage& grid_from_image, Grid& grid);
+                                 const PlaneFromImage& grid_from_image, Grid& grid,
+                                 int min_side = kWindowSide);
 
 /// Returns the quality |P^(x) P^(y)| of a cell, at most 127 * 127. The quality is high if the dot
 /// is near one of the cell's four places.

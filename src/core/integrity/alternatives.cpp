@@ -8,7 +8,7 @@
 #include "core/integrity/near_alternatives.hpp"
 #include "core/integrity/ranked_lines.hpp"
 #include "core/integrity/single_alternatives.hpp"
-#include "core/math/fixed.hpp"
+#include "core/math/odds.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -20,58 +20,79 @@ constexpr int kMaxSharedInARow = code::kOrder;
 /// Maximum expected odds of the far alternatives for which a detailed evaluation is worth the time.
 /// With larger expected odds, the fix cannot become certain.
 constexpr float kBeyondHelp = 1e-4F;
+/// Default limit of the odds.
+constexpr float kUsualLimit = 0x1p-30F;
 
-/// Returns the expected odds of far alternatives. Includes alternatives that differ in at least
-/// `min_different` sequences and share fewer than `shared_lines` adjacent lines.
-float sum_of_far_alternatives(const RankedLines& lines, int shared_lines, int min_different) {
-    ExpectedAlternatives expected(lines.ratios.basis, lines.ratios.position, shared_lines - 1,
-                                  min_different);
-    for (int line = 0; line < lines.count(); ++line)
-        expected.add_line(lines.odds(line));
-    return expected.sum();
-}
-
-/// Returns the summed odds of the other sections at the same position. In another section, all
-/// rolls differ by the same shift.
-float sum_of_other_sections(const LikelihoodRatios& ratios) {
+/// Returns the summed odds of the same position in the other sections. In each of these sections,
+/// the rolls of all lines differ from the rolls of the reading by the same shift.
+float sum_of_other_sections(const RankedLines& lines) {
     float sum = 0;
     for (int shift = 1; shift < kSections; ++shift) {
         int lost = 0;
-        for (int line = 0; line < ratios.lines.count(); ++line)
-            lost += ratios.loss(line, shift);
-        sum += ratios.odds(lost);
+        for (int line = 0; line < lines.count(); ++line)
+            lost += lines.loss(line, shift);
+        sum += lines.ratios.odds(lost);
     }
     return sum;
 }
 
-}  // namespace
-
-int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2) {
-    if (ratios.lines.count() <= kMaxSharedInARow) return 0;
-    const RankedLines lines(ratios);
-    const float known = sum_of_single_alternatives(lines) + sum_of_other_sections(ratios) +
-                        sum_of_near_alternatives(lines, kMaxSharedInARow);
-    const float expected = sum_of_far_alternatives(lines, kMaxSharedInARow, 2);
-    float sum = known + expected;
-    const float limit = std::ldexp(1.0F, limit_log2);
-    const float far_below_doubt = std::ldexp(1.0F, std::min(limit_log2, -30) - 10);
-    // Evaluates more alternatives one by one: double alternatives, and near alternatives with one
-    // shared line fewer. A smaller part of the sum is then only an expectation.
-    if (sum > far_below_doubt && expected > known && expected < kBeyondHelp) {
-        sum = known + sum_of_far_alternatives(lines, kMaxSharedInARow - 1, 3);
-        // Skips the slowest sums if the limit is already exceeded.
-        if (sum < limit) sum += sum_of_near_alternatives(lines, kMaxSharedInARow - 1);
-        if (sum < limit) {
-            // Maximum expected odds of the double alternatives that are not evaluated one by one.
-            // An expectation alone must not cause a refusal, so the maximum is at most an eighth of
-            // the margin to the limit.
-            const float negligible = std::min(std::max(sum, far_below_doubt), limit - sum) / 8;
-            sum += sum_of_double_alternatives(lines, negligible, limit - sum);
-        }
-    }
+int log2_rounded_up(float sum) {
     int exponent = 0;
     std::frexp(sum, &exponent);  // sum < 2^exponent
     return std::min(exponent, 0);
+}
+
+/// Odds of the far alternatives as an expectation over all places.
+struct Expectation {
+    float of_two;   ///< of the alternatives that differ in two sequences
+    float of_more;  ///< of the alternatives that differ in three or four
+};
+
+/// Returns the sum of the odds of the far alternatives, with more of them counted one by one: the
+/// double alternatives, and the near alternatives that share one line fewer. `known` is the sum of
+/// all other odds. This reduces the part of the sum that is only an expectation.
+float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float known,
+                        Expectation expected, float limit) {
+    // Odds that do not matter. Computes the odds as precisely as the default limit requires, even
+    // if the caller permits larger odds.
+    const float usual = std::min(limit, kUsualLimit);
+    float sum = kMargin * expected.of_more;
+    if (sum > usual / 16) {
+        sum = sum_of_expected_alternatives(kernels, lines, kMaxSharedInARow - 2, 3, 4);
+        // Skips the slowest sums if the other sums already exceed the limit.
+        if (known + sum < limit)
+            sum += sum_of_near_alternatives(kernels, lines, kMaxSharedInARow - 1);
+    }
+    sum += known;
+    if (sum >= limit) return sum;
+    // Maximum expected odds of the double alternatives that are not counted one by one. An
+    // expectation alone must not cause a refusal.
+    const float negligible = std::min(sum < usual / 8 ? usual / 16 : sum / 8, (limit - sum) / 8);
+    return sum +
+           sum_of_double_alternatives(kernels, lines, expected.of_two, negligible, limit - sum);
+}
+
+}  // namespace
+
+int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2) {
+    if (ratios.lines.count() <= kMaxSharedInARow) return 0;
+    const RankedLines lines(ratios);
+    const float limit = power_of_two_exactly(limit_log2);
+    const auto expected_of = [&](int min_different, int max_different) {
+        return sum_of_expected_alternatives(kernels, lines, kMaxSharedInARow - 1, min_different,
+                                            max_different);
+    };
+    const Expectation expected{expected_of(2, 2), expected_of(3, 4)};
+    const float far = expected.of_two + expected.of_more;
+    // The fastest sums first. If a sum exceeds the limit, the others do not matter.
+    if (far >= std::max(limit, kBeyondHelp)) return log2_rounded_up(far);
+    float known = sum_of_single_alternatives(kernels, lines) + sum_of_other_sections(lines);
+    if (known < limit) known += sum_of_near_alternatives(kernels, lines, kMaxSharedInARow);
+    const float sum = known + far;
+    const bool needs_detail =
+        sum > std::min(limit, kUsualLimit) / 1024 && far > known && far < kBeyondHelp;
+    if (known >= limit || !needs_detail) return log2_rounded_up(sum);
+    return log2_rounded_up(counted_in_detail(kernels, lines, known, expected, limit));
 }
 
 }  // namespace dotpose::core

@@ -4,13 +4,15 @@
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
+#include "core/kernels/kernels.hpp"
 
 namespace dotpose::core {
 
-/// Returns log2 of the summed odds, rounded up to an integer and at most 0. Includes all
-/// alternatives except seam alternatives. Most far alternatives contribute expected odds. All other
-/// odds are exact or upper bounds. The sum is only as precise as a comparison with 2^limit_log2
-/// requires. Returns 0 if there are at most 5 lines.
-int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2 = 0);
+/// Returns log2 of the summed odds of all alternatives except seam alternatives, rounded up to an
+/// integer and clamped to at most 0. Far alternatives differ from the reading in several sequences
+/// and share few adjacent lines. A far alternative contributes either its individual odds or its
+/// expected odds. All other odds in the sum are exact or upper bounds. The sum is only as precise
+/// as a comparison with 2^limit_log2 requires. Returns 0 if there are at most 5 lines.
+int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2 = 0);
 
 }  // namespace dotpose::core

@@ -78,13 +78,17 @@ int odds_per_bit_q8(const Confidence& confidence) {
     return odds_q8;
 }
 
-int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8) {
+int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8) {
     constexpr int kBeyondDoubt_q8 = 16 * 256;
+    const std::int64_t best_q16 = std::min(agreement_log2_q16(bits, odds_per_bit_q8),
+                                           agreement_log2_q16(bits, kBeyondDoubt_q8));
+    return static_cast<int>(best_q16 >> 8) + 1;
+}
+
+int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8) {
     // log2(410815348 * 63 * 4) = 36.59
     constexpr int kHypotheses_q8 = 9368;
-    const std::int64_t best_q16 = std::min(agreement_log2_q16(axis, odds_per_bit_q8),
-                                           agreement_log2_q16(axis, kBeyondDoubt_q8));
-    return static_cast<int>(best_q16 >> 8) + 1 + kHypotheses_q8 + log2_times_q8;
+    return agreement_log2_q8(axis, odds_per_bit_q8) + kHypotheses_q8 + log2_times_q8;
 }
 
 int chance_log2(const Confidence& axis, int odds_per_bit_q8) {

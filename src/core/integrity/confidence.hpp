@@ -62,11 +62,17 @@ class Confidence {
 /// no information.
 int odds_per_bit_q8(const Confidence& confidence);
 
-/// Returns log2 of an upper bound on the probability of a chance match. In a chance match, random
-/// bits agree with the code as well as the bits that were read. The bound covers all positions,
-/// sections and quarter turns: L * 63 * 4 hypotheses per axis, with L = 410,815,348. For each
-/// hypothesis, the function uses Chernoff's bound. The bound holds for any `odds_per_bit_q8`, and
-/// is smallest near the true odds.
+/// Returns log2 of an upper bound on the probability that random bits of these weights agree with
+/// one given place at least as well as the bits that were read, in units of 2^-8 (Chernoff). The
+/// result is an upper bound for any value of `odds_per_bit_q8`.
+int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8);
+
+/// Returns log2 of an upper bound on the probability that random bits of these weights agree with
+/// the code at least as well as the bits that were read, at any position, in any section, and in
+/// any of the four orientations. An axis has L * 63 * 4 hypotheses (position, section and
+/// orientation), where L = 410,815,348 is the number of positions. Chernoff's bound, with weights
+/// scaled to log odds, applies to each hypothesis. The result is an upper bound for any value of
+/// `odds_per_bit_q8`, and is smallest near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
 /// Returns the same bound as `chance_log2` in units of 2^-8, with 2^(log2_times_q8 / 256) times as

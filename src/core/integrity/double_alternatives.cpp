@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <span>
 
+#include "core/integrity/expected_alternatives.hpp"
 #include "core/integrity/expected_double_alternatives.hpp"
 
 namespace dotpose::core {
@@ -15,26 +16,31 @@ namespace {
 /// expected odds. There are 190,027 pairs, including 2,217 pairs with one of the reading's places.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// Safety factor for expected odds. Expected odds are means over all positions, and the odds at a
-/// given position can be larger. On 5,630 axes of hard frames, the odds were at most 21 times the
-/// mean.
-constexpr float kMargin = 32;
+/// log2 of the odds above which an alternative is always evaluated, not only expected.
+constexpr int kLargeOdds_log2 = -36;
 
 /// Set of anchors, one bit per rank. Anchors are the lines with the most information.
 using Anchors = std::uint32_t;
 
-/// The anchors in `shared - 1` groups. An alternative that shares `shared` anchors therefore shares
-/// at least two anchors in the same group.
+/// One byte per anchor. The vector fits in one register.
+using AnchorBytes [[gnu::vector_size(16)]] = std::uint8_t;
+static_assert(sizeof(AnchorBytes) >= kMaxAnchors);
+
+/// Returns differences of offsets modulo 63. The differences are in [-62, 62]. Negative differences
+/// are represented modulo 256.
+AnchorBytes modulo_sections(AnchorBytes offsets) {
+    return offsets + (static_cast<AnchorBytes>(offsets >= kSections) & kSections);
+}
+
+/// The anchors, divided into `shared - 1` groups. An alternative that shares `shared` anchors
+/// therefore shares at least two anchors of the same group.
 class Groups {
   public:
-    Groups(const RankedLines& lines, int anchors, int shared) : count_(shared - 1) {
-        // Assigns the anchors to the groups in turn. Anchors in a group are therefore far apart,
-        // and few alternatives share two of them.
-        int n = 0;
-        for (int line = 0; line < lines.count(); ++line) {
-            const int rank = lines.rank(static_cast<std::uint32_t>(line));
-            if (rank < anchors) groups_[static_cast<std::size_t>(n++ % count_)] |= 1U << rank;
-        }
+    Groups(int anchors, int shared) : count_(shared - 1) {
+        // Assigns the anchors to the groups in turn. The anchors of a group are therefore far
+        // apart, and few alternatives share two anchors of a group.
+        for (int n = 0; n < anchors; ++n)
+            groups_[static_cast<std::size_t>(n % count_)] |= Anchors{1} << n;
     }
 
     /// Calls `use(one, other)` for each pair of anchors in the same group. `one` and `other` are
@@ -43,72 +49,48 @@ class Groups {
     void visit_pairs(Use use) const {
         for (std::size_t group = 0; group < static_cast<std::size_t>(count_); ++group) {
             for (Anchors rest = groups_[group]; rest != 0; rest &= rest - 1) {
-                const int one = std::countr_zero(rest);
+                const auto one = static_cast<std::size_t>(std::countr_zero(rest));
                 for (Anchors others = rest & (rest - 1); others != 0; others &= others - 1)
-                    use(one, std::countr_zero(others));
+                    use(one, static_cast<std::size_t>(std::countr_zero(others)));
             }
         }
     }
 
-    /// Returns true if (`one`, `other`) is the first pair in `visit_pairs` whose anchors are both
-    /// in `shared`. An alternative is added only at its first pair.
-    bool is_first_pair(Anchors shared, int one, int other) const {
+    /// Returns true if (`one`, `other`) is the first pair, in the order of `visit_pairs`, of
+    /// anchors that are both in `shared`. An alternative that shares several pairs of anchors is
+    /// counted only at the first of these pairs.
+    bool is_first_pair(Anchors shared, std::size_t one, std::size_t other) const {
         for (const Anchors group : groups_) {
             const Anchors both = shared & group;
             if ((both & (both - 1)) == 0) continue;
-            return std::countr_zero(both) == one && std::countr_zero(both & (both - 1)) == other;
+            return static_cast<std::size_t>(std::countr_zero(both)) == one &&
+                   static_cast<std::size_t>(std::countr_zero(both & (both - 1))) == other;
         }
         return false;
     }
 
   private:
     int count_;
-    std::array<Anchors, kMinFound - 1> groups_{};
+    std::array<Anchors, kMaxAnchors - 1> groups_{};
 };
 
-/// One byte per line, for ranks 0 to 15. Includes all anchors and fits in one register.
-using AnchorBytes [[gnu::vector_size(16)]] = std::uint8_t;
-static_assert(sizeof(AnchorBytes) >= kMaxAnchors && sizeof(AnchorBytes) <= kMaxLines);
-
-int at(const RankedLines::Offsets& offsets, int rank) {
-    return offsets.all[static_cast<std::size_t>(rank)];
-}
-
-/// Reduces differences in [-62, 62] modulo 63. Negative differences are stored modulo 256.
-AnchorBytes modulo_sections(AnchorBytes offsets) {
-    return offsets + (static_cast<AnchorBytes>(offsets >= kSections) & kSections);
-}
-
-AnchorBytes anchors_of(const RankedLines::Offsets& offsets) {
-    AnchorBytes bytes;
-    std::memcpy(&bytes, offsets.all.data(), sizeof bytes);
-    return bytes;
-}
-
-/// Returns a place's offsets at all anchors minus the offset at the anchor `one`, modulo 63.
-AnchorBytes since(int one, const RankedLines::Offsets& offsets) {
-    return modulo_sections(anchors_of(offsets) - offsets.all[static_cast<std::size_t>(one)]);
-}
-
-/// Returns the negative of `since`, modulo 63. If two places share the anchor `one`, they also
-/// share each anchor where `since` of one place equals `opposite` of the other.
-AnchorBytes opposite(int one, const RankedLines::Offsets& offsets) {
-    return modulo_sections(offsets.all[static_cast<std::size_t>(one)] - anchors_of(offsets));
-}
-
-/// Set of anchors, one byte per rank: 1 for an anchor in the set, otherwise 0.
-class Marks {
+/// The bytes of a vector in two words.
+class BytesInWords {
   public:
-    explicit Marks(AnchorBytes marks) {
-        std::memcpy(halves_.data(), &marks, sizeof marks);
-        // Moves the first byte to the lowest byte of the word.
+    explicit BytesInWords(AnchorBytes bytes) {
+        std::memcpy(halves_.data(), &bytes, sizeof bytes);
+        // The first byte must be the lowest byte of a word.
         if constexpr (std::endian::native == std::endian::big) {
             for (std::uint64_t& half : halves_)
                 half = __builtin_bswap64(half);
         }
     }
 
-    int count() const { return static_cast<int>((halves_[0] + halves_[1]) * kInEach >> 56); }
+    /// Returns the sum of all bytes, which must be at most 255.
+    int sum() const {
+        return static_cast<int>((halves_[0] + halves_[1]) * 0x0101010101010101 >> 56);
+    }
+    /// Returns the set of the anchors whose bytes are 1. All other bytes must be 0.
     Anchors anchors() const { return bits_of(halves_[0]) | bits_of(halves_[1]) << 8; }
 
   private:
@@ -121,40 +103,71 @@ class Marks {
     std::array<std::uint64_t, 2> halves_;
 };
 
-/// A place in a sequence, with its `opposite` offsets. `Finder` compares these offsets with `since`
-/// of a place in another sequence.
+/// Roll offsets of all places at the anchors.
+class AnchorOffsets {
+  public:
+    AnchorOffsets(const RankedLines& lines, int anchors) {
+        std::size_t count = 0;
+        for (int line = 0; line < lines.count(); ++line) {
+            if (lines.rank(static_cast<std::uint32_t>(line)) < anchors)
+                lines_[count++] = static_cast<std::size_t>(line);
+        }
+        RollOffsets by_line;
+        for (std::size_t k = 0; k < all_.size(); ++k) {
+            for (std::uint32_t place = 0; place < lines.ratios.basis[k].length; ++place) {
+                lines.set_offsets(k, place, by_line);
+                AnchorBytes& offsets = all_[k][place];
+                for (std::size_t n = 0; n < lines_.size(); ++n)
+                    offsets[n] = by_line[lines_[n]];
+            }
+        }
+    }
+    const AnchorBytes& operator()(std::size_t sequence, std::size_t place) const {
+        return all_[sequence][place];
+    }
+
+    /// Returns the line in the view of an anchor.
+    std::size_t line(std::size_t anchor) const { return lines_[anchor]; }
+
+  private:
+    std::array<std::size_t, kMaxAnchors> lines_{};
+    std::array<std::array<AnchorBytes, code::kA4Restored.size()>, 4> all_;
+};
+
+/// A place in a sequence, and the negatives of its offsets since an anchor, modulo 63. Together
+/// with a place in another sequence, this place shares each anchor at which the offset of the other
+/// place since the same anchor is equal.
 struct Opposite {
     AnchorBytes offsets;
-    const RankedLines::Offsets* place;
+    std::uint32_t place;
 };
 
 /// The places in a sequence, in buckets by the difference between a place's offsets at two anchors,
 /// modulo 63. Excludes the reading's place.
 class Buckets {
   public:
-    Buckets(const RankedLines& lines, std::size_t sequence, int one, int other) {
-        const std::uint32_t length = lines.ratios.basis[sequence].length;
-        const std::uint32_t own = lines.ratios.places[sequence];
-        const auto less_at = [&](std::uint32_t place) {
-            return offset_less(lines.offsets(sequence, place), one, other);
-        };
-        for (std::uint32_t place = 0; place < length; ++place)
-            ++begins_[less_at(place) + 1];
-        --begins_[less_at(own) + 1];
+    Buckets(const AnchorOffsets& offsets, std::size_t sequence, std::uint32_t length,
+            std::uint32_t own, std::size_t one, std::size_t other) {
+        std::array<std::uint8_t, code::kA4Restored.size()> less;
+        for (std::uint32_t place = 0; place < length; ++place) {
+            less[place] = difference(offsets(sequence, place), one, other);
+            ++begins_[less[place] + std::size_t{1}];
+        }
+        --begins_[less[own] + std::size_t{1}];
         for (std::size_t n = 1; n < begins_.size(); ++n)
             begins_[n] = static_cast<std::uint8_t>(begins_[n] + begins_[n - 1]);
         auto next = begins_;
         for (std::uint32_t place = 0; place < length; ++place) {
             if (place == own) continue;
-            const RankedLines::Offsets& offsets = lines.offsets(sequence, place);
-            places_[next[less_at(place)]++] = {opposite(one, offsets), &offsets};
+            const AnchorBytes& here = offsets(sequence, place);
+            places_[next[less[place]]++] = {modulo_sections(here[one] - here), place};
         }
     }
 
     /// Returns the offset at the anchor `one` minus the offset at the anchor `other`, modulo 63.
-    static std::size_t offset_less(const RankedLines::Offsets& offsets, int one, int other) {
-        const int less = at(offsets, one) - at(offsets, other);
-        return static_cast<std::size_t>(less < 0 ? less + kSections : less);
+    static std::uint8_t difference(const AnchorBytes& offsets, std::size_t one, std::size_t other) {
+        const int less = offsets[one] - offsets[other];
+        return static_cast<std::uint8_t>(less < 0 ? less + kSections : less);
     }
 
     std::span<const Opposite> operator[](std::size_t less) const {
@@ -171,16 +184,23 @@ class Buckets {
 class Finder {
   public:
     Finder(const RankedLines& lines, int anchors, int shared)
-        : lines_(lines), shared_(shared), groups_(lines, anchors, shared) {
-        for (int rank = 0; rank < anchors; ++rank)
-            anchors_[rank] = 1;
+        : lines_(lines), offsets_(lines, anchors), shared_(shared), groups_(anchors, shared) {
+        const LikelihoodRatios& ratios = lines.ratios;
+        const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();
+        const int unit = loss_limit / kLimit + 1;
+        for (std::size_t n = 0; n < static_cast<std::size_t>(anchors); ++n) {
+            const int loss =
+                std::max(ratios.min_loss(static_cast<int>(offsets_.line(n))), 0) / unit;
+            losses_[n] = static_cast<std::uint8_t>(std::min(loss, kLimit));
+            anchors_[n] = 1;
+        }
     }
 
     float sum() const {
         float sum = 0;
-        groups_.visit_pairs([&](int one, int other) {
-            // Sorts one sequence in each pair into buckets. This sequence is never a3, the shortest
-            // one.
+        groups_.visit_pairs([&](std::size_t one, std::size_t other) {
+            // For each pair of sequences, the places in one of the two sequences are sorted into
+            // buckets. This sequence is never a3, the shortest sequence.
             sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
                    sum_of_bucketed(3, {0, 1, 2}, one, other);
         });
@@ -188,55 +208,126 @@ class Finder {
     }
 
   private:
-    /// Returns the summed odds of alternatives that differ in `sequence` and in a sequence from
-    /// `others`. Includes only alternatives whose first shared pair is (`one`, `other`).
-    float sum_of_bucketed(std::size_t sequence, std::initializer_list<std::size_t> others, int one,
-                          int other) const {
-        const Buckets buckets(lines_, sequence, one, other);
+    /// Upper bound on the odds of an alternative that is not evaluated line by line, as log2 in
+    /// units of 2^-8 and as a number. The sum contains this bound instead of the odds.
+    static constexpr int kSkippedOdds_q8 = -56 * 256;
+    static constexpr float kSkippedOdds = 0x1p-56F;
+    static constexpr int kLimit = 20;
+    static_assert(kLimit * kMaxAnchors <= 255);
+
+    /// Returns the summed odds of the alternatives that differ in `sequence` and in one of
+    /// `others`, and are counted at the pair of anchors (`one`, `other`).
+    float sum_of_bucketed(std::size_t sequence, std::initializer_list<std::size_t> others,
+                          std::size_t one, std::size_t other) const {
+        const LikelihoodRatios& ratios = lines_.ratios;
+        const Buckets buckets(offsets_, sequence, ratios.basis[sequence].length,
+                              ratios.places[sequence], one, other);
         float sum = 0;
         for (const std::size_t k : others) {
-            for (std::uint32_t place = 0; place < lines_.ratios.basis[k].length; ++place) {
-                if (place == lines_.ratios.places[k]) continue;
-                const RankedLines::Offsets& a = lines_.offsets(k, place);
-                const AnchorBytes offsets = since(one, a);
-                for (const Opposite& b : buckets[Buckets::offset_less(a, other, one)]) {
-                    const Marks marks(static_cast<AnchorBytes>(offsets == b.offsets) & anchors_);
-                    if (marks.count() >= shared_ &&
-                        groups_.is_first_pair(marks.anchors(), one, other)) {
-                        sum += odds(a, *b.place, at(a, one) + at(*b.place, one));
-                    }
+            for (std::uint32_t place = 0; place < ratios.basis[k].length; ++place) {
+                if (place == ratios.places[k]) continue;
+                const AnchorBytes& here = offsets_(k, place);
+                const AnchorBytes offsets = modulo_sections(here - here[one]);
+                for (const Opposite& b : buckets[Buckets::difference(here, other, one)]) {
+                    const auto shared = static_cast<AnchorBytes>(offsets == b.offsets);
+                    const BytesInWords marks(shared & anchors_);
+                    if (marks.sum() < shared_ ||
+                        !groups_.is_first_pair(marks.anchors(), one, other))
+                        continue;
+                    const int lost = BytesInWords(losses_ & ~shared).sum();
+                    sum += lost >= kLimit ? kSkippedOdds : odds(k, place, sequence, b.place, one);
                 }
             }
         }
         return sum;
     }
 
-    /// Returns the odds of a pair of places at the shift where the pair shares a given line.
-    /// `shared` is the sum of the two places' offsets in this line.
-    float odds(const RankedLines::Offsets& a, const RankedLines::Offsets& b, int shared) const {
-        // Adding 126, a multiple of 63, keeps the loss index positive.
-        const int base = 2 * kSections - shared;
+    /// Returns the odds of a pair of places at the shift at which it shares an anchor.
+    float odds(std::size_t sequence_a, std::uint32_t place_a, std::size_t sequence_b,
+               std::uint32_t place_b, std::size_t anchor) const {
+        RollOffsets a;
+        RollOffsets b;
+        lines_.set_offsets(sequence_a, place_a, a);
+        lines_.set_offsets(sequence_b, place_b, b);
+        // Adding 126, a multiple of 63, does not change the shift and keeps the index of the loss
+        // positive.
+        const std::size_t shared = offsets_.line(anchor);
+        const int base = 2 * kSections - a[shared] - b[shared];
         int lost = 0;
-        for (int rank = 0; rank < lines_.count(); ++rank) {
-            lost += lines_.loss(rank, at(a, rank) + at(b, rank) + base);
+        for (int line = 0; line < lines_.count(); ++line) {
+            const auto n = static_cast<std::size_t>(line);
+            lost += lines_.loss(line, a[n] + b[n] + base);
             if (lines_.ratios.is_hopeless(lost)) return kNegligible;
         }
         return lines_.ratios.odds(lost);
     }
 
     const RankedLines& lines_;
+    AnchorOffsets offsets_;
     int shared_;
     Groups groups_;
-    AnchorBytes anchors_{};  ///< 1 for anchors, 0 for other lines
+    AnchorBytes anchors_{};  ///< 1 for each anchor
+    /// Minimum loss of an alternative that does not share the anchor, in units of 1/kLimit of the
+    /// loss at which the odds are kSkippedOdds, rounded down.
+    AnchorBytes losses_{};
 };
+
+/// The sum of the n smallest minimum losses of the anchors, indexed by n, minus the maximum gain:
+/// the minimum loss of an alternative that does not share n anchors.
+std::array<int, kMaxAnchors + 1> min_losses_of_unshared(const RankedLines& lines, int anchors) {
+    std::array<int, kMaxAnchors> losses{};
+    std::size_t count = 0;
+    for (int line = 0; line < lines.count(); ++line) {
+        if (lines.rank(static_cast<std::uint32_t>(line)) >= anchors) continue;
+        const int loss = std::max(lines.ratios.min_loss(line), 0);
+        std::size_t n = count++;
+        for (; n > 0 && losses[n - 1] > loss; --n)
+            losses[n] = losses[n - 1];
+        losses[n] = loss;
+    }
+    std::array<int, kMaxAnchors + 1> sums{-lines.ratios.max_gain()};
+    for (std::size_t n = 0; n < count; ++n)
+        sums[n + 1] = sums[n] + losses[n];
+    return sums;
+}
+
+/// Numbers of anchors, and of anchors that an alternative must share to be counted one by one.
+struct Search {
+    int anchors;
+    int shared;
+    /// Number of pairs of anchors that `Finder` visits if no group has more than two anchors. It
+    /// determines the time.
+    int pairs() const { return anchors - shared + 1; }
+};
+
+/// Returns the fastest search that finds all alternatives whose odds may exceed 2^log2_odds.
+Search fastest_search(const RankedLines& lines, int log2_odds) {
+    const int loss_limit = lines.ratios.loss_for(256 * log2_odds);
+    Search fastest{std::min(lines.count(), kMaxAnchors), 2};
+    for (int anchors = fastest.anchors; anchors >= 6; --anchors) {
+        const auto losses = min_losses_of_unshared(lines, anchors);
+        for (int shared = anchors; shared > 2; --shared) {
+            if (losses[static_cast<std::size_t>(anchors - shared + 1)] < loss_limit) continue;
+            const Search search{anchors, shared};
+            if (search.pairs() < fastest.pairs()) fastest = search;
+            break;
+        }
+    }
+    return fastest;
+}
 
 }  // namespace
 
-float sum_of_double_alternatives(const RankedLines& lines, float negligible, float max_odds) {
+float sum_of_double_alternatives(const Kernels& kernels, const RankedLines& lines, float expected,
+                                 float negligible, float max_odds) {
+    if (kMargin * expected <= 4 * negligible) {
+        const Search search = fastest_search(lines, kLargeOdds_log2);
+        return kFloor + kMargin * expected + Finder(lines, search.anchors, search.shared).sum();
+    }
     const int anchors = std::min(lines.count(), kMaxAnchors);
-    const auto expected = expected_double_alternatives(lines, anchors);
+    const auto by_shared = expected_double_alternatives(kernels, lines, anchors);
     const auto expected_odds = [&](int shared) {
-        return kMargin * expected[static_cast<std::size_t>(shared)];
+        return kMargin * by_shared[static_cast<std::size_t>(shared)];
     };
     // Requiring fewer anchors means visiting more pairs: 6 of 66 for seven anchors, 18 for four,
     // and all 66 for two. Fewer than four anchors are worth the time only to avoid a refusal.

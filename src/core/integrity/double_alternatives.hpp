@@ -14,10 +14,9 @@ namespace dotpose::core {
 /// remainder: their expected odds times a safety factor. If the remainder exceeds `max_odds`, the
 /// fix will be refused, so the function returns the remainder alone.
 ///
-/// k is the first of these values that exists, and at most the number of lines:
-/// - the largest value in [5, 7] for which the remainder is at most `negligible`,
-/// - the largest value in [2, 4] for which the remainder is at most `max_odds` / 8,
-/// - 2.
-float sum_of_double_alternatives(const RankedLines& lines, float negligible, float max_odds);
+/// If the remainder exceeds `max_odds`, the fix will be refused. In this case, returns the
+/// remainder without evaluating any pairs.
+float sum_of_double_alternatives(const Kernels& kernels, const RankedLines& lines, float expected,
+                                 float negligible, float max_odds);
 
 }  // namespace dotpose::core

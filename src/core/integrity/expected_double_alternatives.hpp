@@ -15,9 +15,10 @@ inline constexpr int kMaxAnchors = 12;
 /// anchors.
 inline constexpr int kMinFound = 7;
 
-/// Returns expected odds. Element n includes all double alternatives that share fewer than n
-/// anchors. The anchors are the lines with the ranks 0 to `anchors` - 1.
-std::array<float, kMinFound + 1> expected_double_alternatives(const RankedLines& lines,
+/// Returns, for each n, the expected sum of the odds of all double alternatives that share fewer
+/// than n anchors. The anchors are the lines of ranks 0 to `anchors` - 1.
+std::array<float, kMinFound + 1> expected_double_alternatives(const Kernels& kernels,
+                                                              const RankedLines& lines,
                                                               int anchors);
 
 }  // namespace dotpose::core

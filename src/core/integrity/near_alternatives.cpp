@@ -1,10 +1,9 @@
 #include "core/integrity/near_alternatives.hpp"
 
-#include <algorithm>
 #include <array>
+#include <bit>
+#include <cstring>
 #include <span>
-
-#include "core/integrity/similar_places.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -13,97 +12,155 @@ namespace {
 /// positive, because kPeriods periods of any sequence contain more than kMaxLines places.
 constexpr std::uint32_t kPeriods = kMaxLines / code::kA3.size() + 1;
 
-/// The places in a sequence with the reading's digits in all steps of a run. A run is a group of
-/// adjacent lines. Includes the place of the reading.
-class TwinPlaces {
-  public:
-    /// The run has `digits` + 1 lines, from the line `run`.
-    TwinPlaces(const RankedLines& lines, std::size_t sequence, std::uint32_t run, int digits) {
-        const code::Secondary& a = lines.ratios.basis[sequence];
-        const std::uint32_t own = (lines.ratios.places[sequence] + run) % a.length;
-        // Lists the place of the reading first, then the later places, then the earlier places.
-        for (const bool before : {false, true}) {
-            const auto add = [&](std::uint32_t place) {
-                if ((place < own) != before) return;
-                const std::uint32_t first = (place + kPeriods * a.length - run) % a.length;
-                twins_[count_++] = since_run(lines, sequence, first, run);
-            };
-            for (std::uint32_t word = 0; 32 * word < a.length; ++word)
-                visit_places(a.equal_places(own, digits, word), word, add);
-        }
-    }
+/// Roll offsets of 16 lines, or sums of two roll offsets.
+using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
+static_assert(kMaxLines % sizeof(Bytes) == 0);
 
-    /// A place with its roll offsets.
-    struct Twin {
-        /// Offsets at the ranks 0 to 7, relative to `at_run`, modulo 63.
-        EightOffsets first = 0;
-        const RankedLines::Offsets* offsets;
-        int at_run;  ///< offset in the first line of the run
-    };
-    std::span<const Twin> all() const { return std::span(twins_).first(count_); }
-
-  private:
-    static Twin since_run(const RankedLines& lines, std::size_t sequence, std::uint32_t place,
-                          std::uint32_t run) {
-        const RankedLines::Offsets& offsets = lines.offsets(sequence, place);
-        Twin twin{0, &offsets, offsets.all[static_cast<std::size_t>(lines.rank(run))]};
-        for (int rank = 0; rank < std::min(lines.count(), 8); ++rank) {
-            const int more = offsets.all[static_cast<std::size_t>(rank)] - twin.at_run;
-            twin.first |= static_cast<EightOffsets>(more < 0 ? more + kSections : more) << 8 * rank;
-        }
-        return twin;
-    }
-
-    std::size_t count_ = 0;
-    std::array<Twin, code::kA4Restored.size()> twins_;
-};
-
-using OneOfEach = std::array<const TwinPlaces::Twin*, 4>;
-
-/// Returns the odds of an alternative that shares a run. `twins` contains the alternative's place
-/// in each sequence. `first` is the sum of `Twin::first` over these places.
-float odds_of_twins(const RankedLines& lines, EightOffsets first, const OneOfEach& twins) {
-    int lost = lines.loss_of_first(first);
-    for (int rank = 8; rank < lines.count() && !lines.ratios.is_hopeless(lost); ++rank) {
-        int further = 4 * kSections;
-        for (const TwinPlaces::Twin* twin : twins)
-            further += twin->offsets->all[static_cast<std::size_t>(rank)] - twin->at_run;
-        lost += lines.loss(
-            rank,
-            static_cast<int>(code::short_modulo_sections(static_cast<std::uint32_t>(further))));
-    }
-    return lines.ratios.is_hopeless(lost) ? kNegligible : lines.ratios.odds(lost);
+Bytes bytes_at(const RollOffsets& offsets, std::size_t line) {
+    Bytes bytes;
+    std::memcpy(&bytes, offsets.data() + line, sizeof bytes);
+    return bytes;
 }
 
-/// Returns the summed odds of the alternatives that share a whole run.
-float sum_of_twins(const RankedLines& lines, const std::array<TwinPlaces, 4>& places) {
-    float sum = 0;
-    bool is_own = true;  // the first combination is the reading itself
-    for (const auto& a : places[0].all()) {
-        for (const auto& b : places[1].all()) {
-            for (const auto& c : places[2].all()) {
-                // No byte overflows, because 4 * 62 = 248.
-                const EightOffsets first = a.first + b.first + c.first;
-                for (const auto& d : places[3].all()) {
-                    if (!is_own) sum += odds_of_twins(lines, first + d.first, {&a, &b, &c, &d});
-                    is_own = false;
-                }
+/// Sets, for each line, `offsets` to the sum of two roll offsets modulo 63.
+void set_sums(const RollOffsets& a, const RollOffsets& b, std::size_t lines, RollOffsets& offsets) {
+    for (std::size_t line = 0; line < lines; line += sizeof(Bytes)) {
+        Bytes sum = bytes_at(a, line) + bytes_at(b, line);
+        sum -= static_cast<Bytes>(sum >= kSections) & kSections;
+        std::memcpy(offsets.data() + line, &sum, sizeof sum);
+    }
+}
+
+/// The places in one sequence at which the digits of a run occur, as roll offsets relative to the
+/// run, or the negatives of these offsets. The digits of a run are the digits of the reading in the
+/// steps between the lines of the run. The place of the reading is the first one.
+class TwinPlaces {
+  public:
+    enum class Sign : std::uint8_t { positive, negative };
+
+    /// The run begins at line `run` and has `digits` + 1 lines.
+    TwinPlaces(const RankedLines& lines, std::size_t sequence, std::uint32_t run, int digits,
+               Sign sign) {
+        const code::Secondary& a = lines.ratios.basis[sequence];
+        const std::uint32_t own = (lines.ratios.places[sequence] + run) % a.length;
+        const auto add = [&](std::uint32_t place) {
+            RollOffsets& offsets = twins_[count_++];
+            lines.set_offsets(sequence, (place + kPeriods * a.length - run) % a.length, offsets);
+            make_relative(run, static_cast<std::size_t>(lines.count()), sign, offsets);
+        };
+        add(own);
+        for (std::uint32_t first = 0; first < a.length; first += 32) {
+            for (std::uint32_t rest = a.equal_places(own, digits, first / 32); rest != 0;
+                 rest &= rest - 1) {
+                const auto place = first + static_cast<std::uint32_t>(std::countr_zero(rest));
+                if (place != own) add(place);
             }
         }
     }
-    return sum;
-}
+
+    std::span<const RollOffsets> all() const { return std::span(twins_).first(count_); }
+
+  private:
+    static void make_relative(std::uint32_t run, std::size_t lines, Sign sign,
+                              RollOffsets& offsets) {
+        const std::uint8_t base = offsets[run];
+        for (std::size_t line = 0; line < lines; line += sizeof(Bytes)) {
+            const Bytes here = bytes_at(offsets, line);
+            // Negative differences are represented modulo 256.
+            Bytes relative = sign == Sign::positive ? here - base : base - here;
+            relative += static_cast<Bytes>(relative >= kSections) & kSections;
+            std::memcpy(offsets.data() + line, &relative, sizeof relative);
+        }
+    }
+
+    std::size_t count_ = 0;
+    std::array<RollOffsets, code::kA4Restored.size()> twins_;
+};
+
+/// Sums the odds of the alternatives that share all lines of one run. An alternative is a
+/// combination of twin places in all sequences. The combinations in the last two sequences are
+/// compared with each combination in the first two sequences, 32 at a time.
+class RunSum {
+  public:
+    RunSum(const Kernels& kernels, const RankedLines& lines, const CoarseLosses& losses, int run,
+           int shared_lines)
+        : kernels_(kernels),
+          lines_(lines),
+          losses_(losses),
+          count_(static_cast<std::size_t>(lines.count())),
+          a_(places(0, run, shared_lines, TwinPlaces::Sign::negative)),
+          b_(places(1, run, shared_lines, TwinPlaces::Sign::negative)),
+          c_(places(2, run, shared_lines, TwinPlaces::Sign::positive)),
+          d_(places(3, run, shared_lines, TwinPlaces::Sign::positive)) {}
+
+    float sum() {
+        for (const RollOffsets& c : c_.all()) {
+            for (const RollOffsets& d : d_.all()) {
+                RollOffsets both;
+                set_sums(c, d, count_, both);
+                for (std::size_t line = 0; line < count_; ++line)
+                    batch_.offsets[line][in_batch_] = both[line];
+                if (++in_batch_ == batch_.offsets[0].size()) add_batch();
+            }
+        }
+        add_batch();
+        return sum_;
+    }
+
+  private:
+    TwinPlaces places(std::size_t k, int run, int shared_lines, TwinPlaces::Sign sign) const {
+        return {lines_, k, static_cast<std::uint32_t>(run), shared_lines - 1, sign};
+    }
+
+    void add_batch() {
+        if (in_batch_ == 0) return;
+        const auto losses = std::span(losses_.losses).first(count_);
+        const std::uint32_t all = ~std::uint32_t{0} >> (32 - in_batch_);
+        RollOffsets opposite;
+        for (const RollOffsets& a : a_.all()) {
+            for (const RollOffsets& b : b_.all()) {
+                set_sums(a, b, count_, opposite);
+                std::uint32_t similar =
+                    all & kernels_.similar_in_batch(batch_, opposite.data(), losses, losses_.limit);
+                // The first combination is the reading itself.
+                if (is_first_) similar &= ~std::uint32_t{1};
+                is_first_ = false;
+                for (; similar != 0; similar &= similar - 1)
+                    sum_ += odds(static_cast<std::size_t>(std::countr_zero(similar)), opposite);
+                sum_ += static_cast<float>(in_batch_) * CoarseLosses::skipped_odds;
+            }
+        }
+        in_batch_ = 0;
+    }
+
+    float odds(std::size_t n, const RollOffsets& opposite) const {
+        int lost = 0;
+        for (std::size_t line = 0; line < count_; ++line) {
+            const int offset = batch_.offsets[line][n] - opposite[line] + kSections;
+            lost += lines_.loss(static_cast<int>(line), offset);
+            if (lines_.ratios.is_hopeless(lost)) return 0;
+        }
+        return lines_.ratios.odds(lost);
+    }
+
+    const Kernels& kernels_;
+    const RankedLines& lines_;
+    const CoarseLosses& losses_;
+    std::size_t count_;
+    TwinPlaces a_, b_, c_, d_;
+    OffsetBatch batch_;
+    std::size_t in_batch_ = 0;
+    bool is_first_ = true;
+    float sum_ = 0;
+};
 
 }  // namespace
 
-float sum_of_near_alternatives(const RankedLines& lines, int shared_lines) {
+float sum_of_near_alternatives(const Kernels& kernels, const RankedLines& lines, int shared_lines) {
+    const CoarseLosses losses(lines.ratios);
     float sum = 0;
-    for (int run = 0; run + shared_lines <= lines.count(); ++run) {
-        const auto places = [&](std::size_t k) {
-            return TwinPlaces(lines, k, static_cast<std::uint32_t>(run), shared_lines - 1);
-        };
-        sum += sum_of_twins(lines, {places(0), places(1), places(2), places(3)});
-    }
+    for (int run = 0; run + shared_lines <= lines.count(); ++run)
+        sum += RunSum(kernels, lines, losses, run, shared_lines).sum();
     return sum;
 }
 

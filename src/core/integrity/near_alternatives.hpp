@@ -6,11 +6,11 @@
 
 namespace dotpose::core {
 
-/// Returns an upper bound on the summed odds of near alternatives. They share at least
-/// `shared_lines` (4 or 5) adjacent lines with the reading. For each run of `shared_lines` lines,
-/// combines all places with the reading's digits. An alternative that shares a longer run is
-/// counted more than once. A hopeless alternative (`LikelihoodRatios::is_hopeless`) contributes
-/// kNegligible.
-float sum_of_near_alternatives(const RankedLines& lines, int shared_lines);
+/// Returns an upper bound on the summed odds of all alternatives that share at least `shared_lines`
+/// (4 or 5) adjacent lines. Enumerates the alternatives by finding, in each secondary sequence, all
+/// places at which the 3 or 4 digits between these lines occur. The sum contains the odds of an
+/// alternative more than once if it shares more lines. A hopeless alternative
+/// (`LikelihoodRatios::is_hopeless`) contributes kNegligible.
+float sum_of_near_alternatives(const Kernels& kernels, const RankedLines& lines, int shared_lines);
 
 }  // namespace dotpose::core

@@ -1,5 +1,7 @@
 #include "core/integrity/ranked_lines.hpp"
 
+#include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <span>
 
@@ -9,62 +11,69 @@ static_assert(code::kA4Restored.size() == code::kA4Published.size() &&
               code::kA4Restored.size() == code::kA4Microdots.size());
 
 RankedLines::RankedLines(const LikelihoodRatios& of) : ratios(of) {
-    for (int line = 0; line < count(); ++line) {
-        for (int shift = 0; shift < kSections; ++shift) {
-            odds_[static_cast<std::size_t>(line)][static_cast<std::size_t>(shift)] =
-                ratios.odds(ratios.loss(line, shift));
+    for (std::size_t line = 0; line < static_cast<std::size_t>(count()); ++line) {
+        auto& losses = losses_[line];
+        OddsByOffset& odds = odds_[line];
+        for (std::size_t offset = 0; offset < kSections; ++offset) {
+            const int lost = ratios.loss(static_cast<int>(line), static_cast<int>(offset));
+            losses[offset] = static_cast<std::int16_t>(lost);
+            odds[offset] = std::max(ratios.odds(lost), kMinOddsOfOffset);
+        }
+        odds.back() = 0;
+        for (std::size_t n = kSections; n < losses.size(); n += kSections) {
+            const auto end = losses.begin() +
+                             std::min<std::ptrdiff_t>(
+                                 kSections, std::ssize(losses) - static_cast<std::ptrdiff_t>(n));
+            std::copy(losses.begin(), end, losses.begin() + static_cast<std::ptrdiff_t>(n));
         }
     }
     rank_lines();
-    set_losses();
-    set_offsets_of_places();
 }
 
 /// Ranks the lines by their summed odds over all nonzero roll offsets. The line with the smallest
 /// sum has the most information and gets rank 0.
 void RankedLines::rank_lines() {
     std::array<float, kMaxLines> sums;
+    std::array<std::uint8_t, kMaxLines> lines;
     for (std::size_t line = 0; line < static_cast<std::size_t>(count()); ++line) {
-        const auto others = std::span(odds(static_cast<int>(line))).subspan(1);
-        sums[line] = std::accumulate(others.begin(), others.end(), 0.0F);
-        // Insertion sort, because `std::sort` would add more machine code than the rest of this
-        // file.
+        const OddsByOffset& odds = odds_[line];
+        sums[line] = std::accumulate(odds.begin() + 1, odds.end(), 0.0F);
+        // Insertion sort, because the machine code of `std::sort` would be larger than the rest of
+        // this file.
         std::size_t rank = line;
-        for (; rank > 0 && sums[lines_[rank - 1]] > sums[line]; --rank)
-            lines_[rank] = lines_[rank - 1];
-        lines_[rank] = static_cast<std::uint8_t>(line);
+        for (; rank > 0 && sums[lines[rank - 1]] > sums[line]; --rank)
+            lines[rank] = lines[rank - 1];
+        lines[rank] = static_cast<std::uint8_t>(line);
     }
-    for (int n = 0; n < count(); ++n)
-        ranks_[lines_[static_cast<std::size_t>(n)]] = static_cast<std::uint8_t>(n);
+    for (std::size_t n = 0; n < static_cast<std::size_t>(count()); ++n)
+        ranks_[lines[n]] = static_cast<std::uint8_t>(n);
 }
 
-void RankedLines::set_losses() {
-    for (int rank = count(); rank < 8; ++rank)
-        losses_[static_cast<std::size_t>(rank)].fill(0);
-    for (int rank = 0; rank < count(); ++rank) {
-        auto& losses = losses_[static_cast<std::size_t>(rank)];
-        for (int shift = 0; shift < kSections; ++shift) {
-            losses[static_cast<std::size_t>(shift)] =
-                static_cast<std::int16_t>(ratios.loss(line(rank), shift));
-        }
-        for (std::size_t further = kSections; further < losses.size(); ++further)
-            losses[further] = losses[further - kSections];
+void RankedLines::set_offsets(std::size_t sequence, std::uint32_t place,
+                              RollOffsets& offsets) const {
+    using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
+    // The tables of rolls and the offsets extend beyond the last line.
+    static_assert(kMaxLines % sizeof(Bytes) == 0 && kMaxLines <= code::kLinesAhead);
+    const std::uint8_t* const rolls = ratios.basis[sequence].rolls;
+    for (std::size_t line = 0; line < static_cast<std::size_t>(count()); line += sizeof(Bytes)) {
+        Bytes own;
+        Bytes alternative;
+        std::memcpy(&own, rolls + ratios.places[sequence] + line, sizeof own);
+        std::memcpy(&alternative, rolls + place + line, sizeof alternative);
+        const Bytes offset =
+            alternative - own + (static_cast<Bytes>(alternative < own) & kSections);
+        std::memcpy(offsets.data() + line, &offset, sizeof offset);
     }
 }
 
-void RankedLines::set_offsets_of_places() {
-    for (std::size_t k = 0; k < kFirsts.size(); ++k) {
-        for (std::uint32_t place = 0; place < ratios.basis[k].length; ++place) {
-            RollOffsets by_line;
-            set_roll_offsets(ratios, k, place, by_line);
-            Offsets& offsets = offsets_[kFirsts[k] + place];
-            offsets.first = 0;
-            for (int rank = 0; rank < count(); ++rank) {
-                const std::uint8_t here = by_line[static_cast<std::size_t>(line(rank))];
-                offsets.all[static_cast<std::size_t>(rank)] = here;
-                if (rank < 8) offsets.first |= EightOffsets{here} << 8 * rank;
-            }
-        }
+CoarseLosses::CoarseLosses(const LikelihoodRatios& ratios) {
+    constexpr int kMaxLimit = 200;
+    const int loss_limit = ratios.loss_for(-56 * 256) + ratios.max_gain();
+    const int unit = loss_limit / kMaxLimit + 1;
+    limit = loss_limit / unit + 1;
+    for (int line = 0; line < ratios.count(); ++line) {
+        losses[static_cast<std::size_t>(line)] =
+            static_cast<std::uint8_t>(std::min(std::max(ratios.min_loss(line), 0) / unit, limit));
     }
 }
 

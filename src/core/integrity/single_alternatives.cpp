@@ -1,39 +1,72 @@
 #include "core/integrity/single_alternatives.hpp"
 
+#include <algorithm>
+#include <span>
+
 namespace dotpose::core {
 namespace {
 
-/// Returns the odds of a single alternative at the shift where it shares the line with the rank
-/// `shared`. Returns 0 if the alternative also shares a line with a lower rank. The odds are then
-/// added at the lower rank.
-float odds_of_single(const RankedLines& lines, const RankedLines::Offsets& alternative,
-                     int shared) {
-    // `base` makes the offset in the shared line 126, which is 0 modulo 63. All offsets remain
-    // positive.
-    const int base = 2 * kSections - alternative.all[static_cast<std::size_t>(shared)];
-    int lost = lines.loss_of_first(alternative.first + kInEach * static_cast<unsigned>(base));
-    if (lines.ratios.is_hopeless(lost)) return kNegligible;
-    for (int rank = 0; rank < shared; ++rank) {
-        if (alternative.all[static_cast<std::size_t>(rank)] + base == 2 * kSections) return 0;
-    }
-    for (int rank = 8; rank < lines.count(); ++rank) {
-        lost += lines.loss(rank, alternative.all[static_cast<std::size_t>(rank)] + base);
+/// Returns the odds of a single alternative at the shift at which it shares a line.
+float odds_at(const RankedLines& lines, const RollOffsets& offsets, std::size_t shared) {
+    // `base` makes the offset in the shared line 126, which is 0 modulo 63. All other offsets
+    // remain positive.
+    const int base = 2 * kSections - offsets[shared];
+    int lost = 0;
+    for (int line = 0; line < lines.count(); ++line) {
+        lost += lines.loss(line, offsets[static_cast<std::size_t>(line)] + base);
         if (lines.ratios.is_hopeless(lost)) return kNegligible;
     }
     return lines.ratios.odds(lost);
 }
 
-}  // namespace
-
-float sum_of_single_alternatives(const RankedLines& lines) {
+float sum_one_by_one(const RankedLines& lines) {
     const LikelihoodRatios& ratios = lines.ratios;
     float sum = 0;
+    RollOffsets offsets;
     for (std::size_t k = 0; k < ratios.basis.size(); ++k) {
         for (std::uint32_t alternative = 0; alternative < ratios.basis[k].length; ++alternative) {
             if (alternative == ratios.places[k]) continue;
-            for (int shared = 0; shared < lines.count(); ++shared)
-                sum += odds_of_single(lines, lines.offsets(k, alternative), shared);
+            lines.set_offsets(k, alternative, offsets);
+            for (auto shared = offsets.begin(); shared < offsets.begin() + lines.count();
+                 ++shared) {
+                // An alternative that shares several lines at one shift is counted at the first.
+                if (std::find(offsets.begin(), shared, *shared) != shared) continue;
+                sum += odds_at(lines, offsets, static_cast<std::size_t>(shared - offsets.begin()));
+            }
         }
+    }
+    return sum;
+}
+
+/// Lists the lines with their losses, sorted by decreasing loss.
+void sort_losses(const CoarseLosses& losses, std::span<LineLoss> sorted) {
+    for (std::size_t line = 0; line < sorted.size(); ++line) {
+        std::size_t i = line;
+        for (; i > 0 && sorted[i - 1].loss < losses.losses[line]; --i)
+            sorted[i] = sorted[i - 1];
+        sorted[i] = {static_cast<std::uint8_t>(line), losses.losses[line]};
+    }
+}
+
+}  // namespace
+
+float sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines) {
+    const LikelihoodRatios& ratios = lines.ratios;
+    std::array<LineLoss, kMaxLines> storage;
+    const auto sorted = std::span(storage).first(static_cast<std::size_t>(lines.count()));
+    const CoarseLosses losses(ratios);
+    sort_losses(losses, sorted);
+    SimilarPlaceList list;
+    if (!kernels.list_similar_places(ratios.basis, ratios.places, 15, sorted, losses.limit, list))
+        return sum_one_by_one(lines);
+    constexpr float kPlaces =
+        code::kA1.size() + code::kA2.size() + code::kA3.size() + code::kA4Restored.size();
+    float sum = kPlaces * static_cast<float>(lines.count()) * losses.skipped_odds;
+    RollOffsets offsets;
+    for (const auto& [sequence, place, shared] :
+         std::span(list.places).first(static_cast<std::size_t>(list.count))) {
+        lines.set_offsets(sequence, place, offsets);
+        sum += odds_at(lines, offsets, shared);
     }
     return sum;
 }

@@ -6,9 +6,9 @@
 
 namespace dotpose::core {
 
-/// Returns an upper bound on the summed odds of the single alternatives that share a line. An
-/// alternative counts at every shift where it shares a line. A hopeless alternative
-/// (`LikelihoodRatios::is_hopeless`) contributes kNegligible.
-float sum_of_single_alternatives(const RankedLines& lines);
+/// Returns an upper bound on the summed odds of all single alternatives that share a line with the
+/// reading. The sum includes each alternative at every shift where it shares a line. A hopeless
+/// alternative (`LikelihoodRatios::is_hopeless`) contributes kNegligible.
+float sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines);
 
 }  // namespace dotpose::core

@@ -14,15 +14,15 @@
 
 namespace dotpose::core {
 
-/// Verifies a decoded position. Sets `bits` and `p_wrong_log2_q8` in `decoding`, and `bit_errors`
-/// and `p_wrong_log2` in `fix`. The error probability includes chance, alternatives and seams. The
-/// first bound on the alternatives is from quick_alternatives.hpp. This bound suffices if the error
-/// probability is at most min(limit, 2^-30). Otherwise, alternatives.hpp gives a tighter bound for
-/// each axis whose error probability exceeds a sixteenth of this minimum. `others` contains the
-/// number of possible codes, and may be null if the code is given. Errors: not_certain, if the
-/// probability exceeds the limit or too many bits contradict the position.
-Status verify(const Grid& grid, CodeVariant code, const OtherCodes* others, Decoding& decoding,
-              const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
+/// Sets `bit_errors` and `p_wrong_log2` of the fix, and `bits` and `p_wrong_log2_q8` of the
+/// decoding. The probability includes chance, alternatives and seams. First uses the odds of the
+/// alternatives from quick_alternatives.hpp. If the probability then exceeds the limit or 2^-30,
+/// uses the odds from alternatives.hpp for the axes in doubt. `others` contains the number of
+/// possible codes, and may be null if the code is given. Errors: not_certain, if the probability
+/// exceeds the limit or too many bits contradict the position.
+Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const OtherCodes* others,
+              Decoding& decoding, const IntegrityOptions& options, std::span<ScoredLine> storage,
+              Fix& fix);
 
 /// Verifies a decoded position in integers and in bounded time. Uses only quick_alternatives.hpp,
 /// so it refuses more positions than `verify`. Errors: not_certain, for the same reasons as in

@@ -192,7 +192,7 @@ struct LineLoss {
 /// Places in the secondary sequences where an alternative may resemble the reading. Each entry
 /// names a line that this alternative shares with the reading.
 struct SimilarPlaceList {
-    static constexpr int kMax = 256;
+    static constexpr int kMax = 512;
     struct Entry {
         std::uint8_t sequence;
         std::uint8_t place;
@@ -224,7 +224,22 @@ struct FarAlternatives {
     std::array<float, 8> number{};  ///< number of alternatives in each group
 };
 
-/// Sums of the n smallest losses, indexed by n = 0 to 8.
+/// Roll offsets of 32 combinations of places in some of the sequences, indexed by line.
+struct OffsetBatch {
+    std::array<std::array<std::uint8_t, 32>, kMaxLines> offsets;
+};
+
+/// Odds by roll offset. The last element is padding.
+using OddsByOffset = std::array<float, kRollEntries>;
+
+/// Lower bound on the odds of an alternative in a line, in the elements of `OddsByOffset` other
+/// than the padding. Avoids denormal numbers, which are slow.
+inline constexpr float kMinOddsOfOffset = 0x1p-40F;
+
+/// Expected odds by the number of shared anchors, up to 6.
+using OddsByShared = std::array<float, 7>;
+
+/// Sums of the n smallest losses, indexed by n, from 0 to 8.
 using SmallestSums = std::array<std::int32_t, 9>;
 
 /// Bits for 64 lines with 64 cells each, one word per line. A bit in `valid` is 1 if its cell was
@@ -340,6 +355,29 @@ struct Kernels {
     /// Sets `sums[n]` to the sum of the n smallest losses, for n = 0 to 8. `losses` must have 8 to
     /// 16 elements. Negative losses count as 0.
     void (*sum_smallest_losses)(std::span<const std::int16_t> losses, SmallestSums& sums);
+    /// Returns which of the 32 combinations of a batch may lose less than `limit` (at most 255),
+    /// one bit per combination, together with one combination of places in the other sequences.
+    /// `losses` contains the loss in each line that is not shared. A line is shared if the offset
+    /// in the batch equals `opposite`, the negative of the offset of the other combination.
+    std::uint32_t (*similar_in_batch)(const OffsetBatch& batch, const std::uint8_t* opposite,
+                                      std::span<const std::uint8_t> losses, int limit);
+    /// Returns the expected odds of the alternatives that differ from the reading in the places in
+    /// the given sequences (`different`, one bit per sequence), and share at most `max_shared` (up
+    /// to 8) adjacent lines. The digits of the alternatives are uniform. `places` are the places of
+    /// the first line. `lines` contains the odds of an alternative in each line. The odds at offset
+    /// 0 are 1, and the padding is 0.
+    float (*sum_expected_alternatives)(const code::Basis& basis,
+                                       const std::array<std::uint32_t, 4>& places,
+                                       unsigned different, std::span<const OddsByOffset> lines,
+                                       int max_shared);
+    /// Computes the expected odds of the alternatives that differ from the reading in the places in
+    /// two sequences, by the number of anchors that they share. Alternatives that share more than 6
+    /// anchors are not included. Bit n of `anchors` is 1 if line n is an anchor. The other
+    /// arguments are those of `sum_expected_alternatives`.
+    void (*sum_expected_doubles)(const code::Basis& basis,
+                                 const std::array<std::uint32_t, 4>& places,
+                                 std::span<const OddsByOffset> lines, std::uint64_t anchors,
+                                 OddsByShared& totals);
 };
 
 }  // namespace dotpose::core

@@ -268,6 +268,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     // spacings is enough to read bits.
     if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
+    grid.agreement = sums.used * pass.max_off * pass.max_off - sums.squares;
     return true;
 }
 

@@ -16,6 +16,10 @@ struct PatchGrid {
     /// Variance of a dot's offset from the nearest of its cell's four places, per axis, in
     /// spacings^2.
     float variance = 0;
+    /// Agreement of the dots with the grid: the sum of max_off^2 - offset^2 over the dots that are
+    /// within max_off of a place of their cell, in spacings^2. Comparable between grids of the same
+    /// dots.
+    float agreement = 0;
 };
 
 /// Parameters of the grid search in a patch, estimated from the dots. The search begins at the

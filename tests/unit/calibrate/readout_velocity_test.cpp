@@ -74,6 +74,57 @@ TEST(ReadoutVelocity, IsWithinItsStandardDeviation) {
     }
 }
 
+/// Adds a rotation of the camera during the readout to a frame. The velocity is that of the point
+/// under the image centre, so it does not change.
+RollingFrame draw_turning(const CameraModel& camera, double motion, double turn_deg, int index) {
+    RollingFrame frame = draw_rolling(camera, motion, index);
+    // If theta grows, the scene turns anticlockwise in the image.
+    frame.shot.camera.readout_turn_rad = -turn_deg * std::numbers::pi / 180;
+    return frame;
+}
+
+TEST(ReadoutVelocity, TheTurnRateIsWithinItsStandardDeviation) {
+    const CameraModel model = paper_camera();
+    Camera camera = true_camera(model);
+    camera.readout_ms = kReadout_ms;
+    Locator locator{DeviceOptions{}};
+    DeviceOptions options;
+    use_camera(camera, model.width_px, model.height_px, options);
+    locator.set_options(options);
+    for (const double turn_deg : {0.3, 2.0, 5.0, -20.0, 45.0}) {
+        constexpr int kFrames = 80;
+        int located = 0;
+        double squares = 0;
+        double squares_of_turn = 0;
+        double squares_of_place = 0;
+        for (int i = 0; i < kFrames; ++i) {
+            const double motion = i % 2 == 0 ? 0 : 0.1;
+            const RollingFrame frame = draw_turning(model, motion, turn_deg, i);
+            const Fix seen = locator.locate(render(frame.shot).view());
+            if (seen.status != Status::ok) continue;
+            ++located;
+            const auto [fix, velocity] = with_camera_and_velocity(seen, camera, locator.trace());
+            ASSERT_TRUE(velocity);
+            const double off_x = velocity->x_per_s - frame.velocity_mm_s.x / kDefaultSpacing_mm;
+            const double off_y = velocity->y_per_s - frame.velocity_mm_s.y / kDefaultSpacing_mm;
+            const double turn_rad_s = turn_deg * std::numbers::pi / 180 / (kReadout_ms / 1000);
+            const double off_turn = velocity->turn_rad_s - turn_rad_s;
+            squares += off_x * off_x / velocity->covariance[0][0] +
+                       off_y * off_y / velocity->covariance[1][1];
+            squares_of_turn += off_turn * off_turn / velocity->covariance[2][2];
+            const double place_x = fix.x_grid() - x_grid(frame.shot.pose);
+            const double place_y = fix.y_grid() - y_grid(frame.shot.pose);
+            EXPECT_LT(std::hypot(place_x, place_y), 0.015) << turn_deg << ", frame " << i;
+            squares_of_place += place_x * place_x / double{fix.covariance[0][0]} +
+                                place_y * place_y / double{fix.covariance[1][1]};
+        }
+        EXPECT_GE(located, kFrames * 95 / 100) << turn_deg;
+        EXPECT_NEAR(squares / (2 * located), 1, 0.35) << turn_deg;
+        EXPECT_NEAR(squares_of_turn / located, 1, 0.4) << turn_deg;
+        EXPECT_NEAR(squares_of_place / (2 * located), 1, 0.35) << turn_deg;
+    }
+}
+
 /// Returns frame `index` of a drive along a diagonal of the image, with constant acceleration. The
 /// camera takes 30 frames per second and reads each frame in `readout_ms`.
 GreyImage drive_frame(const CameraModel& camera, int index, double readout_ms) {

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "device/near_dot.hpp"
 #include "device/predicted.hpp"
 #include "dotpose/tools/random.hpp"
 
@@ -26,6 +27,7 @@ TEST(ReadDots, LooksAtAllCellsInView) {
         tracking.width_px = 188;
         tracking.height_px = 120;
         tracking.stride_px = 188;
+        tracking.half_px = core::kHalf_px;
         tracking.first_cell = 2;
         tracking.last_cell = 29;
         const double angle = round < 4 ? round * std::numbers::pi / 2

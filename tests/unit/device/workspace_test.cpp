@@ -162,6 +162,7 @@ TYPED_TEST(DeviceWorkspace, TakesAnyNoise) {
 
 TEST(DeviceMemories, HaveTheSizesThatAreStated) {
     // Pointers make the memory larger on desktops. `make budget` reports the size on devices.
+    EXPECT_LT(sizeof(DeviceMemoryFor<36, 36>), 5'000U);
     EXPECT_LT(sizeof(DeviceMemoryFor<160, 120>), 12'000U);
     EXPECT_LT(sizeof(DeviceMemoryFor<188, 120>), 13'400U);
     EXPECT_LT(sizeof(DeviceMemoryFor<320, 240>), 25'200U);

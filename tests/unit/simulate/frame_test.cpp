@@ -268,6 +268,8 @@ TEST(Frame, BadValuesAreNamed) {
     EXPECT_NE(message([](Shot& s) { s.camera.width_px = 0; }).find("0 x 120"), std::string::npos);
     EXPECT_NE(message([](Shot& s) { s.camera.k = 1; }).find("distortion"), std::string::npos);
     EXPECT_NE(message([](Shot& s) { s.pose.tilt_x_rad = 1.4; }).find("tilt"), std::string::npos);
+    EXPECT_NE(message([](Shot& s) { s.camera.readout_turn_rad = -1.3; }).find("overtake"),
+              std::string::npos);
     EXPECT_NE(message([](Shot& s) { s.imperfections.missing = 2; }).find("0 to 1"),
               std::string::npos);
     EXPECT_NE(message([](Shot& s) { s.pose.theta_rad = NAN; }).find("pose"), std::string::npos);

@@ -1,3 +1,5 @@
+#include <complex>
+
 #include <gtest/gtest.h>
 
 #include "helpers.hpp"
@@ -70,6 +72,52 @@ TEST(Projection, ARollingShutterReadsEachRowAtItsOwnTime) {
         const double time = (moved.y - kCentreV) / 120;
         expect_near(undistorted(moved), {still.x + 24 * time, still.y - 9 * time}, 1e-9);
         expect_near(Projection(rolling, pose).offset_from_pixel(moved), offset_mm, 1e-9);
+    }
+}
+
+TEST(Projection, ATurningSceneIsSeenInEachRowAtTheAngleOfItsTime) {
+    CameraModel rolling;
+    rolling.readout_px = {10, 6};
+    for (const double turn_deg : {-55.0, 4.0, 40.0}) {
+        rolling.readout_turn_rad = radians(turn_deg);
+        for (const Vec2 still_px : {Vec2{0, 0}, Vec2{30, -41}, Vec2{-60, 17}}) {
+            const Vec2 offset_mm{kMm * still_px.x, kMm * still_px.y};
+            const Vec2 seen = pixel(rolling, {}, offset_mm);
+            const double time = (seen.y - kCentreV) / 120;
+            // The scene turns about a fixed point c of the image, at which the motion and that of
+            // the rotation cancel: 10 + 6 i + i turn c = 0, in complex numbers.
+            const std::complex<double> i(0, 1);
+            const std::complex<double> c = std::complex(10.0, 6.0) * i / radians(turn_deg);
+            const std::complex<double> expected = c + (std::complex(still_px.x, still_px.y) - c) *
+                                                          std::polar(1.0, radians(turn_deg) * time);
+            expect_near(seen, {kCentreU + expected.real(), kCentreV + expected.imag()}, 1e-6);
+            expect_near(Projection(rolling, {}).offset_from_pixel(seen), offset_mm, 1e-6);
+        }
+    }
+}
+
+TEST(Projection, ADotToTheRightOfAClockwiseTurnIsSeenLower) {
+    // At row v, the scene has turned by v / 120 of a radian. The point (60, 0) is seen at the row
+    // with v = 60 sin(v / 120), that is at v = 0. The point (60, 10) solves
+    // v = 60 sin(v / 120) + 10 cos(v / 120), with the root v = 19.6450 found by iterating this
+    // equation.
+    CameraModel rolling;
+    rolling.readout_turn_rad = 1;
+    expect_near(pixel(rolling, {}, {60 * kMm, 0}), {kCentreU + 60, kCentreV}, 1e-9);
+    EXPECT_NEAR(pixel(rolling, {}, {60 * kMm, 10 * kMm}).y - kCentreV, 19.6450, 5e-4);
+}
+
+TEST(Projection, TurningAndBackIsInverseOverTheWholeImage) {
+    CameraModel rolling;
+    rolling.readout_turn_rad = radians(60);
+    rolling.k = -1e-5;
+    const Projection projection(rolling, {});
+    for (int v = 0; v < 120; v += 17) {
+        for (int u = 0; u < 188; u += 17) {
+            const Vec2 there{1.0 * u, 1.0 * v};
+            expect_near(projection.pixel_from_offset(projection.offset_from_pixel(there)), there,
+                        1e-5);
+        }
     }
 }
 

@@ -133,9 +133,10 @@ static void making(void) {
     CHECK(dotpose_locator_bytes(DOTPOSE_KIND_DEVICE) <= DOTPOSE_DEVICE_BYTES);
     CHECK(dotpose_locator_bytes(DOTPOSE_KIND_DEVICE_160X120) <= DOTPOSE_DEVICE_160X120_BYTES);
     CHECK(dotpose_locator_bytes(DOTPOSE_KIND_DEVICE_320X240) <= DOTPOSE_DEVICE_320X240_BYTES);
+    CHECK(dotpose_locator_bytes(DOTPOSE_KIND_DEVICE_36X36) <= DOTPOSE_DEVICE_36X36_BYTES);
     CHECK(DOTPOSE_DEVICE_160X120_BYTES < DOTPOSE_DEVICE_BYTES);
     CHECK(dotpose_locator_bytes(DOTPOSE_KIND_SMALL) < dotpose_locator_bytes(DOTPOSE_KIND_LARGE));
-    CHECK(dotpose_locator_bytes(-1) == 0 && dotpose_locator_bytes(5) == 0);
+    CHECK(dotpose_locator_bytes(-1) == 0 && dotpose_locator_bytes(6) == 0);
     EXPECT(NULL_POINTER, dotpose_device_init(NULL, sizeof memory, NULL, &locator));
     EXPECT(NULL_POINTER, dotpose_device_init(memory, sizeof memory, NULL, NULL));
     EXPECT(NOT_ALIGNED, dotpose_device_init((char*)memory + 4, sizeof memory - 8, NULL, &locator));
@@ -145,7 +146,7 @@ static void making(void) {
     EXPECT(TOO_LITTLE_MEMORY,
            dotpose_locator_init(memory, sizeof memory, DOTPOSE_KIND_LARGE, NULL, &locator));
     EXPECT(TOO_LITTLE_MEMORY, dotpose_device_320x240_init(memory, sizeof memory, NULL, &locator));
-    EXPECT(BAD_VALUE, dotpose_locator_init(memory, sizeof memory, 5, NULL, &locator));
+    EXPECT(BAD_VALUE, dotpose_locator_init(memory, sizeof memory, 6, NULL, &locator));
     EXPECT(NULL_POINTER,
            dotpose_locator_init(NULL, sizeof memory, DOTPOSE_KIND_DEVICE, NULL, &locator));
     EXPECT(NULL_POINTER,
@@ -303,7 +304,8 @@ static void predictions(void) {
 
 static void known_sheets(dotpose_locator* large, dotpose_locator* device) {
     dotpose_region sheet = {DOTPOSE_CODE_ANOTO, 0, 0, 0, 1024, 2048, 393, 564};
-    EXPECT(WRONG_KIND, dotpose_set_known(device, &sheet, 1, DOTPOSE_OTHERS_POSSIBLE));
+    EXPECT(OK, dotpose_set_known(device, &sheet, 1, DOTPOSE_OTHERS_IMPOSSIBLE));
+    EXPECT(OK, dotpose_set_known(device, NULL, 0, DOTPOSE_OTHERS_POSSIBLE));
     EXPECT(NULL_POINTER, dotpose_set_known(NULL, &sheet, 1, DOTPOSE_OTHERS_POSSIBLE));
     EXPECT(NULL_POINTER, dotpose_set_known(large, NULL, 1, DOTPOSE_OTHERS_POSSIBLE));
     EXPECT(BAD_VALUE, dotpose_set_known(large, &sheet, 1, 2));

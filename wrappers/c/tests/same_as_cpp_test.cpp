@@ -74,10 +74,10 @@ std::vector<GreyImage> drive(int frames) {
 }
 
 /// Returns a view of six by six cells of a sheet.
-GreyImage small_view_of(const KnownRegion& sheet) {
+GreyImage small_view_of(const KnownRegion& sheet, int side_px = 66) {
     dotpose::Setup setup;
-    setup.camera.width_px = 66;
-    setup.camera.height_px = 66;
+    setup.camera.width_px = side_px;
+    setup.camera.height_px = side_px;
     Shot shot = draw_shot(setup, 3);
     shot.page.pattern.section = sheet.section;
     shot.pose.cell = {sheet.first.x + 100, sheet.first.y + 200};
@@ -371,6 +371,24 @@ TEST(C, LocatesSmallViewsOfKnownSheets) {
     EXPECT_TRUE(same(locate(locator.get(), image), as_c(expected)));
     ASSERT_EQ(dotpose_set_known(locator.get(), nullptr, 0, DOTPOSE_OTHERS_POSSIBLE), DOTPOSE_OK);
     EXPECT_NE(locate(locator.get(), image).status, DOTPOSE_OK);
+}
+
+TEST(C, DevicesLocateViewsOfKnownSheets) {
+    const dotpose_region sheet{
+        .code = DOTPOSE_CODE_ANOTO, .first_x = 1024, .first_y = 2048, .columns = 393, .rows = 564};
+    const KnownRegion region{CodeVariant::anoto, {}, {1024, 2048}, 393, 564};
+    dotpose::DeviceMemory memory;
+    dotpose::DeviceLocator core(memory);
+    ASSERT_EQ(core.set_known({&region, 1}, OtherSheets::impossible), Status::ok);
+    alignas(8) std::array<std::byte, DOTPOSE_DEVICE_BYTES> bytes;
+    dotpose_locator* locator = nullptr;
+    ASSERT_EQ(dotpose_device_init(bytes.data(), bytes.size(), nullptr, &locator), DOTPOSE_OK);
+    ASSERT_EQ(dotpose_set_known(locator, &sheet, 1, DOTPOSE_OTHERS_IMPOSSIBLE), DOTPOSE_OK);
+    const GreyImage image = small_view_of(region, 96);
+    const Fix expected = core.locate(image.view());
+    ASSERT_EQ(expected.status, Status::ok);
+    EXPECT_EQ(expected.prior, Prior::only_sheets);
+    EXPECT_TRUE(same(locate(locator, image), as_c(expected)));
 }
 
 TEST(C, ReadsFramesTogether) {

@@ -2,7 +2,7 @@
 import { type Attempt, type Surface, type Prior, kPriors, kAttempts, kSurfaces } from "./names.js";
 
 /** Size of a dotpose_fix of wrappers/c/dotpose.h. */
-export const kFixBytes = 248;
+export const kFixBytes = 256;
 
 /** Offsets of the members of a dotpose_fix. */
 export const kAt = {
@@ -34,6 +34,7 @@ export const kAt = {
     covariance_grid: 204,
     prior: 240,
     frames: 244,
+    readout_turn_rad: 248,
 } as const;
 
 /** The fields of a fix that are plain values. */
@@ -74,6 +75,11 @@ export interface FixFields {
      * given.
      */
     frames: number;
+    /**
+     * Change of theta during the readout of a rolling shutter, from the first to the last row, if the frame
+     * shows a significant rotation.
+     */
+    readout_turn_rad: number;
 }
 
 /** Returns the plain values of a dotpose_fix. */
@@ -91,5 +97,6 @@ export function fieldsOf(view: DataView): FixFields {
         residual_px: view.getFloat32(64, true),
         prior: kPriors[view.getInt32(240, true)]!,
         frames: view.getInt32(244, true),
+        readout_turn_rad: view.getFloat32(248, true),
     };
 }

@@ -13,4 +13,4 @@ export interface Prediction {
 }
 
 /** Size of a dotpose_prediction. */
-export const kPredictionBytes = 72;
+export const kPredictionBytes = 76;

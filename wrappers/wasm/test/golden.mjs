@@ -43,6 +43,7 @@ const kColumns = [
     ["float", 9, 204], // covariance_grid
     ["int", 1, 240], // prior
     ["int", 1, 244], // frames
+    ["float", 1, 248], // readout_turn_rad
 ];
 
 /** Returns the numbers of a fix in the format of the lines of the golden files. */

@@ -178,8 +178,8 @@ Verdict verify_block(const Block& block, const IntegrityOptions& options) {
     decoding.place = block.place;
     std::array<core::ScoredLine, 2 * core::kMaxLines> storage;
     Verdict verdict;
-    verdict.is_certain = core::verify(grid, block.code, nullptr, decoding, options, storage,
-                                      verdict.fix) == Status::ok;
+    verdict.is_certain = core::verify(core::kernels(), grid, block.code, nullptr, decoding, options,
+                                      storage, verdict.fix) == Status::ok;
     return verdict;
 }
 

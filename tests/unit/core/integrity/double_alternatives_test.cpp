@@ -6,6 +6,7 @@
 #include "../../code/reference.hpp"
 #include "core/decode/correlation.hpp"
 #include "core/integrity/expected_double_alternatives.hpp"
+#include "core/kernels/select.hpp"
 #include "dotpose/tools/random.hpp"
 
 namespace dotpose::core_test::double_alternatives_test {
@@ -102,8 +103,9 @@ TEST(DoubleAlternativesAtLength, AreSummedOneByOne) {
         const RankedLines lines(ratios);
         // With these limits, all pairs that share two or more lines are evaluated. The other pairs
         // count 32 times their expectation.
-        const float rest = expected_double_alternatives(lines, kLines)[2];
-        const auto sum = static_cast<double>(sum_of_double_alternatives(lines, 0, 64 * rest));
+        const float rest = expected_double_alternatives(kernels(), lines, kLines)[2];
+        const auto sum =
+            static_cast<double>(sum_of_double_alternatives(kernels(), lines, 1, 0, 64 * rest));
         const double ratio = (sum - kFloor - 31 * static_cast<double>(rest)) / exact;
         // Exponentials are accurate to 2 %, and their exponents are rounded to multiples of 2^-8.
         EXPECT_GE(ratio, 0.96) << "least " << least << ", seed " << kSeed;
@@ -118,10 +120,11 @@ TEST(DoubleAlternatives, AreExpectedWhereThatIsNegligible) {
     const LikelihoodRatios ratios(CodeVariant::anoto, c.lines, c.reading, kOdds_q8);
     const RankedLines lines(ratios);
     const double exact = exact_sum(c);
-    const auto expected = expected_double_alternatives(lines, kLines);
+    const auto expected = expected_double_alternatives(kernels(), lines, kLines);
     for (int shared = 4; shared <= kMinFound; ++shared) {
         const float negligible = expected[static_cast<std::size_t>(shared)];
-        const double sum = static_cast<double>(sum_of_double_alternatives(lines, negligible, 1));
+        const double sum =
+            static_cast<double>(sum_of_double_alternatives(kernels(), lines, 1, negligible, 1));
         const double ratio = (sum - kFloor) / exact;
         EXPECT_GE(ratio, 0.9) << shared << ", seed " << kSeed;
         EXPECT_LE(ratio, 1.5) << shared << ", seed " << kSeed;
@@ -133,8 +136,9 @@ TEST(DoubleAlternatives, AreNotLookedAtWhereTheExpectationIsTooMuch) {
     const Case c(rng, -200);
     const LikelihoodRatios ratios(CodeVariant::anoto, c.lines, c.reading, kOdds_q8);
     const RankedLines lines(ratios);
-    const auto expected = expected_double_alternatives(lines, kLines);
-    const double sum = static_cast<double>(sum_of_double_alternatives(lines, 0, expected[2] / 2));
+    const auto expected = expected_double_alternatives(kernels(), lines, kLines);
+    const double sum =
+        static_cast<double>(sum_of_double_alternatives(kernels(), lines, 1, 0, expected[2] / 2));
     EXPECT_NEAR(sum, kFloor, 0.02 * kFloor) << "of which " << expected[2] << " are expected";
     EXPECT_LT(sum, 0.9 * (exact_sum(c) + kFloor));
 }

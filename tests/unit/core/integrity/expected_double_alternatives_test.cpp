@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/kernels/select.hpp"
 #include "ratios_case.hpp"
 
 namespace dotpose::core_test::expected_double_alternatives_test {
@@ -70,7 +71,7 @@ TEST(ExpectedDoubleAlternatives, AreThoseOfAllDigits) {
         const RatiosCase c = read_at_random(rng, kLines);
         const LikelihoodRatios ratios = c.ratios();
         const RankedLines lines(ratios);
-        const auto fewer = expected_double_alternatives(lines, anchors);
+        const auto fewer = expected_double_alternatives(kernels(), lines, anchors);
         const ByAnchors exact = exact_sums(c, lines, anchors);
         EXPECT_EQ(fewer[0], 0);
         double sum = 0;
@@ -87,7 +88,7 @@ TEST(ExpectedDoubleAlternatives, AreNeverNothing) {
     RatiosCase c = read_at_random(rng, 64);
     c.odds_q8 = 16 * 256;
     const LikelihoodRatios ratios = c.ratios();
-    const auto fewer = expected_double_alternatives(RankedLines(ratios), kMaxAnchors);
+    const auto fewer = expected_double_alternatives(kernels(), RankedLines(ratios), kMaxAnchors);
     EXPECT_GT(fewer[1], 0);
     EXPECT_LT(fewer[kMinFound], 0x1p-45F);
 }

@@ -15,6 +15,7 @@
 #include "core/integrity/likelihood_ratios.hpp"
 #include "core/integrity/quick_alternatives.hpp"
 #include "core/integrity/unshared_lines.hpp"
+#include "core/kernels/select.hpp"
 #include "core/math/fixed.hpp"
 #include "dotpose/tools/random.hpp"
 #include "locate/workspace.hpp"
@@ -100,19 +101,22 @@ TEST(LikelihoodRatiosOfBits, LosesAsWeightsDo) {
 TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanThereIs) {
     Rng rng(9);
     int settled = 0;
+    int compared = 0;
     for (int round = 0; round < 200; ++round) {
         Columns columns(rng);
         const int estimate_q8 = quick_alternatives_log2_q8(columns.of_bits());
         // The exact sum counts alternatives one by one, and is rounded up to a power of two several
         // times.
-        const int counted = alternatives_log2(columns.of_weights());
-        // The exact sum counts negligible odds as 2^-64. For 12,597 alternatives, this adds up to
-        // 2^-50.
-        if (counted > -49) {
+        const int counted = alternatives_log2(kernels(), columns.of_weights());
+        // The exact sum counts small odds as 2^-56. For several thousand alternatives, this adds up
+        // to 2^-42.
+        if (counted > -41) {
             EXPECT_GE(estimate_q8, 256 * (counted - 2));
+            ++compared;
         }
         settled += estimate_q8 < -30 * 256 ? 1 : 0;
     }
+    EXPECT_GT(compared, 10);
     EXPECT_GT(settled, 80);
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "code/basis.hpp"
+#include "core/kernels/select.hpp"
 #include "ratios_case.hpp"
 
 namespace dotpose::core_test::near_alternatives_test {
@@ -66,8 +67,8 @@ TEST(NearAlternatives, AreSummedOneByOne) {
         const RatiosCase c = read_at_random(rng, 6 + i % 9);
         const LikelihoodRatios ratios = c.ratios();
         for (const int shared_lines : {4, 5}) {
-            const double sum =
-                static_cast<double>(sum_of_near_alternatives(RankedLines(ratios), shared_lines));
+            const double sum = static_cast<double>(
+                sum_of_near_alternatives(kernels(), RankedLines(ratios), shared_lines));
             const ExactSum exact = exact_sum(c, shared_lines);
             ASSERT_GT(exact.alternatives, 0);
             EXPECT_GE(sum, 0.97 * exact.sum) << i << ", " << shared_lines << ", seed " << kSeed;

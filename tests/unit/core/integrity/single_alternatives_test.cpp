@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/kernels/select.hpp"
 #include "ratios_case.hpp"
 
 namespace dotpose::core_test::single_alternatives_test {
@@ -32,7 +33,8 @@ TEST(SingleAlternatives, AreSummedOneByOne) {
     for (int i = 0; i < 30; ++i) {
         const RatiosCase c = read_at_random(rng, 6 + i % 9);
         const LikelihoodRatios ratios = c.ratios();
-        const double sum = static_cast<double>(sum_of_single_alternatives(RankedLines(ratios)));
+        const double sum =
+            static_cast<double>(sum_of_single_alternatives(kernels(), RankedLines(ratios)));
         const double exact = exact_sum(c);
         // Powers of two are accurate to 2 %. Alternatives with negligible odds count once for every
         // line they share.

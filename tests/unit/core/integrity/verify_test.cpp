@@ -8,6 +8,7 @@
 #include "core/decode/position.hpp"
 #include "core/integrity/alternatives.hpp"
 #include "core/integrity/confidence.hpp"
+#include "core/kernels/select.hpp"
 
 namespace dotpose::core_test::verify_test {
 namespace {
@@ -25,7 +26,7 @@ using Storage = std::array<ScoredLine, 2 * kMaxLines>;
 
 Status verify_one_code(const core::Grid& grid, CodeVariant code, Decoding& decoding,
                        const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix) {
-    return verify(grid, code, nullptr, decoding, options, storage, fix);
+    return verify(kernels(), grid, code, nullptr, decoding, options, storage, fix);
 }
 
 Verdict judge(const Reading& reading, const IntegrityOptions& options = {},
@@ -124,8 +125,9 @@ TEST(Verify, AWrongPlaceIsNotCertain) {
         }
         Storage storage;
         Fix fix;
-        EXPECT_EQ(verify(reading.grid(), CodeVariant::anoto, nullptr, wrong, {}, storage, fix),
-                  Status::not_certain)
+        EXPECT_EQ(
+            verify(kernels(), reading.grid(), CodeVariant::anoto, nullptr, wrong, {}, storage, fix),
+            Status::not_certain)
             << "view " << i << ", seed " << kSeed;
         EXPECT_EQ(verify_quickly(reading.grid(), CodeVariant::anoto, wrong, {}, storage, fix),
                   Status::not_certain)
@@ -144,14 +146,16 @@ TEST(Verify, LinesThatAreScoredAreNotScoredAgain) {
         ASSERT_TRUE(found.lines_are_scored);
         const Verdict fresh = judge(reading);
         Fix fix;
-        EXPECT_EQ(verify(reading.grid(), CodeVariant::anoto, nullptr, found, {}, storage, fix),
-                  Status::ok);
+        EXPECT_EQ(
+            verify(kernels(), reading.grid(), CodeVariant::anoto, nullptr, found, {}, storage, fix),
+            Status::ok);
         EXPECT_EQ(fix.p_wrong_log2, fresh.fix.p_wrong_log2);
         // `verify` must use the scores in the storage. Cleared scores are equal for all rolls, so
         // they exclude no alternative.
         storage.fill({});
-        EXPECT_EQ(verify(reading.grid(), CodeVariant::anoto, nullptr, found, {}, storage, fix),
-                  Status::not_certain);
+        EXPECT_EQ(
+            verify(kernels(), reading.grid(), CodeVariant::anoto, nullptr, found, {}, storage, fix),
+            Status::not_certain);
     }
 }
 
@@ -234,6 +238,7 @@ double exact_p_wrong(const Reading& reading) {
             (roll(code, own) + section + static_cast<int>(cross % kSections)) % kSections);
         sum += std::exp2(chance_log2(axes[is_x ? 0 : 1], odds)) +
                std::exp2(alternatives_log2(
+                   kernels(),
                    LikelihoodRatios(code, score_lines(upright, axis, storage), read, odds)));
     }
     return std::log2(sum);

@@ -1,6 +1,7 @@
 // Tests lists of similar places against simple reference computations.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <set>
 #include <vector>
@@ -132,6 +133,59 @@ TEST(KernelsAlternatives, LeastLossesAreThoseOfSortedLosses) {
             expected += std::max<int>(losses[n - 1], 0);
             ASSERT_EQ(sums[n], expected) << n;
         }
+    });
+}
+
+TEST(KernelsAlternatives, CombinationsOfABatchLoseTheLinesTheyDoNotShare) {
+    int similar_count = 0;
+    repeat_with_each_form(50, [&](const Kernels& kernels, Rng& rng) {
+        OffsetBatch batch;
+        std::array<std::uint8_t, kMaxLines> opposite;
+        std::vector<std::uint8_t> losses(static_cast<std::size_t>(whole(rng, 1, 20)));
+        for (std::size_t line = 0; line < losses.size(); ++line) {
+            losses[line] = static_cast<std::uint8_t>(whole(rng, 0, 60));
+            opposite[line] = static_cast<std::uint8_t>(whole(rng, 0, 3));
+            for (std::uint8_t& offset : batch.offsets[line])
+                offset = static_cast<std::uint8_t>(whole(rng, 0, 3));
+        }
+        const int limit = whole(rng, 1, 255);
+        const std::uint32_t similar =
+            kernels.similar_in_batch(batch, opposite.data(), losses, limit);
+        for (std::size_t n = 0; n < 32; ++n) {
+            int lost = 0;
+            for (std::size_t line = 0; line < losses.size(); ++line)
+                lost += batch.offsets[line][n] != opposite[line] ? losses[line] : 0;
+            const bool is_similar = (similar >> n & 1) != 0;
+            ASSERT_EQ(is_similar, lost < limit) << n;
+            similar_count += is_similar ? 1 : 0;
+        }
+    });
+    EXPECT_GT(similar_count, 100);
+}
+
+TEST(KernelsAlternatives, ExpectationsHaveTheSameBitsInEachForm) {
+    repeat_with_each_form(5, [&](const Kernels& kernels, Rng& rng) {
+        const OwnPlaces places(rng);
+        std::vector<OddsByOffset> lines(static_cast<std::size_t>(whole(rng, 1, 20)));
+        for (OddsByOffset& line : lines) {
+            for (float& odds : line)
+                odds = static_cast<float>(std::exp2(-rng.uniform(0, 40)));
+            line.front() = 1;
+            line.back() = 0;
+        }
+        const auto different = static_cast<unsigned>(whole(rng, 1, 15));
+        const int max_shared = whole(rng, 3, 8);
+        const float sum = kernels.sum_expected_alternatives(places.basis, places.own, different,
+                                                            lines, max_shared);
+        EXPECT_GT(sum, 0);
+        EXPECT_EQ(sum, portable_kernels().sum_expected_alternatives(places.basis, places.own,
+                                                                    different, lines, max_shared));
+        OddsByShared by_shared;
+        OddsByShared expected;
+        const std::uint64_t anchors = std::uint64_t{rng.below(1 << 20)};
+        kernels.sum_expected_doubles(places.basis, places.own, lines, anchors, by_shared);
+        portable_kernels().sum_expected_doubles(places.basis, places.own, lines, anchors, expected);
+        EXPECT_EQ(by_shared, expected);
     });
 }
 

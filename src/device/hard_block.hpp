@@ -1,0 +1,84 @@
+// Hard block: the bits of a block of cells as words, one word per line, in any orientation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "code/tables.hpp"
+#include "core/decode/grid.hpp"
+#include "core/decode/lines.hpp"
+#include "core/integrity/compared_line.hpp"
+#include "core/math/fixed.hpp"
+
+namespace dotpose::core {
+
+/// The bits of a column or row. Each word has one bit per cell. Bit 0 belongs to the first cell.
+struct HardLine {
+    std::uint32_t bits = 0;
+    std::uint32_t seen = 0;  ///< 1 if the bit of the cell was read
+
+    /// Returns the number of bits that contradict a line whose first cell has the roll `roll`.
+    int wrong_at(std::size_t roll) const { return bits_in((code::kMainWords[roll] ^ bits) & seen); }
+};
+
+/// The lines of one axis of a block in one orientation, from the first to the last line.
+struct HardLines {
+    const HardLine* first = nullptr;
+    int step = 1;  ///< distance of consecutive lines in memory: 1 or -1
+    int count = 0;
+
+    const HardLine& operator[](int line) const { return first[line * step]; }
+
+    /// Returns the number of bits that contradict the code if the roll of line i is rolls[i] plus
+    /// `added`, modulo 63. If the number exceeds `limit`, returns any number above `limit`.
+    int wrong_with(const std::uint8_t* rolls, std::uint32_t added, int limit) const;
+    /// Returns the same for lines of which the first is at `position`. The rolls are those in
+    /// section 0 plus `added`.
+    int wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added, int limit) const;
+};
+
+/// The bits of a block in all four orientations. The memory contains the block and the block turned
+/// upside down; lines of these two blocks, from either end, are the lines of all orientations.
+class HardBlock {
+  public:
+    /// Reads the clear cells of a region of at most kMaxComparedLines columns and rows.
+    HardBlock(const Grid& grid, const GridRegion& region);
+
+    /// Returns the number of bits of one axis, which is the number of clear cells.
+    int dots() const { return dots_; }
+    /// Returns the lines after `quarters` quarter turns, as for QuarterTurn.
+    HardLines lines(Axis axis, int quarters) const;
+
+  private:
+    using Lines = std::array<HardLine, kMaxComparedLines>;
+
+    int columns_;
+    int rows_;
+    int dots_ = 0;
+    /// Element 0 contains the block, and element 1 the block turned by 180 degrees.
+    std::array<Lines, 2> column_lines_{};
+    std::array<Lines, 2> row_lines_{};
+};
+
+/// The bits that were read in a tracked frame, from the first to the last column and row that have
+/// bits. The block is upright.
+class TrackedBlock {
+  public:
+    /// `lines` are the lines of Tracking, and `corner` is the place of cell (0, 0).
+    TrackedBlock(std::span<const ComparedLine> lines, CodeVariant code, const Place& corner);
+
+    HardLines columns() const { return {columns_.data(), 1, column_count_}; }
+    HardLines rows() const { return {rows_.data(), 1, row_count_}; }
+    /// Returns the place where the first column and the first row cross.
+    const Place& corner() const { return corner_; }
+
+  private:
+    std::array<HardLine, kMaxComparedLines> columns_;
+    std::array<HardLine, kMaxComparedLines> rows_;
+    int column_count_;
+    int row_count_;
+    Place corner_;
+};
+
+}  // namespace dotpose::core

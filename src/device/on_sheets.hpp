@@ -1,0 +1,21 @@
+// On sheets: reads the bits of a frame as a place on a known sheet.
+#pragma once
+
+#include "dotpose/device_options.hpp"
+
+namespace dotpose::core {
+
+struct DeviceWorkspace;
+
+/// The functions for known sheets. DeviceWorkspace has a pointer to them, so a program that does
+/// not set known sheets does not contain them.
+struct SheetFunctions {
+    /// Finds the place of the grid of a fresh frame, and its turn. Returns false if no place on the
+    /// sheets is certain.
+    bool (*read)(const DeviceOptions& options, DeviceWorkspace& w);
+    /// Returns true if the predicted place of a tracked frame is certain as a place on the sheets.
+    bool (*verify)(const DeviceOptions& options, DeviceWorkspace& w);
+};
+extern const SheetFunctions kSheetFunctions;
+
+}  // namespace dotpose::core

@@ -1,0 +1,157 @@
+#include "device/sheet_odds.hpp"
+
+#include <algorithm>
+
+#include "core/integrity/confidence.hpp"
+
+namespace dotpose::core {
+namespace {
+
+int number_of_bits(const HardLines& lines) {
+    int bits = 0;
+    for (int i = 0; i < lines.count; ++i)
+        bits += bits_in(lines[i].seen);
+    return bits;
+}
+
+/// Returns an upper bound on log2(n) in units of 2^-8, for any n > 0.
+int log2_of_places_q8(std::uint64_t n) {
+    int halvings = 0;
+    for (; n >= 1U << 24; ++halvings)
+        n = n / 2 + 1;
+    return log2_at_most_q8(static_cast<std::uint32_t>(n)) + 256 * halvings;
+}
+
+/// The lines of one axis, the first of which is at a position, and the section of the axis.
+struct PlacedLines {
+    HardLines lines;
+    std::uint32_t position;
+    std::uint32_t section;
+    int wrong;  ///< number of bits that contradict the code
+};
+
+/// Returns the number that is added to the rolls in section 0 of the lines of an axis: the section
+/// plus the position on the other axis, modulo 63.
+std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_across) {
+    return code::modulo_sections(section + code::modulo_sections(position_across));
+}
+
+/// Sum of the odds of the places whose lines on one axis are those of a place, with the same rolls,
+/// so that only the lines of the other axis distinguish the places.
+class OddsOfOthers {
+  public:
+    OddsOfOthers(CodeVariant code, int odds_per_bit_q8)
+        : code_(code), odds_per_bit_q8_(odds_per_bit_q8) {}
+
+    /// Adds the places of a region whose lines on the axis of `same` are those of the place.
+    /// `same_section` and `section` are the sections of the region, along the axis of `same` and
+    /// along the other axis, and `same_range` and `range` are its positions.
+    void add(const PlacedLines& same, std::uint32_t same_section, const PositionRange& same_range,
+             const PlacedLines& other, std::uint32_t section, const PositionRange& range) {
+        if (!same_range.contains(same.position)) return;
+        const bool is_same_section = same_section == same.section && section == other.section;
+        const std::uint32_t wanted_class = code::modulo_sections(
+            added_to_rolls(same.section, other.position) + kSections - same_section);
+        const std::uint32_t first_class = code::modulo_sections(range.first);
+        const std::uint32_t added = added_to_rolls(section, same.position);
+        for (std::uint32_t i = code::modulo_sections(wanted_class + kSections - first_class);
+             i < range.count; i += kSections) {
+            const std::uint32_t position = range.first + i;
+            if (is_same_section && position == other.position) continue;
+            const int lost = other.lines.wrong_at(code_, position, added, kMaxBits) - other.wrong;
+            log2_q8_ = add_log2(log2_q8_, -lost * odds_per_bit_q8_);
+        }
+    }
+    int log2_q8() const { return log2_q8_; }
+
+  private:
+    static constexpr int kMaxBits = kMaxComparedLines * kMaxComparedLines;
+    CodeVariant code_;
+    int odds_per_bit_q8_;
+    int log2_q8_ = kNever_q8;
+};
+
+/// Returns log2 of the number of places that a view may show, in units of 2^-8: the places in each
+/// of the four orientations on the regions in a code, including the places at which the block
+/// extends beyond a region. A tracked attempt tests only one place, but chooses among up to 2^10
+/// planes.
+int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int rows) {
+    std::uint64_t places = 0;
+    for (const KnownRegion& region : sheets.regions) {
+        if (region.code != code) continue;
+        places += std::uint64_t{PositionRange(region.first.x, region.columns, columns).count} *
+                  PositionRange(region.first.y, region.rows, rows).count;
+    }
+    return log2_of_places_q8(std::max<std::uint64_t>(4 * places, 1024));
+}
+
+/// Returns log2 of an upper bound on the probability that an unknown sheet has the columns, or the
+/// rows, of a known sheet and agrees on the other axis, in units of 2^-8. Then the other axis can
+/// only have the positions of one class modulo 63.
+int unknown_sheet_log2_q8(const KnownSheets& sheets, CodeVariant code, const PlacedLines& x,
+                          const PlacedLines& y, int bits, int odds_per_bit_q8) {
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+    for (const KnownRegion& region : sheets.regions) {
+        if (region.code != code) continue;
+        columns +=
+            PositionRange(region.first.x, region.columns, x.lines.count).count / kSections + 1;
+        rows += PositionRange(region.first.y, region.rows, y.lines.count).count / kSections + 1;
+    }
+    const auto of_axis_q8 = [&](std::uint32_t positions, int wrong) {
+        return log2_of_places_q8(positions) +
+               agreement_log2_q8(Confidence::of_hard_bits(bits, wrong), odds_per_bit_q8);
+    };
+    return add_log2(of_axis_q8(columns, x.wrong), of_axis_q8(rows, y.wrong));
+}
+
+}  // namespace
+
+int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
+                   const IntegrityOptions& options) {
+    // Places with more wrong bits are found in large views only, and are not excluded here.
+    constexpr int kMaxTested = 8;
+    const int trials_q8 = trials_log2_q8(sheets, code, lines, lines);
+    for (int wrong = 0; wrong <= std::min(kMaxTested, 2 * dots); ++wrong) {
+        const Confidence both = Confidence::of_hard_bits(2 * dots, wrong);
+        const int chance_q8 = trials_q8 + agreement_log2_q8(both, odds_per_bit_q8(both));
+        if (chance_q8 > 256 * options.max_p_wrong_log2) return wrong - 1;
+    }
+    return 2 * dots;
+}
+
+bool is_certain_place(const KnownSheets& sheets, CodeVariant code, const HardLines& columns,
+                      const HardLines& rows, const Place& corner, const IntegrityOptions& options,
+                      Fix& fix) {
+    const int bits = number_of_bits(columns);
+    if (bits == 0 || !sheets.show(code, corner, columns.count, rows.count)) return false;
+    PlacedLines x{columns, corner.cell.x, corner.section.u, 0};
+    PlacedLines y{rows, corner.cell.y, corner.section.v, 0};
+    x.wrong = columns.wrong_at(code, x.position, added_to_rolls(x.section, y.position), bits);
+    y.wrong = rows.wrong_at(code, y.position, added_to_rolls(y.section, x.position), bits);
+    fix.bit_errors = x.wrong + y.wrong;
+    if (256 * std::max(x.wrong, y.wrong) > bits * options.max_bit_error_q8) return false;
+    const Confidence both = Confidence::of_hard_bits(2 * bits, fix.bit_errors);
+    const int odds_q8 = odds_per_bit_q8(both);
+    if (odds_q8 == 0) return false;
+
+    OddsOfOthers others(code, odds_q8);
+    for (const KnownRegion& region : sheets.regions) {
+        if (region.code != code) continue;
+        const PositionRange of_x(region.first.x, region.columns, columns.count);
+        const PositionRange of_y(region.first.y, region.rows, rows.count);
+        others.add(x, region.section.u, of_x, y, region.section.v, of_y);
+        others.add(y, region.section.v, of_y, x, region.section.u, of_x);
+    }
+    const int chance_q8 =
+        trials_log2_q8(sheets, code, columns.count, rows.count) + agreement_log2_q8(both, odds_q8);
+    int sum_q8 = add_log2(others.log2_q8(), chance_q8);
+    if (!sheets.are_all())
+        sum_q8 = add_log2(sum_q8, unknown_sheet_log2_q8(sheets, code, x, y, bits, odds_q8));
+    fix.p_wrong_log2 = std::min((sum_q8 + 255) >> 8, 0);
+    if (fix.p_wrong_log2 > options.max_p_wrong_log2) return false;
+    fix.prior = sheets.are_all() ? Prior::only_sheets : Prior::sheets;
+    return true;
+}
+
+}  // namespace dotpose::core

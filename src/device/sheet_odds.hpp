@@ -1,0 +1,28 @@
+// Sheet odds: an upper bound on the probability that a place on the known sheets is wrong, in
+// integers. docs/integrity.md, "Known sheets", derives the bound.
+#pragma once
+
+#include <array>
+
+#include "core/known_sheets.hpp"
+#include "device/hard_block.hpp"
+#include "dotpose/device_options.hpp"
+#include "dotpose/fix.hpp"
+
+namespace dotpose::core {
+
+/// Returns the maximum number of wrong bits, on both axes together, of a place that may be certain.
+/// `dots` is the number of bits of each axis, and `lines` the number of columns or rows, whichever
+/// is larger. Returns -1 if no place of so few bits is certain.
+int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
+                   const IntegrityOptions& options);
+
+/// Returns true if a place on the known sheets is certain: the bound is within the limit, and not
+/// too many bits contradict the place. `columns` and `rows` are the lines of the upright block, and
+/// `corner` is the place where the first column and the first row cross. Sets `bit_errors` and
+/// `p_wrong_log2` of the fix, and `prior` if the result is true.
+bool is_certain_place(const KnownSheets& sheets, CodeVariant code, const HardLines& columns,
+                      const HardLines& rows, const Place& corner, const IntegrityOptions& options,
+                      Fix& fix);
+
+}  // namespace dotpose::core

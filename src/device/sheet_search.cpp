@@ -1,0 +1,240 @@
+#include "device/sheet_search.hpp"
+
+#include <algorithm>
+
+#include "code/rolls.hpp"
+#include "core/known_sheets.hpp"
+
+namespace dotpose::core {
+namespace {
+
+constexpr int kTurns = 4;
+/// Maximum number of pairs of lines, on each axis, that are tried. Pairs are disjoint, so a bit
+/// error spoils only one pair of each axis.
+constexpr int kMaxPairs = 3;
+
+/// The rolls at which all bits of a line agree with the main sequence: one roll for a line of at
+/// least six bits in a row without error.
+class AgreeingRolls {
+  public:
+    AgreeingRolls() = default;
+    explicit AgreeingRolls(const HardLine& line) {
+        for (std::size_t roll = 0; roll < kSections; ++roll) {
+            if (((code::kMainWords[roll] ^ line.bits) & line.seen) != 0) continue;
+            if (count_ == rolls_.size()) {
+                // The line has too few bits to be useful.
+                count_ = 0;
+                return;
+            }
+            rolls_[count_++] = static_cast<std::uint8_t>(roll);
+        }
+    }
+    const std::uint8_t* begin() const { return rolls_.data(); }
+    const std::uint8_t* end() const { return rolls_.data() + count_; }
+
+  private:
+    std::array<std::uint8_t, 4> rolls_{};
+    std::size_t count_ = 0;
+};
+
+std::uint32_t difference(std::uint32_t a, std::uint32_t b) {
+    return a >= b ? a - b : a + kSections - b;
+}
+
+/// A pair of adjacent lines of an axis, in one orientation of the block.
+struct LinePair {
+    int line = 0;  ///< index of the first line
+    AgreeingRolls first;
+    AgreeingRolls second;
+};
+
+/// Returns the first line of the pair of adjacent lines whose shorter line has the most bits. Skips
+/// the lines in the bit set `tried`, and adds the lines of the pair to it. Returns nullopt if no
+/// pair is left.
+std::optional<int> longest_pair(const HardLines& lines, std::uint32_t& tried) {
+    std::optional<int> longest;
+    int most_bits = 0;
+    for (int line = 0; line + 1 < lines.count; ++line) {
+        if ((tried >> line & 3) != 0) continue;
+        const int bits = std::min(bits_in(lines[line].seen), bits_in(lines[line + 1].seen));
+        if (bits <= most_bits) continue;
+        most_bits = bits;
+        longest = line;
+    }
+    if (longest) tried |= std::uint32_t{3} << *longest;
+    return longest;
+}
+
+/// Pairs of lines of one axis, one pair for each orientation of the block.
+class PairsOfLines {
+  public:
+    explicit PairsOfLines(Axis axis) : axis_(axis) {}
+
+    /// Takes the next pair in each orientation.
+    void take_next(const HardBlock& block) {
+        turns_ = {};
+        for (int quarters = 0; quarters < kTurns; ++quarters) {
+            const HardLines lines = block.lines(axis_, quarters);
+            const auto turn = static_cast<std::size_t>(quarters);
+            const auto line = longest_pair(lines, tried_[turn]);
+            if (!line) continue;
+            pairs_[turn] = {*line, AgreeingRolls(lines[*line]), AgreeingRolls(lines[*line + 1])};
+            for (const std::uint32_t first : pairs_[turn].first) {
+                for (const std::uint32_t second : pairs_[turn].second)
+                    turns_[difference(second, first)] |= static_cast<std::uint8_t>(1 << quarters);
+            }
+        }
+    }
+    Axis axis() const { return axis_; }
+    /// Returns the orientations in which some agreeing rolls of the two lines differ by `step`, as
+    /// a bit set.
+    unsigned turns_with(std::uint32_t step) const { return turns_[step]; }
+    const LinePair& operator[](int quarters) const {
+        return pairs_[static_cast<std::size_t>(quarters)];
+    }
+
+  private:
+    Axis axis_;
+    std::array<std::uint8_t, kSections> turns_{};
+    std::array<std::uint32_t, kTurns> tried_{};  ///< lines of earlier pairs, as bit sets
+    std::array<LinePair, kTurns> pairs_{};
+};
+
+/// The positions of one axis of a region, and the section of this axis.
+struct RegionAxis {
+    std::uint32_t first;
+    std::uint32_t size;
+    std::uint32_t section;
+
+    RegionAxis(const KnownRegion& region, Axis axis)
+        : first(axis == Axis::x ? region.first.x : region.first.y),
+          size(axis == Axis::x ? region.columns : region.rows),
+          section(axis == Axis::x ? region.section.u : region.section.v) {}
+};
+
+/// Consecutive positions of an axis, with their rolls in section 0.
+struct Rolls {
+    std::uint32_t first;
+    std::array<std::uint8_t, 128> all;
+
+    const std::uint8_t* at(std::uint32_t position) const { return &all[position - first]; }
+};
+
+class SheetSearch {
+  public:
+    SheetSearch(const HardBlock& block, CodeVariant code, int max_wrong)
+        : block_(block), code_(code), max_wrong_(max_wrong) {}
+
+    /// Tests the places on a region at which all bits of a pair of lines agree.
+    void search(const KnownRegion& region, const PairsOfLines& pairs);
+
+    const std::optional<SheetPlace>& best() const { return best_; }
+
+  private:
+    /// Tests the places at which the first line of a pair is at `position` and has an agreeing
+    /// roll. `step` is the difference to the roll of the next line.
+    void test_pair(const KnownRegion& region, const PairsOfLines& pairs, int quarters,
+                   const Rolls& rolls, std::uint32_t position, std::uint32_t step);
+    /// Tests the places at which the first line of an axis is at `position` and `wrong` of its bits
+    /// contradict the code. The roll of each line is its roll in section 0 plus `added`.
+    void test_crossing(const KnownRegion& region, Axis axis, int quarters, std::uint32_t position,
+                       std::uint32_t added, int wrong);
+
+    const HardBlock& block_;
+    CodeVariant code_;
+    int max_wrong_;  ///< on both axes together; less than the number at the best place so far
+    std::optional<SheetPlace> best_;
+};
+
+void SheetSearch::search(const KnownRegion& region, const PairsOfLines& pairs) {
+    const RegionAxis along(region, pairs.axis());
+    const auto margin = static_cast<std::uint32_t>(
+        std::max(block_.lines(pairs.axis(), 0).count, block_.lines(pairs.axis(), 1).count));
+    // Positions of the first line of a pair, if any line of the block is on the region.
+    const std::uint32_t begin = along.first < margin ? 0 : along.first - margin;
+    const std::uint32_t end = along.first + along.size + margin;
+    Rolls rolls;
+    for (std::uint32_t position = begin; position < end;) {
+        rolls.first = position < margin ? 0 : position - margin;
+        code::follow_rolls(code_, rolls.first, dotpose::roll(code_, rolls.first), rolls.all);
+        const auto size = static_cast<std::uint32_t>(rolls.all.size());
+        const std::uint32_t chunk_end = std::min(end, rolls.first + size - margin);
+        const std::uint8_t* roll = rolls.at(position);
+        for (; position < chunk_end; ++position, ++roll) {
+            const std::uint32_t step = difference(roll[1], roll[0]);
+            unsigned turns = pairs.turns_with(step);
+            for (int quarters = 0; turns != 0; ++quarters, turns >>= 1) {
+                if ((turns & 1) != 0) test_pair(region, pairs, quarters, rolls, position, step);
+            }
+        }
+    }
+}
+
+void SheetSearch::test_pair(const KnownRegion& region, const PairsOfLines& pairs, int quarters,
+                            const Rolls& rolls, std::uint32_t position, std::uint32_t step) {
+    const LinePair& pair = pairs[quarters];
+    const auto ahead = static_cast<std::uint32_t>(pair.line);
+    if (position < ahead) return;
+    const HardLines lines = block_.lines(pairs.axis(), quarters);
+    const std::uint8_t* const first_roll = rolls.at(position - ahead);
+    for (const std::uint32_t first : pair.first) {
+        for (const std::uint32_t second : pair.second) {
+            if (difference(second, first) != step) continue;
+            const std::uint32_t added = difference(first, *rolls.at(position));
+            const int wrong = lines.wrong_with(first_roll, added, max_wrong_);
+            if (wrong <= max_wrong_)
+                test_crossing(region, pairs.axis(), quarters, position - ahead, added, wrong);
+        }
+    }
+}
+
+void SheetSearch::test_crossing(const KnownRegion& region, Axis axis, int quarters,
+                                std::uint32_t position, std::uint32_t added, int wrong) {
+    const Axis other = axis == Axis::x ? Axis::y : Axis::x;
+    const RegionAxis along(region, axis);
+    const RegionAxis across(region, other);
+    const HardLines crossing = block_.lines(other, quarters);
+    if (!PositionRange(along.first, along.size, block_.lines(axis, quarters).count)
+             .contains(position))
+        return;
+    // `added` is the section plus the position on the other axis, modulo 63.
+    const PositionRange range(across.first, across.size, crossing.count);
+    const std::uint32_t first_class = code::modulo_sections(range.first);
+    const std::uint32_t wanted_class = difference(added, along.section);
+    const std::uint32_t added_across =
+        code::modulo_sections(across.section + code::modulo_sections(position));
+    for (std::uint32_t i = difference(wanted_class, first_class); i < range.count; i += kSections) {
+        const std::uint32_t position_across = range.first + i;
+        const int limit = max_wrong_ - wrong;
+        const int wrong_across = crossing.wrong_at(code_, position_across, added_across, limit);
+        if (wrong_across > limit) continue;
+        max_wrong_ = wrong + wrong_across - 1;
+        best_ = axis == Axis::x ? SheetPlace{quarters,
+                                             {{position, position_across}, region.section},
+                                             {wrong, wrong_across}}
+                                : SheetPlace{quarters,
+                                             {{position_across, position}, region.section},
+                                             {wrong_across, wrong}};
+    }
+}
+
+}  // namespace
+
+std::optional<SheetPlace> find_on_sheets(const HardBlock& block, CodeVariant code,
+                                         std::span<const KnownRegion> regions, int max_wrong) {
+    if (max_wrong < 0) return {};
+    SheetSearch search(block, code, max_wrong);
+    std::array pairs{PairsOfLines(Axis::x), PairsOfLines(Axis::y)};
+    for (int round = 0; round < kMaxPairs; ++round) {
+        for (PairsOfLines& of_axis : pairs) {
+            of_axis.take_next(block);
+            for (const KnownRegion& region : regions) {
+                if (region.code == code) search.search(region, of_axis);
+            }
+            if (search.best()) return search.best();
+        }
+    }
+    return {};
+}
+
+}  // namespace dotpose::core

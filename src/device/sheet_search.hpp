@@ -1,0 +1,28 @@
+// Sheet search: finds the place of a block of bits on the known sheets, without a table of all
+// places.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "device/hard_block.hpp"
+#include "dotpose/known_region.hpp"
+
+namespace dotpose::core {
+
+/// A place of a block on a known sheet.
+struct SheetPlace {
+    int quarters = 0;            ///< quarter turns from the block to the pattern
+    Place corner;                ///< place where the first column and the first row cross
+    std::array<int, 2> wrong{};  ///< numbers of x bits and of y bits that contradict the place
+};
+
+/// Finds the place, in any orientation of the block, that contradicts the fewest bits: at most
+/// `max_wrong` on both axes together. Tests only places at which all bits agree in one of a few
+/// pairs of adjacent lines. Returns nullopt if there is no such place. Ignores regions in other
+/// codes.
+std::optional<SheetPlace> find_on_sheets(const HardBlock& block, CodeVariant code,
+                                         std::span<const KnownRegion> regions, int max_wrong);
+
+}  // namespace dotpose::core
