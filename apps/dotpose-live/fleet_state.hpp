@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <list>
 #include <map>
 #include <mutex>
@@ -12,16 +13,37 @@
 #include <utility>
 #include <vector>
 
+#include "clock_offset.hpp"
 #include "draw/svg.hpp"
+#include "natural_order.hpp"
+#include "robot_condition.hpp"
 #include "state_message.hpp"
 #include "state_numbers.hpp"
 
 namespace dotpose::cli {
 
+/// A time on the clocks of the computer that receives the messages.
+struct Now {
+    std::int64_t system_us = 0;  ///< microseconds since 1970
+    /// Microseconds on a monotonic clock that stops while the broker is away, because robots are
+    /// not silent then.
+    std::int64_t watched_us = 0;
+};
+
 struct FleetRobot {
+    /// Newest state. If the robot is lost, place and sheet are the last known ones.
     RobotState newest;
-    std::int64_t heard_us = 0;  ///< arrival time of the last message, system clock
+    bool has_place = false;  ///< true if `newest` contains a place, which may be an old one
+    publish::Presence presence = publish::Presence::online;
+    /// Time at which the robot sent its newest message, on the clock Now::watched_us. Computed from
+    /// the time stamps of the robot, so a message that waited in a queue does not count as new.
+    std::int64_t alive_us = std::numeric_limits<std::int64_t>::min();
+    std::int64_t lost_since_us = 0;  ///< begin of the current loss of the pose, Now::watched_us
     StateCounts counts;
+    // Set by FleetState::robots.
+    Condition condition = Condition::lost;
+    std::int64_t silence_us = 0;  ///< time since `alive_us`
+    std::string reason;           ///< reason of the condition in a few words; may be empty
 };
 
 /// Latency statistics of the messages, measured with the clocks of the sender and of the receiver.
@@ -39,16 +61,18 @@ class FleetState {
 
     /// `listener` is called with each state that was not received before, in the thread that calls
     /// `take`.
-    explicit FleetState(Listener listener = [](std::string_view, const RobotState&) {})
-        : listener_(std::move(listener)) {}
+    explicit FleetState(
+        Listener listener = [](std::string_view, const RobotState&) {}, ConditionLimits limits = {})
+        : listener_(std::move(listener)), limits_(limits) {}
 
     /// Takes a message. A state older than the newest state of its robot is only counted. If
     /// several older states follow each other in ascending order of time, the clock of the sender
-    /// was set back, and the states are accepted. Invalid messages are counted as bad. Thread-safe.
-    void take(std::string_view topic, std::string_view payload, std::int64_t now_us);
+    /// was set back, and the states are accepted. An empty message on the topic of the connection
+    /// removes the robot. Other invalid messages are counted as bad. Thread-safe.
+    void take(std::string_view topic, std::string_view payload, const Now& now);
 
-    /// Returns the robots, sorted by name.
-    std::vector<std::pair<std::string, FleetRobot>> robots() const;
+    /// Returns the robots and their conditions, in natural order of their names.
+    std::vector<std::pair<std::string, FleetRobot>> robots(const Now& now) const;
     /// Returns the path of a robot in mm, or an empty path if the robot was removed.
     std::vector<draw::Point> path_mm(std::string_view robot) const;
     /// Returns the sum of the counts of all robots, including removed robots.
@@ -67,21 +91,22 @@ class FleetState {
     struct Robot {
         FleetRobot shown;
         StateNumbers numbers;
+        ClockOffset clock;
         std::vector<draw::Point> path_mm;
         std::list<const std::string*>::iterator place;  ///< position in `by_age_`
     };
 
-    void take_state(std::string_view name, RobotState state, std::int64_t now_us);
-    void take_connection(std::string_view name, const RobotConnection& connection,
-                         std::int64_t now_us);
+    void take_state(std::string_view name, RobotState state, const Now& now);
+    void take_connection(std::string_view name, const RobotConnection& connection, const Now& now);
     Robot& touch(std::string_view name);
-    void remove_oldest();
+    void remove(std::string_view name);
     void extend_path(Robot& robot) const;
     void count_latency(float latency_ms);
 
     Listener listener_;
+    ConditionLimits limits_;
     mutable std::mutex mutex_;
-    std::map<std::string, Robot, std::less<>> robots_;
+    std::map<std::string, Robot, NaturalOrder> robots_;
     std::list<const std::string*> by_age_;  ///< names of the robots, oldest message first
     StateCounts of_removed_;
     std::vector<float> latencies_ms_;

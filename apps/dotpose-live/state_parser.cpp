@@ -93,6 +93,32 @@ std::string name_in(const object& values, std::string_view key) {
     return std::string(name);
 }
 
+/// Returns a name, or an empty string if the message does not contain it.
+std::string optional_name_in(const object& values, std::string_view key) {
+    return values[key].error() == simdjson::NO_SUCH_FIELD ? std::string() : name_in(values, key);
+}
+
+/// Returns the index of a status name in RefusedFrames.
+std::size_t refused_index(std::string_view text) {
+    std::size_t i = 0;
+    while (i < static_cast<std::size_t>(kStatusCount) && name(static_cast<Status>(i)) != text)
+        ++i;
+    return i;
+}
+
+/// Returns the report of the camera, or none if the message does not contain it.
+std::optional<CameraReport> camera_in(const object& message) {
+    constexpr double kMax_hz = 1e5;
+    object values;
+    if (message["camera"].get(values) != simdjson::SUCCESS) return std::nullopt;
+    CameraReport camera;
+    camera.rate_hz = bounded(values, "rate", kMax_hz);
+    camera.frames = values["frames"].get_uint64();
+    for (const auto& [reason, count] : values["refused"].get_object())
+        camera.refused[refused_index(reason)] = count.get_uint64();
+    return camera;
+}
+
 std::int64_t time_in(const object& message) {
     const auto sent_us = parse_timestamp(message["timestamp"].get_string());
     if (!sent_us) throw OutOfRange();
@@ -107,6 +133,9 @@ RobotState state_in(const object& message) {
     state.sent_us = time_in(message);
     state.header_id = message["headerId"].get_uint64();
     state.state = name_in(message, "state");
+    state.reason = optional_name_in(message, "reason");
+    state.sheet = optional_name_in(message, "sheet");
+    state.camera = camera_in(message);
     object position;
     state.is_localized = message["agvPosition"].get(position) == simdjson::SUCCESS;
     if (!state.is_localized) return state;

@@ -62,6 +62,27 @@ publish::MqttOptions with_presence(const OutputOptions& options) {
 
 }  // namespace
 
+void CameraCounter::count(const Reading& reading) {
+    if (total_.frames++ == 0) {
+        reported_us_ = reading.time_us;
+        reported_frames_ = total_.frames;  // the rate counts the intervals between frames
+    }
+    newest_us_ = reading.time_us;
+    const Status status = reading.record.fix.status;
+    if (status != Status::ok) ++total_.refused[static_cast<std::size_t>(status)];
+}
+
+std::optional<CameraReport> CameraCounter::take_report() {
+    constexpr std::int64_t kBetween_us = 1'000'000;
+    const std::int64_t elapsed_us = newest_us_ - reported_us_;
+    if (elapsed_us < kBetween_us) return std::nullopt;
+    total_.rate_hz = 1e6 * static_cast<double>(total_.frames - reported_frames_) /
+                     static_cast<double>(elapsed_us);
+    reported_us_ = newest_us_;
+    reported_frames_ = total_.frames;
+    return total_;
+}
+
 StateOutput::StateOutput(const OutputOptions& options)
     : robot_(options.robot),
       world_map_(options.world_map),
@@ -78,6 +99,7 @@ void StateOutput::finish() {
 }
 
 void StateOutput::take(const Reading& reading) {
+    camera_.count(reading);
     const TrackEvents& events = reading.track.events;
     const bool is_event =
         events.fix || events.lost || events.kidnapped || events.stationary || events.moving;
@@ -85,6 +107,7 @@ void StateOutput::take(const Reading& reading) {
     next_us_ = reading.time_us + period_us_;
     RobotState state = state_of(reading, robot_, world_map_);
     state.header_id = messages_++;
+    state.camera = camera_.take_report();
     publisher_.publish(topic_of(robot_, Subject::visualization), json_of(state));
 }
 
@@ -188,8 +211,9 @@ void WatchOutputs::draw_path() const {
              path_.strokes(),
              {last.x, last.y},
              newest_.is_lost ? std::nullopt : std::optional(newest_.pose.theta_rad()),
-             newest_.is_lost});
+             newest_.is_lost ? "lost" : ""});
     }
+    draw::keep_visited_sheets(map);
     write_file(options_.map, draw::draw_map(map));
 }
 

@@ -14,6 +14,7 @@
 #include "publish/mqtt.hpp"
 #include "reading.hpp"
 #include "robot_output.hpp"
+#include "state_message.hpp"
 #include "video/screen.hpp"
 
 namespace dotpose::cli {
@@ -59,6 +60,21 @@ class PacketOutput {
     int descriptor_;
 };
 
+/// Counts the frames of the camera for the reports that the states contain.
+class CameraCounter {
+  public:
+    void count(const Reading& reading);
+
+    /// Returns a report if the newest frame is at least a second later than the previous report.
+    std::optional<CameraReport> take_report();
+
+  private:
+    CameraReport total_;
+    std::int64_t newest_us_ = 0;
+    std::int64_t reported_us_ = 0;
+    std::uint64_t reported_frames_ = 0;
+};
+
 /// Publishes the state of the robot through a broker.
 class StateOutput {
   public:
@@ -77,6 +93,7 @@ class StateOutput {
     std::int64_t period_us_;
     std::int64_t next_us_;
     std::uint64_t messages_ = 0;
+    CameraCounter camera_;
     publish::MqttPublisher publisher_;
 };
 
