@@ -9,8 +9,9 @@ namespace dotpose::cli {
 void add_watch(Command& app, int& exit_code);
 void add_fleet(Command& app, int& exit_code);
 
-/// Adds `fleet remove`, a subcommand of `fleet`.
+/// Add subcommands of `fleet`.
 void add_fleet_remove(Command& fleet);
+void add_fleet_history(Command& fleet);
 
 /// Registers the subcommands.
 void add_live_commands(Command& app, int& exit_code);

@@ -11,6 +11,7 @@
 #include "dotpose/files/error.hpp"
 #include "fleet_input.hpp"
 #include "fleet_share.hpp"
+#include "fleet_store.hpp"
 #include "fleet_view.hpp"
 #include "mqtt_arguments.hpp"
 #include "output_arguments.hpp"
@@ -27,7 +28,9 @@ constexpr const char* kFleetExamples =
     "  dotpose fleet --mqtt mqtt://broker --sheets table.json --draw fleet.svg\n"
     "  dotpose fleet --mqtt mqtts://me@broker --mqtt-ca ca.pem --seconds 60\n"
     "  dotpose fleet --mqtt mqtt://broker --qos 1 --shard 1/3 --log part1.csv\n"
-    "  dotpose fleet --mqtt mqtt://broker --qos 1 --share loggers --log states.csv\n\n"
+    "  dotpose fleet --mqtt mqtt://broker --qos 1 --share loggers --log states.csv\n"
+    "  dotpose fleet --mqtt mqtt://broker --qos 1 --store fleet.db --store-days 30\n"
+    "  dotpose fleet history --store fleet.db --robot anna --draw anna.svg\n\n"
     "Lists all robots that publish to the broker (dotpose watch --mqtt), on a terminal live, else "
     "at\n"
     "the end. Open the map in a browser and let it reload. Ctrl-C ends. docs/fleet.md\n";
@@ -38,6 +41,7 @@ struct FleetArguments {
     std::string sheets;
     std::string map;
     std::string log;
+    StoreArguments store;
     double seconds = 0;  ///< run time; 0 means until interrupted
     double every_s = 1;
     double silent_after_s = 5;
@@ -59,6 +63,9 @@ void register_files(const FleetArguments& arguments) {
     files.reads("--mqtt-ca", arguments.mqtt.ca_file());
     files.writes("--draw", arguments.map, Content::svg);
     files.writes("--log", arguments.log, Content::csv);
+    if (!store::is_on_server(arguments.store.where)) {
+        files.updates("--store", arguments.store.where, Content::own);
+    }
 }
 
 /// Calls its function if at least `period_s` passed since the last call.
@@ -90,7 +97,9 @@ void run(const FleetArguments& arguments) {
     FleetView view(read_fleet_map(arguments.sheets), arguments.map,
                    arguments.share.is_shared() ? Delivery::shared : Delivery::all);
     mqtt->tell = [&view](const std::string& message) { view.tell(message); };
-    FleetInput input({*mqtt, arguments.share, limits, arguments.log});
+    std::optional<FleetStore> store;
+    if (!arguments.store.where.empty()) store.emplace(arguments.store, mqtt->tell);
+    FleetInput input({*mqtt, arguments.share, limits, arguments.log}, store ? &*store : nullptr);
     std::optional<AlertPublisher> alerts;
     if (arguments.publishes_alerts) alerts.emplace(*mqtt);
 
@@ -115,6 +124,7 @@ void run(const FleetArguments& arguments) {
     input.finish();
     view.finish(input.fleet(), input.now());
     if (alerts) alerts->finish();
+    if (store) store->finish();
     input.require_reached();
 }
 
@@ -145,6 +155,7 @@ void add_fleet(Command& app, int&) {
     add_draw_option(*command, arguments->map, "Map to draw and update (SVG)");
     command->add_option("--log", arguments->log, "Write every state as a line of CSV")
         ->type_name("FILE");
+    arguments->store.add_to(*command);
     arguments->share.add_to(*command);
     add_limits(*command, *arguments);
     command->add_option("--every", arguments->every_s, "Time between two updates")
@@ -155,6 +166,7 @@ void add_fleet(Command& app, int&) {
         ->type_name("S")
         ->check(Range(0.1, 1e9));
     add_fleet_remove(*command);
+    add_fleet_history(*command);
     command->callback([arguments, command] {
         if (command->get_parsed_subcommands().empty()) run(*arguments);
     });

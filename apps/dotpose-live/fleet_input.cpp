@@ -24,8 +24,9 @@ Now WatchedClock::now() const {
     return {system_us(), monotonic_us() - blind_us_};
 }
 
-FleetInput::FleetInput(const FleetInputOptions& options)
+FleetInput::FleetInput(const FleetInputOptions& options, FleetStore* store)
     : shard_(options.share.shard()),
+      store_(store),
       fleet_([this](std::string_view robot, const RobotState& state) { record(robot, state); },
              options.limits) {
     if (!options.log.empty()) log_.emplace(options.log);
@@ -53,6 +54,7 @@ void FleetInput::take(std::string_view topic, std::string_view payload) {
 
 void FleetInput::record(std::string_view robot, const RobotState& state) {
     if (log_) log_->add(robot, state, received_us_);
+    if (store_ != nullptr) store_->add(robot, state, received_us_);
 }
 
 }  // namespace dotpose::cli

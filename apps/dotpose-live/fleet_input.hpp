@@ -10,6 +10,7 @@
 #include "fleet_log.hpp"
 #include "fleet_share.hpp"
 #include "fleet_state.hpp"
+#include "fleet_store.hpp"
 #include "publish/mqtt.hpp"
 
 namespace dotpose::cli {
@@ -40,8 +41,9 @@ struct FleetInputOptions {
 /// The subscriber calls `take` in its own thread.
 class FleetInput {
   public:
-    /// Throws Error if the broker refuses the connection or the log cannot be created.
-    explicit FleetInput(const FleetInputOptions& options);
+    /// `store` may be null. Throws Error if the broker refuses the connection or the log cannot be
+    /// created.
+    FleetInput(const FleetInputOptions& options, FleetStore* store);
 
     const FleetState& fleet() const { return fleet_; }
     Now now() const { return clock_.now(); }
@@ -66,6 +68,7 @@ class FleetInput {
     WatchedClock clock_;
     std::int64_t received_us_ = 0;  ///< arrival time of the current message, system clock
     std::optional<FleetLog> log_;
+    FleetStore* store_;
     FleetState fleet_;
     std::optional<publish::MqttSubscriber> subscriber_;
 };

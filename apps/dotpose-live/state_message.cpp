@@ -15,16 +15,6 @@ namespace {
 
 constexpr std::int64_t kMicro = 1'000'000;
 
-/// Formats a time in ISO 8601, UTC, with microseconds.
-std::string timestamp(std::int64_t time_us) {
-    const auto seconds = static_cast<std::time_t>(time_us / kMicro);
-    std::tm utc{};
-    gmtime_r(&seconds, &utc);
-    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:06}Z", utc.tm_year + 1900,
-                       utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec,
-                       time_us % kMicro);
-}
-
 /// Names of the subjects in topics, in the order of Subject.
 constexpr std::string_view kSubjects[] = {"visualization", "connection"};
 
@@ -52,6 +42,15 @@ std::string dump(const nlohmann::ordered_json& json) {
 }
 
 }  // namespace
+
+std::string timestamp(std::int64_t time_us) {
+    const auto seconds = static_cast<std::time_t>(time_us / kMicro);
+    std::tm utc{};
+    gmtime_r(&seconds, &utc);
+    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:06}Z", utc.tm_year + 1900,
+                       utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec,
+                       time_us % kMicro);
+}
 
 std::string topic_of(const std::string& robot, Subject subject) {
     return fmt::format("{}/{}/{}", kTopicRoot, robot, kSubjects[static_cast<int>(subject)]);

@@ -120,6 +120,12 @@ struct RobotAlert {
 /// Returns the message with the topic kAlertRoot/ROBOT.
 std::string json_of(const RobotAlert& alert);
 
+/// Formats a time in microseconds since 1970 as in messages: "2026-11-24T16:20:00.123456Z".
+std::string timestamp(std::int64_t time_us);
+
+/// Parses a time of this form, with any number of decimals. Returns none for any other string.
+std::optional<std::int64_t> parse_timestamp(std::string_view text);
+
 /// Returns the system time in microseconds since 1970.
 std::int64_t system_us();
 

@@ -47,35 +47,6 @@ std::optional<std::int64_t> parse_decimals_us(std::string_view text) {
     return std::llround(fraction_s * 1e6);
 }
 
-/// Parses a time such as "2026-11-24T16:20:00.123456Z" into microseconds since 1970. The time may
-/// have any number of decimals. Returns none for any other string.
-std::optional<std::int64_t> parse_timestamp(std::string_view text) {
-    using namespace std::chrono;
-    constexpr std::string_view kSeconds = "2026-11-24T16:20:00";
-    if (text.size() <= kSeconds.size() || !text.ends_with('Z')) return std::nullopt;
-    for (const std::size_t i : {4U, 7U, 10U, 13U, 16U}) {
-        if (text[i] != kSeconds[i]) return std::nullopt;
-    }
-    const int in_year = digits(text, 0, 4);
-    const int in_month = digits(text, 5, 2);
-    const int in_day = digits(text, 8, 2);
-    const int hour = digits(text, 11, 2);
-    const int minute = digits(text, 14, 2);
-    const int second = digits(text, 17, 2);
-    if (in_year < 1970 || in_month < 1 || in_month > 12 || in_day < 1 || in_day > 31 || hour < 0 ||
-        hour > 23 || minute < 0 || minute > 59 || second < 0 || second > 60) {
-        return std::nullopt;
-    }
-    std::string_view decimals = text.substr(kSeconds.size());
-    decimals.remove_suffix(1);
-    const auto fraction_us = parse_decimals_us(decimals);
-    if (!fraction_us) return std::nullopt;
-    const sys_days date =
-        year(in_year) / month(static_cast<unsigned>(in_month)) / day(static_cast<unsigned>(in_day));
-    const auto time = date + hours(hour) + minutes(minute) + seconds(second);
-    return microseconds(time.time_since_epoch()).count() + *fraction_us;
-}
-
 /// Thrown if a value of a message is out of range.
 struct OutOfRange {};
 
@@ -185,6 +156,33 @@ auto parsed(std::string_view json, const Read& read) -> std::optional<decltype(r
 }
 
 }  // namespace
+
+std::optional<std::int64_t> parse_timestamp(std::string_view text) {
+    using namespace std::chrono;
+    constexpr std::string_view kSeconds = "2026-11-24T16:20:00";
+    if (text.size() <= kSeconds.size() || !text.ends_with('Z')) return std::nullopt;
+    for (const std::size_t i : {4U, 7U, 10U, 13U, 16U}) {
+        if (text[i] != kSeconds[i]) return std::nullopt;
+    }
+    const int in_year = digits(text, 0, 4);
+    const int in_month = digits(text, 5, 2);
+    const int in_day = digits(text, 8, 2);
+    const int hour = digits(text, 11, 2);
+    const int minute = digits(text, 14, 2);
+    const int second = digits(text, 17, 2);
+    if (in_year < 1970 || in_month < 1 || in_month > 12 || in_day < 1 || in_day > 31 || hour < 0 ||
+        hour > 23 || minute < 0 || minute > 59 || second < 0 || second > 60) {
+        return std::nullopt;
+    }
+    std::string_view decimals = text.substr(kSeconds.size());
+    decimals.remove_suffix(1);
+    const auto fraction_us = parse_decimals_us(decimals);
+    if (!fraction_us) return std::nullopt;
+    const sys_days date =
+        year(in_year) / month(static_cast<unsigned>(in_month)) / day(static_cast<unsigned>(in_day));
+    const auto time = date + hours(hour) + minutes(minute) + seconds(second);
+    return microseconds(time.time_since_epoch()).count() + *fraction_us;
+}
 
 std::optional<RobotState> parse_state(std::string_view json) {
     return parsed(json, state_in);
