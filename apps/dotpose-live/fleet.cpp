@@ -10,9 +10,11 @@
 #include "common.hpp"
 #include "dotpose/files/error.hpp"
 #include "fleet_input.hpp"
+#include "fleet_metrics.hpp"
 #include "fleet_share.hpp"
 #include "fleet_store.hpp"
 #include "fleet_view.hpp"
+#include "metrics_file.hpp"
 #include "mqtt_arguments.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
@@ -41,6 +43,7 @@ struct FleetArguments {
     std::string sheets;
     std::string map;
     std::string log;
+    std::string metrics;
     StoreArguments store;
     double seconds = 0;  ///< run time; 0 means until interrupted
     double every_s = 1;
@@ -63,6 +66,7 @@ void register_files(const FleetArguments& arguments) {
     files.reads("--mqtt-ca", arguments.mqtt.ca_file());
     files.writes("--draw", arguments.map, Content::svg);
     files.writes("--log", arguments.log, Content::csv);
+    files.writes("--metrics", arguments.metrics, Content::text);
     if (!store::is_on_server(arguments.store.where)) {
         files.updates("--store", arguments.store.where, Content::own);
     }
@@ -86,6 +90,10 @@ class Periodically {
     steady_clock::time_point last_;
 };
 
+std::optional<store::QueueStatus> store_status(const std::optional<FleetStore>& store) {
+    return store ? std::optional(store->status()) : std::nullopt;
+}
+
 void run(const FleetArguments& arguments) {
     constexpr auto kTick = std::chrono::milliseconds(50);
     constexpr double kBetweenAlerts_s = 0.25;
@@ -94,8 +102,8 @@ void run(const FleetArguments& arguments) {
     const ConditionLimits limits = limits_of(arguments);
     register_files(arguments);
     catch_interrupts();
-    FleetView view(read_fleet_map(arguments.sheets), arguments.map,
-                   arguments.share.is_shared() ? Delivery::shared : Delivery::all);
+    const Delivery delivery = arguments.share.is_shared() ? Delivery::shared : Delivery::all;
+    FleetView view(read_fleet_map(arguments.sheets), arguments.map, delivery);
     mqtt->tell = [&view](const std::string& message) { view.tell(message); };
     std::optional<FleetStore> store;
     if (!arguments.store.where.empty()) store.emplace(arguments.store, mqtt->tell);
@@ -108,6 +116,13 @@ void run(const FleetArguments& arguments) {
         const std::chrono::duration<double> elapsed = steady_clock::now() - begun;
         return arguments.seconds > 0 && elapsed.count() >= arguments.seconds;
     };
+    std::optional<MetricsFile> metrics;
+    if (!arguments.metrics.empty()) metrics.emplace(arguments.metrics, mqtt->tell);
+    const auto write_metrics = [&] {
+        if (!metrics) return;
+        metrics->write(metrics_text(input.fleet(), input.fleet().robots(input.now()), view.map(),
+                                    {input.is_connected(), delivery, store_status(store)}));
+    };
     Periodically refresh(arguments.every_s);
     Periodically alert(kBetweenAlerts_s);
     while (!interrupted() && !is_over() && view.take_keys(input.fleet(), input.now())) {
@@ -118,12 +133,14 @@ void run(const FleetArguments& arguments) {
         });
         refresh.call([&] {
             view.refresh(input.fleet(), input.now());
+            write_metrics();
             input.flush();
         });
     }
     input.finish();
     view.finish(input.fleet(), input.now());
     if (alerts) alerts->finish();
+    write_metrics();
     if (store) store->finish();
     input.require_reached();
 }
@@ -154,6 +171,10 @@ void add_fleet(Command& app, int&) {
     add_sheets_option(*command, arguments->sheets, "Sheet file: draw its sheets on the map");
     add_draw_option(*command, arguments->map, "Map to draw and update (SVG)");
     command->add_option("--log", arguments->log, "Write every state as a line of CSV")
+        ->type_name("FILE");
+    command
+        ->add_option("--metrics", arguments->metrics,
+                     "File of metrics for Prometheus (.prom), replaced at each update")
         ->type_name("FILE");
     arguments->store.add_to(*command);
     arguments->share.add_to(*command);

@@ -49,7 +49,9 @@ class FleetInput {
     Now now() const { return clock_.now(); }
 
     /// Must be called regularly (WatchedClock::observe).
-    void observe() { clock_.observe(subscriber_->is_connected()); }
+    void observe() { clock_.observe(is_connected()); }
+
+    bool is_connected() const { return subscriber_->is_connected(); }
 
     /// Writes the buffered lines of the log. Throws Error.
     void flush();

@@ -65,6 +65,10 @@ void FleetState::take_state(std::string_view name, RobotState state, const Now& 
     }
     listener_(name, state);
     if (is_late) return;
+    if (state.camera) {
+        count_frames(*state.camera, shown.camera);
+        shown.camera = state.camera;
+    }
     if (!state.is_localized && (shown.newest.is_localized || shown.newest.sent_us == 0)) {
         shown.lost_since_us = now.watched_us;
     }
@@ -109,7 +113,33 @@ void FleetState::extend_path(Robot& robot) const {
     path.push_back(place);
 }
 
+void LatencyHistogram::add(double latency_s) {
+    const double positive_s = std::max(latency_s, 0.0);
+    const auto limit = std::ranges::lower_bound(kLimits_s, positive_s);
+    ++counts[static_cast<std::size_t>(limit - kLimits_s.begin())];
+    sum_s += positive_s;
+}
+
+/// Adds the difference of two reports of a robot. A first report only determines where counting
+/// begins, and so does a report with smaller or implausible numbers, because the robot was
+/// restarted.
+void FleetState::count_frames(const CameraReport& report,
+                              const std::optional<CameraReport>& previous) {
+    constexpr std::uint64_t kMaxFrames = 1'000'000;
+    if (!previous || report.frames < previous->frames ||
+        report.frames - previous->frames > kMaxFrames) {
+        return;
+    }
+    camera_totals_.frames += report.frames - previous->frames;
+    for (std::size_t i = 0; i < report.refused.size(); ++i) {
+        const std::uint64_t before = previous->refused[i];
+        const std::uint64_t now = report.refused[i];
+        if (now > before) camera_totals_.refused[i] += std::min(now - before, kMaxFrames);
+    }
+}
+
 void FleetState::count_latency(float latency_ms) {
+    latency_histogram_.add(static_cast<double>(latency_ms) * 1e-3);
     if (latencies_ms_.size() < kLatencies) {
         latencies_ms_.push_back(latency_ms);
     } else {
@@ -147,6 +177,16 @@ StateCounts FleetState::counts() const {
 std::int64_t FleetState::bad() const {
     const std::lock_guard lock(mutex_);
     return bad_;
+}
+
+LatencyHistogram FleetState::latency_histogram() const {
+    const std::lock_guard lock(mutex_);
+    return latency_histogram_;
+}
+
+CameraTotals FleetState::camera_totals() const {
+    const std::lock_guard lock(mutex_);
+    return camera_totals_;
 }
 
 Latency FleetState::latency() const {

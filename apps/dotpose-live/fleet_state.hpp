@@ -1,6 +1,7 @@
 /// State of all robots of a broker, computed from their state messages.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -8,6 +9,7 @@
 #include <list>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -40,6 +42,7 @@ struct FleetRobot {
     std::int64_t alive_us = std::numeric_limits<std::int64_t>::min();
     std::int64_t lost_since_us = 0;  ///< begin of the current loss of the pose, Now::watched_us
     StateCounts counts;
+    std::optional<CameraReport> camera;  ///< newest report
     // Set by FleetState::robots.
     Condition condition = Condition::lost;
     std::int64_t silence_us = 0;  ///< time since `alive_us`
@@ -50,6 +53,25 @@ struct FleetRobot {
 struct Latency {
     double median_ms = 0;
     double p99_ms = 0;
+};
+
+/// Numbers of messages by latency.
+struct LatencyHistogram {
+    /// Upper limits of the classes, in seconds. The last class has no limit.
+    static constexpr std::array kLimits_s = {0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1,
+                                             0.25,  0.5,    1.0,   2.5,  5.0,   10.0};
+
+    std::array<std::int64_t, kLimits_s.size() + 1> counts{};
+    double sum_s = 0;
+
+    /// Negative latencies, which clocks with different times cause, count as 0.
+    void add(double latency_s);
+};
+
+/// Frames of the cameras of all robots since this program started.
+struct CameraTotals {
+    std::uint64_t frames = 0;
+    RefusedFrames refused{};
 };
 
 class FleetState {
@@ -81,6 +103,8 @@ class FleetState {
     /// Returns the statistics of the newest 131,072 messages, or of all messages if there are
     /// fewer.
     Latency latency() const;
+    LatencyHistogram latency_histogram() const;
+    CameraTotals camera_totals() const;
 
   private:
     static constexpr std::size_t kLatencies = 1 << 17;
@@ -102,6 +126,7 @@ class FleetState {
     void remove(std::string_view name);
     void extend_path(Robot& robot) const;
     void count_latency(float latency_ms);
+    void count_frames(const CameraReport& report, const std::optional<CameraReport>& previous);
 
     Listener listener_;
     ConditionLimits limits_;
@@ -111,6 +136,8 @@ class FleetState {
     StateCounts of_removed_;
     std::vector<float> latencies_ms_;
     std::size_t next_latency_ = 0;
+    LatencyHistogram latency_histogram_;
+    CameraTotals camera_totals_;
     std::int64_t bad_ = 0;
 };
 
