@@ -15,7 +15,7 @@
 #include "fleet_store.hpp"
 #include "fleet_view.hpp"
 #include "metrics_file.hpp"
-#include "mqtt_arguments.hpp"
+#include "mqtt_options.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
@@ -63,7 +63,7 @@ ConditionLimits limits_of(const FleetArguments& arguments) {
 void register_files(const FleetArguments& arguments) {
     RunFiles files;
     files.reads("--sheets", arguments.sheets);
-    files.reads("--mqtt-ca", arguments.mqtt.ca_file());
+    files.reads("--mqtt-ca", arguments.mqtt.ca_file);
     files.writes("--draw", arguments.map, Content::svg);
     files.writes("--log", arguments.log, Content::csv);
     files.writes("--metrics", arguments.metrics, Content::text);
@@ -97,7 +97,7 @@ std::optional<store::QueueStatus> store_status(const std::optional<FleetStore>& 
 void run(const FleetArguments& arguments) {
     constexpr auto kTick = std::chrono::milliseconds(50);
     constexpr double kBetweenAlerts_s = 0.25;
-    auto mqtt = arguments.mqtt.options();
+    auto mqtt = mqtt_options(arguments.mqtt);
     if (!mqtt) throw BadArgument("name the broker: --mqtt mqtt://HOST");
     const ConditionLimits limits = limits_of(arguments);
     register_files(arguments);

@@ -11,7 +11,7 @@
 
 #include "commands.hpp"
 #include "dotpose/files/error.hpp"
-#include "mqtt_arguments.hpp"
+#include "mqtt_options.hpp"
 #include "state_message.hpp"
 #include "terminal_text.hpp"
 
@@ -70,7 +70,7 @@ std::set<std::string, std::less<>> retained_robots(const publish::MqttOptions& o
 
 void run(const RemoveArguments& arguments) {
     constexpr auto kPatience = std::chrono::seconds(5);
-    auto options = arguments.mqtt.options();
+    auto options = mqtt_options(arguments.mqtt);
     if (!options) throw BadArgument("name the broker: --mqtt mqtt://HOST");
     options->qos = 1;
     options->queue = arguments.robots.size();

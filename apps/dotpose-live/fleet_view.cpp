@@ -74,28 +74,34 @@ void FleetView::refresh(const FleetState& fleet, const Now& now) {
 
 void FleetView::finish(const FleetState& fleet, const Now& now) {
     if (screen_) {
-        const ScreenSize size = screen_->size();
-        screen_.reset();
-        page_.take(Key::home);
-        std::vector<std::string> lines =
-            page_.lines(fleet, fleet.robots(now), map_, delivery_, size);
-        lines.pop_back();  // the position and the keys
-        for (const std::string& line : lines) {
-            if (!line.empty()) fmt::print("{}\n", line);
-        }
-        for (const std::string& message : std::exchange(messages_, {}))
-            cli::tell(message);
+        leave_screen(fleet, now);
     } else {
         fmt::print("{}", table_of(fleet, map_, delivery_, now));
+        std::fflush(stdout);
+    }
+    if (!drawing_.empty()) draw(fleet, now);
+}
+
+/// Leaves the last page and the messages on the terminal.
+void FleetView::leave_screen(const FleetState& fleet, const Now& now) {
+    page_.take(Key::home);
+    std::vector<std::string> lines =
+        page_.lines(fleet, fleet.robots(now), map_, delivery_, screen_->size());
+    lines.pop_back();  // the position and the keys
+    const std::lock_guard lock(mutex_);
+    screen_.reset();
+    for (const std::string& line : lines) {
+        if (!line.empty()) fmt::print("{}\n", line);
     }
     std::fflush(stdout);
-    if (!drawing_.empty()) draw(fleet, now);
+    for (const std::string& message : std::exchange(messages_, {}))
+        cli::tell(message);
 }
 
 void FleetView::tell(const std::string& message) {
     constexpr std::size_t kMaxMessages = 100;
-    if (!screen_) return cli::tell(message);
     const std::lock_guard lock(mutex_);
+    if (!screen_) return cli::tell(message);
     messages_.push_back(message);
     if (messages_.size() > kMaxMessages) messages_.pop_front();
 }

@@ -43,6 +43,7 @@ class FleetView {
   private:
     using Clock = std::chrono::steady_clock;
 
+    void leave_screen(const FleetState& fleet, const Now& now);
     void show_page(const FleetState& fleet, const Now& now);
     void draw(const FleetState& fleet, const Now& now);
 
@@ -51,7 +52,7 @@ class FleetView {
     Delivery delivery_;
     FleetPage page_;
     std::optional<TerminalScreen> screen_;
-    std::mutex mutex_;                  ///< for `messages_`
+    std::mutex mutex_;                  ///< for `messages_`, and for the end of `screen_`
     std::deque<std::string> messages_;  ///< newest messages that wait for the end of `screen_`
     bool is_failing_ = false;           ///< true if the last map could not be written
     Clock::time_point next_map_;
