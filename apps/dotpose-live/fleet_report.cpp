@@ -39,8 +39,16 @@ std::string place_text(const FleetRobot& robot, const FleetMap& map) {
            (map.has_place_of(robot) ? "" : "?");
 }
 
+/// Returns a coordinate of the newest pose. It is not shown while the robot is lost.
 std::string located(const RobotState& state, double value, int decimals) {
     return state.is_localized ? fmt::format("{:.{}f}", value, decimals) : std::string("-");
+}
+
+/// Returns the speed in mm/s. It is not shown if the newest state is old.
+std::string speed_text(const FleetRobot& robot, int decimals) {
+    if (!is_fine(robot.condition)) return "-";
+    const RobotState& state = robot.newest;
+    return fmt::format("{:.{}f}", std::hypot(state.vx_m_s, state.vy_m_s) * kMm_per_m, decimals);
 }
 
 draw::MapRobot drawn_robot(const std::string& name, const FleetRobot& robot,
@@ -88,14 +96,13 @@ std::string table_row(const std::string& name, const FleetRobot& robot, const Fl
                       Layout layout, Delivery delivery) {
     const RobotState& state = robot.newest;
     const double age_s = static_cast<double>(robot.silence_us) * 1e-6;
-    const double speed_mm_s = std::hypot(state.vx_m_s, state.vy_m_s) * kMm_per_m;
     const std::string place =
         (robot.reason.empty() ? "" : printable(robot.reason) + ", ") + place_text(robot, map);
     if (layout == Layout::narrow) {
-        return fmt::format(
-            "{:<14.14} {:<6} {:>6.0f} {:>9} {:>9} {:>6}  {}", printable(name),
-            name_of(robot.condition), age_s, located(state, state.x_m * kMm_per_m, 1),
-            located(state, state.y_m * kMm_per_m, 1), located(state, speed_mm_s, 0), place);
+        return fmt::format("{:<14.14} {:<6} {:>6.0f} {:>9} {:>9} {:>6}  {}", printable(name),
+                           name_of(robot.condition), age_s,
+                           located(state, state.x_m * kMm_per_m, 1),
+                           located(state, state.y_m * kMm_per_m, 1), speed_text(robot, 0), place);
     }
     const std::string missed =
         delivery == Delivery::all ? fmt::format("{}", robot.counts.missed) : std::string("-");
@@ -103,7 +110,7 @@ std::string table_row(const std::string& name, const FleetRobot& robot, const Fl
         "{:<16.16} {:<6} {:>8.1f} {:>12} {:>12} {:>8} {:>8} {:>9} {:>7}  {}", printable(name),
         name_of(robot.condition), age_s, located(state, state.x_m * kMm_per_m, 3),
         located(state, state.y_m * kMm_per_m, 3), located(state, state.theta_rad * kDegrees, 2),
-        located(state, speed_mm_s, 1), robot.counts.messages, missed, place);
+        speed_text(robot, 1), robot.counts.messages, missed, place);
 }
 
 std::string summary_of(const FleetState& fleet, const FleetRobots& robots, const FleetMap& map,
