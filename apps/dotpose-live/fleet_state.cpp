@@ -48,14 +48,7 @@ void FleetState::take_state(std::string_view name, RobotState state, const Now& 
     const auto arrival = robot.numbers.take(state, shown.counts);
     if (arrival == StateNumbers::Arrival::repeated) return;
     const bool is_late = arrival == StateNumbers::Arrival::late;
-    if (!is_late) {
-        const bool was_set_back = state.sent_us < shown.newest.sent_us;
-        if (was_set_back) robot.clock.reset();
-        robot.clock.take(now.watched_us, state.sent_us);
-        const std::int64_t sent_us = state.sent_us + robot.clock.us();
-        shown.alive_us = was_set_back ? sent_us : std::max(shown.alive_us, sent_us);
-        shown.presence = publish::Presence::online;
-    }
+    if (!is_late) note_sign_of_life(robot, state, now);
     // A lost robot remains at its last place.
     if (!state.is_localized) {
         state.map_id = shown.newest.map_id;
@@ -75,6 +68,16 @@ void FleetState::take_state(std::string_view name, RobotState state, const Now& 
     shown.newest = std::move(state);
     shown.has_place = shown.has_place || shown.newest.is_localized;
     if (shown.newest.is_localized) extend_path(robot);
+}
+
+void FleetState::note_sign_of_life(Robot& robot, const RobotState& state, const Now& now) {
+    FleetRobot& shown = robot.shown;
+    const bool was_set_back = state.sent_us < shown.newest.sent_us;
+    if (was_set_back) robot.clock.reset();
+    robot.clock.take(now.watched_us, state.sent_us);
+    const std::int64_t sent_us = state.sent_us + robot.clock.us();
+    shown.alive_us = was_set_back ? sent_us : std::max(shown.alive_us, sent_us);
+    shown.presence = publish::Presence::online;
 }
 
 FleetState::Robot& FleetState::touch(std::string_view name) {

@@ -122,6 +122,8 @@ class FleetState {
 
     void take_state(std::string_view name, RobotState state, const Now& now);
     void take_connection(std::string_view name, const RobotConnection& connection, const Now& now);
+    /// Updates time and presence of a robot with a state that is not late.
+    static void note_sign_of_life(Robot& robot, const RobotState& state, const Now& now);
     Robot& touch(std::string_view name);
     void remove(std::string_view name);
     void extend_path(Robot& robot) const;
