@@ -20,8 +20,8 @@ struct LineArguments {
     Units units = Units::mm;
 };
 
-/// Adds --format json|csv and -o. If `has_text`, --format also accepts text. If the name given to -o
-/// ends in .csv, the default format is csv.
+/// Adds --format json|csv and -o. If `has_text`, --format also accepts text. If the name given to
+/// -o ends in .csv, the default format is csv.
 void add_format_options(Command& command, LineArguments& arguments, bool has_text = false);
 
 /// Adds --units mm|ros in addition.

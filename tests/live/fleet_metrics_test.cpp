@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -71,7 +72,8 @@ TEST(FleetMetrics, CountRobotsMessagesAndLatencies) {
     r.pass(2.5);
     cli::FleetMap map;
     map.id = "table";
-    const std::string text = metrics_of(r, map, {true, cli::Delivery::all, store::QueueStatus{7, 5, 3, true}});
+    const std::string text =
+        metrics_of(r, map, {true, cli::Delivery::all, store::QueueStatus{7, 5, 3, true}});
     for (const char* line : {
              "dotpose_fleet_robots{state=\"moving\"} 1\n",
              "dotpose_fleet_robots{state=\"lost\"} 1\n",
