@@ -74,6 +74,8 @@ if(TARGET dotpose_cli)
 endif()
 if(TARGET dotpose_live_cli)
     install(TARGETS dotpose_live_cli dotpose_video_module DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/dotpose)
+    # Alert rules of Prometheus and dashboard of Grafana for `dotpose fleet --metrics`.
+    install(DIRECTORY packaging/monitoring DESTINATION ${CMAKE_INSTALL_DATADIR}/dotpose)
 endif()
 
 # The documents link to each other, so they are installed with the same layout as in the source

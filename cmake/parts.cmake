@@ -39,6 +39,8 @@ dotpose_dependency(PkgConfig::FFmpeg         libav{format,codec}-dev,\ libswscal
 dotpose_dependency(PkgConfig::Mosquitto      libmosquitto-dev              MODULES libmosquitto)
 dotpose_dependency(PkgConfig::Websockets     libwebsockets-dev             MODULES libwebsockets)
 dotpose_dependency(esbuild                   esbuild                       FILE esbuild.cmake)
+dotpose_dependency(PkgConfig::Sqlite         libsqlite3-dev                MODULES sqlite3)
+dotpose_dependency(PkgConfig::Postgres       libpq-dev                     MODULES libpq)
 dotpose_dependency(CycloneDDS::ddsc          cyclonedds-dev                PACKAGE CycloneDDS)
 dotpose_dependency(CycloneDDS::idlc          cyclonedds-tools              FILE idlc.cmake)
 dotpose_dependency(Threads::Threads          libc6-dev                     PACKAGE Threads)
@@ -132,6 +134,9 @@ dotpose_part(TOOL      "the program dotpose" SETUP tools
 dotpose_part(LIVE      "dotpose watch and fleet" SETUP live
              PARTS TOOL
              NEEDS dotpose_opencv PkgConfig::FFmpeg PkgConfig::Mosquitto simdjson::simdjson)
+dotpose_part(SQLITE    "dotpose fleet --store FILE" SETUP live PARTS LIVE NEEDS PkgConfig::Sqlite)
+dotpose_part(POSTGRES  "dotpose fleet --store postgresql://..." SETUP live
+             PARTS LIVE NEEDS PkgConfig::Postgres)
 dotpose_part(DDS       "dotpose watch --dds" SETUP robots
              PARTS LIVE NEEDS CycloneDDS::ddsc CycloneDDS::idlc)
 dotpose_part(WEB       "the page of dotpose watch --web" SETUP live

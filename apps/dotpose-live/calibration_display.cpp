@@ -15,7 +15,7 @@ namespace dotpose::cli {
 namespace {
 
 using namespace std::chrono_literals;
-using Lines = std::vector<std::string>;
+using TextLines = std::vector<std::string>;
 
 /// Number of characters per line on the panel of the window.
 constexpr std::size_t kPanelColumns = 44;
@@ -61,7 +61,7 @@ std::string next_text(const CalibrationStatus& status) {
 }
 
 /// Appends `text`, wrapped at spaces into lines of at most `columns` characters.
-void append_wrapped(std::string_view text, std::size_t columns, Lines& lines) {
+void append_wrapped(std::string_view text, std::size_t columns, TextLines& lines) {
     while (text.size() > columns) {
         const std::size_t space = text.rfind(' ', columns);
         const std::size_t end = space == std::string_view::npos || space == 0 ? columns : space;
@@ -71,8 +71,8 @@ void append_wrapped(std::string_view text, std::size_t columns, Lines& lines) {
     lines.emplace_back(text);
 }
 
-Lines captions_of(const CalibrationStatus& status) {
-    Lines lines;
+TextLines captions_of(const CalibrationStatus& status) {
+    TextLines lines;
     append_wrapped(taken_text(status) + "; " + status.now, kPanelColumns, lines);
     append_wrapped("next: " + next_text(status), kPanelColumns, lines);
     if (!status.remark.empty()) append_wrapped(status.remark, kPanelColumns, lines);
@@ -83,9 +83,9 @@ Lines captions_of(const CalibrationStatus& status) {
 }
 
 /// Returns a character map of the covered image blocks, with the gauges beside it.
-Lines terminal_lines(const CalibrationStatus& status) {
+TextLines terminal_lines(const CalibrationStatus& status) {
     using Image = ImageCoverage;
-    Lines lines;
+    TextLines lines;
     for (int row = 0; row < Image::kRows; ++row) {
         std::string line = "  ";
         for (int column = 0; column < Image::kColumns; ++column)
@@ -156,7 +156,7 @@ void CalibrationDisplay::show_in_terminal(const CalibrationStatus& status) {
     const int shown_lines = shown_lines_;
     std::string text = shown_lines > 0 ? fmt::format("\033[{}A\r\033[J", shown_lines) : "";
     const std::size_t columns = terminal_columns();
-    const Lines lines = terminal_lines(status);
+    const TextLines lines = terminal_lines(status);
     for (const std::string& line : lines)
         text += printable(line.substr(0, columns - 1)) + "\n";
     shown_lines_ = static_cast<int>(lines.size());

@@ -9,6 +9,10 @@ namespace dotpose::cli {
 void add_watch(Command& app, int& exit_code);
 void add_fleet(Command& app, int& exit_code);
 
+/// Add subcommands of `fleet`.
+void add_fleet_remove(Command& fleet);
+void add_fleet_history(Command& fleet);
+
 /// Registers the subcommands.
 void add_live_commands(Command& app, int& exit_code);
 

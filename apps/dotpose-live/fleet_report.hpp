@@ -1,8 +1,10 @@
 /// Reports of `dotpose fleet`: a table of the robots and a map.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "draw/track_map.hpp"
@@ -15,11 +17,44 @@ namespace dotpose::cli {
 /// not mean a lost state, so missing states are not reported.
 enum class Delivery { all, shared };
 
-/// Returns a table of the robots as text, with a header line and a summary line.
-std::string table_of(const FleetState& fleet, Delivery delivery, std::int64_t now_us);
+/// The sheet file of a fleet.
+struct FleetMap {
+    std::string id;               ///< name of the map in the states; empty without a file
+    std::set<std::string> names;  ///< names of all sheets
+    std::vector<draw::MapSheet>
+        outlines;  ///< outlines of the sheets that have a place in the world
 
-/// Returns the map with its sheets and the robots on it.
-draw::Map map_of(const FleetState& fleet, const std::string& map_id,
-                 std::vector<draw::MapSheet> sheets);
+    /// Returns false if the robot is on a map or sheet that is not in the file. Without a file, all
+    /// places are known.
+    bool has_place_of(const FleetRobot& robot) const;
+};
+
+using FleetRobots = std::vector<std::pair<std::string, FleetRobot>>;
+
+/// Sorts the robots by the attention that they need: silent, lost, on an unknown map or sheet,
+/// moving or still, and gone. The order of robots that need equal attention is kept.
+void sort_by_attention(FleetRobots& robots, const FleetMap& map);
+
+/// Columns of the table. `narrow` fits 80 characters and omits the counts of messages.
+enum class Layout { wide, narrow };
+
+/// Return lines without a line break, of any width.
+std::string table_header(Layout layout);
+std::string table_row(const std::string& name, const FleetRobot& robot, const FleetMap& map,
+                      Layout layout, Delivery delivery);
+
+/// Returns the number of robots in each condition and the counts of messages, as two lines, each
+/// with a line break.
+std::string summary_of(const FleetState& fleet, const FleetRobots& robots, const FleetMap& map,
+                       Delivery delivery);
+
+/// Returns the wide table of all robots by name, with a header line and the summary.
+std::string table_of(const FleetState& fleet, const FleetMap& map, Delivery delivery,
+                     const Now& now);
+
+/// Returns the drawing of `map_id` with the robots on it and the sheets that they visited, or all
+/// sheets if no sheet was visited. Robots on other maps are listed as notes.
+draw::Map drawing_of(const FleetState& fleet, const std::string& map_id, const FleetMap& map,
+                     const Now& now);
 
 }  // namespace dotpose::cli

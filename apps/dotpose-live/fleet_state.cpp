@@ -15,45 +15,69 @@ double quantile(std::vector<float>& values, double share) {
 
 }  // namespace
 
-void FleetState::take(std::string_view topic, std::string_view payload, std::int64_t now_us) {
+void FleetState::take(std::string_view topic, std::string_view payload, const Now& now) {
     const auto sender = parse_topic(topic);
     const bool is_connection = sender && sender->subject == Subject::connection;
     auto state = sender && !is_connection ? parse_state(payload) : std::nullopt;
     const auto connection = is_connection ? parse_connection(payload) : std::nullopt;
     const std::lock_guard lock(mutex_);
     if (state) {
-        take_state(sender->robot, std::move(*state), now_us);
+        take_state(sender->robot, std::move(*state), now);
     } else if (connection) {
-        take_connection(sender->robot, *connection, now_us);
+        take_connection(sender->robot, *connection, now);
+    } else if (is_connection && payload.empty()) {
+        remove(sender->robot);
     } else {
         ++bad_;
     }
 }
 
 void FleetState::take_connection(std::string_view name, const RobotConnection& connection,
-                                 std::int64_t now_us) {
-    Robot& robot = touch(name);
-    // A retained message may be days old, so the time it was sent is an upper limit for `heard_us`.
-    FleetRobot& shown = robot.shown;
-    shown.heard_us = std::max(shown.heard_us, std::min(now_us, connection.sent_us));
-    if (connection.presence == publish::Presence::online) return;
-    const bool is_broken = connection.presence == publish::Presence::broken;
-    shown.newest.state = is_broken ? "lost" : "offline";
-    shown.newest.is_localized = false;
+                                 const Now& now) {
+    FleetRobot& shown = touch(name).shown;
+    shown.presence = connection.presence;
+    // A retained message may be days old.
+    const std::int64_t age_us = std::max<std::int64_t>(now.system_us - connection.sent_us, 0);
+    shown.alive_us = std::max(shown.alive_us, now.watched_us - age_us);
 }
 
-void FleetState::take_state(std::string_view name, RobotState state, std::int64_t now_us) {
+void FleetState::take_state(std::string_view name, RobotState state, const Now& now) {
     Robot& robot = touch(name);
-    robot.shown.heard_us = now_us;
-    count_latency(static_cast<float>(now_us - state.sent_us) * 1e-3F);
-    const auto arrival = robot.numbers.take(state, robot.shown.counts);
+    FleetRobot& shown = robot.shown;
+    count_latency(static_cast<float>(now.system_us - state.sent_us) * 1e-3F);
+    const auto arrival = robot.numbers.take(state, shown.counts);
     if (arrival == StateNumbers::Arrival::repeated) return;
-    // A lost robot remains on its last map.
-    if (!state.is_localized) state.map_id = robot.shown.newest.map_id;
+    const bool is_late = arrival == StateNumbers::Arrival::late;
+    if (!is_late) note_sign_of_life(robot, state, now);
+    // A lost robot remains at its last place.
+    if (!state.is_localized) {
+        state.map_id = shown.newest.map_id;
+        state.x_m = shown.newest.x_m;
+        state.y_m = shown.newest.y_m;
+        if (state.sheet.empty()) state.sheet = shown.newest.sheet;
+    }
     listener_(name, state);
-    if (arrival == StateNumbers::Arrival::late) return;
-    robot.shown.newest = std::move(state);
-    if (robot.shown.newest.is_localized) extend_path(robot);
+    if (is_late) return;
+    if (state.camera) {
+        count_frames(*state.camera, shown.camera);
+        shown.camera = state.camera;
+    }
+    if (!state.is_localized && (shown.newest.is_localized || shown.newest.sent_us == 0)) {
+        shown.lost_since_us = now.watched_us;
+    }
+    shown.newest = std::move(state);
+    shown.has_place = shown.has_place || shown.newest.is_localized;
+    if (shown.newest.is_localized) extend_path(robot);
+}
+
+void FleetState::note_sign_of_life(Robot& robot, const RobotState& state, const Now& now) {
+    FleetRobot& shown = robot.shown;
+    const bool was_set_back = state.sent_us < shown.newest.sent_us;
+    if (was_set_back) robot.clock.reset();
+    robot.clock.take(now.watched_us, state.sent_us);
+    const std::int64_t sent_us = state.sent_us + robot.clock.us();
+    shown.alive_us = was_set_back ? sent_us : std::max(shown.alive_us, sent_us);
+    shown.presence = publish::Presence::online;
 }
 
 FleetState::Robot& FleetState::touch(std::string_view name) {
@@ -62,17 +86,18 @@ FleetState::Robot& FleetState::touch(std::string_view name) {
         by_age_.splice(by_age_.end(), by_age_, known->second.place);
         return known->second;
     }
-    if (robots_.size() == kMaxRobots) remove_oldest();
+    if (robots_.size() == kMaxRobots) remove(std::string(*by_age_.front()));
     const auto added = robots_.emplace(name, Robot()).first;
     added->second.place = by_age_.insert(by_age_.end(), &added->first);
     return added->second;
 }
 
-void FleetState::remove_oldest() {
-    const auto oldest = robots_.find(*by_age_.front());
-    of_removed_ += oldest->second.shown.counts;
-    by_age_.pop_front();
-    robots_.erase(oldest);
+void FleetState::remove(std::string_view name) {
+    const auto known = robots_.find(name);
+    if (known == robots_.end()) return;
+    of_removed_ += known->second.shown.counts;
+    by_age_.erase(known->second.place);
+    robots_.erase(known);
 }
 
 void FleetState::extend_path(Robot& robot) const {
@@ -91,7 +116,33 @@ void FleetState::extend_path(Robot& robot) const {
     path.push_back(place);
 }
 
+void LatencyHistogram::add(double latency_s) {
+    const double positive_s = std::max(latency_s, 0.0);
+    const auto limit = std::ranges::lower_bound(kLimits_s, positive_s);
+    ++counts[static_cast<std::size_t>(limit - kLimits_s.begin())];
+    sum_s += positive_s;
+}
+
+/// Adds the difference of two reports of a robot. A first report only determines where counting
+/// begins, and so does a report with smaller or implausible numbers, because the robot was
+/// restarted.
+void FleetState::count_frames(const CameraReport& report,
+                              const std::optional<CameraReport>& previous) {
+    constexpr std::uint64_t kMaxFrames = 1'000'000;
+    if (!previous || report.frames < previous->frames ||
+        report.frames - previous->frames > kMaxFrames) {
+        return;
+    }
+    camera_totals_.frames += report.frames - previous->frames;
+    for (std::size_t i = 0; i < report.refused.size(); ++i) {
+        const std::uint64_t before = previous->refused[i];
+        const std::uint64_t now = report.refused[i];
+        if (now > before) camera_totals_.refused[i] += std::min(now - before, kMaxFrames);
+    }
+}
+
 void FleetState::count_latency(float latency_ms) {
+    latency_histogram_.add(static_cast<double>(latency_ms) * 1e-3);
     if (latencies_ms_.size() < kLatencies) {
         latencies_ms_.push_back(latency_ms);
     } else {
@@ -99,12 +150,16 @@ void FleetState::count_latency(float latency_ms) {
     }
 }
 
-std::vector<std::pair<std::string, FleetRobot>> FleetState::robots() const {
+std::vector<std::pair<std::string, FleetRobot>> FleetState::robots(const Now& now) const {
     const std::lock_guard lock(mutex_);
     std::vector<std::pair<std::string, FleetRobot>> robots;
     robots.reserve(robots_.size());
-    for (const auto& [name, robot] : robots_)
-        robots.emplace_back(name, robot.shown);
+    for (const auto& [name, robot] : robots_) {
+        FleetRobot& shown = robots.emplace_back(name, robot.shown).second;
+        shown.silence_us = std::max<std::int64_t>(now.watched_us - shown.alive_us, 0);
+        shown.condition = condition_of(shown.newest, shown.presence, shown.silence_us, limits_);
+        shown.reason = reason_of(shown.condition, shown.newest, shown.presence);
+    }
     return robots;
 }
 
@@ -125,6 +180,16 @@ StateCounts FleetState::counts() const {
 std::int64_t FleetState::bad() const {
     const std::lock_guard lock(mutex_);
     return bad_;
+}
+
+LatencyHistogram FleetState::latency_histogram() const {
+    const std::lock_guard lock(mutex_);
+    return latency_histogram_;
+}
+
+CameraTotals FleetState::camera_totals() const {
+    const std::lock_guard lock(mutex_);
+    return camera_totals_;
 }
 
 Latency FleetState::latency() const {

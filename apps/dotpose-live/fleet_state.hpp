@@ -1,33 +1,77 @@
 /// State of all robots of a broker, computed from their state messages.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <list>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "clock_offset.hpp"
 #include "draw/svg.hpp"
+#include "natural_order.hpp"
+#include "robot_condition.hpp"
 #include "state_message.hpp"
 #include "state_numbers.hpp"
 
 namespace dotpose::cli {
 
+/// A time on the clocks of the computer that receives the messages.
+struct Now {
+    std::int64_t system_us = 0;  ///< microseconds since 1970
+    /// Microseconds on a monotonic clock that stops while the broker is away, because robots are
+    /// not silent then.
+    std::int64_t watched_us = 0;
+};
+
 struct FleetRobot {
+    /// Newest state. If the robot is lost, place and sheet are the last known ones.
     RobotState newest;
-    std::int64_t heard_us = 0;  ///< arrival time of the last message, system clock
+    bool has_place = false;  ///< true if `newest` contains a place, which may be an old one
+    publish::Presence presence = publish::Presence::online;
+    /// Time at which the robot sent its newest message, on the clock Now::watched_us. Computed from
+    /// the time stamps of the robot, so a message that waited in a queue does not count as new.
+    std::int64_t alive_us = std::numeric_limits<std::int64_t>::min();
+    std::int64_t lost_since_us = 0;  ///< begin of the current loss of the pose, Now::watched_us
     StateCounts counts;
+    std::optional<CameraReport> camera;  ///< newest report
+    // Set by FleetState::robots.
+    Condition condition = Condition::lost;
+    std::int64_t silence_us = 0;  ///< time since `alive_us`
+    std::string reason;           ///< reason of the condition in a few words; may be empty
 };
 
 /// Latency statistics of the messages, measured with the clocks of the sender and of the receiver.
 struct Latency {
     double median_ms = 0;
     double p99_ms = 0;
+};
+
+/// Numbers of messages by latency.
+struct LatencyHistogram {
+    /// Upper limits of the classes, in seconds. The last class has no limit.
+    static constexpr std::array kLimits_s = {0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1,
+                                             0.25,  0.5,    1.0,   2.5,  5.0,   10.0};
+
+    std::array<std::int64_t, kLimits_s.size() + 1> counts{};
+    double sum_s = 0;
+
+    /// Negative latencies, which clocks with different times cause, count as 0.
+    void add(double latency_s);
+};
+
+/// Frames of the cameras of all robots since this program started.
+struct CameraTotals {
+    std::uint64_t frames = 0;
+    RefusedFrames refused{};
 };
 
 class FleetState {
@@ -40,16 +84,18 @@ class FleetState {
 
     /// `listener` is called with each state that was not received before, in the thread that calls
     /// `take`.
-    explicit FleetState(Listener listener = [](std::string_view, const RobotState&) {})
-        : listener_(std::move(listener)) {}
+    explicit FleetState(
+        Listener listener = [](std::string_view, const RobotState&) {}, ConditionLimits limits = {})
+        : listener_(std::move(listener)), limits_(limits) {}
 
     /// Takes a message. A state older than the newest state of its robot is only counted. If
     /// several older states follow each other in ascending order of time, the clock of the sender
-    /// was set back, and the states are accepted. Invalid messages are counted as bad. Thread-safe.
-    void take(std::string_view topic, std::string_view payload, std::int64_t now_us);
+    /// was set back, and the states are accepted. An empty message on the topic of the connection
+    /// removes the robot. Other invalid messages are counted as bad. Thread-safe.
+    void take(std::string_view topic, std::string_view payload, const Now& now);
 
-    /// Returns the robots, sorted by name.
-    std::vector<std::pair<std::string, FleetRobot>> robots() const;
+    /// Returns the robots and their conditions, in natural order of their names.
+    std::vector<std::pair<std::string, FleetRobot>> robots(const Now& now) const;
     /// Returns the path of a robot in mm, or an empty path if the robot was removed.
     std::vector<draw::Point> path_mm(std::string_view robot) const;
     /// Returns the sum of the counts of all robots, including removed robots.
@@ -58,6 +104,8 @@ class FleetState {
     /// Returns the statistics of the newest 131,072 messages, or of all messages if there are
     /// fewer.
     Latency latency() const;
+    LatencyHistogram latency_histogram() const;
+    CameraTotals camera_totals() const;
 
   private:
     static constexpr std::size_t kLatencies = 1 << 17;
@@ -68,25 +116,31 @@ class FleetState {
     struct Robot {
         FleetRobot shown;
         StateNumbers numbers;
+        ClockOffset clock;
         std::vector<draw::Point> path_mm;
         std::list<const std::string*>::iterator place;  ///< position in `by_age_`
     };
 
-    void take_state(std::string_view name, RobotState state, std::int64_t now_us);
-    void take_connection(std::string_view name, const RobotConnection& connection,
-                         std::int64_t now_us);
+    void take_state(std::string_view name, RobotState state, const Now& now);
+    void take_connection(std::string_view name, const RobotConnection& connection, const Now& now);
+    /// Updates time and presence of a robot with a state that is not late.
+    static void note_sign_of_life(Robot& robot, const RobotState& state, const Now& now);
     Robot& touch(std::string_view name);
-    void remove_oldest();
+    void remove(std::string_view name);
     void extend_path(Robot& robot) const;
     void count_latency(float latency_ms);
+    void count_frames(const CameraReport& report, const std::optional<CameraReport>& previous);
 
     Listener listener_;
+    ConditionLimits limits_;
     mutable std::mutex mutex_;
-    std::map<std::string, Robot, std::less<>> robots_;
+    std::map<std::string, Robot, NaturalOrder> robots_;
     std::list<const std::string*> by_age_;  ///< names of the robots, oldest message first
     StateCounts of_removed_;
     std::vector<float> latencies_ms_;
     std::size_t next_latency_ = 0;
+    LatencyHistogram latency_histogram_;
+    CameraTotals camera_totals_;
     std::int64_t bad_ = 0;
 };
 

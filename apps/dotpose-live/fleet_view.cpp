@@ -5,7 +5,6 @@
 #include <utility>
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include "dotpose/files/error.hpp"
 #include "dotpose/files/sheet_file.hpp"
@@ -14,22 +13,56 @@
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
+namespace {
 
-FleetView::FleetView(const std::string& sheets, std::string map, Delivery delivery)
-    : map_path_(std::move(map)), delivery_(delivery), on_terminal_(isatty(STDOUT_FILENO) == 1) {
-    if (!map_path_.empty()) require_writable(map_path_);
-    if (sheets.empty()) return;
-    map_id_ = std::filesystem::path(sheets).stem().string();
-    sheets_ = map_sheets(read_sheets(sheets), Plane::sheet_world);
+/// Returns the name of the map to draw: the world frame of the sheet file or, without a sheet file,
+/// the map of the first robot that has one.
+std::string map_drawn(const FleetMap& map, const FleetRobots& robots) {
+    if (!map.id.empty()) return map.id;
+    for (const auto& [name, robot] : robots) {
+        if (robot.has_place) return robot.newest.map_id;
+    }
+    return {};
 }
 
-void FleetView::refresh(const FleetState& fleet) {
-    if (on_terminal_) show_table(fleet);
+}  // namespace
+
+FleetMap read_fleet_map(const std::string& sheets) {
+    if (sheets.empty()) return {};
+    const std::vector<SheetEntry> entries = read_sheets(sheets);
+    FleetMap map;
+    map.id = std::filesystem::path(sheets).stem().string();
+    for (const SheetEntry& entry : entries)
+        map.names.insert(entry.name);
+    map.outlines = map_sheets(entries, Plane::sheet_world);
+    return map;
+}
+
+FleetView::FleetView(FleetMap map, std::string drawing, Delivery delivery)
+    : map_(std::move(map)), drawing_(std::move(drawing)), delivery_(delivery) {
+    if (!drawing_.empty()) require_writable(drawing_);
+    if (TerminalScreen::is_available()) screen_.emplace();
+}
+
+bool FleetView::take_keys(const FleetState& fleet, const Now& now) {
+    if (!screen_) return true;
+    bool was_pressed = false;
+    while (const auto key = screen_->next_key()) {
+        if (*key == Key::quit) return false;
+        page_.take(*key);
+        was_pressed = true;
+    }
+    if (was_pressed) show_page(fleet, now);
+    return true;
+}
+
+void FleetView::refresh(const FleetState& fleet, const Now& now) {
+    if (screen_) show_page(fleet, now);
     const auto begun = Clock::now();
-    if (map_path_.empty() || begun < next_map_) return;
+    if (drawing_.empty() || begun < next_map_) return;
     // Reports a failure and continues, because the next attempt to draw the map may succeed.
     try {
-        draw(fleet);
+        draw(fleet, now);
         is_failing_ = false;
     } catch (const Error& error) {
         if (!is_failing_) tell(error.what());
@@ -39,29 +72,53 @@ void FleetView::refresh(const FleetState& fleet) {
     next_map_ = end + 9 * (end - begun);
 }
 
-void FleetView::finish(const FleetState& fleet) {
-    show_table(fleet);
-    if (!map_path_.empty()) draw(fleet);
-}
-
-void FleetView::show_table(const FleetState& fleet) const {
-    constexpr const char* kClear = "\033[H\033[J";
-    fmt::print("{}{}", on_terminal_ ? kClear : "", table_of(fleet, delivery_, system_us()));
-    std::fflush(stdout);
-}
-
-void FleetView::draw(const FleetState& fleet) {
-    write_file(map_path_, draw::draw_map(map_of(fleet, map_shown(fleet), sheets_)));
-}
-
-/// Returns the name of the map to draw: the world frame of the sheet file or, without a sheet file,
-/// the map of the first robot that has a map.
-std::string FleetView::map_shown(const FleetState& fleet) const {
-    if (!map_id_.empty()) return map_id_;
-    for (const auto& [name, robot] : fleet.robots()) {
-        if (!robot.newest.map_id.empty()) return robot.newest.map_id;
+void FleetView::finish(const FleetState& fleet, const Now& now) {
+    if (screen_) {
+        leave_screen(fleet, now);
+    } else {
+        fmt::print("{}", table_of(fleet, map_, delivery_, now));
+        std::fflush(stdout);
     }
-    return {};
+    if (!drawing_.empty()) draw(fleet, now);
+}
+
+/// Leaves the last page and the messages on the terminal.
+void FleetView::leave_screen(const FleetState& fleet, const Now& now) {
+    page_.take(Key::home);
+    std::vector<std::string> lines =
+        page_.lines(fleet, fleet.robots(now), map_, delivery_, screen_->size());
+    lines.pop_back();  // the position and the keys
+    const std::lock_guard lock(mutex_);
+    screen_.reset();
+    for (const std::string& line : lines) {
+        if (!line.empty()) fmt::print("{}\n", line);
+    }
+    std::fflush(stdout);
+    for (const std::string& message : std::exchange(messages_, {}))
+        cli::tell(message);
+}
+
+void FleetView::tell(const std::string& message) {
+    constexpr std::size_t kMaxMessages = 100;
+    const std::lock_guard lock(mutex_);
+    if (!screen_) return cli::tell(message);
+    messages_.push_back(message);
+    if (messages_.size() > kMaxMessages) messages_.pop_front();
+}
+
+void FleetView::show_page(const FleetState& fleet, const Now& now) {
+    std::vector<std::string> lines =
+        page_.lines(fleet, fleet.robots(now), map_, delivery_, screen_->size());
+    {
+        const std::lock_guard lock(mutex_);
+        if (!messages_.empty()) lines.back() += " | " + printable(messages_.back());
+    }
+    screen_->show(lines);
+}
+
+void FleetView::draw(const FleetState& fleet, const Now& now) {
+    const std::string map_id = map_drawn(map_, fleet.robots(now));
+    write_file(drawing_, draw::draw_map(drawing_of(fleet, map_id, map_, now)));
 }
 
 }  // namespace dotpose::cli

@@ -2,41 +2,59 @@
 #pragma once
 
 #include <chrono>
+#include <deque>
+#include <mutex>
+#include <optional>
 #include <string>
-#include <vector>
 
-#include "draw/track_map.hpp"
+#include "fleet_page.hpp"
 #include "fleet_report.hpp"
 #include "fleet_state.hpp"
+#include "terminal_screen.hpp"
 
 namespace dotpose::cli {
 
+/// Returns the sheets of a sheet file, or nothing if the path is empty. Throws Error.
+FleetMap read_fleet_map(const std::string& sheets);
+
 class FleetView {
   public:
-    /// `sheets` is the path of the sheet file and `map` the path of the drawing. Both may be empty.
-    /// Throws Error.
-    FleetView(const std::string& sheets, std::string map, Delivery delivery);
+    /// `drawing` is the path of the drawing, or empty. Throws Error.
+    FleetView(FleetMap map, std::string drawing, Delivery delivery);
+
+    /// Takes the pressed keys, and shows the table if a key was pressed. Returns false if the user
+    /// wants to end the program.
+    bool take_keys(const FleetState& fleet, const Now& now);
 
     /// Shows the table if standard output is a terminal. Draws the map, but spends at most a tenth
     /// of the time on drawing.
-    void refresh(const FleetState& fleet);
+    void refresh(const FleetState& fleet, const Now& now);
 
-    /// Shows the last table and draws the last map. Throws Error if the map cannot be written.
-    void finish(const FleetState& fleet);
+    /// Shows the last table, completely unless it is shown on a terminal, and draws the last map.
+    /// Throws Error if the map cannot be written.
+    void finish(const FleetState& fleet, const Now& now);
+
+    /// Reports a message to the user: below the table and at the end if the table is shown on a
+    /// terminal, otherwise on standard error. Thread-safe.
+    void tell(const std::string& message);
+
+    const FleetMap& map() const { return map_; }
 
   private:
     using Clock = std::chrono::steady_clock;
 
-    void show_table(const FleetState& fleet) const;
-    void draw(const FleetState& fleet);
-    std::string map_shown(const FleetState& fleet) const;
+    void leave_screen(const FleetState& fleet, const Now& now);
+    void show_page(const FleetState& fleet, const Now& now);
+    void draw(const FleetState& fleet, const Now& now);
 
-    std::string map_path_;
-    std::string map_id_;
-    std::vector<draw::MapSheet> sheets_;
+    FleetMap map_;
+    std::string drawing_;
     Delivery delivery_;
-    bool on_terminal_;
-    bool is_failing_ = false;  ///< true if the last map could not be written
+    FleetPage page_;
+    std::optional<TerminalScreen> screen_;
+    std::mutex mutex_;                  ///< for `messages_`, and for the end of `screen_`
+    std::deque<std::string> messages_;  ///< newest messages that wait for the end of `screen_`
+    bool is_failing_ = false;           ///< true if the last map could not be written
     Clock::time_point next_map_;
 };
 

@@ -6,10 +6,11 @@ int main(int argc, char** argv) {
     return dotpose::cli::tool_main(argc, argv, [](dotpose::cli::Command& app, int& exit_code) {
         using namespace dotpose::cli;
         add_live_commands(app, exit_code);
-        // `dotpose` starts this program for cameras and videos.
+        // `dotpose` starts this program for cameras, videos and brokers.
         add_locate(app, exit_code);
         add_calibrate(app, exit_code);
         add_evaluate(app, exit_code);
         add_simulate(app, exit_code);
+        add_listen(app, exit_code);
     });
 }

@@ -15,16 +15,6 @@ namespace {
 
 constexpr std::int64_t kMicro = 1'000'000;
 
-/// Formats a time in ISO 8601, UTC, with microseconds.
-std::string timestamp(std::int64_t time_us) {
-    const auto seconds = static_cast<std::time_t>(time_us / kMicro);
-    std::tm utc{};
-    gmtime_r(&seconds, &utc);
-    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:06}Z", utc.tm_year + 1900,
-                       utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec,
-                       time_us % kMicro);
-}
-
 /// Names of the subjects in topics, in the order of Subject.
 constexpr std::string_view kSubjects[] = {"visualization", "connection"};
 
@@ -37,11 +27,30 @@ nlohmann::ordered_json header(const std::string& robot, std::uint64_t id, std::i
             {"serialNumber", robot}};
 }
 
+nlohmann::ordered_json json_of(const CameraReport& camera) {
+    nlohmann::ordered_json refused = nlohmann::ordered_json::object();
+    for (std::size_t i = 0; i < camera.refused.size(); ++i) {
+        const Status status =
+            i < static_cast<std::size_t>(kStatusCount) ? static_cast<Status>(i) : Status::other;
+        if (camera.refused[i] > 0) refused[name(status)] = camera.refused[i];
+    }
+    return {{"rate", camera.rate_hz}, {"frames", camera.frames}, {"refused", std::move(refused)}};
+}
+
 std::string dump(const nlohmann::ordered_json& json) {
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace
+
+std::string timestamp(std::int64_t time_us) {
+    const auto seconds = static_cast<std::time_t>(time_us / kMicro);
+    std::tm utc{};
+    gmtime_r(&seconds, &utc);
+    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:06}Z", utc.tm_year + 1900,
+                       utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec,
+                       time_us % kMicro);
+}
 
 std::string topic_of(const std::string& robot, Subject subject) {
     return fmt::format("{}/{}/{}", kTopicRoot, robot, kSubjects[static_cast<int>(subject)]);
@@ -54,7 +63,11 @@ std::int64_t system_us() {
 
 std::string json_of(const RobotState& state) {
     nlohmann::ordered_json json = header(state.robot, state.header_id, state.sent_us);
-    json["state"] = state.state;  // an additional member, which VDA 5050 permits
+    // VDA 5050 permits additional members: state, reason, sheet and camera.
+    json["state"] = state.state;
+    if (!state.reason.empty()) json["reason"] = state.reason;
+    if (!state.sheet.empty()) json["sheet"] = state.sheet;
+    if (state.camera) json["camera"] = json_of(*state.camera);
     if (state.is_localized) {
         json["agvPosition"] = {{"positionInitialized", true},
                                {"mapId", state.map_id},
@@ -72,6 +85,20 @@ std::string json_of(const RobotConnection& connection) {
     nlohmann::ordered_json json =
         header(connection.robot, connection.header_id, connection.sent_us);
     json["connectionState"] = kConnectionStates[static_cast<int>(connection.presence)];
+    return dump(json);
+}
+
+std::string json_of(const RobotAlert& alert) {
+    nlohmann::ordered_json json = header(alert.robot, alert.header_id, alert.sent_us);
+    json["condition"] = alert.condition;
+    if (!alert.previous.empty()) json["previous"] = alert.previous;
+    if (!alert.reason.empty()) json["reason"] = alert.reason;
+    if (!alert.map_id.empty()) {
+        json["mapId"] = alert.map_id;
+        if (!alert.sheet.empty()) json["sheet"] = alert.sheet;
+        json["x"] = alert.x_m;
+        json["y"] = alert.y_m;
+    }
     return dump(json);
 }
 

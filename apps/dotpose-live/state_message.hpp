@@ -1,20 +1,26 @@
 /// JSON messages of robots according to VDA 5050, version 2.0.0: poses on the topic
 /// `visualization`, and the connection state of a robot on the topic `connection`. docs/live.md
-/// describes the messages.
+/// describes the messages. Also the alerts that `dotpose fleet` publishes (docs/fleet.md).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "dotpose/status.hpp"
 #include "publish/mqtt.hpp"
 
 namespace dotpose::cli {
 
 /// Prefix of the topics of all robots. A topic has the form kTopicRoot/ROBOT/SUBJECT.
 inline constexpr const char* kTopicRoot = "uagv/v2/dotpose";
+
+/// Prefix of the topics of alerts. A topic has the form kAlertRoot/ROBOT. The alerts are not below
+/// kTopicRoot, because a broker may permit each robot to write below kTopicRoot/ROBOT.
+inline constexpr const char* kAlertRoot = "dotpose/alerts";
 
 /// Values of `connectionState`, in the order of publish::Presence.
 inline constexpr std::string_view kConnectionStates[] = {"ONLINE", "OFFLINE", "CONNECTIONBROKEN"};
@@ -41,13 +47,31 @@ struct MessageTopic {
 /// if the name is too long.
 std::optional<MessageTopic> parse_topic(std::string_view topic);
 
+/// Value of RobotState::reason if the frame was located, but its sheet has no place in the world.
+inline constexpr std::string_view kNoPlace = "no_place";
+
+/// Number of refused frames by Status. The last element counts Status::other.
+using RefusedFrames = std::array<std::uint64_t, kStatusCount + 1>;
+
+/// Frames of the camera of a robot since its program started.
+struct CameraReport {
+    double rate_hz = 0;  ///< mean rate since the previous report
+    std::uint64_t frames = 0;
+    RefusedFrames refused{};  ///< frames without a fix; the element of Status::ok is 0
+};
+
 struct RobotState {
     std::string robot;            ///< name of the sender; empty in a parsed message
     std::uint64_t header_id = 0;  ///< sequence number of the message
     std::int64_t sent_us = 0;     ///< microseconds since 1970, system clock of the sender
     std::string state = "lost";   ///< lost, moving or stationary
-    bool is_localized = false;    ///< true if the members below are valid
-    std::string map_id;           ///< name of the map, the plane of x and y
+    /// Why the robot is lost: the name of the Status of its newest frame, or kNoPlace. Empty if the
+    /// robot is not lost or the reason is unknown.
+    std::string reason;
+    std::string sheet;                   ///< name of the sheet in view; empty if unknown
+    std::optional<CameraReport> camera;  ///< about once per second
+    bool is_localized = false;           ///< true if the members below are valid
+    std::string map_id;                  ///< name of the map, the plane of x and y
     double x_m = 0;
     double y_m = 0;
     double theta_rad = 0;
@@ -78,6 +102,29 @@ std::string json_of(const RobotConnection& connection);
 
 /// Parses a message with the subject `connection`. Returns none if the message is invalid.
 std::optional<RobotConnection> parse_connection(std::string_view json);
+
+/// A change of a robot that requires attention, or its end.
+struct RobotAlert {
+    std::string robot;
+    std::uint64_t header_id = 0;
+    std::int64_t sent_us = 0;
+    std::string_view condition;  ///< moving, still, lost, silent, gone or removed
+    std::string_view previous;   ///< condition before the change; empty for a new robot
+    std::string reason;          ///< may be empty
+    std::string map_id;          ///< newest known place; empty if unknown
+    std::string sheet;
+    double x_m = 0;
+    double y_m = 0;
+};
+
+/// Returns the message with the topic kAlertRoot/ROBOT.
+std::string json_of(const RobotAlert& alert);
+
+/// Formats a time in microseconds since 1970 as in messages: "2026-11-24T16:20:00.123456Z".
+std::string timestamp(std::int64_t time_us);
+
+/// Parses a time of this form, with any number of decimals. Returns none for any other string.
+std::optional<std::int64_t> parse_timestamp(std::string_view text);
 
 /// Returns the system time in microseconds since 1970.
 std::int64_t system_us();

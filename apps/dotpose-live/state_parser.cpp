@@ -47,35 +47,6 @@ std::optional<std::int64_t> parse_decimals_us(std::string_view text) {
     return std::llround(fraction_s * 1e6);
 }
 
-/// Parses a time such as "2026-11-24T16:20:00.123456Z" into microseconds since 1970. The time may
-/// have any number of decimals. Returns none for any other string.
-std::optional<std::int64_t> parse_timestamp(std::string_view text) {
-    using namespace std::chrono;
-    constexpr std::string_view kSeconds = "2026-11-24T16:20:00";
-    if (text.size() <= kSeconds.size() || !text.ends_with('Z')) return std::nullopt;
-    for (const std::size_t i : {4U, 7U, 10U, 13U, 16U}) {
-        if (text[i] != kSeconds[i]) return std::nullopt;
-    }
-    const int in_year = digits(text, 0, 4);
-    const int in_month = digits(text, 5, 2);
-    const int in_day = digits(text, 8, 2);
-    const int hour = digits(text, 11, 2);
-    const int minute = digits(text, 14, 2);
-    const int second = digits(text, 17, 2);
-    if (in_year < 1970 || in_month < 1 || in_month > 12 || in_day < 1 || in_day > 31 || hour < 0 ||
-        hour > 23 || minute < 0 || minute > 59 || second < 0 || second > 60) {
-        return std::nullopt;
-    }
-    std::string_view decimals = text.substr(kSeconds.size());
-    decimals.remove_suffix(1);
-    const auto fraction_us = parse_decimals_us(decimals);
-    if (!fraction_us) return std::nullopt;
-    const sys_days date =
-        year(in_year) / month(static_cast<unsigned>(in_month)) / day(static_cast<unsigned>(in_day));
-    const auto time = date + hours(hour) + minutes(minute) + seconds(second);
-    return microseconds(time.time_since_epoch()).count() + *fraction_us;
-}
-
 /// Thrown if a value of a message is out of range.
 struct OutOfRange {};
 
@@ -93,6 +64,32 @@ std::string name_in(const object& values, std::string_view key) {
     return std::string(name);
 }
 
+/// Returns a name, or an empty string if the message does not contain it.
+std::string optional_name_in(const object& values, std::string_view key) {
+    return values[key].error() == simdjson::NO_SUCH_FIELD ? std::string() : name_in(values, key);
+}
+
+/// Returns the index of a status name in RefusedFrames.
+std::size_t refused_index(std::string_view text) {
+    std::size_t i = 0;
+    while (i < static_cast<std::size_t>(kStatusCount) && name(static_cast<Status>(i)) != text)
+        ++i;
+    return i;
+}
+
+/// Returns the report of the camera, or none if the message does not contain it.
+std::optional<CameraReport> camera_in(const object& message) {
+    constexpr double kMax_hz = 1e5;
+    object values;
+    if (message["camera"].get(values) != simdjson::SUCCESS) return std::nullopt;
+    CameraReport camera;
+    camera.rate_hz = bounded(values, "rate", kMax_hz);
+    camera.frames = values["frames"].get_uint64();
+    for (const auto& [reason, count] : values["refused"].get_object())
+        camera.refused[refused_index(reason)] = count.get_uint64();
+    return camera;
+}
+
 std::int64_t time_in(const object& message) {
     const auto sent_us = parse_timestamp(message["timestamp"].get_string());
     if (!sent_us) throw OutOfRange();
@@ -107,6 +104,9 @@ RobotState state_in(const object& message) {
     state.sent_us = time_in(message);
     state.header_id = message["headerId"].get_uint64();
     state.state = name_in(message, "state");
+    state.reason = optional_name_in(message, "reason");
+    state.sheet = optional_name_in(message, "sheet");
+    state.camera = camera_in(message);
     object position;
     state.is_localized = message["agvPosition"].get(position) == simdjson::SUCCESS;
     if (!state.is_localized) return state;
@@ -156,6 +156,33 @@ auto parsed(std::string_view json, const Read& read) -> std::optional<decltype(r
 }
 
 }  // namespace
+
+std::optional<std::int64_t> parse_timestamp(std::string_view text) {
+    using namespace std::chrono;
+    constexpr std::string_view kSeconds = "2026-11-24T16:20:00";
+    if (text.size() <= kSeconds.size() || !text.ends_with('Z')) return std::nullopt;
+    for (const std::size_t i : {4U, 7U, 10U, 13U, 16U}) {
+        if (text[i] != kSeconds[i]) return std::nullopt;
+    }
+    const int in_year = digits(text, 0, 4);
+    const int in_month = digits(text, 5, 2);
+    const int in_day = digits(text, 8, 2);
+    const int hour = digits(text, 11, 2);
+    const int minute = digits(text, 14, 2);
+    const int second = digits(text, 17, 2);
+    if (in_year < 1970 || in_month < 1 || in_month > 12 || in_day < 1 || in_day > 31 || hour < 0 ||
+        hour > 23 || minute < 0 || minute > 59 || second < 0 || second > 60) {
+        return std::nullopt;
+    }
+    std::string_view decimals = text.substr(kSeconds.size());
+    decimals.remove_suffix(1);
+    const auto fraction_us = parse_decimals_us(decimals);
+    if (!fraction_us) return std::nullopt;
+    const sys_days date =
+        year(in_year) / month(static_cast<unsigned>(in_month)) / day(static_cast<unsigned>(in_day));
+    const auto time = date + hours(hour) + minutes(minute) + seconds(second);
+    return microseconds(time.time_since_epoch()).count() + *fraction_us;
+}
 
 std::optional<RobotState> parse_state(std::string_view json) {
     return parsed(json, state_in);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -93,7 +92,6 @@ struct WatchArguments {
     SourceArguments sources;
     FollowerArguments follower;
     OutputOptions outputs;
-    MqttArguments mqtt;
     DdsArguments dds;
     WebArguments web;
     std::string web_recordings = ".";
@@ -117,7 +115,7 @@ RunFiles files_of(const WatchArguments& arguments, const Sources& sources) {
     RunFiles files;
     sources.add_files(files);
     arguments.follower.add_files(files);
-    files.reads("--mqtt-ca", arguments.mqtt.ca_file());
+    files.reads("--mqtt-ca", outputs.publish.mqtt.ca_file);
     files.reads("--web-token-file", arguments.web.token_file());
     files.writes_lines(outputs.lines.out, content_of(outputs.lines.format));
     files.writes("--log", outputs.log, Content::csv);
@@ -183,7 +181,7 @@ class Pace {
 /// published, because these poses are not in world coordinates.
 void tell_frame_of_poses(const WatchArguments& arguments, const Follower& follower) {
     const OutputOptions& outputs = arguments.outputs;
-    const bool is_published = outputs.mqtt || outputs.messages.is_wanted();
+    const bool is_published = !outputs.publish.mqtt.url.empty() || outputs.messages.is_wanted();
     if (follower.sheets().empty()) {
         if (!is_published) return;
         tell(
@@ -303,10 +301,10 @@ int run(WatchArguments& arguments) {
     Follower follower(options_of(arguments));
     arguments.outputs.messages.dds = arguments.dds.publisher();
     tell_frame_of_poses(arguments, follower);
-    arguments.outputs.world_map = std::filesystem::path(arguments.follower.sheets).stem().string();
+    arguments.outputs.sheets = arguments.follower.sheets;
     if (source->rate() > 0) arguments.outputs.screen.fps = source->rate();
     arguments.outputs.screen.tell = tell;
-    arguments.outputs.messages.robot = arguments.outputs.robot;
+    arguments.outputs.messages.robot = arguments.outputs.publish.robot;
     arguments.outputs.messages.camera = arguments.follower.camera.camera;
     arguments.outputs.screen.has_window = !arguments.has_no_window && video::has_display();
     arguments.outputs.web = web_options(arguments);
@@ -371,16 +369,9 @@ void add_output_options(Command& command, WatchArguments& arguments) {
         ->check(Range(1, 2'000'000'000));
 }
 
-void add_publish_options(Command& command, OutputOptions& outputs, MqttArguments& mqtt) {
-    mqtt.add_to(command);
-    add_robot_option(command, outputs.robot, "Name of the robot on the broker and in ROS topics");
+void add_publish_options(Command& command, OutputOptions& outputs) {
+    outputs.publish.add_to(command, "Name of the robot on the broker and in ROS topics");
     add_frame_prefix_option(command, outputs.messages.frame_prefix);
-    command
-        .add_option("--mqtt-rate", outputs.mqtt_rate_hz,
-                    "Maximum number of states per second; events are always sent")
-        ->type_name("HZ")
-        ->default_str("all")
-        ->check(Range(0.001, 1e6));
 }
 
 void add_dds_options(Command& command, DdsArguments& dds) {
@@ -447,11 +438,10 @@ void add_watch(Command& app, int& exit_code) {
                          "Sheet file: also report the sheet, and track the robot in the world");
     add_track_options(*command, arguments->follower.options.track);
     add_output_options(*command, *arguments);
-    add_publish_options(*command, arguments->outputs, arguments->mqtt);
+    add_publish_options(*command, arguments->outputs);
     add_dds_options(*command, arguments->dds);
     add_web_options(*command, *arguments);
     command->callback([arguments, &exit_code] {
-        arguments->outputs.mqtt = arguments->mqtt.options();
         arguments->follower.fit_to(arguments->sources);
         exit_code = run(*arguments);
     });

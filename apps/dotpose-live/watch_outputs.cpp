@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -14,7 +13,6 @@
 #include "dotpose/pose_packet.hpp"
 #include "panel_text.hpp"
 #include "reading_fields.hpp"
-#include "robot_state.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -48,46 +46,6 @@ void PacketOutput::write(const Reading& reading, CodeVariant code) {
     }
 }
 
-namespace {
-
-publish::MqttOptions with_presence(const OutputOptions& options) {
-    publish::MqttOptions mqtt = *options.mqtt;
-    mqtt.presence_topic = topic_of(options.robot, Subject::connection);
-    mqtt.presence = [robot = options.robot,
-                     messages = std::uint64_t{0}](publish::Presence presence) mutable {
-        return json_of(RobotConnection{robot, messages++, system_us(), presence});
-    };
-    return mqtt;
-}
-
-}  // namespace
-
-StateOutput::StateOutput(const OutputOptions& options)
-    : robot_(options.robot),
-      world_map_(options.world_map),
-      period_us_(options.mqtt_rate_hz > 0 ? std::llround(1e6 / options.mqtt_rate_hz) : 0),
-      next_us_(std::numeric_limits<std::int64_t>::min()),
-      publisher_(with_presence(options)) {}
-
-void StateOutput::finish() {
-    constexpr auto kPatience = std::chrono::seconds(2);
-    publisher_.flush(kPatience);
-    tell(fmt::format("{} states published, {} dropped", publisher_.sent(),
-                     publisher_.dropped() + publisher_.unsent()));
-    publisher_.require_reached();
-}
-
-void StateOutput::take(const Reading& reading) {
-    const TrackEvents& events = reading.track.events;
-    const bool is_event =
-        events.fix || events.lost || events.kidnapped || events.stationary || events.moving;
-    if (reading.time_us < next_us_ && !is_event) return;
-    next_us_ = reading.time_us + period_us_;
-    RobotState state = state_of(reading, robot_, world_map_);
-    state.header_id = messages_++;
-    publisher_.publish(topic_of(robot_, Subject::visualization), json_of(state));
-}
-
 WatchOutputs::WatchOutputs(const OutputOptions& options, const Follower& follower)
     : options_(options),
       follower_(follower),
@@ -107,7 +65,7 @@ WatchOutputs::WatchOutputs(const OutputOptions& options, const Follower& followe
         log_->write(csv_header_of_readings(has_sheets, Units::mm));
     }
     if (!options.packets.empty()) packets_.emplace(options.packets);
-    if (options.mqtt) states_.emplace(options);
+    states_ = open_publisher(options.publish, options.sheets);
     if (options.messages.is_wanted()) messages_.emplace(options.messages);
     if (options.web) web_.emplace(*options.web, follower);
 }
@@ -192,8 +150,9 @@ void WatchOutputs::draw_path() const {
              path_.strokes(),
              {last.x, last.y},
              newest_.is_lost ? std::nullopt : std::optional(newest_.pose.theta_rad()),
-             newest_.is_lost});
+             newest_.is_lost ? "lost" : ""});
     }
+    draw::keep_visited_sheets(map);
     write_file(options_.map, draw::draw_map(map));
 }
 

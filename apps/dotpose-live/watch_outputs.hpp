@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "lines.hpp"
+#include "mqtt_arguments.hpp"
 #include "output_arguments.hpp"
 #include "path_memory.hpp"
-#include "publish/mqtt.hpp"
 #include "reading.hpp"
 #include "robot_output.hpp"
+#include "state_output.hpp"
 #include "video/screen.hpp"
 #include "web_view.hpp"
 
@@ -22,15 +23,12 @@ namespace dotpose::cli {
 struct OutputOptions {
     LineArguments lines;
     // Outputs with an empty path are not written.
-    std::string log;                           ///< CSV file of all frames
-    std::string map;                           ///< SVG file of the path, written at the end
-    std::string packets;                       ///< file or device for pose packets
-    std::string robot = "robot";               ///< name of the robot on the broker and in ROS
-    RobotOutputOptions messages;               ///< ROS messages
-    std::optional<publish::MqttOptions> mqtt;  ///< the broker; none if nothing is published
-    /// Maximum number of messages per second, excluding events. If 0, sends one message per frame.
-    double mqtt_rate_hz = 0;
-    std::string world_map;  ///< map name of the sheet file's world
+    std::string log;              ///< CSV file of all frames
+    std::string map;              ///< SVG file of the path, written at the end
+    std::string packets;          ///< file or device for pose packets
+    RobotOutputOptions messages;  ///< ROS messages
+    PublishArguments publish;     ///< the broker, and the name of the robot
+    std::string sheets;           ///< path of the sheet file
     video::ScreenOptions screen;
     std::optional<WebOptions> web;  ///< none if there is no page
 };
@@ -59,27 +57,6 @@ class PacketOutput {
   private:
     std::string path_;
     int descriptor_;
-};
-
-/// Publishes the state of the robot through a broker.
-class StateOutput {
-  public:
-    /// Throws Error if the broker refuses the connection.
-    explicit StateOutput(const OutputOptions& options);
-
-    void take(const Reading& reading);
-
-    /// Waits up to 2 s until all messages are sent, and reports the number of sent messages. Throws
-    /// Error if no connection to the broker was established.
-    void finish();
-
-  private:
-    std::string robot_;
-    std::string world_map_;
-    std::int64_t period_us_;
-    std::int64_t next_us_;
-    std::uint64_t messages_ = 0;
-    publish::MqttPublisher publisher_;
 };
 
 class WatchOutputs {
@@ -111,7 +88,7 @@ class WatchOutputs {
     std::optional<Lines> lines_;
     std::optional<Lines> log_;
     std::optional<PacketOutput> packets_;
-    std::optional<StateOutput> states_;
+    std::unique_ptr<ReadingSink> states_;
     std::optional<RobotOutput> messages_;
     video::Screen screen_;
     PathMemory path_;

@@ -304,6 +304,11 @@ Command* Command::require_subcommand(int number) {
     return this;
 }
 
+Command* Command::require_subcommand(int min, int max) {
+    app_->require_subcommand(static_cast<std::size_t>(min), static_cast<std::size_t>(max));
+    return this;
+}
+
 Command* Command::prefix_command() {
     app_->prefix_command();
     return this;

@@ -127,6 +127,7 @@ class Command {
     Command* footer(const std::string& text);
     Command* group(const std::string& name);
     Command* require_subcommand(int number);
+    Command* require_subcommand(int min, int max);
     Command* prefix_command();  ///< accepts arbitrary words after the command
     Command* set_help_flag();   ///< removes --help
     Command* set_version_flag(const std::string& name, const std::string& version);

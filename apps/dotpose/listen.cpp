@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -15,13 +14,20 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/files/error.hpp"
+#include "dotpose/files/sheet_file.hpp"
 #include "dotpose/pose_packet.hpp"
 #include "fields.hpp"
 #include "lines.hpp"
+#include "mqtt_arguments.hpp"
 #include "output_arguments.hpp"
+#include "packet_fields.hpp"
+#include "packet_follower.hpp"
 #include "progress.hpp"
+#include "reading_fields.hpp"
+#include "reading_sink.hpp"
 #include "run_files.hpp"
 #include "system/files.hpp"
+#include "system/path.hpp"
 #include "system/process.hpp"
 #include "terminal_text.hpp"
 
@@ -32,7 +38,8 @@ constexpr const char* kListenExamples =
     "Examples:\n"
     "  dotpose listen /dev/ttyUSB0 --baud 115200\n"
     "  dotpose listen packets.bin --format csv -o poses.csv\n"
-    "  nc robot 4000 | dotpose listen -\n\n"
+    "  nc robot 4000 | dotpose listen -\n"
+    "  dotpose listen /dev/ttyUSB0 --sheets hall.json --mqtt mqtt://broker --robot anna\n\n"
     "One line per packet. Damaged packets are skipped; their number is printed on standard\n"
     "error at the end. docs/pose-packet.md describes the format.\n";
 
@@ -44,6 +51,9 @@ struct ListenArguments {
     LineArguments lines;
     double spacing_mm = kDefaultSpacing_mm;
     int baud = 115200;
+    std::string sheets;
+    std::string log;
+    PublishArguments publish;
 };
 
 /// Reads bytes from a file, a pipe or a serial device.
@@ -90,49 +100,6 @@ class ByteSource {
     std::array<std::uint8_t, 4096> buffer_{};
 };
 
-/// Returns the pose of a packet in the units and axes of `units`, or none if the packet has no fix.
-std::optional<PlanePose> pose_of(const PosePacket& packet, double spacing_mm, Units units) {
-    if (packet.status != Status::ok) return std::nullopt;
-    const PlanePose pose{
-        packet.x_grid() * spacing_mm, packet.y_grid() * spacing_mm, packet.theta_rad(), {}};
-    return units == Units::ros ? with_other_y(pose) : pose;
-}
-
-/// Returns the field with the standard deviation of the position: the larger of the standard
-/// deviations along x and y.
-Field deviation_field(const PosePacket& packet, double spacing_mm, Units units) {
-    const double sigma_mm = packet.deviation_q12 * spacing_mm / 4096;
-    // 255 represents all larger deviations as well, so it is not reported.
-    const bool is_known = packet.status == Status::ok && packet.deviation_q12 < 255;
-    if (units == Units::ros) return {"sigma_m", is_known ? metres(sigma_mm) : ""};
-    return {"sigma_mm", is_known ? decimal(sigma_mm, 6) : ""};
-}
-
-std::vector<Field> fields(const PosePacket& packet, double spacing_mm, Units units) {
-    const bool ok = packet.status == Status::ok;
-    const auto if_ok = [ok](std::string text) { return ok ? std::move(text) : std::string(); };
-    const auto number = [](unsigned value) { return fmt::format("{}", value); };
-    std::vector<Field> all = {
-        {"schema", kSchemaVersion},
-        {"sequence", number(packet.sequence)},
-        {"time_us", number(packet.time_us)},
-        {"status", name(packet.status), true},
-        {"message", ok ? "" : message(packet.status), true},
-        {"code", code_name(packet.code), true},
-    };
-    const std::vector<Field> evidence = {
-        {"x_grid", if_ok(decimal(packet.x_grid(), 6))},
-        {"y_grid", if_ok(decimal(packet.y_grid(), 6))},
-        {"section_u", if_ok(number(packet.section.u)), false, "section"},
-        {"section_v", if_ok(number(packet.section.v)), false, "section"},
-        {"p_wrong", if_ok(p_wrong_text(std::ldexp(1.0, -packet.certainty)))},
-        deviation_field(packet, spacing_mm, units),
-    };
-    append(all, pose_fields(pattern_names(units), units, pose_of(packet, spacing_mm, units)));
-    append(all, evidence);
-    return all;
-}
-
 /// Counts lost packets for the report at the end.
 class LossCounter {
   public:
@@ -161,27 +128,78 @@ class LossCounter {
     std::uint64_t lost_ = 0;
 };
 
+/// Writes the outputs of `listen`.
+class ListenOutputs {
+  public:
+    ListenOutputs(const ListenArguments& arguments, std::unique_ptr<ReadingSink> publisher)
+        : arguments_(arguments),
+          follower_(sheets_of(arguments), arguments.spacing_mm),
+          lines_(arguments.lines.out),
+          publisher_(std::move(publisher)) {
+        if (arguments.lines.format == RecordFormat::csv) {
+            lines_.write(csv_header(fields_of({})));
+        }
+        if (arguments.log.empty()) return;
+        log_.emplace(arguments.log);
+        log_->write(csv_header_of_readings(follower_.has_sheets(), Units::mm));
+    }
+
+    void take(const PosePacket& packet) {
+        lines_.write(line_of(fields_of(packet), arguments_.lines.format));
+        losses_.count(packet);
+        const auto reading = follower_.follow(packet);
+        if (!reading) return;
+        if (log_) log_->write(csv_line(fields(*reading, Units::mm)));
+        if (publisher_) publisher_->take(*reading);
+    }
+
+    void finish(std::uint32_t damaged) {
+        losses_.report(damaged);
+        if (publisher_) publisher_->finish();
+    }
+
+  private:
+    static std::vector<SheetEntry> sheets_of(const ListenArguments& arguments) {
+        if (arguments.sheets.empty()) return {};
+        std::vector<SheetEntry> sheets = read_sheets(system::path_of(arguments.sheets));
+        if (sheets.empty()) throw Error(arguments.sheets + " has no sheets");
+        return sheets;
+    }
+    std::vector<Field> fields_of(const PosePacket& packet) const {
+        const Units units = arguments_.lines.units;
+        const Record record = follower_.record_of(packet);
+        std::vector<Field> all = fields(packet, record.spacing_mm, units);
+        if (record.has_sheets) append(all, sheet_fields(record, units));
+        return all;
+    }
+
+    const ListenArguments& arguments_;
+    PacketFollower follower_;
+    Lines lines_;
+    std::optional<Lines> log_;
+    std::unique_ptr<ReadingSink> publisher_;
+    LossCounter losses_;
+};
+
 void run(const ListenArguments& arguments) {
     RunFiles files;
     files.reads("", arguments.source);
+    files.reads("--sheets", arguments.sheets);
+    files.reads("--mqtt-ca", arguments.publish.mqtt.ca_file);
     files.writes_lines(arguments.lines.out, content_of(arguments.lines.format));
+    files.writes("--log", arguments.log, Content::csv);
+    // The first step, because this process may be replaced.
+    auto publisher = open_publisher(arguments.publish, arguments.sheets);
     catch_interrupts();
     ByteSource source(arguments);
-    Lines lines(arguments.lines.out);
+    ListenOutputs outputs(arguments, std::move(publisher));
     PacketReader reader;
-    LossCounter losses;
-    const auto [out, format, units] = arguments.lines;
-    if (format == RecordFormat::csv) {
-        lines.write(csv_header(fields({}, arguments.spacing_mm, units)));
-    }
     for (auto bytes = source.next(); !bytes.empty(); bytes = source.next()) {
         for (const std::uint8_t byte : bytes) {
-            if (!reader.push(byte)) continue;
-            lines.write(line_of(fields(reader.packet(), arguments.spacing_mm, units), format));
-            losses.count(reader.packet());
+            if (reader.push(byte)) outputs.take(reader.packet());
         }
     }
-    losses.report(reader.damaged());
+    outputs.finish(reader.damaged());
 }
 
 void add_baud_option(Command& command, int& baud) {
@@ -213,6 +231,14 @@ void add_listen(Command& app, int&) {
         ->required();
     add_baud_option(*command, arguments->baud);
     add_spacing_option(*command, arguments->spacing_mm);
+    add_sheets_option(*command, arguments->sheets,
+                      "Sheet file: also report the sheet, and track the robot in the world")
+        ->excludes(command->get_option("--spacing"));
+    command
+        ->add_option("--log", arguments->log,
+                     "Also write all packets as dotpose watch --log does, for dotpose replay")
+        ->type_name("FILE");
+    arguments->publish.add_to(*command, "Name of the robot on the broker");
     add_line_options(*command, arguments->lines);
     command->callback([arguments] { run(*arguments); });
 }

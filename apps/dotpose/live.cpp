@@ -10,6 +10,7 @@
 #include "live_calibration.hpp"
 #include "live_program.hpp"
 #include "live_sources.hpp"
+#include "reading_sink.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -50,6 +51,11 @@ std::unique_ptr<video::GreyVideo> create_video(const std::string& path, double) 
 LensCalibration calibrate_live(const SourceArguments&, Sources&, const CalibrateOptions&,
                                const LiveCalibrationOptions&) {
     throw_missing("calibrate --live needs", become_live());
+}
+
+std::unique_ptr<ReadingSink> open_publisher(const PublishArguments& arguments, const std::string&) {
+    if (arguments.mqtt.url.empty()) return nullptr;
+    throw_missing("--mqtt needs", become_live());
 }
 
 void add_live(Command& app) {

@@ -39,23 +39,6 @@ std::optional<PlanePose> in_frame_of(Units units, const std::optional<PlanePose>
     return pose && units == Units::ros ? std::optional(with_other_y(*pose)) : pose;
 }
 
-/// Returns the fields that `--sheets` adds. The sheet is null if the fix is not on a known sheet.
-std::vector<Field> sheet_fields(const Record& record, Units units) {
-    const std::optional<SheetPlace>& place = record.place;
-    std::optional<PlanePose> pose;
-    if (place) pose = PlanePose{place->x_mm, place->y_mm, place->theta_rad, place->covariance};
-    pose = in_frame_of(units, pose);
-    const PoseNames names = sheet_names(units);
-    std::vector<Field> fields = {{.name = "sheet",
-                                  .text = place ? place->entry->name : std::string(),
-                                  .is_string = true,
-                                  .is_null_if_empty = record.fix.status == Status::ok}};
-    append(fields, pose_fields(names, units, pose));
-    append(fields, covariance_fields(names, units, pose));
-    append(fields, world_fields(place ? world_place(*place) : std::nullopt));
-    return fields;
-}
-
 /// Explains, with numbers, why a position is rejected as not certain.
 std::string uncertainty_reason(const Record& record) {
     const Fix& fix = record.fix;
@@ -297,6 +280,22 @@ std::array<std::string, kWarnings> warnings(const Record& record) {
 std::string reason(const Record& record) {
     const std::string plain = plain_reason(record);
     return plain.empty() || record.advice.empty() ? plain : plain + "; " + record.advice;
+}
+
+std::vector<Field> sheet_fields(const Record& record, Units units) {
+    const std::optional<SheetPlace>& place = record.place;
+    std::optional<PlanePose> pose;
+    if (place) pose = PlanePose{place->x_mm, place->y_mm, place->theta_rad, place->covariance};
+    pose = in_frame_of(units, pose);
+    const PoseNames names = sheet_names(units);
+    std::vector<Field> fields = {{.name = "sheet",
+                                  .text = place ? place->entry->name : std::string(),
+                                  .is_string = true,
+                                  .is_null_if_empty = record.fix.status == Status::ok}};
+    append(fields, pose_fields(names, units, pose));
+    append(fields, covariance_fields(names, units, pose));
+    append(fields, world_fields(place ? world_place(*place) : std::nullopt));
+    return fields;
 }
 
 std::vector<Field> fields(const Record& record, Units units) {

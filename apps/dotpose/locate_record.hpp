@@ -51,6 +51,9 @@ std::string reason(const Record& record);
 /// Returns the fields in the order of the output.
 std::vector<Field> fields(const Record& record, Units units);
 
+/// Returns the fields that --sheets adds. `sheet` is null if the fix is not on any sheet.
+std::vector<Field> sheet_fields(const Record& record, Units units);
+
 /// Selection of CSV columns.
 enum class Columns {
     brief,  ///< pose with standard deviations and p_wrong; with a sheet file, the poses on the

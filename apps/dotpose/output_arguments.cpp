@@ -36,7 +36,7 @@ void add_out_option(Command& command, std::string& out, const std::string& help,
 
 }  // namespace
 
-void add_line_options(Command& command, LineArguments& arguments, bool has_text) {
+void add_format_options(Command& command, LineArguments& arguments, bool has_text) {
     const Option* format =
         command
             .add_option_function<std::string>(
@@ -51,6 +51,12 @@ void add_line_options(Command& command, LineArguments& arguments, bool has_text)
             ->type_name("NAME")
             ->default_str("json, or by the name of the output")
             ->check(has_text ? one_of({"json", "csv", "text"}) : one_of({"json", "csv"}));
+    add_out_option(command, arguments.out, "File to write instead of standard output", format,
+                   ".csv", [&arguments] { arguments.format = RecordFormat::csv; });
+}
+
+void add_line_options(Command& command, LineArguments& arguments, bool has_text) {
+    add_format_options(command, arguments, has_text);
     command
         .add_option_function<std::string>(
             "--units",
@@ -61,8 +67,6 @@ void add_line_options(Command& command, LineArguments& arguments, bool has_text)
         ->type_name("NAME")
         ->default_str("mm")
         ->check(one_of({"mm", "ros"}));
-    add_out_option(command, arguments.out, "File to write instead of standard output", format,
-                   ".csv", [&arguments] { arguments.format = RecordFormat::csv; });
 }
 
 void add_report_options(Command& command, ReportArguments& arguments, const std::string& out_help) {

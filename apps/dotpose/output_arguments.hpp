@@ -20,8 +20,11 @@ struct LineArguments {
     Units units = Units::mm;
 };
 
-/// Adds --format json|csv, --units mm|ros and -o. If `has_text`, --format also accepts text. If the
-/// name given to -o ends in .csv, the default format is csv.
+/// Adds --format json|csv and -o. If `has_text`, --format also accepts text. If the name given to
+/// -o ends in .csv, the default format is csv.
+void add_format_options(Command& command, LineArguments& arguments, bool has_text = false);
+
+/// Adds --units mm|ros in addition.
 void add_line_options(Command& command, LineArguments& arguments, bool has_text = false);
 
 /// Options of commands that write one report.

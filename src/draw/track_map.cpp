@@ -34,6 +34,30 @@ Bounds bounds_of(const Map& map) {
     return bounds;
 }
 
+/// Returns true if a page, given by its corners in order, contains a point.
+bool contains(const MapSheet& sheet, Point point) {
+    bool has_positive = false;
+    bool has_negative = false;
+    for (std::size_t i = 0; i < sheet.corners_mm.size(); ++i) {
+        const Point from = sheet.corners_mm[i];
+        const Point to = sheet.corners_mm[(i + 1) % sheet.corners_mm.size()];
+        const double cross =
+            (to.x - from.x) * (point.y - from.y) - (to.y - from.y) * (point.x - from.x);
+        has_positive = has_positive || cross > 0;
+        has_negative = has_negative || cross < 0;
+    }
+    return !(has_positive && has_negative);
+}
+
+bool visits(const MapRobot& robot, const MapSheet& sheet) {
+    return contains(sheet, robot.place_mm) ||
+           std::ranges::any_of(robot.strokes_mm, [&sheet](const std::vector<Point>& stroke) {
+               return std::ranges::any_of(stroke, [&](Point p) { return contains(sheet, p); });
+           });
+}
+
+constexpr double kNoteHeight = 24;
+
 class MapSketch {
   public:
     explicit MapSketch(const Map& map)
@@ -42,7 +66,8 @@ class MapSketch {
           scale_(kSide /
                  std::max({bounds_.high.x - bounds_.low.x, bounds_.high.y - bounds_.low.y, 1.0})),
           svg_(std::max((bounds_.high.x - bounds_.low.x) * scale_, 400.0) + 2 * kTrackMargin,
-               (bounds_.high.y - bounds_.low.y) * scale_ + 2 * kTrackMargin + kTrackHead,
+               (bounds_.high.y - bounds_.low.y) * scale_ + 2 * kTrackMargin + kTrackHead +
+                   kNoteHeight * static_cast<double>(map.notes.size()),
                map.title) {}
 
     std::string draw() && {
@@ -52,6 +77,7 @@ class MapSketch {
             draw_sheet(sheet);
         for (std::size_t i = 0; i < map_.robots.size(); ++i)
             draw_robot(map_.robots[i], kColours[i % kColours.size()]);
+        draw_notes();
         return std::move(svg_).finish();
     }
 
@@ -86,7 +112,8 @@ class MapSketch {
                      R"(stroke-linejoin="round" stroke-linecap="round"/>)",
                      data, colour);
         }
-        const char* shown = robot.is_lost ? colour::kBad : colour;
+        const bool is_fine = robot.problem.empty();
+        const char* shown = !is_fine ? colour::kBad : colour;
         const Point place = at(robot.place_mm);
         svg_.circle(place, 6, fmt::format(R"(class="robot" fill="{}")", shown));
         if (robot.heading_rad) {
@@ -94,8 +121,18 @@ class MapSketch {
             const Point ahead{std::cos(*robot.heading_rad), down * std::sin(*robot.heading_rad)};
             svg_.arrow(place, place + 28.0 * ahead, 4, shown);
         }
-        svg_.text(place + Point{10, -10}, 18, robot.is_lost ? robot.name + " (lost)" : robot.name,
+        svg_.text(place + Point{10, -10}, 18,
+                  is_fine ? robot.name : fmt::format("{} ({})", robot.name, robot.problem),
                   fmt::format(R"(fill="{}")", shown));
+    }
+
+    void draw_notes() {
+        Point place{kTrackMargin,
+                    2 * kTrackMargin + kTrackHead + (bounds_.high.y - bounds_.low.y) * scale_};
+        for (const std::string& note : map_.notes) {
+            svg_.text(place, 18, note, fmt::format(R"(fill="{}")", colour::kQuiet));
+            place.y += kNoteHeight;
+        }
     }
 
     const Map& map_;
@@ -105,6 +142,18 @@ class MapSketch {
 };
 
 }  // namespace
+
+void keep_visited_sheets(Map& map) {
+    std::vector<MapSheet> visited;
+    for (const MapSheet& sheet : map.sheets) {
+        const auto visits_sheet = [&sheet](const MapRobot& robot) { return visits(robot, sheet); };
+        if (std::ranges::any_of(map.robots, visits_sheet)) visited.push_back(sheet);
+    }
+    if (visited.empty() || visited.size() == map.sheets.size()) return;
+    map.notes.push_back(
+        fmt::format("{} of {} sheets, those visited", visited.size(), map.sheets.size()));
+    map.sheets = std::move(visited);
+}
 
 std::string draw_map(const Map& map) {
     return MapSketch(map).draw();

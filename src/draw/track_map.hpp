@@ -24,7 +24,7 @@ struct MapRobot {
     /// The last known position.
     Point place_mm;
     std::optional<double> heading_rad;  ///< from +x towards +y of the plane; empty if unknown
-    bool is_lost = false;
+    std::string problem;  ///< shown after the name, such as "lost"; empty if there is none
 };
 
 struct Map {
@@ -32,7 +32,12 @@ struct Map {
     bool y_up = false;  ///< direction of y in the plane: up in the world, down on a page
     std::vector<MapSheet> sheets;
     std::vector<MapRobot> robots;
+    std::vector<std::string> notes;  ///< lines of text below the drawing
 };
+
+/// Removes the sheets that no path of a robot touches, and adds a note with their number. If no
+/// sheet was visited, all sheets are kept.
+void keep_visited_sheets(Map& map);
 
 /// Returns the drawing. The size of the drawing is the bounding box of its contents.
 std::string draw_map(const Map& map);

@@ -142,16 +142,21 @@ std::optional<Sighting> Follower::sighting_of(const Found& found, std::int64_t t
     if (found.fix.status != Status::ok || !std::isfinite(spacing)) return std::nullopt;
     Fix fix = found.fix;
     fix.spacing_nm = static_cast<std::int32_t>(std::lround(spacing * kNm_per_mm));
-    Sighting sighting = dotpose::sighting_of(fix, time_us);
-    if (!is_in_world_) return sighting;
-    const auto world = place ? world_place(*place) : std::nullopt;
+    if (!is_in_world_) return dotpose::sighting_of(fix, time_us);
+    return place ? world_sighting(fix, *place, time_us) : std::nullopt;
+}
+
+std::optional<Sighting> world_sighting(const Fix& fix, const SheetPlace& place,
+                                       std::int64_t time_us) {
+    const auto world = world_place(place);
     if (!world) return std::nullopt;
+    Sighting sighting = sighting_of(fix, time_us);
     sighting.plane = 0;
     sighting.is_y_up = true;
     sighting.x_nm = std::llround(world->x_m * 1e9);
     sighting.y_nm = std::llround(world->y_m * 1e9);
     sighting.theta_bam = bam(world->yaw_rad);
-    sighting.covariance = world_covariance(sighting.covariance, place->entry->world->yaw_rad);
+    sighting.covariance = world_covariance(sighting.covariance, place.entry->world->yaw_rad);
     return sighting;
 }
 

@@ -304,10 +304,10 @@ void MqttPublisher::send_presence(Presence presence) {
     if (code == MOSQ_ERR_SUCCESS) presence_under_way_.insert(id);
 }
 
-void MqttPublisher::publish(std::string topic, std::string payload) {
+void MqttPublisher::publish(std::string topic, std::string payload, bool is_retained) {
     {
         const std::lock_guard lock(mutex_);
-        waiting_.push_back({std::move(topic), std::move(payload)});
+        waiting_.push_back({std::move(topic), std::move(payload), is_retained});
         if (waiting_.size() > options_.queue) {
             waiting_.pop_front();
             ++dropped_;
@@ -323,7 +323,7 @@ void MqttPublisher::send_waiting() {
         int id = 0;
         const int code = mosquitto_publish(handle(), &id, newest.topic.c_str(),
                                            static_cast<int>(newest.payload.size()),
-                                           newest.payload.data(), options_.qos, false);
+                                           newest.payload.data(), options_.qos, newest.is_retained);
         const bool can_never_be_sent = code == MOSQ_ERR_INVAL || code == MOSQ_ERR_MALFORMED_UTF8 ||
                                        code == MOSQ_ERR_PAYLOAD_SIZE ||
                                        code == MOSQ_ERR_OVERSIZE_PACKET;

@@ -122,8 +122,9 @@ class MqttPublisher : public MqttClient {
     ~MqttPublisher() override;
 
     /// Sends a message, or queues it until there is a connection. Does not block. After an
-    /// interruption, the newest messages are sent first.
-    void publish(std::string topic, std::string payload);
+    /// interruption, the newest messages are sent first. The broker keeps a retained message for
+    /// later subscribers; an empty retained message removes it.
+    void publish(std::string topic, std::string payload, bool is_retained = false);
 
     /// Waits until all messages are sent, but at most for `patience`. Returns false on timeout.
     bool flush(std::chrono::milliseconds patience);
@@ -139,6 +140,7 @@ class MqttPublisher : public MqttClient {
     struct Message {
         std::string topic;
         std::string payload;
+        bool is_retained = false;
     };
     void on_connected() override;
     void on_disconnected() override;

@@ -112,6 +112,7 @@ constexpr std::array kRuns = {
     "watch frames --fps 200 --no-window",
     "watch frames --fps 200 --no-window --sheets sheets.json",
     "listen packets.bin",
+    "listen packets.bin --sheets sheets.json",
 };
 
 TEST_F(OutputLines, FitTheirSchema) {

@@ -1,12 +1,13 @@
 // Fuzzes a fleet with arbitrary broker messages, one per line, with a tab between topic and
-// payload. The fleet must accept each message or count it as bad, and its table and map must remain
-// printable.
+// payload. The fleet must accept each message or count it as bad, and its table, metrics and map
+// must remain printable.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <sstream>
 #include <string>
 
+#include "fleet_metrics.hpp"
 #include "fleet_report.hpp"
 #include "fleet_state.hpp"
 
@@ -20,14 +21,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const std::size_t tab = std::min(line.find('\t'), line.size());
         const std::string topic =
             tab == 0 ? cli::topic_of("anna", cli::Subject::visualization) : line.substr(0, tab);
-        fleet.take(topic, line.substr(std::min(tab + 1, line.size())), kNow_us + taken);
+        fleet.take(topic, line.substr(std::min(tab + 1, line.size())), {kNow_us + taken, taken});
     }
     if (fleet.counts().messages + fleet.bad() > taken) std::abort();
     fleet.latency();
-    for (const char c : cli::table_of(fleet, cli::Delivery::all, kNow_us)) {
+    const cli::Now now{kNow_us + taken, taken};
+    const cli::FleetMap map;
+    const cli::FleetRobots robots = fleet.robots(now);
+    const std::string texts = cli::table_of(fleet, map, cli::Delivery::all, now) +
+                              cli::metrics_text(fleet, robots, map, {true, {}, {}});
+    for (const char c : texts) {
         if (static_cast<unsigned char>(c) < ' ' && c != '\n') std::abort();
     }
-    for (const auto& [name, robot] : fleet.robots())
-        cli::map_of(fleet, robot.newest.map_id, {});
+    for (const auto& [name, robot] : robots)
+        cli::drawing_of(fleet, robot.newest.map_id, map, now);
     return 0;
 }

@@ -1,6 +1,5 @@
 // Tests `dotpose fleet` with the states that robots publish to a real broker.
 #include <chrono>
-#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -10,11 +9,11 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "../drive.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "mqtt_fixture.hpp"
+#include "robot_message.hpp"
 #include "watched_fleet.hpp"
 
 namespace dotpose::test {
@@ -25,45 +24,6 @@ using publish::MqttPublisher;
 using testing::HasSubstr;
 
 using Fleet = Mqtt;
-
-/// State message of a robot.
-struct Message {
-    std::string robot;
-    int header_id = 0;
-    std::string time;
-    std::string state = "moving";
-    bool is_localized = true;
-    double x_m = 0;
-    double y_m = 0;
-
-    std::string json() const {
-        nlohmann::json message = {{"headerId", header_id},
-                                  {"timestamp", time},
-                                  {"serialNumber", robot},
-                                  {"state", state}};
-        if (is_localized) {
-            message["agvPosition"] = {
-                {"mapId", "table"}, {"x", x_m}, {"y", y_m}, {"theta", 0}, {"deviationRange", 1e-6}};
-            message["velocity"] = {{"vx", 0}, {"vy", 0.5}, {"omega", 0}};
-        }
-        return message.dump();
-    }
-};
-
-std::string topic_of(const std::string& robot) {
-    return "uagv/v2/dotpose/" + robot + "/visualization";
-}
-
-/// Returns the current time in the format of state messages.
-std::string time_now() {
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    const auto us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
-    const std::time_t seconds = us / 1'000'000;
-    char text[40];
-    const std::size_t size = std::strftime(text, sizeof text, "%FT%T", std::gmtime(&seconds));
-    std::snprintf(text + size, sizeof text - size, ".%06dZ", static_cast<int>(us % 1'000'000));
-    return text;
-}
 
 TEST_F(Fleet, SeesAWatchedRobot) {
     const Broker broker(directory_);
@@ -80,10 +40,10 @@ TEST_F(Fleet, SeesAWatchedRobot) {
     EXPECT_THAT(errors_, HasSubstr("20 states published, 0 dropped"));
     std::this_thread::sleep_for(500ms);
     const std::string table = fleet.table();
-    EXPECT_THAT(table, HasSubstr("\nanna             offline  "));
-    EXPECT_THAT(table, testing::ContainsRegex(" 20 +0\n"));
+    EXPECT_THAT(table, HasSubstr("\nanna             gone  "));
+    EXPECT_THAT(table, testing::ContainsRegex(" 20 +0  disconnected, table/left\n"));
     EXPECT_THAT(table, HasSubstr("1 robots, 20 states, 0 bad"));
-    EXPECT_THAT(file("fleet.svg"), HasSubstr("anna (lost)"));
+    EXPECT_THAT(file("fleet.svg"), HasSubstr("anna (gone)"));
     EXPECT_THAT(file("fleet.svg"), HasSubstr(">left<"));
 }
 
@@ -91,7 +51,8 @@ TEST_F(Fleet, TwoHundredRobots) {
     constexpr int kRobots = 200;
     constexpr int kStates = 50;
     const Broker broker(directory_);
-    WatchedFleet fleet(directory_, "--qos 1 --mqtt " + broker.url());
+    WatchedFleet fleet(directory_,
+                       "--qos 1 --silent-after 600 --gone-after 600 --mqtt " + broker.url());
     std::vector<std::unique_ptr<MqttPublisher>> robots;
     for (int i = 0; i < kRobots; ++i)
         robots.push_back(std::make_unique<MqttPublisher>(options(broker)));
@@ -101,7 +62,7 @@ TEST_F(Fleet, TwoHundredRobots) {
             const std::string name = fmt::format("robot{}", i);
             const Message message{name,    n,       time_now(), "moving", n + 1 < kStates,
                                   0.1 * i, 0.01 * n};
-            robots[static_cast<std::size_t>(i)]->publish(topic_of(name), message.json());
+            robots[static_cast<std::size_t>(i)]->publish(state_topic(name), message.json());
         }
         std::this_thread::sleep_until(begun + (n + 1) * 20ms);
     }
@@ -121,7 +82,7 @@ TEST_F(Fleet, TwoHundredRobots) {
         table,
         HasSubstr(
             "200 robots, 10000 states, 0 bad, 0 missed, 0 late, 0 repeated, latency median "));
-    EXPECT_THAT(table, testing::Not(testing::ContainsRegex(" 50 +[1-9][0-9]*\n")));
+    EXPECT_THAT(table, testing::Not(testing::ContainsRegex(" 50 +[1-9][0-9]*  ")));
     std::printf("%s", table.substr(table.rfind("200 robots")).c_str());
 }
 
@@ -130,14 +91,14 @@ TEST_F(Fleet, TopicsTellWhoARobotIsAndTextsDoNotActOnTheTerminal) {
     WatchedFleet fleet(directory_, "--mqtt " + broker.url());
     MqttPublisher sender(options(broker));
     const std::string time = "2026-11-24T16:00:00.000000Z";
-    sender.publish(topic_of("anna"), Message{"bert", 1, time}.json());
-    sender.publish(topic_of("\xe2\x80\xae"
-                            "red"),
+    sender.publish(state_topic("anna"), Message{"bert", 1, time}.json());
+    sender.publish(state_topic("\xe2\x80\xae"
+                               "red"),
                    Message{"\x1b[2J", 1, time, "\x1b]0;OWNED\x07\nroot moving"}.json());
     for (const char* bad : {"2026-11-24T16:00:nanZ", "2026-11-24T16:00:00", "", "now"})
-        sender.publish(topic_of("carl"), Message{"carl", 1, bad}.json());
-    sender.publish(topic_of("\x1b[31mred"), "{}");  // the publisher refuses this topic
-    sender.publish(topic_of("dora"), std::string(1'000'000, '['));
+        sender.publish(state_topic("carl"), Message{"carl", 1, bad}.json());
+    sender.publish(state_topic("\x1b[31mred"), "{}");  // the publisher refuses this topic
+    sender.publish(state_topic("dora"), std::string(1'000'000, '['));
     EXPECT_TRUE(sender.flush(20s));
     EXPECT_EQ(sender.dropped(), 1);
     std::this_thread::sleep_for(500ms);
@@ -145,7 +106,7 @@ TEST_F(Fleet, TopicsTellWhoARobotIsAndTextsDoNotActOnTheTerminal) {
     EXPECT_THAT(table, HasSubstr("\nanna  "));
     EXPECT_THAT(table, testing::Not(HasSubstr("bert")));
     EXPECT_THAT(table, HasSubstr("2 robots, 2 states, 5 bad"));
-    EXPECT_EQ(std::ranges::count(table, '\n'), 4) << table;
+    EXPECT_EQ(std::ranges::count(table, '\n'), 5) << table;
     EXPECT_EQ(table.find_first_of("\x1b\x07"), std::string::npos);
 }
 
@@ -157,7 +118,7 @@ TEST_F(Fleet, ASenderWhoseClockWasSetBackIsFollowed) {
     MqttPublisher sender(mqtt);
     const auto send = [&](const char* robot, int header_id, const char* time) {
         const Message message{robot, header_id, time, "moving", true, 0.1 * header_id};
-        sender.publish(topic_of(robot), message.json());
+        sender.publish(state_topic(robot), message.json());
         EXPECT_TRUE(sender.flush(20s));
     };
     // The clock was set back, but the message numbers continue.
@@ -176,10 +137,10 @@ TEST_F(Fleet, ASenderWhoseClockWasSetBackIsFollowed) {
     std::this_thread::sleep_for(500ms);
     const std::string table = fleet.table();
     EXPECT_THAT(table, HasSubstr("4 robots, 15 states, 0 bad, 1 missed, 5 late, 1 repeated"));
-    EXPECT_THAT(table, testing::ContainsRegex("\ndora .* 4 +1\n"));
-    EXPECT_THAT(table, testing::ContainsRegex("\nanna +moving +800.000 "));
-    EXPECT_THAT(table, testing::ContainsRegex("\nbert +moving +500.000 "));
-    EXPECT_THAT(table, testing::ContainsRegex("\ncarl +moving +900.000 "));
+    EXPECT_THAT(table, testing::ContainsRegex("\ndora .* 4 +1  "));
+    EXPECT_THAT(table, testing::ContainsRegex("\nanna +[a-z]+ +[0-9.]+ +800.000 "));
+    EXPECT_THAT(table, testing::ContainsRegex("\nbert +[a-z]+ +[0-9.]+ +500.000 "));
+    EXPECT_THAT(table, testing::ContainsRegex("\ncarl +[a-z]+ +[0-9.]+ +900.000 "));
 }
 
 TEST_F(Fleet, SubscribesWithTls) {
@@ -193,7 +154,7 @@ TEST_F(Fleet, SubscribesWithTls) {
     mqtt.queue = kStates;
     MqttPublisher sender(mqtt);
     for (int i = 0; i < kStates; ++i)
-        sender.publish(topic_of("anna"), Message{"anna", i, time_now()}.json());
+        sender.publish(state_topic("anna"), Message{"anna", i, time_now()}.json());
     EXPECT_TRUE(sender.flush(20s));
     std::this_thread::sleep_for(500ms);
     // Some states are late. Among the queued states, the newest are sent first.
@@ -209,7 +170,7 @@ TEST_F(Fleet, InventedNamesFillNoMemory) {
     mqtt.queue = kNames;
     MqttPublisher sender(mqtt);
     for (int i = 0; i < kNames; ++i) {
-        sender.publish(topic_of(fmt::format("invented{}", i)),
+        sender.publish(state_topic(fmt::format("invented{}", i)),
                        Message{"x", 1, "2026-11-24T16:00:00Z"}.json());
     }
     EXPECT_TRUE(sender.flush(60s));
@@ -227,7 +188,7 @@ TEST_F(Fleet, ShowsARobotThatLeftBeforeItCame) {
     ASSERT_EQ(run("watch f.pgm --robot anna --mqtt " + broker.url()), 0) << errors_;
     WatchedFleet fleet(directory_, "--mqtt " + broker.url());
     std::this_thread::sleep_for(500ms);
-    EXPECT_THAT(fleet.table(), HasSubstr("\nanna             offline  "));
+    EXPECT_THAT(fleet.table(), HasSubstr("\nanna             gone  "));
 }
 
 TEST_F(Fleet, ABrokerThatIsNeverReachedIsAFailure) {

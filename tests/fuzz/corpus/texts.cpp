@@ -89,7 +89,9 @@ constexpr const char* kStates =
     "\"agvPosition\":{\"mapId\":\"hall\",\"x\":1.5,\"y\":-2,\"theta\":0.1,"
     "\"deviationRange\":0.001},\"velocity\":{\"vx\":0.1,\"vy\":0,\"omega\":0}}\n"
     "uagv/v2/dotpose/bob/visualization\t{\"headerId\":8,\"timestamp\":\"2026-11-24T16:20:01Z\","
-    "\"state\":\"lost\"}\n"
+    "\"state\":\"lost\",\"reason\":\"no_grid\",\"sheet\":\"left\",\"camera\":{\"rate\":30,"
+    "\"frames\":90,\"refused\":{\"no_grid\":3,\"?\":1}}}\n"
+    "uagv/v2/dotpose/carl/connection\t\n"
     "uagv/v2/dotpose/bob/connection\t{\"headerId\":1,\"timestamp\":\"2026-11-24T16:20:01Z\","
     "\"connectionState\":\"OFFLINE\"}\n";
 

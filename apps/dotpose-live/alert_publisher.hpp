@@ -1,0 +1,28 @@
+/// Publishes alerts about the robots of a fleet through the broker.
+#pragma once
+
+#include <cstdint>
+
+#include "fleet_alerts.hpp"
+#include "publish/mqtt.hpp"
+
+namespace dotpose::cli {
+
+class AlertPublisher {
+  public:
+    /// Throws Error if the broker refuses the connection.
+    explicit AlertPublisher(publish::MqttOptions options);
+
+    /// Publishes the changes since the previous call.
+    void check(const FleetRobots& robots, const Now& now);
+
+    /// Waits up to 2 s until all alerts are sent, and reports their number.
+    void finish();
+
+  private:
+    AlertWatch watch_;
+    std::uint64_t messages_ = 0;
+    publish::MqttPublisher publisher_;
+};
+
+}  // namespace dotpose::cli

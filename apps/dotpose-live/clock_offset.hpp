@@ -1,0 +1,41 @@
+/// Offset between the clock of a robot and the monotonic clock of the receiver, estimated from
+/// messages with time stamps.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+namespace dotpose::cli {
+
+/// A message is delayed by the network and by queues, but never arrives before it was sent. The
+/// estimate is therefore the minimum of (received - sent) over the newest messages. The minimum is
+/// taken over a limited time, because clocks drift.
+class ClockOffset {
+  public:
+    void take(std::int64_t received_us, std::int64_t sent_us) {
+        const std::int64_t offset_us = received_us - sent_us;
+        if (received_us - begun_us_ >= kWindow_us) {
+            earlier_us_ = current_us_;
+            current_us_ = offset_us;
+            begun_us_ = received_us;
+        }
+        current_us_ = std::min(current_us_, offset_us);
+    }
+
+    /// Forgets earlier messages, because the clock of the robot was set back.
+    void reset() { *this = {}; }
+
+    /// Returns the offset in us. Requires at least one message.
+    std::int64_t us() const { return std::min(earlier_us_, current_us_); }
+
+  private:
+    static constexpr std::int64_t kWindow_us = 10'000'000;
+    static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+
+    std::int64_t begun_us_ = 0;  ///< begin of the current window
+    std::int64_t earlier_us_ = kNone;
+    std::int64_t current_us_ = kNone;
+};
+
+}  // namespace dotpose::cli

@@ -1,0 +1,78 @@
+/// Receives the messages of a fleet from the broker.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "fleet_log.hpp"
+#include "fleet_share.hpp"
+#include "fleet_state.hpp"
+#include "fleet_store.hpp"
+#include "publish/mqtt.hpp"
+
+namespace dotpose::cli {
+
+/// Measures Now. The thread that calls `observe` may differ from the threads that call `now`.
+class WatchedClock {
+  public:
+    WatchedClock();
+
+    /// Must be called regularly. Stops the watched clock for the time since the previous call if
+    /// there is no connection.
+    void observe(bool is_connected);
+
+    Now now() const;
+
+  private:
+    std::int64_t observed_us_;
+    std::atomic<std::int64_t> blind_us_ = 0;  ///< total time without a connection
+};
+
+struct FleetInputOptions {
+    publish::MqttOptions mqtt;
+    ShareArguments share;
+    ConditionLimits limits;
+    std::string log;  ///< CSV file of all states; none if empty
+};
+
+/// The subscriber calls `take` in its own thread.
+class FleetInput {
+  public:
+    /// `store` may be null. Throws Error if the broker refuses the connection or the log cannot be
+    /// created.
+    FleetInput(const FleetInputOptions& options, FleetStore* store);
+
+    const FleetState& fleet() const { return fleet_; }
+    Now now() const { return clock_.now(); }
+
+    /// Must be called regularly (WatchedClock::observe).
+    void observe() { clock_.observe(is_connected()); }
+
+    bool is_connected() const { return subscriber_->is_connected(); }
+
+    /// Writes the buffered lines of the log. Throws Error.
+    void flush();
+
+    /// Disconnects and completes the log. Throws Error if the log cannot be written.
+    void finish();
+
+    /// Throws Error if no connection to the broker was established.
+    void require_reached() const { subscriber_->require_reached(); }
+
+  private:
+    void take(std::string_view topic, std::string_view payload);
+    void record(std::string_view robot, const RobotState& state);
+
+    Shard shard_;
+    WatchedClock clock_;
+    std::int64_t received_us_ = 0;  ///< arrival time of the current message, system clock
+    std::optional<FleetLog> log_;
+    FleetStore* store_;
+    FleetState fleet_;
+    std::optional<publish::MqttSubscriber> subscriber_;
+};
+
+}  // namespace dotpose::cli

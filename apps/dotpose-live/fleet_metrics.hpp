@@ -1,0 +1,24 @@
+/// Metrics of a fleet in the text format of Prometheus, version 0.0.4. docs/fleet.md lists them.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "fleet_report.hpp"
+#include "fleet_state.hpp"
+#include "store/queue.hpp"
+
+namespace dotpose::cli {
+
+/// Connections of `dotpose fleet`.
+struct FleetServices {
+    bool is_broker_connected = false;
+    Delivery delivery = Delivery::all;
+    std::optional<store::QueueStatus> store;  ///< none without a database
+};
+
+/// Returns the metrics. `robots` are the robots of `fleet`. Names of robots are escaped.
+std::string metrics_text(const FleetState& fleet, const FleetRobots& robots, const FleetMap& map,
+                         const FleetServices& services);
+
+}  // namespace dotpose::cli

@@ -1,0 +1,65 @@
+/// Writes the states of all robots to a database.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "command_line.hpp"
+#include "state_message.hpp"
+#include "store/queue.hpp"
+
+namespace dotpose::cli {
+
+struct StoreArguments {
+    std::string where;  ///< URL of PostgreSQL, or file of SQLite; none if empty
+    std::int64_t max_states = 1'000'000;
+    int keep_days = 0;  ///< 0: all
+
+    /// Adds --store, --store-buffer and --store-days.
+    void add_to(Command& command);
+};
+
+/// Returns the name of a robot, map or sheet as it is stored: printable, so that every program can
+/// show it.
+std::string stored_name(std::string_view name);
+
+/// Converts states of messages. Equal names share memory.
+class StoredStates {
+  public:
+    /// The time of a state is that of the robot's clock. If this clock differs by more than half an
+    /// hour, the time is that of its arrival.
+    store::State of(std::string_view robot, const RobotState& state, std::int64_t received_us);
+
+  private:
+    /// Maximum number of remembered names. Anyone who can publish can invent names.
+    static constexpr std::size_t kMaxNames = 20'000;
+
+    std::map<std::string, std::shared_ptr<const std::string>, std::less<>> robots_;
+    std::map<store::Place, std::shared_ptr<const store::Place>> places_;
+};
+
+class FleetStore {
+  public:
+    /// Throws Error if the database is a file that cannot be opened, or if the library for the
+    /// database is missing. `tell` may be called by another thread.
+    FleetStore(const StoreArguments& arguments, std::function<void(const std::string&)> tell);
+
+    void add(std::string_view robot, const RobotState& state, std::int64_t received_us) {
+        queue_.push(states_.of(robot, state, received_us));
+    }
+    store::QueueStatus status() const { return queue_.status(); }
+
+    /// Stores the waiting states and reports their number. Throws Error if states were not stored.
+    void finish();
+
+  private:
+    std::function<void(const std::string&)> tell_;
+    StoredStates states_;
+    store::Queue queue_;
+};
+
+}  // namespace dotpose::cli

@@ -1,0 +1,45 @@
+/// Path of a robot from stored states, for a drawing.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "draw/track_map.hpp"
+#include "fleet_report.hpp"
+#include "store/database.hpp"
+
+namespace dotpose::cli {
+
+class HistoryPath {
+  public:
+    /// `map` contains the sheets to draw. Without sheets, the first map of the robot is drawn.
+    explicit HistoryPath(FleetMap map) : map_(std::move(map)) {}
+
+    /// Adds a state. The states must be in the order of their times.
+    void add(const store::State& state);
+
+    /// Returns the map with the path, and with notes about the time span and states on other maps.
+    draw::Map drawing() const;
+
+  private:
+    /// Maximum number of points. If there are more, every other point is removed.
+    static constexpr std::size_t kMaxPoints = 20'000;
+
+    void thin_out();
+
+    FleetMap map_;
+    std::string robot_;
+    std::string map_id_;
+    std::int64_t first_us_ = 0;
+    std::int64_t last_us_ = 0;
+    bool begins_stroke_ = true;
+    std::vector<std::vector<draw::Point>> strokes_mm_;
+    std::size_t points_ = 0;
+    double step_mm_ = 0.1;                          ///< minimum distance between two points
+    store::State newest_;                           ///< newest state with a place on the map
+    std::map<std::string, std::size_t> elsewhere_;  ///< states on other maps
+};
+
+}  // namespace dotpose::cli

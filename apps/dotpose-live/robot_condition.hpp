@@ -1,0 +1,43 @@
+/// Conditions of the robots of a fleet, for operators.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "publish/mqtt.hpp"
+#include "state_message.hpp"
+
+namespace dotpose::cli {
+
+enum class Condition {
+    moving,
+    still,
+    lost,    ///< the robot does not know its pose, for example because it sees no pattern
+    silent,  ///< no message for some time, or the connection broke
+    gone,    ///< no message for a long time, or the robot disconnected
+};
+inline constexpr int kConditionCount = 5;
+
+/// Returns the identifier of a condition, such as "moving".
+std::string_view name_of(Condition condition);
+
+/// Returns true if the robot knows its pose.
+inline bool is_fine(Condition condition) {
+    return condition == Condition::moving || condition == Condition::still;
+}
+
+struct ConditionLimits {
+    std::int64_t silent_after_us = 5'000'000;
+    std::int64_t gone_after_us = 60'000'000;  ///< at least `silent_after_us`
+};
+
+/// Returns the condition of a robot with this newest state and connection, of which nothing was
+/// received for `silence_us`.
+Condition condition_of(const RobotState& newest, publish::Presence presence,
+                       std::int64_t silence_us, const ConditionLimits& limits);
+
+/// Returns the reason of a condition in a few words, or an empty string if there is none.
+std::string reason_of(Condition condition, const RobotState& newest, publish::Presence presence);
+
+}  // namespace dotpose::cli

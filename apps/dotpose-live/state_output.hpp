@@ -1,0 +1,53 @@
+/// Publishes the readings of `dotpose watch` and `dotpose listen` through a broker.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "mqtt_arguments.hpp"
+#include "publish/mqtt.hpp"
+#include "reading_sink.hpp"
+#include "state_message.hpp"
+
+namespace dotpose::cli {
+
+/// Counts the frames of the camera for the reports that the states contain.
+class CameraCounter {
+  public:
+    void count(const Reading& reading);
+
+    /// Returns a report if the newest frame is at least a second later than the previous report.
+    std::optional<CameraReport> take_report();
+
+  private:
+    CameraReport total_;
+    std::int64_t newest_us_ = 0;
+    std::int64_t reported_us_ = 0;
+    std::uint64_t reported_frames_ = 0;
+};
+
+/// Publishes the state of the robot through a broker.
+class StateOutput : public ReadingSink {
+  public:
+    /// `sheets` is the path of the sheet file, whose name is the map of poses in the world. Throws
+    /// Error if the broker refuses the connection.
+    StateOutput(const PublishArguments& arguments, const std::string& sheets);
+
+    void take(const Reading& reading) override;
+
+    /// Waits up to 2 s until all messages are sent, and reports the number of sent messages. Throws
+    /// Error if no connection to the broker was established.
+    void finish() override;
+
+  private:
+    std::string robot_;
+    std::string world_map_;
+    std::int64_t period_us_;
+    std::int64_t next_us_;
+    std::uint64_t messages_ = 0;
+    CameraCounter camera_;
+    publish::MqttPublisher publisher_;
+};
+
+}  // namespace dotpose::cli

@@ -1,0 +1,30 @@
+/// Command-line options for the MQTT broker, shared by `watch`, `listen` and `fleet`.
+#pragma once
+
+#include <string>
+
+#include "command_line.hpp"
+
+namespace dotpose::cli {
+
+struct MqttArguments {
+    std::string url;  ///< empty: no broker
+    std::string ca_file;
+    int qos = 0;
+
+    /// Adds --mqtt, --mqtt-ca and --qos.
+    void add_to(Command& command);
+};
+
+/// Options of commands that publish the states of a robot.
+struct PublishArguments {
+    MqttArguments mqtt;
+    std::string robot = "robot";  ///< name of the robot on the broker and in ROS
+    /// Maximum number of messages per second, excluding events. If 0, sends one message per frame.
+    double max_rate_hz = 0;
+
+    /// Adds the options of MqttArguments, --robot and --mqtt-rate. `robot_help` describes --robot.
+    void add_to(Command& command, const std::string& robot_help);
+};
+
+}  // namespace dotpose::cli

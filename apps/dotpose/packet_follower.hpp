@@ -1,0 +1,43 @@
+/// Follows a robot by the pose packets of its device.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "dotpose/files/sheet_file.hpp"
+#include "dotpose/pose_packet.hpp"
+#include "dotpose/track.hpp"
+#include "reading.hpp"
+
+namespace dotpose::cli {
+
+class PacketFollower {
+  public:
+    /// Without sheets, the robot is followed in the pattern frame, and `spacing_mm` is the spacing
+    /// of the pattern.
+    PacketFollower(std::vector<SheetEntry> sheets, double spacing_mm);
+
+    bool has_sheets() const { return !sheets_.empty(); }
+
+    /// Returns what a packet contains, with its place on the sheets.
+    Record record_of(const PosePacket& packet) const;
+
+    /// Updates the track. Returns none if the packet was repeated or is older than the newest
+    /// packet. The times of the readings begin at 0 and increase, also when the clock of the device
+    /// wraps or the device is restarted.
+    std::optional<Reading> follow(const PosePacket& packet);
+
+  private:
+    bool advance(const PosePacket& packet);
+
+    std::vector<SheetEntry> sheets_;
+    double spacing_mm_;
+    bool is_in_world_;
+    Tracker tracker_;
+    std::optional<PosePacket> newest_;
+    std::int64_t time_us_ = 0;
+    std::int64_t readings_ = 0;
+};
+
+}  // namespace dotpose::cli

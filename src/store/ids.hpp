@@ -1,0 +1,34 @@
+// Numbers of robots and places in a database.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+
+#include "store/database.hpp"
+
+namespace dotpose::store {
+
+/// Remembers numbers that were looked up. The memory is bounded, because anyone who can publish can
+/// invent names.
+template <typename Key>
+class Ids {
+  public:
+    /// Returns the number of a key. `look_up(key)` returns it if it is not remembered.
+    template <typename LookUp>
+    std::int64_t of(const Key& key, const LookUp& look_up) {
+        const auto known = ids_.find(key);
+        if (known != ids_.end()) return known->second;
+        const std::int64_t id = look_up(key);
+        if (ids_.size() == kMax) ids_.clear();
+        ids_.emplace(key, id);
+        return id;
+    }
+    void clear() { ids_.clear(); }
+
+  private:
+    static constexpr std::size_t kMax = 20'000;
+    std::map<Key, std::int64_t> ids_;
+};
+
+}  // namespace dotpose::store

@@ -1,0 +1,25 @@
+// Rows in the binary format of COPY, which needs no quoting.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "store/database.hpp"
+
+namespace dotpose::store {
+
+class CopyRows {
+  public:
+    CopyRows();
+    void add(const State& state, std::int64_t robot_id, std::int64_t place_id);
+    /// Returns the complete data. No row can be added afterwards.
+    const std::string& finish();
+
+  private:
+    void add_integer(std::int64_t value, std::size_t bytes);
+    void add_text(std::string_view text);
+
+    std::string data_;
+};
+
+}  // namespace dotpose::store

@@ -1,0 +1,79 @@
+// Writes states to a database in the background, and keeps them in memory while the database is
+// away.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "store/database.hpp"
+
+namespace dotpose::store {
+
+struct QueueOptions {
+    /// Maximum number of states that wait. If there are more, the oldest are dropped. A state takes
+    /// 96 bytes.
+    std::size_t max_states = 1'000'000;
+    /// Time between two transactions. PostgreSQL stores the states of a transaction together,
+    /// sorted by robot, so a longer time makes it faster to read the history of a robot.
+    std::chrono::milliseconds period{5000};
+    int keep_days = 0;  ///< days before are removed; 0: all days are kept
+    /// Called with messages for the user, for example that the database is away. May be called by
+    /// another thread.
+    std::function<void(const std::string&)> tell = [](const std::string&) {};
+};
+
+struct QueueStatus {
+    std::int64_t stored = 0;
+    std::int64_t waiting = 0;
+    std::int64_t dropped = 0;
+    bool is_away = false;  ///< true if the newest transaction failed
+};
+
+class Queue {
+  public:
+    /// Creates the tables. Throws Error if the database is a file and cannot be opened. A server
+    /// that is away is waited for.
+    Queue(std::unique_ptr<Database> database, bool is_on_server, QueueOptions options);
+    ~Queue();
+    Queue(const Queue&) = delete;
+    Queue& operator=(const Queue&) = delete;
+
+    /// Adds a state. Does not block. Thread-safe.
+    void push(State state);
+
+    QueueStatus status() const;
+
+    /// Writes the waiting states, but gives up if the database is away for longer than `patience`.
+    /// No state may be added afterwards. Returns false if states were not stored.
+    bool finish(std::chrono::milliseconds patience);
+
+  private:
+    void run();
+    bool take_batch();
+    bool try_to_write();
+    void remove_old_days();
+    void report_failure(const Error& error);
+
+    std::unique_ptr<Database> database_;
+    QueueOptions options_;
+    std::vector<State> batch_;    ///< states of the current transaction; used by `thread_` only
+    std::int64_t kept_from_ = 0;  ///< first day that was kept when old days were last removed
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<State> waiting_;
+    QueueStatus status_;
+    bool ends_ = false;
+    std::chrono::steady_clock::time_point ends_by_;
+    std::thread thread_;
+};
+
+}  // namespace dotpose::store
