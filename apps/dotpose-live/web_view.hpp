@@ -20,10 +20,10 @@ namespace dotpose::cli {
 
 struct WebOptions {
     serve::ServerOptions server;
-    std::string source;            ///< description of the source of the frames
-    std::string recordings = ".";  ///< folder of the recordings that are started in the page
-    std::string log;               ///< log of the run; empty if there is none
-    RobotOutputOptions messages;   ///< robot of the recordings
+    std::vector<std::string> sources;  ///< names of the sources of the frames
+    std::string recordings = ".";      ///< folder of the recordings that are started in the page
+    std::string log;                   ///< log of the run; empty if there is none
+    RobotOutputOptions messages;       ///< robot of the recordings
 };
 
 /// What the source reports.
