@@ -10,7 +10,6 @@
 
 #include "dotpose/tools/grey_image.hpp"
 #include "image_copy.hpp"
-#include "picture_advice.hpp"
 #include "reading_fields.hpp"
 #include "serve/frame_message.hpp"
 #include "terminal_text.hpp"
@@ -73,7 +72,8 @@ WebView::WebView(WebOptions options, const Follower& follower)
       state_(server_.add_topic("state", serve::Format::text)),
       history_topic_(server_.add_topic("history", serve::Format::text)),
       path_topic_(server_.add_topic("path", serve::Format::text)),
-      advice_(server_.add_topic("advice", serve::Format::text)) {
+      advice_(server_.add_topic("advice", serve::Format::text)),
+      adviser_([this](const std::string& reason) { publish_reason(reason); }) {
     server_.start();
     // A pipe has one reader, which is not the page.
     if (!std::filesystem::is_regular_file(options_.log)) options_.log.clear();
@@ -206,20 +206,18 @@ void WebView::publish_path(const PathMemory& path) {
     server_.publish(path_topic_, [text] { return dump(text); });
 }
 
-/// The advice takes up to a second, so the thread of the server computes it.
 void WebView::publish_advice(const Reading& reading, const SourceState& source) {
     if (reading.record.fix.status == Status::ok) {
-        server_.publish(advice_, [] { return std::string(R"({"reason":""})"); });
+        publish_reason({});
         return;
     }
     const PictureFacts facts{reading.record.fix.status, follower_.used_options(),
                              reading.record.code_is_given, source.bits_per_px};
-    const auto image = std::make_shared<const GreyImage>(copy_of(follower_.image()));
-    server_.publish(advice_, [image, facts, record = reading.record]() mutable {
-        const auto scratch = std::make_unique<LargeMemory>();
-        record.advice = advice_on(image->view(), facts, *scratch);
-        return dump({{"reason", reason(record)}});
-    });
+    adviser_.ask({copy_of(follower_.image()), facts, reading.record});
+}
+
+void WebView::publish_reason(const std::string& reason) {
+    server_.publish(advice_, [text = dump({{"reason", reason}})] { return text; });
 }
 
 void WebView::obey() {
