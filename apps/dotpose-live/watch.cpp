@@ -245,8 +245,8 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
 std::optional<WebOptions> web_options(const WatchArguments& arguments) {
     const auto server = arguments.web.options();
     if (!server) return std::nullopt;
-    return WebOptions{*server, fmt::format("{}", fmt::join(arguments.sources.names, " ")),
-                      arguments.web_recordings, arguments.outputs.log, arguments.outputs.messages};
+    return WebOptions{*server, arguments.sources.names, arguments.web_recordings,
+                      arguments.outputs.log, arguments.outputs.messages};
 }
 
 void print_cameras() {

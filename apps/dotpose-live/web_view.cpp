@@ -1,13 +1,15 @@
 #include "web_view.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "dotpose/tools/grey_image.hpp"
 #include "image_copy.hpp"
-#include "picture_advice.hpp"
 #include "reading_fields.hpp"
 #include "serve/frame_message.hpp"
 #include "terminal_text.hpp"
@@ -32,6 +34,24 @@ std::string dump(const json& value) {
     return value.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
+/// Removes user and password from the URL of a camera.
+std::string without_user(const std::string& source) {
+    const std::size_t scheme = source.find("://");
+    if (scheme == std::string::npos) return source;
+    const std::size_t begin = scheme + 3;
+    const std::string_view host = std::string_view(source).substr(0, source.find('/', begin));
+    const std::size_t at = host.rfind('@');
+    if (at == std::string_view::npos) return source;
+    return source.substr(0, begin) + source.substr(at + 1);
+}
+
+std::string text_of(const std::vector<std::string>& sources) {
+    std::string text;
+    for (const std::string& source : sources)
+        text += (text.empty() ? "" : " ") + without_user(source);
+    return text;
+}
+
 serve::ServerOptions with_pages(serve::ServerOptions options) {
     options.pages = live_pages();
     return options;
@@ -52,8 +72,11 @@ WebView::WebView(WebOptions options, const Follower& follower)
       state_(server_.add_topic("state", serve::Format::text)),
       history_topic_(server_.add_topic("history", serve::Format::text)),
       path_topic_(server_.add_topic("path", serve::Format::text)),
-      advice_(server_.add_topic("advice", serve::Format::text)) {
+      advice_(server_.add_topic("advice", serve::Format::text)),
+      adviser_([this](const std::string& reason) { publish_reason(reason); }) {
     server_.start();
+    // A pipe has one reader, which is not the page.
+    if (!std::filesystem::is_regular_file(options_.log)) options_.log.clear();
     if (!options_.log.empty()) {
         server_.set_route("/log.csv", [log = options_.log] {
             return serve::Answer{.type = "text/csv", .file = log, .download = "log.csv"};
@@ -72,7 +95,7 @@ void WebView::publish_setup() {
         sheets.push_back({{"name", sheet.name}, {"corners_mm", std::move(corners)}});
     }
     const json setup = {{"robot", options_.messages.robot},
-                        {"source", options_.source},
+                        {"source", text_of(options_.sources)},
                         {"plane", follower_.is_in_world() ? "world" : "pattern"},
                         {"sheets", std::move(sheets)},
                         {"log", options_.log.empty() ? json(nullptr) : json("/log.csv")}};
@@ -183,20 +206,18 @@ void WebView::publish_path(const PathMemory& path) {
     server_.publish(path_topic_, [text] { return dump(text); });
 }
 
-/// The advice takes up to a second, so the thread of the server computes it.
 void WebView::publish_advice(const Reading& reading, const SourceState& source) {
     if (reading.record.fix.status == Status::ok) {
-        server_.publish(advice_, [] { return std::string(R"({"reason":""})"); });
+        publish_reason({});
         return;
     }
     const PictureFacts facts{reading.record.fix.status, follower_.used_options(),
                              reading.record.code_is_given, source.bits_per_px};
-    const auto image = std::make_shared<const GreyImage>(copy_of(follower_.image()));
-    server_.publish(advice_, [image, facts, record = reading.record]() mutable {
-        const auto scratch = std::make_unique<LargeMemory>();
-        record.advice = advice_on(image->view(), facts, *scratch);
-        return dump({{"reason", reason(record)}});
-    });
+    adviser_.ask({copy_of(follower_.image()), facts, reading.record});
+}
+
+void WebView::publish_reason(const std::string& reason) {
+    server_.publish(advice_, [text = dump({{"reason", reason}})] { return text; });
 }
 
 void WebView::obey() {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "advice_worker.hpp"
 #include "dotpose/tools/follower.hpp"
 #include "draw/track_map.hpp"
 #include "path_memory.hpp"
@@ -20,10 +21,10 @@ namespace dotpose::cli {
 
 struct WebOptions {
     serve::ServerOptions server;
-    std::string source;            ///< description of the source of the frames
-    std::string recordings = ".";  ///< folder of the recordings that are started in the page
-    std::string log;               ///< log of the run; empty if there is none
-    RobotOutputOptions messages;   ///< robot of the recordings
+    std::vector<std::string> sources;  ///< names of the sources of the frames
+    std::string recordings = ".";      ///< folder of the recordings that are started in the page
+    std::string log;                   ///< log of the run; empty if there is none
+    RobotOutputOptions messages;       ///< robot of the recordings
 };
 
 /// What the source reports.
@@ -58,6 +59,7 @@ class WebView {
     void publish_state(const Reading& reading, const SourceState& source);
     void publish_history();
     void publish_path(const PathMemory& path);
+    void publish_reason(const std::string& reason);
     void publish_advice(const Reading& reading, const SourceState& source);
     void obey();
     void offer_recordings();
@@ -87,7 +89,7 @@ class WebView {
     Timer path_timer_;
     Timer advice_timer_;
 
-    serve::Server server_;  ///< destroyed first, because its thread uses the other members
+    serve::Server server_;
     serve::Topic& setup_;
     serve::Topic& frame_;
     serve::Topic& small_frame_;
@@ -95,6 +97,7 @@ class WebView {
     serve::Topic& history_topic_;
     serve::Topic& path_topic_;
     serve::Topic& advice_;
+    AdviceWorker adviser_;  ///< destroyed before the server, to which its thread publishes
 };
 
 }  // namespace dotpose::cli

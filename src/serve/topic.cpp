@@ -1,8 +1,21 @@
 #include "serve/topic.hpp"
 
+#include <exception>
 #include <utility>
 
 namespace dotpose::serve {
+namespace {
+
+/// Returns an empty value if the encoder fails, because the other topics must go on.
+std::string encoded(const Topic::Encode& encode) {
+    try {
+        return encode();
+    } catch (const std::exception&) {
+        return {};
+    }
+}
+
+}  // namespace
 
 void Topic::publish(Encode encode) {
     const std::lock_guard lock(mutex_);
@@ -26,7 +39,7 @@ std::shared_ptr<const std::string> Topic::message(std::uint64_t& version) {
         if (encode) message_version_ = version_;
     }
     // Only the server's thread uses the message, so the program may publish while it is encoded.
-    if (encode) message_ = std::make_shared<const std::string>(name_ + '\n' + encode());
+    if (encode) message_ = std::make_shared<const std::string>(name_ + '\n' + encoded(encode));
     version = message_version_;
     return message_;
 }

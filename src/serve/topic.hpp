@@ -28,7 +28,7 @@ class Topic {
     bool is_wanted() const { return ready_clients_.load(std::memory_order_relaxed) > 0; }
 
     /// Replaces the value. The server calls `encode` on its own thread, at most once, when the
-    /// first client is ready. `encode` must not throw.
+    /// first client is ready. If `encode` throws, the value is empty.
     void publish(Encode encode);
 
     // Functions for the thread of the server.

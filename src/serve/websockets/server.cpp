@@ -1,14 +1,12 @@
 #include "serve/server.hpp"
 
 #include <array>
-#include <csignal>
-#include <cstring>
 #include <utility>
 
 #include <fmt/core.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
+#include "serve/background_thread.hpp"
 #include "serve/limits.hpp"
 #include "serve/websockets/service.hpp"
 
@@ -36,15 +34,6 @@ constexpr std::array<std::pair<const char*, const char*>, kSecurityHeaders> kHea
 
 constexpr lws_usec_t kMaxHead_us = lws_usec_t{kHeadTimeout_s} * LWS_USEC_PER_SEC;
 constexpr int kUnhandled = -2;  ///< result of `handle` for events that it does not handle
-
-/// Signals are for the main thread, and frames are more urgent than the page.
-void set_up_thread() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_BLOCK, &all, nullptr);
-    constexpr int kNiceness = 5;
-    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
-}
 
 }  // namespace
 
@@ -101,7 +90,7 @@ void Server::Service::start() {
     options_.address.port = static_cast<std::uint16_t>(lws_get_vhost_listen_port(vhost));
     access_.emplace(options_.address, options_.token, hostname());
     thread_ = std::thread([this] {
-        set_up_thread();
+        run_in_background();
         while (!stops_ && lws_service(context_, 0) >= 0) {
         }
     });

@@ -115,6 +115,7 @@ std::string packets() {
 }  // namespace
 
 std::vector<TextSeed> text_seeds() {
+    const std::string token = "0123456789abcdef0123456789abcdef";
     return {{"overlay/document.pdf", document()},
             {"overlay/blank.pdf",
              pdf({"<< /Type /Catalog /Pages 2 0 R >>", "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
@@ -126,7 +127,13 @@ std::vector<TextSeed> text_seeds() {
             {"list/names", "a.pgm\n\nb c.png\r\nlast"},
             {"fleet/states", kStates},
             {"command_line/command", kOptions},
-            {"packet/packets", packets()}};
+            {"packet/packets", packets()},
+            {"web_request/record", R"({"do": "record", "on": true})"},
+            {"web_request/subscribe", R"({"do": "subscribe", "topic": "state", "n": -1.5e3})"},
+            {"web_request/loopback", "localhost:8080\nhttp://localhost:8080\n\n\n"},
+            {"web_request/cookie", "192.168.1.5:8080\n\na=b; dotpose-8080=" + token + "\n\n"},
+            {"web_request/bearer", "[fe80::1]:8080\n\n\nBearer " + token + "\n"},
+            {"web_request/url", "robot.local\n\n\n\n" + token}};
 }
 
 }  // namespace dotpose::fuzz

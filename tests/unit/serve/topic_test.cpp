@@ -1,5 +1,8 @@
 #include "serve/topic.hpp"
 
+#include <stdexcept>
+#include <string>
+
 #include <gtest/gtest.h>
 
 namespace dotpose::serve {
@@ -30,6 +33,14 @@ TEST(Topic, MessageStaysValidAfterThePublicationOfTheNext) {
     EXPECT_EQ(*topic.message(version), "frame\nnew");
     EXPECT_EQ(version, 2U);
     EXPECT_EQ(*old, "frame\nold");
+}
+
+TEST(Topic, ValueIsEmptyIfItsEncoderFails) {
+    Topic topic("frame", true);
+    topic.publish([]() -> std::string { throw std::runtime_error("no memory"); });
+    std::uint64_t version = 0;
+    EXPECT_EQ(*topic.message(version), "frame\n");
+    EXPECT_EQ(version, 1U);
 }
 
 TEST(Topic, IsWantedUntilTheNextPublication) {

@@ -19,6 +19,8 @@ const refusals = new Refusals();
 const recorder = new Recorder(connection);
 const picture = new Picture(connection);
 let setup: Setup | null = null;
+/** Why a frame was refused, and what to change; empty if that is not known. */
+let reason = "";
 
 function showSetup(value: Setup): void {
     setup = value;
@@ -32,17 +34,23 @@ function takeState(state: State): void {
     showState(state, setup);
     map.takeLine(state.line);
     recorder.take(state);
+    showResult(state.line.status);
     const place = placeOf(state.line, setup);
     announce(place ? `x ${place.x_mm.toFixed(1)}, y ${place.y_mm.toFixed(1)} mm` : "lost");
 }
 
-function showAdvice({ reason }: Advice): void {
-    const box = element("live-advice", HTMLElement);
-    show({ "live-advice": reason === "" ? "The newest frame was located." : `Refused: ${reason}.` });
-    box.classList.toggle("good", reason === "");
+/**
+ * Shows whether the newest frame was located. The reason of a refusal takes the program some time;
+ * until it arrives, the name of the status is shown.
+ */
+function showResult(status: string): void {
+    const is_good = status === "ok";
+    const refusal = reason === "" ? `${status.replaceAll("_", " ")}. Looking for the reason …` : `${reason}.`;
+    show({ "live-advice": is_good ? "The newest frame was located." : `Refused: ${refusal}` });
+    element("live-advice", HTMLElement).classList.toggle("good", is_good);
 }
 
-function subscribe<T>(topic: string, take: (value: T) => void): void {
+function subscribe<T>(topic: string, take: (value: T) => unknown): void {
     connection.subscribe(topic, async (value: Values) => {
         take(JSON.parse(value as string) as T);
         await new Promise(requestAnimationFrame);
@@ -53,7 +61,7 @@ subscribe<Setup>("setup", showSetup);
 subscribe<State>("state", takeState);
 subscribe<History>("history", (history) => refusals.take(history));
 subscribe<Path>("path", (path) => map.takePath(path));
-subscribe<Advice>("advice", showAdvice);
+subscribe<Advice>("advice", (advice) => (reason = advice.reason));
 connection.open();
 
 function redraw(): void {

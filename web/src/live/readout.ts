@@ -42,11 +42,12 @@ function number(value: number | null | undefined, format: (value: number) => str
 
 export function showState({ line, ...run }: State, setup: Setup | null): void {
     const place = placeOf(line, setup);
+    const frame = place ? ` (${place.frame})` : "";
     const speed = line.vx_mm_s == null ? null : Math.hypot(line.vx_mm_s, line.vy_mm_s!);
     element("live-readout", HTMLElement).classList.toggle("lost", place === null);
     show({
-        "live-x-name": `x ${place ? `(${place.frame})` : ""}, mm`,
-        "live-y-name": `y ${place ? `(${place.frame})` : ""}, mm`,
+        "live-x-name": `x${frame}, mm`,
+        "live-y-name": `y${frame}, mm`,
         "live-x": place ? grouped(place.x_mm) : kNothing,
         "live-y": place ? grouped(place.y_mm) : kNothing,
         "live-angle": place ? `${place.angle_deg.toFixed(2)}°` : kNothing,

@@ -1,0 +1,50 @@
+/// Finds out why a frame was refused, on a thread of its own, because the search takes up to a
+/// second.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "dotpose/memory.hpp"
+#include "dotpose/tools/grey_image.hpp"
+#include "locate_record.hpp"
+#include "picture_advice.hpp"
+
+namespace dotpose::cli {
+
+class AdviceWorker {
+  public:
+    /// A refused frame.
+    struct Job {
+        GreyImage image;
+        PictureFacts facts;
+        Record record;
+    };
+
+    /// `take` is called on the thread with the reason and the advice for a frame (`reason` in
+    /// locate_record.hpp).
+    explicit AdviceWorker(std::function<void(const std::string&)> take);
+    /// Waits for the end of the current search.
+    ~AdviceWorker();
+    AdviceWorker(const AdviceWorker&) = delete;
+    AdviceWorker& operator=(const AdviceWorker&) = delete;
+
+    /// Searches for the reason of a refusal. A waiting job is replaced.
+    void ask(Job job);
+
+  private:
+    void run();
+
+    std::function<void(const std::string&)> take_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::optional<Job> waiting_;
+    bool stops_ = false;
+    std::thread thread_;
+};
+
+}  // namespace dotpose::cli
