@@ -137,7 +137,7 @@ Minimum minimum_from(const SpaceState& start, const std::vector<WeightedDot>& do
 /// are estimated from the median.
 std::vector<WeightedDot> inliers(const SpaceState& state, const std::vector<WeightedDot>& dots,
                                  const Vector2d& focal_px) {
-    constexpr double kOutlier_sigmas = 4;
+    constexpr double kMaxResidual_sigmas = 4;
     std::vector<double> squares;
     for (const auto& [dot, whitening] : dots)
         squares.push_back((whitening * predict(state, dot, focal_px).residual_px).squaredNorm());
@@ -145,7 +145,7 @@ std::vector<WeightedDot> inliers(const SpaceState& state, const std::vector<Weig
     const auto median = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::ranges::nth_element(sorted, median);
     // The median of the squared length of a two-dimensional Gaussian vector is 1.386 sigma^2.
-    const double limit = kOutlier_sigmas * kOutlier_sigmas * *median / 1.386;
+    const double limit = kMaxResidual_sigmas * kMaxResidual_sigmas * *median / 1.386;
     std::vector<WeightedDot> kept;
     for (std::size_t i = 0; i < dots.size(); ++i) {
         if (squares[i] <= limit) kept.push_back(dots[i]);

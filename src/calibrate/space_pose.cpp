@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "calibrate/dots_in_view.hpp"
 #include "calibrate/located_frame.hpp"
 #include "calibrate/space_fit.hpp"
 
@@ -31,16 +32,21 @@ Quaternion quaternion_of(Quaterniond q) {
     return {q.w(), q.x(), q.y(), q.z()};
 }
 
-/// Dots for the fit, in mm from the intersection `step` (0, 0) of the trace.
-std::vector<SpaceDot> space_dots(const Trace& trace, const Pinhole& pinhole, double x_mm,
-                                 double y_mm) {
-    std::vector<SpaceDot> result;
-    for (const LocatedDot& dot : dots_read(trace)) {
-        result.push_back({{dot.pixel.u - pinhole.centre_px.u, dot.pixel.v - pinhole.centre_px.v},
-                          {x_mm * dot.step.x, y_mm * dot.step.y},
-                          {x_mm * dx(dot.symbol), y_mm * dy(dot.symbol)}});
-    }
-    return result;
+/// Fits the pose to the dots that `locate` read, and then to all dots that this pose predicts.
+/// Places are in mm from the place of the trace.
+std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& view,
+                                     const Trace& trace) {
+    std::vector<SpaceDot> read;
+    for (const LocatedDot& dot : dots_read(trace))
+        read.push_back(space_dot(view, dot.step, dot.symbol, dot.pixel));
+    if (read.size() < kMinSpaceDots) return std::nullopt;
+    const Eigen::Vector2d focal_px(view.pinhole.focal_u_px, view.pinhole.focal_v_px);
+    const auto first = fit_space(read, focal_px);
+    if (!first) return std::nullopt;
+    const std::vector<SpaceDot> all = dots_in_view(image, view, trace, first->state);
+    // The dots cannot be measured if they are small in the image.
+    if (2 * all.size() < read.size()) return first;
+    return fit_space(all, focal_px);
 }
 
 CameraInSpace camera_of(const SpaceState& state, const Vector3d& origin_mm) {
@@ -67,16 +73,13 @@ void require_focal_length(const Camera& camera) {
         "which the camera is tilted by 10 to 30 degrees in different directions");
 }
 
-std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const Trace& trace,
-                                    const AxisScale& print) {
+std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const ImageView& image,
+                                    const Trace& trace, const AxisScale& print) {
     require_focal_length(camera);
     if (fix.status != Status::ok || fix.spacing_nm <= 0) return std::nullopt;
-    const Pinhole pinhole = *pinhole_of(camera);
     const double x_mm = fix.spacing_mm() * print.x;
     const double y_mm = fix.spacing_mm() * print.y;
-    const auto dots = space_dots(trace, pinhole, x_mm, y_mm);
-    if (dots.size() < kMinSpaceDots) return std::nullopt;
-    const auto fit = fit_space(dots, {pinhole.focal_u_px, pinhole.focal_v_px});
+    const auto fit = fit_to_image(image, {camera, *pinhole_of(camera), {x_mm, y_mm}}, trace);
     if (!fit) return std::nullopt;
     const Cell start = trace.decoding.place.cell;
     const Vector3d origin_mm(x_mm * start.x, y_mm * start.y, 0);

@@ -89,7 +89,7 @@ std::optional<SpacePose> Follower::space_of(const Fix& seen,
                                             const std::optional<SheetPlace>& place) const {
     if (!options_.fits_space_pose) return std::nullopt;
     const AxisScale print = place ? place->entry->print_scale() : AxisScale{};
-    return space_pose(with_spacing(seen, place), *options_.camera, locator_.trace(), print);
+    return space_pose(with_spacing(seen, place), *options_.camera, image_, locator_.trace(), print);
 }
 
 double Follower::spacing_mm(const std::optional<SheetPlace>& place) const {

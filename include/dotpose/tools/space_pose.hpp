@@ -2,10 +2,10 @@
 /// camera file must contain the focal length.
 ///
 ///     use_camera(camera, image.width_px, image.height_px, options);
-///     options.show_stages = true;  // space_pose fits the dots in the trace
+///     options.show_stages = true;  // space_pose uses the dots in the trace
 ///     locator.set_options(options);
 ///     const Fix fix = locator.locate(image);
-///     const auto pose = space_pose(fix, camera, locator.trace());
+///     const auto pose = space_pose(fix, camera, image, locator.trace());
 ///     if (pose && !pose->is_ambiguous()) use(pose->camera.z_mm, lean_of(pose->camera.rotation));
 ///
 /// Coordinate frames, all right-handed:
@@ -26,6 +26,7 @@
 #include "dotpose/files/camera.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/fix.hpp"
+#include "dotpose/image.hpp"
 #include "dotpose/trace.hpp"
 
 DOTPOSE_BEGIN_EXPORT
@@ -98,14 +99,16 @@ struct SpacePose {
 /// Throws BadArgument unless the camera file contains the focal length.
 void require_focal_length(const Camera& camera);
 
-/// Fits position and rotation of `camera` to the dots in the trace of `fix` by maximum likelihood.
-/// The lens is that of the camera. The errors of the dots are errors of their print, which a tilted
-/// view foreshortens, and errors of their centres in the image; both variances are estimated from
-/// the residuals. Dots with residuals above four standard deviations are not used. `print` is the
-/// print scale of the sheet. Returns none without a fix, without a known spacing (`Fix::spacing_nm`
-/// is 0), or with fewer than 12 dots. Throws BadArgument as `require_focal_length` does.
-std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const Trace& trace,
-                                    const AxisScale& print = {});
+/// Fits position and rotation of `camera` to all dots of `image` by maximum likelihood. The dots in
+/// the trace of `fix` give a first pose, which predicts all dots in view: also those at the border
+/// of the image and those far from a tilted camera. They are measured again. The errors of the dots
+/// are errors of their print, which a tilted view foreshortens, and errors of their centres in the
+/// image; both variances are estimated from the residuals. Dots with residuals above four standard
+/// deviations are not used. `print` is the print scale of the sheet. Returns none without a fix,
+/// without a known spacing (`Fix::spacing_nm` is 0), or with fewer than 12 dots. Throws BadArgument
+/// as `require_focal_length` does.
+std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const ImageView& image,
+                                    const Trace& trace, const AxisScale& print = {});
 
 /// Converts a pose from the pattern frame to the frame of a sheet. The rotation and its covariance
 /// are equal in both frames.

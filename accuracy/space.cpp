@@ -1,0 +1,177 @@
+// Measures the errors of poses in space (docs/pose-in-space.md) against the truth and the
+// Cramer-Rao bound. Prints a table in Markdown.
+//
+//   dotpose_tables space [--frames N] [--seed S] [--threads N] [--tilts D,...]
+//
+// The exit status is 1 if a pose that is not reported as ambiguous is wrong.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <fmt/core.h>
+
+#include "calibration.hpp"
+#include "space_opencv.hpp"
+#include "space_view.hpp"
+#include "tables.hpp"
+
+namespace dotpose::tables {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180;
+/// Print jitter of the preset `nominal`.
+constexpr double kJitter_mm = 0.010;
+/// Normalised squared error of the six coordinates above which a pose is wrong. By chance, a
+/// correct pose exceeds it once in 10^19.
+constexpr double kWrong = 100;
+
+/// Errors of one method. Errors are relative to the bound.
+struct SpaceErrors {
+    std::array<Errors, 6> coordinates;
+    Errors all;  ///< sum of the normalised squared errors of the six coordinates
+
+    SpaceErrors& operator+=(const SpaceErrors& other) {
+        for (std::size_t i = 0; i < coordinates.size(); ++i)
+            coordinates[i] += other.coordinates[i];
+        all += other.all;
+        return *this;
+    }
+};
+
+struct SpaceTally {
+    std::uint64_t frames = 0;
+    std::uint64_t located = 0;
+    std::uint64_t wrong = 0;
+    std::uint64_t ambiguous = 0;
+    std::uint64_t second = 0;  ///< frames with a second solution, excluded or not
+    SpaceErrors ours;
+    SpaceErrors opencv;
+    std::array<Errors, 6> sizes;  ///< errors in mm and rad
+
+    void operator+=(const SpaceTally& other) {
+        frames += other.frames;
+        located += other.located;
+        wrong += other.wrong;
+        ambiguous += other.ambiguous;
+        second += other.second;
+        ours += other.ours;
+        opencv += other.opencv;
+        for (std::size_t i = 0; i < sizes.size(); ++i)
+            sizes[i] += other.sizes[i];
+    }
+};
+
+/// Returns frame `index` of a camera with 640 x 480 px, tilted in any direction.
+Shot shot_at(double tilt_deg, std::uint64_t seed, std::uint64_t index) {
+    Setup setup;
+    setup.camera.width_px = 640;
+    setup.camera.height_px = 480;
+    setup.camera.k = -0.7e-6;
+    setup.camera.working_distance_mm = 30;
+    setup.seed = seed;
+    Shot shot = draw_shot(setup, index);
+    Rng rng(shot.seed, 1);
+    const double azimuth_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
+    const double tilt_rad = tilt_deg * kDegree_rad;
+    // The normal of the paper leans by the tilt in the direction of the azimuth.
+    shot.pose.tilt_y_rad = std::asin(std::sin(tilt_rad) * std::cos(azimuth_rad));
+    shot.pose.tilt_x_rad =
+        std::atan2(std::sin(tilt_rad) * std::sin(azimuth_rad), std::cos(tilt_rad));
+    return shot;
+}
+
+void add(const SpaceVector& error, const SpaceMatrix& covariance, const SpaceMatrix& bound,
+         SpaceErrors& errors) {
+    for (Eigen::Index i = 0; i < 6; ++i) {
+        errors.coordinates[static_cast<std::size_t>(i)].add(
+            error[i] / std::sqrt(bound(i, i)), std::sqrt(covariance(i, i) / bound(i, i)));
+    }
+    errors.all.add(std::sqrt(error.dot(covariance.ldlt().solve(error))), 1);
+}
+
+SpaceMatrix matrix_of(const SpaceCovariance& covariance) {
+    SpaceMatrix result;
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t j = 0; j < 6; ++j)
+            result(Eigen::Index(i), Eigen::Index(j)) = covariance[i][j];
+    }
+    return result;
+}
+
+void measure(const Shot& shot, SpaceTally& tally) {
+    ++tally.frames;
+    const Camera camera = space_camera(shot.camera);
+    DeviceOptions options;
+    use_camera(camera, camera.width_px, camera.height_px, options);
+    options.show_stages = true;
+    Locator locator(thread_memory(), options);
+    const GreyImage image = render(shot);
+    const Fix fix = locator.locate(image.view());
+    const auto pose = space_pose(fix, camera, image.view(), locator.trace());
+    if (!pose) return;
+    ++tally.located;
+    const TrueSpacePose truth = true_space_pose(shot);
+    const SpaceMatrix bound = space_bound(shot, kJitter_mm, 0);
+    const SpaceVector error = space_error(pose->camera, truth);
+    const SpaceMatrix covariance = matrix_of(pose->covariance);
+    tally.second += pose->second ? 1 : 0;
+    if (pose->is_ambiguous()) {
+        ++tally.ambiguous;
+        return;
+    }
+    if (error.dot(covariance.ldlt().solve(error)) > kWrong) ++tally.wrong;
+    add(error, covariance, bound, tally.ours);
+    for (Eigen::Index i = 0; i < 6; ++i)
+        tally.sizes[static_cast<std::size_t>(i)].add(error[i], 1);
+#ifdef DOTPOSE_HAS_CALIB3D
+    const CameraInSpace other = opencv_pose(fix, camera, locator.trace());
+    add(space_error(other, truth), covariance, bound, tally.opencv);
+#endif
+}
+
+void print_row(const std::string& what, const SpaceTally& tally, const SpaceErrors& errors) {
+    std::string row = fmt::format("| {} |", what);
+    for (const Errors& coordinate : errors.coordinates)
+        row += fmt::format(" {:.2f} |", coordinate.rms());
+    for (const Errors& coordinate : errors.coordinates)
+        row += fmt::format(" {} |", coordinate.normalised_text());
+    fmt::print("{} {:.2f} | {} of {} | {} | {} | {} |\n", row,
+               errors.all.squares / (6 * errors.all.count), tally.located, tally.frames,
+               tally.second, tally.ambiguous, tally.wrong);
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+bool space_table(TableRun& run) {
+    std::uint64_t frames = 200;
+    std::vector<double> tilts_deg{0, 5, 10, 15, 20, 25, 30, 35, 40, 45};
+    run.add_count("--frames", frames, "Number of frames for each tilt");
+    run.command.add_option("--tilts", tilts_deg, "Tilts, in degrees")
+        ->delimiter(',')
+        ->capture_default_str();
+    run.add_seed();
+    run.add_threads();
+    if (!run.parse()) return true;
+    bool is_right = true;
+    for (const double tilt_deg : tilts_deg) {
+        const auto count = run.count<SpaceTally>(fmt::format("{} degrees", tilt_deg), frames,
+                                                 [&](std::uint64_t i, SpaceTally& tally) {
+                                                     measure(shot_at(tilt_deg, run.seed, i), tally);
+                                                 });
+        print_row(fmt::format("{}", tilt_deg), count.tally, count.tally.ours);
+#ifdef DOTPOSE_HAS_CALIB3D
+        print_row(fmt::format("{}, OpenCV", tilt_deg), count.tally, count.tally.opencv);
+#endif
+        is_right &= count.tally.wrong == 0 && count.is_complete();
+    }
+    return is_right;
+}
+
+}  // namespace dotpose::tables
