@@ -1,12 +1,12 @@
 // Poses in space by OpenCV, for comparison.
 #pragma once
 
-#include "dotpose/tools/space_pose.hpp"
+#include "calibrate/space_fit.hpp"
 
 namespace dotpose::tables {
 
 /// Returns the better of the two poses of cv::solvePnPGeneric with SOLVEPNP_IPPE, refined by
-/// cv::solvePnPRefineLM, from the dots in the trace.
-CameraInSpace opencv_pose(const Fix& fix, const Camera& camera, const Trace& trace);
+/// cv::solvePnPRefineLM, from the dots and the displacement of a fit.
+calibrate::SpaceState opencv_pose(const calibrate::SpaceFit& fit, double focal_px);
 
 }  // namespace dotpose::tables

@@ -1,10 +1,11 @@
 #include "space_view.hpp"
 
 #include <cmath>
-#include <cstdint>
+#include <numbers>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 
 namespace dotpose::tables {
 namespace {
@@ -14,33 +15,48 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Returns the information about the pose from one dot, at `place_mm` from the pose point, or 0 if
-/// the dot is not completely in view.
-SpaceMatrix information_of_dot(const Shot& shot, const Matrix3d& rotation,
-                               const Vector3d& position_mm, const Vector2d& place_mm,
-                               double jitter_mm, double centre_px) {
+/// Returns true if a dot with this pixel is completely in the image.
+bool is_in_view(const Shot& shot, const Vec2& pixel) {
     const CameraModel& camera = shot.camera;
-    const Vec2 pixel =
-        Projection(camera, shot.pose).pixel_from_offset({place_mm.x(), place_mm.y()});
     const double radius_px = shot.page.pattern.dot_mm / 2 / camera.mm_per_px + 1;
-    if (pixel.x < radius_px || pixel.y < radius_px || pixel.x > camera.width_px - 1 - radius_px ||
-        pixel.y > camera.height_px - 1 - radius_px) {
-        return SpaceMatrix::Zero();
-    }
-    const double focal_px = camera.working_distance_mm / camera.mm_per_px;
-    const Vector3d seen =
-        rotation.transpose() * (Vector3d(place_mm.x(), place_mm.y(), 0) - position_mm);
+    return pixel.x >= radius_px && pixel.y >= radius_px &&
+           pixel.x <= camera.width_px - 1 - radius_px &&
+           pixel.y <= camera.height_px - 1 - radius_px;
+}
+
+/// Returns the derivatives of the pixel of a dot with respect to the pose. The dot is at `place_mm`
+/// relative to the camera, along the axes of the pattern.
+Eigen::Matrix<double, 2, 6> by_pose(const Matrix3d& rotation, const Vector3d& place_mm,
+                                    double focal_px) {
+    const Vector3d seen = rotation.transpose() * place_mm;
     Eigen::Matrix<double, 2, 3> by_seen;
     by_seen << 1, 0, -seen.x() / seen.z(), 0, 1, -seen.y() / seen.z();
     by_seen *= focal_px / seen.z();
-    Eigen::Matrix<double, 2, 6> by_pose;
-    by_pose.leftCols<3>() = -by_seen * rotation.transpose();
+    Eigen::Matrix<double, 2, 6> result;
+    result.leftCols<3>() = -by_seen * rotation.transpose();
     for (int i = 0; i < 3; ++i)
-        by_pose.col(3 + i) = by_seen * seen.cross(Vector3d::Unit(i));
-    const Matrix2d by_place = by_pose.topLeftCorner<2, 2>();
-    const Matrix2d covariance = jitter_mm * jitter_mm * by_place * by_place.transpose() +
-                                centre_px * centre_px * Matrix2d::Identity();
-    return by_pose.transpose() * covariance.inverse() * by_pose;
+        result.col(3 + i) = by_seen * seen.cross(Vector3d::Unit(i));
+    return result;
+}
+
+/// Returns the Cramer-Rao bound for the covariance of a dot's centre in the image, for known blur,
+/// contrast and paper. The image of the dot is treated as Gaussian.
+Matrix2d centre_bound(const Shot& shot, const Matrix2d& by_place) {
+    const Imperfections& noise = shot.imperfections;
+    const double radius_mm = shot.page.pattern.dot_mm / 2;
+    constexpr double kPixel_px2 = 1.0 / 12;
+    const Matrix2d shape =
+        radius_mm * radius_mm / 4 * by_place * by_place.transpose() +
+        (noise.blur_sigma_px * noise.blur_sigma_px + kPixel_px2) * Matrix2d::Identity();
+    const double area_px2 =
+        std::numbers::pi * radius_mm * radius_mm * std::abs(by_place.determinant());
+    const double root = std::sqrt(shape.determinant());
+    const double peak =
+        noise.paper_level * (1 - noise.ink) * area_px2 / (2 * std::numbers::pi * root);
+    // The information is peak^2 / noise^2 * pi / 2 * root * shape^-1.
+    const double rounding = 1.0 / 12;
+    const double variance = noise.noise_sigma * noise.noise_sigma + rounding;
+    return variance / (peak * peak * std::numbers::pi / 2 * root) * shape;
 }
 
 }  // namespace
@@ -85,25 +101,34 @@ SpaceVector space_error(const CameraInSpace& camera, const TrueSpacePose& truth)
     return error;
 }
 
-SpaceMatrix space_bound(const Shot& shot, double jitter_mm, double centre_px) {
+SpaceMatrix space_bound(const Shot& shot, double jitter_mm) {
     const Pattern& pattern = shot.page.pattern;
     const TrueSpacePose truth = true_space_pose(shot);
-    const Vector3d seen_mm(x_grid(shot.pose) * pattern.spacing_mm,
-                           y_grid(shot.pose) * pattern.spacing_mm, 0);
+    const Projection projection(shot.camera, shot.pose);
+    const double focal_px = shot.camera.working_distance_mm / shot.camera.mm_per_px;
+    const double mm = pattern.spacing_mm;
+    const Vector3d from_camera =
+        Vector3d(x_grid(shot.pose) * mm, y_grid(shot.pose) * mm, 0) - truth.position_mm;
     // The view of a strongly tilted camera extends to several times its width.
-    const double reach_mm = 4 * shot.camera.width_px * shot.camera.mm_per_px;
-    const auto reach = static_cast<int>(reach_mm / pattern.spacing_mm);
+    const auto reach = static_cast<int>(3 * shot.camera.width_px * shot.camera.mm_per_px / mm);
     SpaceMatrix information = SpaceMatrix::Zero();
     for (int j = -reach; j <= reach; ++j) {
         for (int i = -reach; i <= reach; ++i) {
+            const Vec2 near_mm{(i - shot.pose.fraction_x) * mm, (j - shot.pose.fraction_y) * mm};
+            if (!is_in_view(shot, projection.pixel_from_offset(near_mm))) continue;
             const Place place = moved(pattern.code, {shot.pose.cell, pattern.section}, i, j);
             const Symbol symbol = symbol_at(pattern.code, place.cell, place.section);
-            const Vector2d place_mm((i - shot.pose.fraction_x) * pattern.spacing_mm +
-                                        dx(symbol) * pattern.displacement_mm,
-                                    (j - shot.pose.fraction_y) * pattern.spacing_mm +
-                                        dy(symbol) * pattern.displacement_mm);
-            information += information_of_dot(shot, truth.rotation, truth.position_mm - seen_mm,
-                                              place_mm, jitter_mm, centre_px);
+            const Vec2 place_mm{near_mm.x + dx(symbol) * pattern.displacement_mm,
+                                near_mm.y + dy(symbol) * pattern.displacement_mm};
+            if (!is_in_view(shot, projection.pixel_from_offset(place_mm))) continue;
+            const Eigen::Matrix<double, 2, 6> rows = by_pose(
+                truth.rotation, Vector3d(place_mm.x, place_mm.y, 0) + from_camera, focal_px);
+            const Matrix2d by_place = -rows.topLeftCorner<2, 2>();
+            const double shortest_px = mm * by_place.jacobiSvd().singularValues()[1];
+            if (shortest_px < kResolvedSpacing_px) continue;
+            const Matrix2d covariance = jitter_mm * jitter_mm * by_place * by_place.transpose() +
+                                        centre_bound(shot, by_place);
+            information += rows.transpose() * covariance.inverse() * rows;
         }
     }
     return information.ldlt().solve(SpaceMatrix::Identity());

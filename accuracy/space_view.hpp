@@ -26,9 +26,13 @@ using SpaceMatrix = Eigen::Matrix<double, 6, 6>;
 /// Returns the error of a pose, in the coordinates of SpacePose::covariance.
 SpaceVector space_error(const CameraInSpace& camera, const TrueSpacePose& truth);
 
-/// Returns the Cramer-Rao bound for the covariance of a pose from all dots that are completely in
-/// view, for errors of the print with the standard deviation `jitter_mm` along each axis and errors
-/// of the dot centres in the image with the standard deviation `centre_px`.
-SpaceMatrix space_bound(const Shot& shot, double jitter_mm, double centre_px);
+/// Spacing in the image, along the direction in which it is shortest, below which the images of
+/// adjacent dots are not separate.
+inline constexpr double kResolvedSpacing_px = 4;
+
+/// Returns the Cramer-Rao bound for the covariance of a pose, from all dots that are completely in
+/// view and separate in the image, for errors of the print with the standard deviation `jitter_mm`
+/// along each axis, and for the noise of the image. Motion during the exposure is ignored.
+SpaceMatrix space_bound(const Shot& shot, double jitter_mm);
 
 }  // namespace dotpose::tables

@@ -7,6 +7,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "calibrate/least_squares.hpp"
+
 namespace dotpose::calibrate {
 namespace {
 
@@ -35,7 +37,47 @@ struct DotImage {
     double contrast = 0;
     double level = 0;
     Vector2d centre;
+    Matrix2d covariance;  ///< of the centre, for noise of one grey level
     bool is_valid = false;
+};
+
+/// Light on the paper: a polynomial of second degree in the place in the image, fitted to the
+/// levels of the dots. Without it, the dots would be pulled towards the darker side.
+class Light {
+  public:
+    explicit Light(const ImageView& image)
+        : middle_((image.width_px - 1) / 2.0, (image.height_px - 1) / 2.0) {}
+
+    void fit(const std::vector<DotImage>& images) {
+        NormalEquations equations(6);
+        int count = 0;
+        for (const DotImage& dot : images) {
+            if (!dot.is_valid) continue;
+            const auto [x, y] = scaled(dot.centre);
+            equations.add(std::array{1.0, x, y, x * x, x * y, y * y}, dot.level);
+            ++count;
+        }
+        constexpr int kMinDots = 30;  // fewer dots do not determine the light
+        if (count >= kMinDots) values_ = equations.solution();
+    }
+
+    /// Returns the gradient of the light at a pixel, divided by the light, per px.
+    Vector2d slope(const Vector2d& pixel) const {
+        if (values_.empty()) return Vector2d::Zero();
+        const auto& c = values_;
+        const auto [x, y] = scaled(pixel);
+        const double level =
+            c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y;
+        const Vector2d gradient(c[1] + 2 * c[3] * x + c[4] * y, c[2] + c[4] * x + 2 * c[5] * y);
+        return gradient / (level * middle_.x());
+    }
+
+  private:
+    std::array<double, 2> scaled(const Vector2d& pixel) const {
+        return {(pixel.x() - middle_.x()) / middle_.x(), (pixel.y() - middle_.y()) / middle_.x()};
+    }
+    Vector2d middle_;
+    std::vector<double> values_;
 };
 
 /// Sums of the normal equations for the parameters of one dot (contrast, level, centre) and for the
@@ -50,7 +92,7 @@ struct DotSums {
 };
 
 DotSums sums_of(const ImageView& image, const ExpectedDot& expected, const DotImage& dot,
-                double blur_px2) {
+                double blur_px2, const Vector2d& light_slope) {
     const Matrix2d& to_image = expected.px_per_spacing;
     const Matrix2d to_paper = to_image.inverse();
     const Matrix2d shape = kDotRadius * kDotRadius / 4 * to_image * to_image.transpose() +
@@ -71,7 +113,8 @@ DotSums sums_of(const ImageView& image, const ExpectedDot& expected, const DotIm
                 continue;
             const Vector2d scaled = inverse * (pixel - dot.centre);
             const double bell = std::exp(-scaled.dot(pixel - dot.centre) / 2);
-            const double residual = image.row(v)[u] - dot.level + dot.contrast * bell;
+            const double grey = image.row(v)[u] * (1 - light_slope.dot(pixel - expected.pixel));
+            const double residual = grey - dot.level + dot.contrast * bell;
             const double by_centre = -dot.contrast * bell;
             const Vector4d row(-bell, 1, by_centre * scaled.x(), by_centre * scaled.y());
             const double by_blur = by_centre * scaled.squaredNorm() / 2;
@@ -134,25 +177,27 @@ bool is_measurable(const ImageView& image, const ExpectedDot& expected) {
            ((expected.pixel + reach).array() <= last.array()).all();
 }
 
-std::vector<std::optional<Vector2d>> measured_centres(const ImageView& image,
-                                                      const std::vector<ExpectedDot>& dots) {
+std::vector<std::optional<DotCentre>> measured_centres(const ImageView& image,
+                                                       const std::vector<ExpectedDot>& dots) {
     std::vector<DotImage> images;
     for (const ExpectedDot& dot : dots)
         images.push_back(first_image(image, dot));
     double blur_px2 = kUsualBlur_px2;
+    Light light(image);
     for (int pass = 0; pass < kPasses; ++pass) {
         double normal = 0;
         double right = 0;
         for (std::size_t i = 0; i < dots.size(); ++i) {
             DotImage& dot = images[i];
             if (!dot.is_valid) continue;
-            const DotSums sums = sums_of(image, dots[i], dot, blur_px2);
+            const DotSums sums = sums_of(image, dots[i], dot, blur_px2, light.slope(dots[i].pixel));
             constexpr int kMinPixels = 6;
             const auto factors = sums.normal.ldlt();
             const Vector4d step = factors.solve(sums.right);
             dot.contrast += step[0];
             dot.level += step[1];
             dot.centre += step.tail<2>();
+            dot.covariance = factors.solve(Eigen::Matrix4d::Identity()).bottomRightCorner<2, 2>();
             const Vector2d offset = dots[i].px_per_spacing.inverse() * (dot.centre - dots[i].pixel);
             dot.is_valid = sums.pixels >= kMinPixels && step.allFinite() && dot.contrast > 0 &&
                            offset.norm() < kMaxOffset;
@@ -161,14 +206,16 @@ std::vector<std::optional<Vector2d>> measured_centres(const ImageView& image,
             normal += sums.blur_normal - sums.with_blur.dot(factors.solve(sums.with_blur));
             right += sums.blur_right - sums.with_blur.dot(step);
         }
+        light.fit(images);
         if (normal > 0)
             blur_px2 = std::clamp(blur_px2 + right / normal, kMinBlur_px2, kMaxBlur_px2);
     }
     const double min_contrast = kMinContrast * median_contrast(images);
-    std::vector<std::optional<Vector2d>> centres;
+    std::vector<std::optional<DotCentre>> centres;
     for (const DotImage& dot : images) {
         const bool is_dark = dot.is_valid && dot.contrast >= min_contrast;
-        centres.push_back(is_dark ? std::optional(dot.centre) : std::nullopt);
+        centres.push_back(is_dark ? std::optional(DotCentre{dot.centre, dot.covariance})
+                                  : std::nullopt);
     }
     return centres;
 }

@@ -25,9 +25,16 @@ inline constexpr double kMinSpacing_px = 4;
 /// Returns true if a dot is completely in the image and its spacing is long enough.
 bool is_measurable(const ImageView& image, const ExpectedDot& dot);
 
-/// Returns the pixels of the centres of measurable dots. Returns none for a dot that is missing or
-/// much paler than the others.
-std::vector<std::optional<Eigen::Vector2d>> measured_centres(const ImageView& image,
-                                                             const std::vector<ExpectedDot>& dots);
+/// Centre of a dot in an image.
+struct DotCentre {
+    Eigen::Vector2d pixel;
+    /// Covariance for noise of the image with a standard deviation of one grey level.
+    Eigen::Matrix2d covariance;
+};
+
+/// Returns the centres of measurable dots. Returns none for a dot that is missing or much paler
+/// than the others.
+std::vector<std::optional<DotCentre>> measured_centres(const ImageView& image,
+                                                       const std::vector<ExpectedDot>& dots);
 
 }  // namespace dotpose::calibrate

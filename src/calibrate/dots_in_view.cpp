@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "calibrate/dot_images.hpp"
+#include "calibrate/located_frame.hpp"
 
 namespace dotpose::calibrate {
 namespace {
@@ -149,10 +150,28 @@ std::vector<SpaceDot> dots_in_view(const ImageView& image, const PatternView& vi
     std::vector<SpaceDot> dots;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         if (!centres[i]) continue;
+        const auto& [pixel, covariance] = *centres[i];
         dots.push_back(space_dot(view, chosen[i].step, chosen[i].symbol,
-                                 undistorted(view.camera, {centres[i]->x(), centres[i]->y()})));
+                                 undistorted(view.camera, {pixel.x(), pixel.y()})));
+        dots.back().centre_covariance = covariance;
     }
     return dots;
+}
+
+std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& view,
+                                     const Trace& trace) {
+    constexpr std::size_t kMinDots = 12;
+    std::vector<SpaceDot> read;
+    for (const LocatedDot& dot : dots_read(trace))
+        read.push_back(space_dot(view, dot.step, dot.symbol, dot.pixel));
+    if (read.size() < kMinDots) return std::nullopt;
+    const Eigen::Vector2d focal_px(view.pinhole.focal_u_px, view.pinhole.focal_v_px);
+    const auto first = fit_space(read, focal_px);
+    if (!first) return std::nullopt;
+    const std::vector<SpaceDot> all = dots_in_view(image, view, trace, first->state);
+    // The dots cannot be measured if they are small in the image.
+    if (2 * all.size() < read.size()) return first;
+    return fit_space(all, focal_px);
 }
 
 }  // namespace dotpose::calibrate

@@ -1,6 +1,7 @@
 // Dots in view: measures all dots of a frame whose pose in space is approximately known.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "calibrate/space_fit.hpp"
@@ -25,5 +26,10 @@ SpaceDot space_dot(const PatternView& view, FixedVec step, Symbol symbol, PixelP
 /// `trace.options.max_dots`, measures that number, evenly over the image.
 std::vector<SpaceDot> dots_in_view(const ImageView& image, const PatternView& view,
                                    const Trace& trace, const SpaceState& state);
+
+/// Fits the pose to the dots in the trace, and then to all dots that this pose predicts. Places are
+/// in mm from `trace.decoding.place`. Returns none if the trace has fewer than 12 dots.
+std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& view,
+                                     const Trace& trace);
 
 }  // namespace dotpose::calibrate

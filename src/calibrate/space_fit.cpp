@@ -154,8 +154,7 @@ std::vector<WeightedDot> inliers(const SpaceState& state, const std::vector<Weig
 }
 
 /// Errors of the dots: a fraction of their variance is due to the print, which has equal variances
-/// along all directions on the paper. The rest has equal variances along all directions in the
-/// image.
+/// along all directions on the paper. The rest is due to the measurement of their centres.
 class NoiseModel {
   public:
     NoiseModel(const SpaceState& state, const std::vector<WeightedDot>& dots,
@@ -163,10 +162,12 @@ class NoiseModel {
         for (const auto& [dot, whitening] : dots) {
             const Prediction predicted = predict(state, dot, focal_px);
             const Matrix2d shape = predicted.px_per_mm * predicted.px_per_mm.transpose();
-            shapes_.push_back(shape);
+            print_.push_back(shape);
+            centre_.push_back(dot.centre_covariance);
             residuals_.push_back(predicted.residual_px);
-            mean_shape_ += shape.trace() / (2 * static_cast<double>(dots.size()));
         }
+        normalize(print_);
+        normalize(centre_);
     }
 
     /// Sets the whitening of the dots for the fraction with the maximum likelihood.
@@ -179,20 +180,28 @@ class NoiseModel {
     }
 
   private:
+    /// Divides the covariances by their harmonic mean, which single large ones do not change.
+    static void normalize(std::vector<Matrix2d>& covariances) {
+        double sum = 0;
+        for (const Matrix2d& covariance : covariances)
+            sum += 2 / covariance.trace();
+        for (Matrix2d& covariance : covariances)
+            covariance *= sum / static_cast<double>(covariances.size());
+    }
     /// Covariance of dot `i`, up to a common factor.
     Matrix2d covariance(std::size_t i, double fraction) const {
-        return (1 - fraction) * Matrix2d::Identity() + fraction / mean_shape_ * shapes_[i];
+        return (1 - fraction) * centre_[i] + fraction * print_[i];
     }
     /// -2 log(likelihood), maximized over the common factor, up to a constant.
     double cost(double fraction) const {
         double squares = 0;
         double log_determinants = 0;
-        for (std::size_t i = 0; i < shapes_.size(); ++i) {
+        for (std::size_t i = 0; i < residuals_.size(); ++i) {
             const Matrix2d variance = covariance(i, fraction);
             squares += residuals_[i].dot(variance.inverse() * residuals_[i]);
             log_determinants += std::log(variance.determinant());
         }
-        return 2 * static_cast<double>(shapes_.size()) * std::log(squares) + log_determinants;
+        return 2 * static_cast<double>(residuals_.size()) * std::log(squares) + log_determinants;
     }
     double likeliest_fraction() const {
         // Golden-section search. At the upper end, the covariances of a plane seen from the side
@@ -222,39 +231,59 @@ class NoiseModel {
         return (low + high) / 2;
     }
 
-    std::vector<Matrix2d> shapes_;  ///< covariance in the image of a unit error on the paper
+    std::vector<Matrix2d> print_;   ///< covariances in the image due to the print
+    std::vector<Matrix2d> centre_;  ///< covariances due to the measurement
     std::vector<Vector2d> residuals_;
-    double mean_shape_ = 0;
 };
 
-/// The first and the second solution with the dots and weights of the first.
+/// The first and the second solution, with the dots and weights of the first.
 struct Solutions {
     std::vector<WeightedDot> dots;
     Minimum first;
-    Minimum second;
-};
+    std::optional<Minimum> second;
 
-/// Improves the first solution with outliers rejected and weights estimated, and then the second
-/// solution with the same dots and weights.
-Solutions refined(const Solutions& start, const std::vector<WeightedDot>& all,
-                  const Vector2d& focal_px) {
-    constexpr int kRounds = 2;
-    Solutions result = start;
-    result.dots = all;
-    for (int round = 0; round < kRounds; ++round) {
-        result.dots = inliers(result.first.state, all, focal_px);
-        NoiseModel(result.first.state, result.dots, focal_px).whiten(result.dots);
-        result.first = minimum_from(result.first.state, result.dots, focal_px);
+    /// Exchanges the solutions if the second has smaller residuals. Returns true if it has.
+    bool put_better_first() {
+        if (!second || !(second->sums.squares < first.sums.squares)) return false;
+        std::swap(first, *second);
+        return true;
     }
-    result.second = minimum_from(start.second.state, result.dots, focal_px);
-    return result;
-}
+};
 
 /// Returns true if two minima found from different starts are the same.
 bool is_same(const SpaceState& a, const SpaceState& b) {
     constexpr double kSame_rad = 1e-4;
     return Eigen::Quaterniond(a.rotation).angularDistance(Eigen::Quaterniond(b.rotation)) <
            kSame_rad;
+}
+
+/// Returns the solutions for a part of the dots, which takes less time.
+Solutions rough_solutions(const std::array<SpaceState, 2>& starts,
+                          const std::vector<WeightedDot>& all, const Vector2d& focal_px) {
+    constexpr std::size_t kDots = 300;
+    Solutions result;
+    for (std::size_t i = 0; i < all.size(); i += 1 + all.size() / kDots)
+        result.dots.push_back(all[i]);
+    result.first = minimum_from(starts[0], result.dots, focal_px);
+    const Minimum second = minimum_from(starts[1], result.dots, focal_px);
+    if (!is_same(result.first.state, second.state)) result.second = second;
+    result.put_better_first();
+    return result;
+}
+
+/// Improves the first solution with outliers rejected and weights estimated, and then the second
+/// solution with the same dots and weights.
+void refine(const std::vector<WeightedDot>& all, const Vector2d& focal_px, Solutions& solutions) {
+    constexpr int kRounds = 2;
+    solutions.first = minimum_from(solutions.first.state, all, focal_px);
+    for (int round = 0; round < kRounds; ++round) {
+        solutions.dots = inliers(solutions.first.state, all, focal_px);
+        NoiseModel(solutions.first.state, solutions.dots, focal_px).whiten(solutions.dots);
+        solutions.first = minimum_from(solutions.first.state, solutions.dots, focal_px);
+    }
+    if (!solutions.second) return;
+    solutions.second = minimum_from(solutions.second->state, solutions.dots, focal_px);
+    if (is_same(solutions.first.state, solutions.second->state)) solutions.second.reset();
 }
 
 double residual_px(const Solutions& solutions, const Vector2d& focal_px) {
@@ -272,32 +301,25 @@ std::optional<SpaceFit> fit_space(const std::vector<SpaceDot>& dots, const Vecto
     std::vector<WeightedDot> all;
     for (const SpaceDot& dot : dots)
         all.push_back({dot});
-    Solutions solutions{all, minimum_from((*starts)[0], all, focal_px),
-                        minimum_from((*starts)[1], all, focal_px)};
-    const auto put_better_first = [&solutions] {
-        const bool is_worse = solutions.second.sums.squares < solutions.first.sums.squares;
-        if (is_worse) std::swap(solutions.first, solutions.second);
-        return is_worse;
-    };
-    put_better_first();
-    solutions = refined(solutions, all, focal_px);
-    if (put_better_first()) solutions = refined(solutions, all, focal_px);
+    Solutions solutions = rough_solutions(*starts, all, focal_px);
+    refine(all, focal_px, solutions);
+    if (solutions.put_better_first()) refine(all, focal_px, solutions);
 
     const Minimum& first = solutions.first;
     const auto count = static_cast<double>(2 * solutions.dots.size());
     if (!(count > kParameters) || !std::isfinite(first.sums.squares)) return std::nullopt;
     SpaceFit fit;
     fit.state = first.state;
-    fit.dots = static_cast<int>(solutions.dots.size());
+    for (const WeightedDot& dot : solutions.dots)
+        fit.used.push_back(dot.dot);
     fit.residual_px = residual_px(solutions, focal_px);
     const Eigen::MatrixXd inverse = inverse_of(first.sums.information);
     fit.covariance = first.sums.squares / (count - kParameters) * inverse.topLeftCorner<6, 6>();
-    const double second_squares = solutions.second.sums.squares;
-    if (std::isfinite(second_squares) && !is_same(first.state, solutions.second.state)) {
-        fit.second = solutions.second.state;
+    if (solutions.second && std::isfinite(solutions.second->sums.squares)) {
+        fit.second = solutions.second->state;
         // Likelihood ratio of Gaussian errors whose variance is unknown.
-        fit.second_odds_log2 =
-            std::min(-count / 2 * std::log2(second_squares / first.sums.squares), 0.0);
+        const double ratio = solutions.second->sums.squares / first.sums.squares;
+        fit.second_odds_log2 = std::min(-count / 2 * std::log2(ratio), 0.0);
     }
     return fit;
 }

@@ -15,6 +15,8 @@ struct SpaceDot {
     Eigen::Vector2d pixel;
     Eigen::Vector2d intersection_mm;  ///< place of its intersection on the paper
     Eigen::Vector2d direction_mm;     ///< its displacement, if this is 1 spacing
+    /// Covariance of the measured pixel, up to a factor that all dots share.
+    Eigen::Matrix2d centre_covariance = Eigen::Matrix2d::Identity();
 };
 
 /// Position and rotation of a camera: X_paper = rotation * X_camera + position. The paper is the
@@ -31,8 +33,8 @@ struct SpaceFit {
     /// Covariance of position_mm and of the rotation vector in the camera frame: true rotation =
     /// rotation * exp(vector).
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-    int dots = 0;            ///< number of dots used
-    double residual_px = 0;  ///< rms residual of these dots, per axis
+    std::vector<SpaceDot> used;  ///< dots that are not outliers
+    double residual_px = 0;      ///< rms residual of these dots, per axis
     std::optional<SpaceState> second;
     double second_odds_log2 = 0;
 };

@@ -9,7 +9,6 @@
 #include <Eigen/Geometry>
 
 #include "calibrate/dots_in_view.hpp"
-#include "calibrate/located_frame.hpp"
 #include "calibrate/space_fit.hpp"
 
 namespace dotpose {
@@ -20,8 +19,6 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr std::size_t kMinSpaceDots = 12;
-
 Quaterniond eigen_of(const Quaternion& q) {
     return {q.w, q.x, q.y, q.z};
 }
@@ -30,23 +27,6 @@ Quaternion quaternion_of(Quaterniond q) {
     q.normalize();
     if (q.w() < 0) q.coeffs() = -q.coeffs();
     return {q.w(), q.x(), q.y(), q.z()};
-}
-
-/// Fits the pose to the dots that `locate` read, and then to all dots that this pose predicts.
-/// Places are in mm from the place of the trace.
-std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& view,
-                                     const Trace& trace) {
-    std::vector<SpaceDot> read;
-    for (const LocatedDot& dot : dots_read(trace))
-        read.push_back(space_dot(view, dot.step, dot.symbol, dot.pixel));
-    if (read.size() < kMinSpaceDots) return std::nullopt;
-    const Eigen::Vector2d focal_px(view.pinhole.focal_u_px, view.pinhole.focal_v_px);
-    const auto first = fit_space(read, focal_px);
-    if (!first) return std::nullopt;
-    const std::vector<SpaceDot> all = dots_in_view(image, view, trace, first->state);
-    // The dots cannot be measured if they are small in the image.
-    if (2 * all.size() < read.size()) return first;
-    return fit_space(all, focal_px);
 }
 
 CameraInSpace camera_of(const SpaceState& state, const Vector3d& origin_mm) {
@@ -89,7 +69,7 @@ std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const 
         for (std::size_t j = 0; j < 6; ++j)
             pose.covariance[i][j] = fit->covariance(Eigen::Index(i), Eigen::Index(j));
     }
-    pose.dots = fit->dots;
+    pose.dots = static_cast<int>(fit->used.size());
     pose.residual_px = fit->residual_px;
     if (fit->second)
         pose.second = SecondPose{camera_of(*fit->second, origin_mm), fit->second_odds_log2};
