@@ -180,7 +180,7 @@ void print_row(const Lens& lens, double tilt_deg, const SpaceTally& tally) {
 
 bool space_table(TableRun& run) {
     std::uint64_t frames = 200;
-    std::vector<double> tilts_deg{0, 5, 10, 15, 20, 25, 30, 35, 40, 45};
+    std::vector<double> tilts_deg{0, 5, 15, 25, 35, 45};
     run.add_count("--frames", frames, "Number of frames for each tilt");
     run.command.add_option("--tilts", tilts_deg, "Tilts, in degrees")
         ->delimiter(',')

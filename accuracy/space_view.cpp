@@ -24,6 +24,20 @@ bool is_in_view(const Shot& shot, const Vec2& pixel) {
            pixel.y <= camera.height_px - 1 - radius_px;
 }
 
+/// Returns the length of a spacing in the image at a place, along the direction in which it is
+/// shortest.
+double shortest_spacing_px(const Projection& projection, const Vec2& place_mm, double spacing_mm) {
+    const auto step = [&](double x_mm, double y_mm) {
+        const Vec2 to = projection.pixel_from_offset({place_mm.x + x_mm, place_mm.y + y_mm});
+        const Vec2 from = projection.pixel_from_offset({place_mm.x - x_mm, place_mm.y - y_mm});
+        return Vector2d((to.x - from.x) / 2, (to.y - from.y) / 2);
+    };
+    // Difference quotients over a tenth of a spacing.
+    Matrix2d by_spacing;
+    by_spacing << 10 * step(spacing_mm / 10, 0), 10 * step(0, spacing_mm / 10);
+    return by_spacing.jacobiSvd().singularValues()[1];
+}
+
 /// Returns the derivatives of the pixel of a dot with respect to the pose. The dot is at `place_mm`
 /// relative to the camera, along the axes of the pattern.
 Eigen::Matrix<double, 2, 6> by_pose(const Matrix3d& rotation, const Vector3d& place_mm,
@@ -52,7 +66,7 @@ Matrix2d centre_bound(const Shot& shot, const Matrix2d& by_place) {
         std::numbers::pi * radius_mm * radius_mm * std::abs(by_place.determinant());
     const double root = std::sqrt(shape.determinant());
     const double peak =
-        noise.paper_level * (1 - noise.ink) * area_px2 / (2 * std::numbers::pi * root);
+        noise.paper_level * (1 - noise.ink_reflectance) * area_px2 / (2 * std::numbers::pi * root);
     // The information is peak^2 / noise^2 * pi / 2 * root * shape^-1.
     const double rounding = 1.0 / 12;
     const double variance = noise.noise_sigma * noise.noise_sigma + rounding;
@@ -120,12 +134,12 @@ SpaceMatrix space_bound(const Shot& shot, double jitter_mm) {
             const Symbol symbol = symbol_at(pattern.code, place.cell, place.section);
             const Vec2 place_mm{near_mm.x + dx(symbol) * pattern.displacement_mm,
                                 near_mm.y + dy(symbol) * pattern.displacement_mm};
-            if (!is_in_view(shot, projection.pixel_from_offset(place_mm))) continue;
+            if (!is_in_view(shot, projection.pixel_from_offset(place_mm)) ||
+                shortest_spacing_px(projection, place_mm, mm) < kResolvedSpacing_px)
+                continue;
             const Eigen::Matrix<double, 2, 6> rows = by_pose(
                 truth.rotation, Vector3d(place_mm.x, place_mm.y, 0) + from_camera, focal_px);
             const Matrix2d by_place = -rows.topLeftCorner<2, 2>();
-            const double shortest_px = mm * by_place.jacobiSvd().singularValues()[1];
-            if (shortest_px < kResolvedSpacing_px) continue;
             const Matrix2d covariance = jitter_mm * jitter_mm * by_place * by_place.transpose() +
                                         centre_bound(shot, by_place);
             information += rows.transpose() * covariance.inverse() * rows;
