@@ -1,7 +1,8 @@
 // Measures the errors of poses in space (docs/pose-in-space.md) against the truth and the
-// Cramer-Rao bound. Prints a table in Markdown.
+// Cramer-Rao bound. Prints a table in Markdown, and can replace it in the document.
 //
 //   dotpose_tables space [--frames N] [--seed S] [--threads N] [--tilts D,...]
+//                        [--update DOCUMENT]
 //
 // The exit status is 1 if a pose that is not reported as ambiguous is wrong.
 #include <algorithm>
@@ -157,23 +158,22 @@ void measure(const Shot& shot, SpaceTally& tally) {
 #endif
 }
 
+/// Returns two cells with the errors relative to the bound: of the position and of the rotation.
 std::string ratios_text(const SpaceErrors& errors) {
-    std::string text;
-    for (const Errors& coordinate : errors.coordinates)
-        text += coordinate.count > 0 ? fmt::format(" {:.2f} |", coordinate.rms()) : " - |";
-    return text;
+    const auto& e = errors.coordinates;
+    if (e[0].count == 0) return " - | - |";
+    return fmt::format(" {:.2f} {:.2f} {:.2f} | {:.2f} {:.2f} {:.2f} |", e[0].rms(), e[1].rms(),
+                       e[2].rms(), e[3].rms(), e[4].rms(), e[5].rms());
 }
 
-void print_row(const Lens& lens, double tilt_deg, const SpaceTally& tally) {
-    std::string row =
-        fmt::format("| {} | {} | {} | {} |", lens.title, tilt_deg, tally.frames, tally.located);
-    row += ratios_text(tally.ours);
-    for (const Errors& coordinate : tally.ours.coordinates)
-        row += fmt::format(" {} |", coordinate.normalised_text());
-    fmt::print("{} {:.2f} | {} | {} | {} |{}\n", row,
-               tally.ours.all.squares / (6 * tally.ours.all.count), tally.second, tally.ambiguous,
-               tally.wrong, ratios_text(tally.opencv));
-    std::fflush(stdout);
+std::string row_text(const Lens& lens, double tilt_deg, const SpaceTally& tally) {
+    const auto& e = tally.ours.coordinates;
+    return fmt::format("| {} | {} | {} of {} |{} {} {} {} | {} {} {} | {:.2f} | {} | {} | {} |{}\n",
+                       lens.title, tilt_deg, tally.located, tally.frames, ratios_text(tally.ours),
+                       e[0].normalised_text(), e[1].normalised_text(), e[2].normalised_text(),
+                       e[3].normalised_text(), e[4].normalised_text(), e[5].normalised_text(),
+                       tally.ours.all.squares / (6 * tally.ours.all.count), tally.second,
+                       tally.ambiguous, tally.wrong, ratios_text(tally.opencv));
 }
 
 }  // namespace
@@ -187,15 +187,13 @@ bool space_table(TableRun& run) {
         ->capture_default_str();
     run.add_seed();
     run.add_threads();
+    run.add_update();
     if (!run.parse()) return true;
-    fmt::print(
-        "| field of view | tilt | frames | located | error / bound, x | y | z | about x | about y "
+    std::string text =
+        "| field | tilt | located | error / bound: x y z | about x y z | error² / variance: x y z "
         "| "
-        "about z | error² / variance, x | y | z | about x | about y | about z | all | second pose "
-        "| "
-        "ambiguous | wrong | OpenCV: error / bound, x | y | z | about x | about y | about z |\n"
-        "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|"
-        "--:|--:|--:|--:|\n");
+        "about x y z | all six | with a second pose | ambiguous | wrong | OpenCV, error / bound: "
+        "x y z | about x y z |\n|--:|--:|--:|---|---|---|---|--:|--:|--:|--:|---|---|\n";
     bool is_right = true;
     std::uint64_t row = 0;  // each row has other frames
     for (const Lens& lens : kLenses) {
@@ -206,10 +204,12 @@ bool space_table(TableRun& run) {
                 run.count<SpaceTally>(what, frames, [&](std::uint64_t i, SpaceTally& tally) {
                     measure(shot_at(lens, tilt_deg, seed, i), tally);
                 });
-            print_row(lens, tilt_deg, count.tally);
+            text += row_text(lens, tilt_deg, count.tally);
             is_right &= count.tally.wrong == 0 && count.is_complete();
         }
     }
+    run.print_block("space", text);
+    run.update_document();
     return is_right;
 }
 
