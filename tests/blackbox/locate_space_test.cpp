@@ -94,6 +94,25 @@ TEST_F(LocateSpace, IsRefusedWithoutAFocalLength) {
     EXPECT_THAT(errors_, HasSubstr("tilted"));
 }
 
+TEST_F(LocateSpace, WarnsIfTheMirroredTiltIsPossible) {
+    // A lens with a focal length of 20,000 px shows no perspective.
+    dotpose::Setup setup;
+    setup.camera.working_distance_mm = 20'000 * setup.camera.mm_per_px;
+    setup.seed = 21;
+    Shot shot = draw_shot(setup, 0);
+    shot.pose.tilt_x_rad = 8 * kDegree_rad;
+    write_pgm(directory_ / "far.pgm", render(shot).view());
+    std::ofstream(directory_ / "far.yaml")
+        << "format: dotpose-camera\nversion: 1\nwidth_px: 188\nheight_px: 120\n"
+           "k_per_px2: 0\ncentre_px: [93.5, 59.5]\nfocal_px: 20000\n";
+    ASSERT_EQ(run("--camera far.yaml --pose space far.pgm"), 0) << errors_;
+    const json line = json::parse(output_);
+    EXPECT_EQ(line["camera_is_ambiguous"], true);
+    EXPECT_GT(line["camera_second_odds"].get<double>(), 1e-9);
+    EXPECT_EQ(line["camera_second_quaternion_xyzw"].size(), 4U);
+    EXPECT_THAT(line["warning"].get<std::string>(), HasSubstr("second pose"));
+}
+
 TEST_F(LocateSpace, ReadsTheCamerasOfRos) {
     std::ofstream(directory_ / "info.yaml")
         << "image_width: 320\nimage_height: 240\ncamera_matrix: {rows: 3, cols: 3, data: "
