@@ -45,6 +45,7 @@ constexpr Table kTables[] = {
     {"seams", "Whether covariances are right where two sheets are butted", tables::seams_table},
     {"slips", "Whether covariances are right where the sheet is not one plane",
      tables::slips_table},
+    {"space", "Errors of the poses of tilted cameras in space", tables::space_table},
     {"tracked", "Results of right and wrong predictions", tables::tracked_table},
     {"views", "Results of views of sheets that others made", tables::views_table},
 };

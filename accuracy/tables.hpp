@@ -19,6 +19,7 @@ bool together_table(TableRun& run);
 bool limits_table(TableRun& run);
 bool seams_table(TableRun& run);
 bool slips_table(TableRun& run);
+bool space_table(TableRun& run);
 bool tracked_table(TableRun& run);
 bool views_table(TableRun& run);
 

@@ -56,13 +56,12 @@ WatchOutputs::WatchOutputs(const OutputOptions& options, const Follower& followe
     for (const std::string& late : {options.map, options.screen.record}) {
         if (!late.empty()) require_writable(late);
     }
-    const bool has_sheets = !follower.sheets().empty();
     if (options.lines.format == RecordFormat::csv) {
-        write_line(csv_header_of_readings(has_sheets, options.lines.units));
+        write_line(csv_header_of_readings(follower, options.lines.units));
     }
     if (!options.log.empty()) {
         log_.emplace(options.log);
-        log_->write(csv_header_of_readings(has_sheets, Units::mm));
+        log_->write(csv_header_of_readings(follower, Units::mm));
     }
     if (!options.packets.empty()) packets_.emplace(options.packets);
     states_ = open_publisher(options.publish, options.sheets);

@@ -43,6 +43,10 @@ std::string decimal(double value, int decimals) {
     return is_zero && text.front() == '-' ? text.substr(1) : text;
 }
 
+std::string significant(double value) {
+    return std::isfinite(value) ? fmt::format("{:.7g}", value + 0.0) : std::string();
+}
+
 std::string degrees(double angle_rad) {
     constexpr int kDecimals = 6;
     const double angle_deg = std::round(angle_rad * 180 / std::numbers::pi * 1e6) / 1e6;

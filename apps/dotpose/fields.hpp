@@ -31,6 +31,11 @@ struct Field {
 /// Formats a number. Returns an empty string for NaN and infinity, which JSON cannot represent.
 std::string decimal(double value, int decimals);
 
+/// Formats an element of a covariance with a fixed number of significant digits, because the
+/// elements differ by many powers of ten. Converts -0 to 0. Returns an empty string for NaN and
+/// infinity.
+std::string significant(double value);
+
 /// Formats an angle in degrees. The result is in (-180, 180] even after rounding.
 std::string degrees(double angle_rad);
 

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "choices.hpp"
 #include "system/path.hpp"
 
 namespace dotpose::cli {
@@ -45,6 +46,14 @@ void FollowerArguments::add_files(RunFiles& files) const {
 FollowerOptions FollowerArguments::read() const {
     FollowerOptions result = options;
     result.camera = camera.camera;
+    if (options.fits_space_pose) {
+        if (!camera.camera) throw BadArgument("--pose space needs --camera FILE");
+        try {
+            require_focal_length(*camera.camera);
+        } catch (const BadArgument& error) {
+            throw Error(fmt::format("{}: {}", camera.path, error.what()));
+        }
+    }
     if (sheets.empty()) return result;
     result.sheets = read_sheets(system::path_of(sheets));
     if (result.sheets.empty()) throw Error(sheets + " has no sheets");
@@ -76,6 +85,15 @@ void add_follower_options(Command& command, FollowerArguments& arguments,
             "Pixel whose place is reported; (0, 0) is the centre of the first pixel, undistorted")
         ->type_name("U,V")
         ->default_str("image centre");
+    command
+        .add_option_function<std::string>(
+            "--pose",
+            [&options](const std::string& name) { options.fits_space_pose = name == "space"; },
+            "Pose to find: plane (of the pattern under the camera), or also that of the camera in "
+            "space, which needs --camera with a focal length")
+        ->type_name("NAME")
+        ->default_str("plane")
+        ->check(one_of({"plane", "space"}));
     add_attempt_options(command, options.locate);
 }
 

@@ -45,6 +45,7 @@ constexpr const char* kLocateExamples =
     "  dotpose locate --units ros --sheets sheets.json frame.png\n"
     "  dotpose locate --sheets sheets.json frame.png\n"
     "  dotpose locate --camera camera.yaml frame.png\n"
+    "  dotpose locate --camera camera.yaml --pose space frame.png\n"
     "  find frames -name '*.png' | sort | dotpose locate --list -\n"
     "  dotpose locate drive.mp4\n"
     "  dotpose locate --threads 4 --code anoto frames > poses.json\n\n"
@@ -68,7 +69,7 @@ class ImageLocator {
         if (!arguments.draw.empty()) pictures_.emplace(system::path_of(arguments.draw), files);
     }
 
-    bool has_sheets() const { return !follower_.sheets().empty(); }
+    const Follower& follower() const { return follower_; }
 
     /// Locates an image. The image must remain valid until it has been drawn. `bits_per_px` is the
     /// number of bits per pixel if the image is from a compressed video, or 0 if unknown. Throws
@@ -94,9 +95,8 @@ class ImageLocator {
 
     /// Returns the record of an image whose size in the file header is too large.
     Record too_large(const std::string& name, const ImageTooLarge& image) const {
-        Record record;
+        Record record = empty_record(follower_);
         record.file = name;
-        record.has_sheets = has_sheets();
         record.width_px = image.width_px;
         record.height_px = image.height_px;
         record.fix.status = Status::image_too_large;
@@ -178,7 +178,7 @@ class LocateRun {
     /// Returns the exit status. Throws Error if the lines cannot be written.
     int operator()() {
         if (format_ == RecordFormat::csv) {
-            lines_.write(csv_header(locator_.has_sheets(), units_, columns_));
+            lines_.write(csv_header(locator_.follower(), units_, columns_));
         }
         if (arguments_.threads != 1) return in_threads();
         capture::Frame frame;

@@ -17,6 +17,7 @@
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
+#include "space_fields.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -253,18 +254,33 @@ std::string spacing_warning(const Record& record) {
         camera_mm, record.spacing_mm, record.has_sheets ? "of the sheet file" : "--spacing");
 }
 
+std::string space_warning(const Record& record) {
+    if (!record.space || !record.space->is_ambiguous()) return {};
+    return fmt::format(
+        "the dots do not exclude a second pose of the camera in space (odds {}): take a larger "
+        "part of the sheet into view, or move nearer",
+        p_wrong_text(std::exp2(record.space->second->odds_log2)));
+}
+
 }  // namespace
 
-Record record_of(const Located& located, const Follower& follower) {
+Record empty_record(const Follower& follower) {
     Record record;
+    record.has_sheets = !follower.sheets().empty();
+    record.has_space = follower.fits_space_pose();
+    return record;
+}
+
+Record record_of(const Located& located, const Follower& follower) {
+    Record record = empty_record(follower);
     record.fix = located.fix;
     record.reading = located.reading;
     record.code_is_given = located.code_is_given;
     record.spacing_mm = located.spacing_mm;
     record.camera_spacing_mm = located.camera_spacing_mm;
-    record.has_sheets = !follower.sheets().empty();
     record.place = located.place;
     record.velocity = located.velocity;
+    record.space = located.space;
     record.width_px = follower.image().width_px;
     record.height_px = follower.image().height_px;
     record.min_dots = follower.used_options().lattice.min_dots;
@@ -274,7 +290,8 @@ Record record_of(const Located& located, const Follower& follower) {
 }
 
 std::array<std::string, kWarnings> warnings(const Record& record) {
-    return {code_warning(record), sheet_warning(record), spacing_warning(record)};
+    return {code_warning(record), sheet_warning(record), spacing_warning(record),
+            space_warning(record)};
 }
 
 std::string reason(const Record& record) {
@@ -318,6 +335,8 @@ std::vector<Field> fields(const Record& record, Units units) {
     append(all, image_fields(record));
     append(all, code_fields(record, units));
     if (record.has_sheets) append(all, sheet_fields(record, units));
+    if (record.has_space)
+        append(all, space_fields(record.space, record.place, record.has_sheets, units));
     return all;
 }
 
@@ -329,15 +348,14 @@ std::vector<Field> columns_of(std::vector<Field> fields, Columns columns) {
     };
     std::erase_if(fields, [&](const Field& field) {
         const bool is_pattern = is_among(kPatternPose, field.name);
-        return is_pattern ? has_sheet : !is_among(kBriefColumns, field.name);
+        if (is_pattern) return has_sheet;
+        return !is_among(kBriefColumns, field.name) && !is_brief_space_field(field.name);
     });
     return fields;
 }
 
-std::string csv_header(bool has_sheets, Units units, Columns columns) {
-    Record record;
-    record.has_sheets = has_sheets;
-    return csv_header(columns_of(fields(record, units), columns));
+std::string csv_header(const Follower& follower, Units units, Columns columns) {
+    return csv_header(columns_of(fields(empty_record(follower), units), columns));
 }
 
 }  // namespace dotpose::cli

@@ -23,6 +23,8 @@ struct Record {
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
     /// Velocity of the camera during the readout of a rolling shutter; see Located.
     std::optional<ReadoutVelocity> velocity;
+    bool has_space = false;           ///< true if the record has the fields of a pose in space
+    std::optional<SpacePose> space;   ///< pose of the camera in space; see Located
     bool has_sheets = false;          ///< true if the record has the fields of a sheet file
     std::optional<SheetPlace> place;  ///< place of the fix; none if it is not on a sheet
     int min_side_px() const { return has_sheets ? kMinKnownFrameSide_px : kMinFrameSide_px; }
@@ -38,10 +40,11 @@ struct Record {
 Record record_of(const Located& located, const Follower& follower);
 
 /// Number of kinds of warnings.
-inline constexpr std::size_t kWarnings = 3;
+inline constexpr std::size_t kWarnings = 4;
 /// Returns the warnings for a frame. An empty string means no warning. The warnings are, in order:
 /// another code than the given code explains the frame; the place is not on any sheet of the sheet
-/// file; the spacing implied by the camera file differs from the spacing of the sheet.
+/// file; the spacing implied by the camera file differs from the spacing of the sheet; the dots do
+/// not exclude the second pose in space.
 std::array<std::string, kWarnings> warnings(const Record& record);
 
 /// Explains why there is no fix, with the relevant numbers. Returns an empty string if there is a
@@ -64,8 +67,10 @@ enum class Columns {
 /// Returns the fields that are columns, in the same order.
 std::vector<Field> columns_of(std::vector<Field> fields, Columns columns);
 
-/// Returns the CSV header of a run with or without sheets, including the line break.
-std::string csv_header(bool has_sheets, Units units, Columns columns);
+/// Returns the CSV header of a run with the options of a Follower, including the line break.
+std::string csv_header(const Follower& follower, Units units, Columns columns);
+/// Returns a record without values, with the fields that the options of a Follower require.
+Record empty_record(const Follower& follower);
 
 /// Returns one line of text: file, sheet, x, y and angle, each with its standard deviation, and the
 /// place in the world. If there is no fix, the line contains the reason.

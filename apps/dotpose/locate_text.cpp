@@ -6,6 +6,7 @@
 
 #include "dotpose/files/degrees.hpp"
 #include "locate_record.hpp"
+#include "space_fields.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -59,7 +60,8 @@ std::string place_text(const Record& record, Units units) {
 std::string text_line(const Record& record, Units units) {
     std::string text =
         record.fix.status == Status::ok
-            ? place_text(record, units)
+            ? place_text(record, units) +
+                  (record.space ? "; " + space_text(*record.space, record.place, units) : "")
             : fmt::format("no fix ({}): {}", name(record.fix.status), reason(record));
     for (const std::string& doubt : warnings(record)) {
         if (!doubt.empty()) text += "; warning: " + doubt;

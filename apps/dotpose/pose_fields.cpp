@@ -13,12 +13,6 @@
 namespace dotpose::cli {
 namespace {
 
-/// Formats an element of a covariance with a fixed number of significant digits, because the
-/// elements differ by many powers of ten. Converts -0 to 0.
-std::string significant(double value) {
-    return std::isfinite(value) ? fmt::format("{:.7g}", value + 0.0) : std::string();
-}
-
 std::string radians(double angle_rad) {
     return decimal(angle_rad, 8);
 }

@@ -96,9 +96,9 @@ std::vector<Field> fields(const Reading& reading, Units units) {
     return all;
 }
 
-std::string csv_header_of_readings(bool has_sheets, Units units) {
+std::string csv_header_of_readings(const Follower& follower, Units units) {
     Reading reading;
-    reading.record.has_sheets = has_sheets;
+    reading.record = empty_record(follower);
     return csv_header(fields(reading, units));
 }
 

@@ -12,6 +12,6 @@ namespace dotpose::cli {
 std::vector<Field> fields(const Reading& reading, Units units);
 
 /// Returns the CSV header of a run with or without sheets.
-std::string csv_header_of_readings(bool has_sheets, Units units);
+std::string csv_header_of_readings(const Follower& follower, Units units);
 
 }  // namespace dotpose::cli

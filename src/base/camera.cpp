@@ -99,6 +99,12 @@ void validate(const Camera& camera) {
         require(*camera.focal_px >= 1 && *camera.focal_px <= kMaxFocal_px, "focal_px",
                 fmt::format("must be from 1 to {:g}", kMaxFocal_px));
     }
+    if (camera.pinhole) {
+        const auto is_focal = [](double px) { return px >= 1 && px <= kMaxFocal_px; };
+        require(is_focal(camera.pinhole->focal_u_px) && is_focal(camera.pinhole->focal_v_px),
+                "pinhole_px", fmt::format("must have focal lengths from 1 to {:g}", kMaxFocal_px));
+        require_near(camera.pinhole->centre_px, camera, kMaxCentre_px, "pinhole_px");
+    }
     if (camera.tilt) {
         const auto is_tilt = [](double rad) { return std::abs(rad) < std::numbers::pi / 2; };
         require(is_tilt(camera.tilt->x_rad) && is_tilt(camera.tilt->y_rad), "tilt_rad",
@@ -138,6 +144,12 @@ PixelPoint distorted(const Camera& camera, PixelPoint point) {
     const double root = std::sqrt(std::max(1 - 4 * camera.k_per_px2 * (du * du + dv * dv), 0.0));
     const double stretch = 2 / (1 + root);
     return {camera.centre_px.u + stretch * du, camera.centre_px.v + stretch * dv};
+}
+
+std::optional<Pinhole> pinhole_of(const Camera& camera) {
+    if (camera.pinhole) return camera.pinhole;
+    if (!camera.focal_px) return std::nullopt;
+    return Pinhole{*camera.focal_px, *camera.focal_px, camera.centre_px};
 }
 
 CameraPoint on_paper(const Camera& camera, PixelPoint point) {
@@ -201,6 +213,7 @@ Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int 
     part.width_px = width_px;
     part.height_px = height_px;
     part.centre_px = moved(camera.centre_px);
+    if (camera.pinhole) part.pinhole->centre_px = moved(camera.pinhole->centre_px);
     part.reference_px = moved(camera.reference_px.value_or(image_centre(camera)));
     if (camera.paper) {
         // The heading is relative to the image x axis at the image centre, and the part has a

@@ -44,9 +44,9 @@ Camera read_native(const YamlMap& file) {
                                          file.integer("version"), kCameraFileVersion));
     }
     file.allow_only({"format", "version", "width_px", "height_px", "k_per_px2", "centre_px",
-                     "mm_per_px", "skew", "perspective_per_px", "focal_px", "tilt_rad",
-                     "reference_px", "theta_offset_rad", "flip", "flat_field", "readout_ms",
-                     "exposure_us", "gain", "sigma"});
+                     "mm_per_px", "skew", "perspective_per_px", "focal_px", "pinhole_px",
+                     "tilt_rad", "reference_px", "theta_offset_rad", "flip", "flat_field",
+                     "readout_ms", "exposure_us", "gain", "sigma"});
     Camera camera;
     camera.width_px = file.integer("width_px");
     camera.height_px = file.integer("height_px");
@@ -54,6 +54,10 @@ Camera read_native(const YamlMap& file) {
     camera.centre_px = point(file, "centre_px");
     if (file.has("mm_per_px")) camera.paper = read_paper(file);
     camera.focal_px = optional_number(file, "focal_px");
+    if (file.has("pinhole_px")) {
+        const auto numbers = file.numbers("pinhole_px", 4);
+        camera.pinhole = Pinhole{numbers[0], numbers[1], {numbers[2], numbers[3]}};
+    }
     if (file.has("tilt_rad")) {
         const PixelPoint tilt = point(file, "tilt_rad");
         camera.tilt = Tilt{tilt.u, tilt.v};
@@ -126,6 +130,13 @@ std::string yaml_of(const Camera& camera) {
         out.line("perspective_per_px", paper->perspective_u, paper->perspective_v);
     }
     if (camera.focal_px) out.line("focal_px", *camera.focal_px);
+    if (const auto& pinhole = camera.pinhole) {
+        out.line("pinhole_px",
+                 fmt::format("[{}, {}, {}, {}]", text_of(pinhole->focal_u_px),
+                             text_of(pinhole->focal_v_px), text_of(pinhole->centre_px.u),
+                             text_of(pinhole->centre_px.v)),
+                 "focal lengths and optical axis, undistorted");
+    }
     if (camera.tilt) out.line("tilt_rad", camera.tilt->x_rad, camera.tilt->y_rad);
     if (camera.reference_px) {
         out.line("reference_px", camera.reference_px->u, camera.reference_px->v,

@@ -138,6 +138,7 @@ PixelPoint PlumbBob::undistorted(PixelPoint pixel) const {
 double fit_division_model(const PlumbBob& lens, Camera& camera) {
     camera.k_per_px2 = 0;
     camera.centre_px = {lens.cx, lens.cy};
+    camera.pinhole = Pinhole{lens.fx, lens.fy, camera.centre_px};
     // Without distortion, the distortion centre is not determined.
     if (lens.is_straight()) return 0;
     constexpr int kSteps = 16;
@@ -162,6 +163,13 @@ double fit_division_model(const PlumbBob& lens, Camera& camera) {
     const double squares = minimise(pairs, parameters);
     camera.k_per_px2 = parameters[0] / (reach_px * reach_px);
     camera.centre_px = {parameters[1] * reach_px, parameters[2] * reach_px};
+    // The affine map changes the scale of the undistorted image and moves the optical axis. Its
+    // shear is negligible.
+    const auto& p = parameters;
+    camera.pinhole = Pinhole{lens.fx / p[4],
+                             lens.fy / p[8],
+                             {(lens.cx - reach_px * (p[3] - p[4] * p[1])) / p[4],
+                              (lens.cy - reach_px * (p[6] - p[8] * p[2])) / p[8]}};
     return std::sqrt(squares / static_cast<double>(pairs.size())) * reach_px;
 }
 

@@ -25,9 +25,10 @@ struct PlumbBob {
     PixelPoint undistorted(PixelPoint pixel) const;
 };
 
-/// Sets `k_per_px2` and `centre_px` to the division model nearest to `lens` over the image. The
-/// image size must be set. Returns the rms difference of the two models over the image, in px.
-/// Returns infinity if the lens cannot be inverted.
+/// Sets `k_per_px2` and `centre_px` to the division model nearest to `lens` over the image, and
+/// `pinhole` to the directions of view that belong to this model. The image size must be set.
+/// Returns the rms difference of the two models over the image, in px. Returns infinity if the lens
+/// cannot be inverted.
 double fit_division_model(const PlumbBob& lens, Camera& camera);
 
 }  // namespace dotpose::files

@@ -15,12 +15,18 @@ Follower::Follower(const FollowerOptions& options)
       unplaced_spacing_mm_(options.spacing_mm),
       used_(options.locate),
       tracker_(options.track) {
+    if (options.fits_space_pose) require_space_camera();
     if (options.code) codes_ = {*options.code};
     if (options.camera && !options.camera->flat_field.empty()) {
         validate(*options.camera);
         flat_field_.emplace(*options.camera);
     }
     if (!options.sheets.empty()) use_sheets();
+}
+
+void Follower::require_space_camera() const {
+    if (!options_.camera) throw BadArgument("a pose in space needs a camera file");
+    require_focal_length(*options_.camera);
 }
 
 void Follower::use_sheets() {
@@ -48,6 +54,8 @@ void Follower::use_sheets() {
 void Follower::use_options_for(int width_px, int height_px) {
     used_ = options_.locate;
     if (options_.camera) use_camera(*options_.camera, width_px, height_px, used_);
+    if (options_.fits_space_pose)
+        used_.show_stages = true;  // space_pose fits the dots in the trace
     if (options_.reference_px) {
         const auto from_centre_q8 = [](double px, int side_px) {
             return static_cast<std::int32_t>(std::lround((px - (side_px - 1) / 2.0) * 256));
@@ -77,31 +85,45 @@ Locator& Follower::locator(const DeviceOptions& options) {
 /// Applies the camera file to the fix of the latest image.
 Follower::Found Follower::by_camera_file(const Fix& seen, const std::optional<SheetPlace>& place,
                                          const CodeReading& reading) const {
-    if (!options_.camera) return {seen, seen, place, reading, {}};
+    if (!options_.camera) return {seen, seen, place, reading, {}, {}};
     const AxisScale print = place ? place->entry->print_scale() : AxisScale{};
     const auto [fix, velocity] =
         with_camera_and_velocity(seen, *options_.camera, locator_.trace(), print);
-    return {seen, fix, place, reading, velocity};
+    return {seen, fix, place, reading, velocity, space_of(seen, place)};
+}
+
+/// Returns the pose in space for the fix of the latest image.
+std::optional<SpacePose> Follower::space_of(const Fix& seen,
+                                            const std::optional<SheetPlace>& place) const {
+    if (!options_.fits_space_pose) return std::nullopt;
+    const AxisScale print = place ? place->entry->print_scale() : AxisScale{};
+    return space_pose(with_spacing(seen, place), *options_.camera, image_, locator_.trace(), print);
 }
 
 double Follower::spacing_mm(const std::optional<SheetPlace>& place) const {
     return place ? place->entry->sheet.pattern.spacing_mm : unplaced_spacing_mm_;
 }
 
+/// Returns the fix with the spacing of its sheet, or 0 if the spacing is not known.
+Fix Follower::with_spacing(const Fix& fix, const std::optional<SheetPlace>& place) const {
+    Fix result = fix;
+    const double mm = spacing_mm(place);
+    result.spacing_nm = std::isfinite(mm) ? static_cast<std::int32_t>(std::lround(mm * 1e6)) : 0;
+    return result;
+}
+
 Located Follower::located(const Found& found, const Fix& fix) const {
     Located result;
-    result.fix = fix;
     result.reading = found.reading;
     result.velocity = found.velocity;
+    if (fix.status == Status::ok) result.space = found.space;
     result.place = find_sheet(options_.sheets, found.reading.code, fix);
     result.spacing_mm = spacing_mm(result.place);
     if (options_.camera) {
         const AxisScale print = result.place ? result.place->entry->print_scale() : AxisScale{};
         result.camera_spacing_mm = measured_spacing_mm(fix, *options_.camera, print);
     }
-    result.fix.spacing_nm = std::isfinite(result.spacing_mm)
-                                ? static_cast<std::int32_t>(std::lround(result.spacing_mm * 1e6))
-                                : 0;
+    result.fix = with_spacing(fix, result.place);
     result.code_is_given = !codes_.empty();
     return result;
 }

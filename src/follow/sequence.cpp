@@ -12,8 +12,6 @@ namespace {
 
 using namespace follow_detail;
 
-constexpr double kNm_per_mm = 1e6;
-
 std::int32_t bam(double angle_rad) {
     const auto turned = std::llround(angle_rad / std::numbers::pi * 2147483648.0);
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(turned));
@@ -138,10 +136,8 @@ Follower::Found Follower::without_neighbours(const Found& found) {
 
 std::optional<Sighting> Follower::sighting_of(const Found& found, std::int64_t time_us) const {
     const auto place = find_sheet(options_.sheets, found.reading.code, found.fix);
-    const double spacing = spacing_mm(place);
-    if (found.fix.status != Status::ok || !std::isfinite(spacing)) return std::nullopt;
-    Fix fix = found.fix;
-    fix.spacing_nm = static_cast<std::int32_t>(std::lround(spacing * kNm_per_mm));
+    if (found.fix.status != Status::ok || !std::isfinite(spacing_mm(place))) return std::nullopt;
+    const Fix fix = with_spacing(found.fix, place);
     if (!is_in_world_) return dotpose::sighting_of(fix, time_us);
     return place ? world_sighting(fix, *place, time_us) : std::nullopt;
 }

@@ -69,6 +69,9 @@ class OutputLines : public ToolCommand {
             write_pgm(directory_ / "frames" / ("f" + std::to_string(i) + ".pgm"),
                       camera.frame(drive_, kFirst + i).view());
         }
+        std::ofstream(directory_ / "camera.yaml")
+            << "format: dotpose-camera\nversion: 1\nwidth_px: 188\nheight_px: 120\n"
+               "k_per_px2: 0\ncentre_px: [93.5, 59.5]\nfocal_px: 350\n";
         GreyImage flat{{}, 188, 120};
         flat.pixels.assign(188 * 120, 200);
         for (int i = 0; i < 16; ++i)
@@ -109,8 +112,11 @@ constexpr std::array kRuns = {
     "locate frames/f0.pgm frames/g10.pgm",
     "locate frames/f0.pgm --sheets sheets.json",
     "locate frames/f0.pgm --code libdots",
+    "locate frames/f0.pgm frames/g10.pgm --camera camera.yaml --pose space",
+    "locate frames/f0.pgm --sheets sheets.json --camera camera.yaml --pose space",
     "watch frames --fps 200 --no-window",
     "watch frames --fps 200 --no-window --sheets sheets.json",
+    "watch frames --fps 200 --no-window --camera camera.yaml --pose space",
     "listen packets.bin",
     "listen packets.bin --sheets sheets.json",
 };
@@ -148,6 +154,10 @@ TEST_F(OutputLines, HaveTheSameNamesInCsv) {
             for (const std::string& key : keys) {
                 if (key == "section") {
                     EXPECT_THAT(columns, Contains("section_v"));
+                } else if (key.find("quaternion") != std::string::npos) {
+                    EXPECT_THAT(columns, Contains(key + "_w")) << arguments;
+                } else if (key.find("camera_covariance") != std::string::npos) {
+                    EXPECT_THAT(columns, Contains(key + "_55")) << arguments;
                 } else if (key.find("covariance") != std::string::npos) {
                     EXPECT_THAT(columns, Contains(key + "_00")) << arguments;
                     EXPECT_THAT(columns, Contains(key + "_22")) << arguments;

@@ -47,6 +47,15 @@ struct Tilt {
 /// Minimum value of a flat field. In darker parts of an image, dots cannot be told from noise.
 inline constexpr double kMinFlatField = 0.05;
 
+/// Directions of view of the undistorted image: pixel (u, v) is the image of the points in the
+/// direction ((u - centre_px.u) / focal_u_px, (v - centre_px.v) / focal_v_px, 1), with x along the
+/// image x axis, y down in the image, and z along the optical axis.
+struct Pinhole {
+    double focal_u_px = 0;
+    double focal_v_px = 0;
+    PixelPoint centre_px;  ///< pixel on the optical axis
+};
+
 /// Contents of a camera file: one camera and its place on a robot.
 struct Camera {
     int width_px = 0;
@@ -57,6 +66,9 @@ struct Camera {
     PixelPoint centre_px;
     std::optional<PaperScale> paper;  ///< none if the camera is hand-held, or its view is not known
     std::optional<double> focal_px;   ///< none if the calibration did not determine it
+    /// Directions of view, if pixels are not square or `centre_px` is not on the optical axis, as
+    /// in the files of ROS. See `pinhole_of`.
+    std::optional<Pinhole> pinhole;
     /// Tilt of a mounted camera; none if the calibration did not determine it.
     std::optional<Tilt> tilt;
 
@@ -102,6 +114,10 @@ PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
 /// Returns the distorted pixel of an undistorted pixel. For a point that the camera cannot see,
 /// returns the pixel at twice the distance of `undistorted` from the distortion centre.
 PixelPoint distorted(const Camera& camera, PixelPoint undistorted);
+
+/// Returns `pinhole` or, if there is none, square pixels with `focal_px` and the optical axis at
+/// `centre_px`. Returns none if neither is known.
+std::optional<Pinhole> pinhole_of(const Camera& camera);
 
 /// A point in the camera frame.
 struct CameraPoint {

@@ -24,6 +24,7 @@
 #include "dotpose/tools/flat_field.hpp"
 #include "dotpose/tools/grey_image.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
+#include "dotpose/tools/space_pose.hpp"
 #include "dotpose/track.hpp"
 
 DOTPOSE_BEGIN_EXPORT
@@ -51,6 +52,9 @@ struct FollowerOptions {
     /// The reference pixel of the pose, instead of the image centre or the reference point of the
     /// camera file.
     std::optional<PixelPoint> reference_px;
+    /// True to fit the pose of the camera in space, in addition to the pose on the paper. Requires
+    /// a camera file with a focal length.
+    bool fits_space_pose = false;
     TrackOptions track;
 };
 
@@ -72,6 +76,9 @@ struct Located {
     /// Velocity of the camera during the readout. None without a fix, or if the camera file does
     /// not contain the readout time of a rolling shutter.
     std::optional<ReadoutVelocity> velocity;
+    /// Pose of the camera in space, if `FollowerOptions::fits_space_pose` is set. None without a
+    /// fix or if the spacing is not known.
+    std::optional<SpacePose> space;
     bool code_is_given = false;  ///< true if options or sheets determine the code variant
     int reduced_by = 1;          ///< factor by which the image was reduced
 };
@@ -93,6 +100,8 @@ std::optional<Sighting> world_sighting(const Fix& fix, const SheetPlace& place,
 /// Locates single images, or the images of a sequence in order.
 class Follower {
   public:
+    /// Throws BadArgument if the options require a pose in space and have no camera file, or one
+    /// without a focal length.
     explicit Follower(const FollowerOptions& options);
 
     /// Locates an image without a prediction from other images. Reduces images larger than
@@ -108,6 +117,7 @@ class Follower {
     /// pattern frame.
     bool is_in_world() const { return is_in_world_; }
     const std::vector<SheetEntry>& sheets() const { return options_.sheets; }
+    bool fits_space_pose() const { return options_.fits_space_pose; }
 
     /// Return, for the latest image: the image that was located (possibly flipped, reduced, and
     /// corrected by the flat field), the options used, and the trace of the stages.
@@ -122,6 +132,7 @@ class Follower {
         std::optional<SheetPlace> place;  ///< place of `seen`
         CodeReading reading;
         std::optional<ReadoutVelocity> velocity;
+        std::optional<SpacePose> space;
     };
     /// The result of the latest image with a fix.
     struct Seen {
@@ -130,13 +141,17 @@ class Follower {
         std::optional<Sighting> sighting;
     };
 
+    void require_space_camera() const;
     void use_sheets();
     void use_options_for(int width_px, int height_px);
     ImageView as_located(ImageView image);
     Locator& locator(const DeviceOptions& options);
     Found by_camera_file(const Fix& seen, const std::optional<SheetPlace>& place,
                          const CodeReading& reading) const;
+    std::optional<SpacePose> space_of(const Fix& seen,
+                                      const std::optional<SheetPlace>& place) const;
     double spacing_mm(const std::optional<SheetPlace>& place) const;
+    Fix with_spacing(const Fix& fix, const std::optional<SheetPlace>& place) const;
     Located located(const Found& found, const Fix& fix) const;
 
     // Functions for single images.

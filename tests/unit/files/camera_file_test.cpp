@@ -266,6 +266,36 @@ TEST_F(CameraFile, ALensOfRosIsConvertedNotRelabelled) {
     }
 }
 
+TEST_F(CameraFile, ALensOfRosKeepsItsDirectionsOfView) {
+    const Camera camera = read(kRos);
+    const Pinhole pinhole = pinhole_of(camera).value();
+    for (double x = -0.48; x <= 0.48; x += 0.08) {
+        for (double y = -0.36; y <= 0.36; y += 0.08) {
+            const PixelPoint at = undistorted(camera, seen_by_ros(x, y));
+            EXPECT_NEAR((at.u - pinhole.centre_px.u) / pinhole.focal_u_px, x, 1e-3) << y;
+            EXPECT_NEAR((at.v - pinhole.centre_px.v) / pinhole.focal_v_px, y, 1e-3) << x;
+        }
+    }
+    write_camera(path_, camera);
+    const Pinhole again = pinhole_of(read_camera(path_)).value();
+    EXPECT_NEAR(again.focal_u_px, pinhole.focal_u_px, 1e-6);
+    EXPECT_NEAR(again.centre_px.v, pinhole.centre_px.v, 1e-6);
+}
+
+TEST_F(CameraFile, SquarePixelsHaveTheirAxisAtTheDistortionCentre) {
+    Camera camera = read(kWhole);
+    camera.pinhole.reset();
+    camera.focal_px = 500;
+    EXPECT_EQ(pinhole_of(camera)->focal_v_px, 500);
+    EXPECT_EQ(pinhole_of(camera)->centre_px.u, camera.centre_px.u);
+    camera.focal_px.reset();
+    EXPECT_FALSE(pinhole_of(camera));
+    camera.pinhole = Pinhole{500, 510, {100, 50}};
+    EXPECT_EQ(part_of(camera, 8, 4, 100, 80).pinhole->centre_px.u, 92);
+    camera.pinhole->focal_v_px = 0;
+    EXPECT_THROW(validate(camera), BadArgument);
+}
+
 TEST_F(CameraFile, APrintedMessageOfRosIsReadAsWell) {
     const Camera camera = read(
         "header: {frame_id: down}\nheight: 480\nwidth: 640\ndistortion_model: plumb_bob\n"

@@ -58,11 +58,13 @@ try:
         SheetEntry,
         SheetFile,
         SheetPlace,
+        SpacePose,
         SpinCalibration,
         Station,
         Stitching,
         WorldPlace,
         WorldPose,
+        WorldSpacePose,
         calibrate,
         calibrate_drive,
         calibrate_spin,
@@ -88,7 +90,8 @@ except ModuleNotFoundError as error:
             DriveCalibration Finding Follower LensCalibration Located
             OverlayReport PrintCheck PrintField PrintScale Protocol
             ProtocolResult Sheet SheetEntry SheetFile SheetPlace
-            SpinCalibration Station Stitching WorldPlace WorldPose
+            SpacePose SpinCalibration Station Stitching WorldPlace WorldPose
+            WorldSpacePose
             calibrate calibrate_drive calibrate_spin check_print make_sheet
             make_sheets overlay print_sheet print_sheets read_image
             read_sheets run_protocol stitch_sheets write_image

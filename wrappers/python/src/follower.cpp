@@ -19,6 +19,7 @@ namespace {
 struct SeenLocated {
     SeenFix fix;
     std::optional<SeenPlace> place;
+    std::optional<SpacePose> space;
     int reduced_by = 1;
     std::optional<Track> track;
 };
@@ -53,6 +54,7 @@ class FollowerOfPython {
         result.fix = seen_fix(located.reading);
         result.fix.fix = located.fix;
         result.place = seen_place(located.place);
+        result.space = located.space;
         result.reduced_by = located.reduced_by;
         const DeviceOptions& used = follower_.used_options();
         result.fix.reference_q8 = {used.reference_dx_q8, used.reference_dy_q8};
@@ -70,7 +72,8 @@ class FollowerOfPython {
 std::unique_ptr<FollowerOfPython> new_follower(
     const std::vector<SheetEntry>& sheets, const std::string& code, double spacing_mm,
     const std::optional<Camera>& camera, const std::optional<std::array<double, 2>>& reference,
-    const LocatorOptions& options, bool only_sheets, bool keep_stages, const py::kwargs& track) {
+    const LocatorOptions& options, bool only_sheets, bool keep_stages, bool space,
+    const py::kwargs& track) {
     FollowerOptions all;
     all.locate = checked(options);
     all.locate.show_stages |= keep_stages;
@@ -80,6 +83,7 @@ std::unique_ptr<FollowerOfPython> new_follower(
     all.code = code_or_auto(code);
     all.spacing_mm = spacing_mm;
     all.camera = camera;
+    all.fits_space_pose = space;
     if (reference) all.reference_px = PixelPoint{(*reference)[0], (*reference)[1]};
     all.track = track_options_of(track);
     return std::make_unique<FollowerOfPython>(all, keep_stages);
@@ -101,6 +105,8 @@ void define_follower(py::module_& module) {
             py::return_value_policy::reference_internal, "The Fix, which may not be ok.")
         .def_readonly("place", &SeenLocated::place,
                       "SheetPlace of the fix; None if the fix is on no sheet.")
+        .def_readonly("space", &SeenLocated::space,
+                      "SpacePose of the camera; None without a fix or if it was not wanted.")
         .def_readonly("track", &SeenLocated::track,
                       "Track after the image; None from Follower.locate.")
         .def_readonly("reduced_by", &SeenLocated::reduced_by,
@@ -118,12 +124,14 @@ void define_follower(py::module_& module) {
         .def(py::init(&new_follower), "sheets"_a = py::list(), "code"_a = "auto",
              "spacing_mm"_a = kDefaultSpacing_mm, py::kw_only(), "camera"_a = py::none(),
              "reference_px"_a = py::none(), py::arg_v("options", LocatorOptions{}, "Options()"),
-             "only_sheets"_a = false, "keep_stages"_a = false,
+             "only_sheets"_a = false, "keep_stages"_a = false, "space"_a = false,
              "Make a follower.\n\n"
              "sheets: entries of the pages that may be in view; without sheets, poses are in the "
              "pattern frame.\ncode, spacing_mm: code and spacing of the pattern without sheets.\n"
              "only_sheets: whether no other sheet can be in view; smaller views suffice then.\n"
              "camera, reference_px, options, keep_stages: as in Locator.\n"
+             "space: whether to find the pose of the camera in space, which needs a camera with a "
+             "focal length.\n"
              "Options of the tracker are given by name, as in Tracker.")
         .def("locate", &FollowerOfPython::locate, "image"_a,
              "Locate a single image. An image that is too large is reduced.")

@@ -10,6 +10,7 @@ PYBIND11_MODULE(_tools, module) {
     const py::object own_name = module.attr("__name__");
     module.attr("__name__") = "dotpose";
     define_sheets(module);
+    define_space(module);
     define_follower(module);
     define_files(module);
     define_print(module);

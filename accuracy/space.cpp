@@ -1,0 +1,216 @@
+// Measures the errors of poses in space (docs/pose-in-space.md) against the truth and the
+// Cramer-Rao bound. Prints a table in Markdown, and can replace it in the document.
+//
+//   dotpose_tables space [--frames N] [--seed S] [--threads N] [--tilts D,...]
+//                        [--update DOCUMENT]
+//
+// The exit status is 1 if a pose that is not reported as ambiguous is wrong.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <fmt/core.h>
+
+#include "calibrate/dots_in_view.hpp"
+#include "calibration.hpp"
+#include "space_opencv.hpp"
+#include "space_view.hpp"
+#include "tables.hpp"
+
+namespace dotpose::tables {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180;
+/// Print jitter of the preset `nominal`.
+constexpr double kJitter_mm = 0.010;
+/// Normalised squared error of the six coordinates above which a pose is wrong. By chance, a
+/// correct pose exceeds it once in 10^19.
+constexpr double kWrong = 100;
+
+/// Errors of one method. Errors are relative to the bound.
+struct SpaceErrors {
+    std::array<Errors, 6> coordinates;
+    Errors all;  ///< sum of the normalised squared errors of the six coordinates
+
+    SpaceErrors& operator+=(const SpaceErrors& other) {
+        for (std::size_t i = 0; i < coordinates.size(); ++i)
+            coordinates[i] += other.coordinates[i];
+        all += other.all;
+        return *this;
+    }
+};
+
+struct SpaceTally {
+    std::uint64_t frames = 0;
+    std::uint64_t located = 0;
+    std::uint64_t wrong = 0;
+    std::uint64_t ambiguous = 0;
+    std::uint64_t second = 0;  ///< frames with a second solution, excluded or not
+    SpaceErrors ours;
+    SpaceErrors opencv;
+
+    void operator+=(const SpaceTally& other) {
+        frames += other.frames;
+        located += other.located;
+        wrong += other.wrong;
+        ambiguous += other.ambiguous;
+        second += other.second;
+        ours += other.ours;
+        opencv += other.opencv;
+    }
+};
+
+/// A camera with 640 x 480 px.
+struct Lens {
+    const char* title;
+    double distance_mm;  ///< to the pose point
+    double k;
+};
+constexpr std::array kLenses = {Lens{"52 degrees", 30, -0.7e-6}, Lens{"28 degrees", 60, -0.2e-6}};
+
+/// Returns frame `index` of a camera that is tilted in any direction.
+Shot shot_at(const Lens& lens, double tilt_deg, std::uint64_t seed, std::uint64_t index) {
+    Setup setup;
+    setup.camera.width_px = 640;
+    setup.camera.height_px = 480;
+    setup.camera.k = lens.k;
+    setup.camera.working_distance_mm = lens.distance_mm;
+    setup.seed = seed;
+    Shot shot = draw_shot(setup, index);
+    Rng rng(shot.seed, 1);
+    const double azimuth_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
+    const double tilt_rad = tilt_deg * kDegree_rad;
+    // The normal of the paper leans by the tilt in the direction of the azimuth.
+    shot.pose.tilt_y_rad = std::asin(std::sin(tilt_rad) * std::cos(azimuth_rad));
+    shot.pose.tilt_x_rad =
+        std::atan2(std::sin(tilt_rad) * std::sin(azimuth_rad), std::cos(tilt_rad));
+    return shot;
+}
+
+void add(const SpaceVector& error, const SpaceMatrix& covariance, const SpaceMatrix& bound,
+         SpaceErrors& errors) {
+    for (Eigen::Index i = 0; i < 6; ++i) {
+        errors.coordinates[static_cast<std::size_t>(i)].add(
+            error[i] / std::sqrt(bound(i, i)), std::sqrt(covariance(i, i) / bound(i, i)));
+    }
+    errors.all.add(std::sqrt(error.dot(covariance.ldlt().solve(error))), 1);
+}
+
+SpaceMatrix matrix_of(const SpaceCovariance& covariance) {
+    SpaceMatrix result;
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t j = 0; j < 6; ++j)
+            result(Eigen::Index(i), Eigen::Index(j)) = covariance[i][j];
+    }
+    return result;
+}
+
+#ifdef DOTPOSE_HAS_CALIB3D
+/// Returns the pose by OpenCV from the dots that `space_pose` uses.
+CameraInSpace opencv_pose(const GreyImage& image, const Fix& fix, const Camera& camera,
+                          const Trace& trace) {
+    const double mm = fix.spacing_mm();
+    const auto fit =
+        calibrate::fit_to_image(image.view(), {camera, *pinhole_of(camera), {mm, mm}}, trace);
+    const calibrate::SpaceState state = tables::opencv_pose(fit.value(), *camera.focal_px);
+    const Eigen::Quaterniond rotation(state.rotation);
+    const Cell start = trace.decoding.place.cell;
+    return {state.position_mm.x() + mm * start.x,
+            state.position_mm.y() + mm * start.y,
+            state.position_mm.z(),
+            {rotation.w(), rotation.x(), rotation.y(), rotation.z()}};
+}
+#endif
+
+void measure(const Shot& shot, SpaceTally& tally) {
+    ++tally.frames;
+    const Camera camera = space_camera(shot.camera);
+    DeviceOptions options;
+    use_camera(camera, camera.width_px, camera.height_px, options);
+    options.show_stages = true;
+    Locator locator(thread_memory(), options);
+    const GreyImage image = render(shot);
+    const Fix fix = locator.locate(image.view());
+    const auto pose = space_pose(fix, camera, image.view(), locator.trace());
+    if (!pose) return;
+    ++tally.located;
+    const TrueSpacePose truth = true_space_pose(shot);
+    const SpaceMatrix bound = space_bound(shot, kJitter_mm);
+    const SpaceVector error = space_error(pose->camera, truth);
+    const SpaceMatrix covariance = matrix_of(pose->covariance);
+    tally.second += pose->second ? 1 : 0;
+    if (pose->is_ambiguous()) {
+        ++tally.ambiguous;
+        return;
+    }
+    if (error.dot(covariance.ldlt().solve(error)) > kWrong) ++tally.wrong;
+    add(error, covariance, bound, tally.ours);
+#ifdef DOTPOSE_HAS_CALIB3D
+    add(space_error(opencv_pose(image, fix, camera, locator.trace()), truth), covariance, bound,
+        tally.opencv);
+#endif
+}
+
+/// Returns two cells with the errors relative to the bound: of the position and of the rotation.
+std::string ratios_text(const SpaceErrors& errors) {
+    const auto& e = errors.coordinates;
+    if (e[0].count == 0) return " - | - |";
+    return fmt::format(" {:.2f} {:.2f} {:.2f} | {:.2f} {:.2f} {:.2f} |", e[0].rms(), e[1].rms(),
+                       e[2].rms(), e[3].rms(), e[4].rms(), e[5].rms());
+}
+
+std::string row_text(const Lens& lens, double tilt_deg, const SpaceTally& tally) {
+    const auto& e = tally.ours.coordinates;
+    return fmt::format("| {} | {} | {} of {} |{} {} {} {} | {} {} {} | {:.2f} | {} | {} | {} |{}\n",
+                       lens.title, tilt_deg, tally.located, tally.frames, ratios_text(tally.ours),
+                       e[0].normalised_text(), e[1].normalised_text(), e[2].normalised_text(),
+                       e[3].normalised_text(), e[4].normalised_text(), e[5].normalised_text(),
+                       tally.ours.all.squares / (6 * tally.ours.all.count), tally.second,
+                       tally.ambiguous, tally.wrong, ratios_text(tally.opencv));
+}
+
+}  // namespace
+
+bool space_table(TableRun& run) {
+    std::uint64_t frames = 200;
+    std::vector<double> tilts_deg{0, 5, 15, 25, 35, 45};
+    run.add_count("--frames", frames, "Number of frames for each tilt");
+    run.command.add_option("--tilts", tilts_deg, "Tilts, in degrees")
+        ->delimiter(',')
+        ->capture_default_str();
+    run.add_seed();
+    run.add_threads();
+    run.add_update();
+    if (!run.parse()) return true;
+    std::string text =
+        "| field | tilt | located | error / bound: x y z | about x y z | error² / variance: x y z "
+        "| "
+        "about x y z | all six | with a second pose | ambiguous | wrong | OpenCV, error / bound: "
+        "x y z | about x y z |\n|--:|--:|--:|---|---|---|---|--:|--:|--:|--:|---|---|\n";
+    bool is_right = true;
+    std::uint64_t row = 0;  // each row has other frames
+    for (const Lens& lens : kLenses) {
+        for (const double tilt_deg : tilts_deg) {
+            const std::uint64_t seed = scramble(run.seed + row++);
+            const std::string what = fmt::format("{}, tilt {}", lens.title, tilt_deg);
+            const auto count =
+                run.count<SpaceTally>(what, frames, [&](std::uint64_t i, SpaceTally& tally) {
+                    measure(shot_at(lens, tilt_deg, seed, i), tally);
+                });
+            text += row_text(lens, tilt_deg, count.tally);
+            is_right &= count.tally.wrong == 0 && count.is_complete();
+        }
+    }
+    run.print_block("space", text);
+    run.update_document();
+    return is_right;
+}
+
+}  // namespace dotpose::tables

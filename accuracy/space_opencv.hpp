@@ -1,0 +1,12 @@
+// Poses in space by OpenCV, for comparison.
+#pragma once
+
+#include "calibrate/space_fit.hpp"
+
+namespace dotpose::tables {
+
+/// Returns the better of the two poses of cv::solvePnPGeneric with SOLVEPNP_IPPE, refined by
+/// cv::solvePnPRefineLM, from the dots and the displacement of a fit.
+calibrate::SpaceState opencv_pose(const calibrate::SpaceFit& fit, double focal_px);
+
+}  // namespace dotpose::tables

@@ -1,0 +1,28 @@
+/// Fields of the pose of a camera in space.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dotpose/files/sheet_place.hpp"
+#include "dotpose/tools/space_pose.hpp"
+#include "fields.hpp"
+#include "pose_fields.hpp"
+
+namespace dotpose::cli {
+
+/// Returns the fields of a pose in space and of its second solution, all of which begin with
+/// `camera_`. If `has_sheets` is true, also returns the fields of the sheet and the world. The
+/// fields are empty if there is no pose.
+std::vector<Field> space_fields(const std::optional<SpacePose>& space,
+                                const std::optional<SheetPlace>& place, bool has_sheets,
+                                Units units);
+
+/// Returns true if the brief CSV format contains the field.
+bool is_brief_space_field(const std::string& name);
+
+/// Returns position and angles as text, such as "camera x 65.61 ± 0.002 mm, ...".
+std::string space_text(const SpacePose& pose, const std::optional<SheetPlace>& place, Units units);
+
+}  // namespace dotpose::cli

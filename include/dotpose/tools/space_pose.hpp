@@ -1,0 +1,136 @@
+/// Pose in space: position and rotation of a camera over the paper, in six degrees of freedom. The
+/// camera file must contain the focal length.
+///
+///     use_camera(camera, image.width_px, image.height_px, options);
+///     options.show_stages = true;  // space_pose uses the dots in the trace
+///     locator.set_options(options);
+///     const Fix fix = locator.locate(image);
+///     const auto pose = space_pose(fix, camera, image, locator.trace());
+///     if (pose && !pose->is_ambiguous()) use(pose->camera.z_mm, lean_of(pose->camera.rotation));
+///
+/// Coordinate frames, all right-handed:
+/// *camera*: the origin is the projection centre; x along the image x axis, y down in the image, z
+/// forward along the optical axis (the optical frame of ROS REP 103).
+/// *pattern*, *sheet*: x right, y DOWN, z INTO the paper, in mm. A camera above the paper has z <
+/// 0. Intersection (i, j) of the pattern is at (i, j) times the printed spacing. The sheet frame
+/// begins at the top left corner of the page. *world*: the world of a sheet file, in metres, y up,
+/// z OUT of the paper. A camera has z > 0.
+///
+/// The functions are pure and thread-safe.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "dotpose/export.hpp"
+#include "dotpose/files/camera.hpp"
+#include "dotpose/files/sheet_file.hpp"
+#include "dotpose/fix.hpp"
+#include "dotpose/image.hpp"
+#include "dotpose/trace.hpp"
+
+DOTPOSE_BEGIN_EXPORT
+
+namespace dotpose {
+
+/// Unit quaternion of a rotation, with w >= 0.
+struct Quaternion {
+    double w = 1;
+    double x = 0;
+    double y = 0;
+    double z = 0;
+};
+
+/// Pose of a camera in the pattern or sheet frame.
+struct CameraInSpace {
+    double x_mm = 0;  ///< position of the projection centre
+    double y_mm = 0;
+    double z_mm = 0;      ///< negative above the paper
+    Quaternion rotation;  ///< rotates vectors of the camera frame into the frame of the pose
+};
+
+/// A rotation as three angles in the pattern or sheet frame. The camera is first turned about its
+/// optical axis, which points straight at the paper, and then leaned over in the direction of the
+/// azimuth, by the tilt, without a further turn. These are the angles of a pen in the W3C's Pointer
+/// Events, with tilt = 90 degrees - altitude.
+struct CameraLean {
+    double tilt_rad =
+        0;  ///< angle between the optical axis and the normal of the paper, in [0, pi]
+    /// Direction on the paper in which the camera leans, from +x towards +y, in (-pi, pi]. Not
+    /// defined if the tilt is 0.
+    double azimuth_rad = 0;
+    /// Angle of the image x axis before the camera leans, from +x towards +y, in (-pi, pi]. Equals
+    /// `Fix::theta_rad` if the tilt is 0.
+    double turn_rad = 0;
+};
+CameraLean lean_of(const Quaternion& rotation);
+
+/// Covariance of a pose: position, then rotation.
+using SpaceCovariance = std::array<std::array<double, 6>, 6>;
+
+/// The other local maximum of the likelihood of the view of a plane. Its tilt is approximately
+/// mirrored about the line of sight.
+struct SecondPose {
+    CameraInSpace camera;
+    /// log2 of the likelihood of the dots with this pose divided by that with the first pose, for
+    /// independent errors of the dots. Not above 0.
+    double odds_log2 = 0;
+};
+
+/// Pose of a camera in space, fitted to all dots of a frame.
+struct SpacePose {
+    CameraInSpace camera;  ///< the pose with the maximum likelihood, in the pattern frame
+    /// Covariance of the position in the pattern frame, in mm, and of a small rotation vector in
+    /// the CAMERA frame, in radians: true rotation = `rotation` * exp(rotation vector). Computed
+    /// from the residuals of the dots. The camera file and the print scale are assumed to be exact.
+    SpaceCovariance covariance{};
+    int dots = 0;            ///< number of dots used
+    double residual_px = 0;  ///< rms residual of these dots, per axis
+    /// The second pose that explains the view, if there is one. It may be improbable.
+    std::optional<SecondPose> second;
+
+    /// Largest odds of an excluded second pose, log2. The limit is far below any rate of frames,
+    /// because the errors of dots on bent paper are not independent.
+    static constexpr double kMaxOdds_log2 = -30;
+    /// Returns true if the dots do not exclude the second pose.
+    bool is_ambiguous() const { return second && second->odds_log2 > kMaxOdds_log2; }
+};
+
+/// Throws BadArgument unless the camera file contains the focal length.
+void require_focal_length(const Camera& camera);
+
+/// Fits position and rotation of `camera` to all dots of `image` by maximum likelihood. The dots in
+/// the trace of `fix` give a first pose, which predicts all dots in view: also those at the border
+/// of the image and those far from a tilted camera. They are measured again. The errors of the dots
+/// are errors of their print, which a tilted view foreshortens, and errors of their centres in the
+/// image; both variances are estimated from the residuals. Dots with residuals above four standard
+/// deviations are not used. `print` is the print scale of the sheet. Returns none without a fix,
+/// without a known spacing (`Fix::spacing_nm` is 0), or with fewer than 12 dots. Throws BadArgument
+/// as `require_focal_length` does.
+std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const ImageView& image,
+                                    const Trace& trace, const AxisScale& print = {});
+
+/// Converts a pose from the pattern frame to the frame of a sheet. The rotation and its covariance
+/// are equal in both frames.
+CameraInSpace on_sheet(const CameraInSpace& camera, const SheetEntry& entry);
+
+/// Pose of a camera in the world of a sheet file.
+struct CameraInWorld {
+    double x_m = 0;
+    double y_m = 0;
+    double z_m = 0;
+    Quaternion rotation;  ///< rotates vectors of the camera frame into the world
+    /// Covariance of the position, in metres, and of a small rotation vector in the WORLD, in
+    /// radians: true rotation = exp(rotation vector) * `rotation`, as in the message
+    /// geometry_msgs/PoseWithCovariance of ROS. The pose of the page is assumed to be exact.
+    SpaceCovariance covariance{};
+};
+
+/// Converts a pose in the sheet frame, with the covariance of SpacePose, to the world. `page` is
+/// the pose of the page. A page at (0, 0) with yaw 0 gives the sheet frame with y up.
+CameraInWorld in_world(const CameraInSpace& camera, const SpaceCovariance& covariance,
+                       const WorldPose& page);
+
+}  // namespace dotpose
+
+DOTPOSE_END_EXPORT

@@ -1,0 +1,177 @@
+#include "calibrate/dots_in_view.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "calibrate/dot_images.hpp"
+#include "calibrate/located_frame.hpp"
+
+namespace dotpose::calibrate {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+Vector2d vector_of(PixelPoint point) {
+    return {point.u, point.v};
+}
+
+/// Returns the distorted pixel of a place on the paper, which must be in front of the camera.
+Vector2d pixel_of(const PatternView& view, const SpaceState& state, const Vector2d& place_mm) {
+    const Vector3d seen =
+        state.rotation.transpose() * (Vector3d(place_mm.x(), place_mm.y(), 0) - state.position_mm);
+    const Pinhole& pinhole = view.pinhole;
+    return vector_of(
+        distorted(view.camera, {pinhole.centre_px.u + pinhole.focal_u_px * seen.x() / seen.z(),
+                                pinhole.centre_px.v + pinhole.focal_v_px * seen.y() / seen.z()}));
+}
+
+/// Depth beyond which spacings are too short to be measured.
+double max_depth_mm(const PatternView& view) {
+    const double focal_px = std::max(view.pinhole.focal_u_px, view.pinhole.focal_v_px);
+    return focal_px * std::max(view.spacing_mm.x, view.spacing_mm.y) / kMinSpacing_px;
+}
+
+/// A rectangle of cells, as steps from the place of the trace.
+struct Cells {
+    FixedVec first{INT32_MAX, INT32_MAX};
+    FixedVec last{INT32_MIN, INT32_MIN};
+
+    void add(double x, double y) {
+        // Dots are displaced from their intersections, and the border of the image is curved.
+        constexpr int kMargin = 2;
+        const auto i = static_cast<std::int32_t>(std::lround(x));
+        const auto j = static_cast<std::int32_t>(std::lround(y));
+        first = {std::min(first.x, i - kMargin), std::min(first.y, j - kMargin)};
+        last = {std::max(last.x, i + kMargin), std::max(last.y, j + kMargin)};
+    }
+};
+
+/// Returns a rectangle that contains all cells in view, up to the maximum depth.
+Cells cells_in_view(const PatternView& view, const SpaceState& state) {
+    const double max_depth = max_depth_mm(view);
+    const double last_u = view.camera.width_px - 1;
+    const double last_v = view.camera.height_px - 1;
+    Cells cells;
+    constexpr int kParts = 8;
+    const auto add = [&](double u, double v) {
+        const PixelPoint straight = undistorted(view.camera, {u, v});
+        const Pinhole& pinhole = view.pinhole;
+        const Vector3d ray =
+            state.rotation * Vector3d((straight.u - pinhole.centre_px.u) / pinhole.focal_u_px,
+                                      (straight.v - pinhole.centre_px.v) / pinhole.focal_v_px, 1);
+        const double depth = ray.z() > 0 ? -state.position_mm.z() / ray.z() : max_depth;
+        const Vector3d at = state.position_mm + std::min(depth, max_depth) * ray;
+        cells.add(at.x() / view.spacing_mm.x, at.y() / view.spacing_mm.y);
+    };
+    for (int i = 0; i <= kParts; ++i) {
+        const double part = static_cast<double>(i) / kParts;
+        add(part * last_u, 0);
+        add(part * last_u, last_v);
+        add(0, part * last_v);
+        add(last_u, part * last_v);
+    }
+    return cells;
+}
+
+/// A dot of the code, and where it is expected.
+struct CodedDot {
+    FixedVec step;
+    Symbol symbol;
+    ExpectedDot expected;
+};
+
+/// Returns all dots of the code that can be measured in the image.
+std::vector<CodedDot> coded_dots(const ImageView& image, const PatternView& view,
+                                 const Trace& trace, const SpaceState& state) {
+    const double max_depth = max_depth_mm(view);
+    const Vector3d axis = state.rotation.col(2);
+    const Cells cells = cells_in_view(view, state);
+    const CodeVariant code = trace.options.code;
+    std::vector<CodedDot> dots;
+    for (std::int32_t j = cells.first.y; j <= cells.last.y; ++j) {
+        for (std::int32_t i = cells.first.x; i <= cells.last.x; ++i) {
+            const Vector2d intersection(view.spacing_mm.x * i, view.spacing_mm.y * j);
+            const double depth =
+                axis.dot(Vector3d(intersection.x(), intersection.y(), 0) - state.position_mm);
+            if (!(depth > 0) || depth > max_depth) continue;
+            const Vector2d near = pixel_of(view, state, intersection);
+            if (near.x() < -1 || near.y() < -1 || near.x() > view.camera.width_px ||
+                near.y() > view.camera.height_px)
+                continue;
+            const Place place = moved(code, trace.decoding.place, i, j);
+            const Symbol symbol = symbol_at(code, place.cell, place.section);
+            const Vector2d right(view.spacing_mm.x, 0);
+            const Vector2d down(0, view.spacing_mm.y);
+            const Vector2d at =
+                intersection + state.displacement * (dx(symbol) * right + dy(symbol) * down);
+            ExpectedDot expected;
+            expected.pixel = pixel_of(view, state, at);
+            // Difference quotients over the width of a dot.
+            constexpr double kPart = 1.0 / 6;
+            expected.px_per_spacing.col(0) = (pixel_of(view, state, at + kPart / 2 * right) -
+                                              pixel_of(view, state, at - kPart / 2 * right)) /
+                                             kPart;
+            expected.px_per_spacing.col(1) = (pixel_of(view, state, at + kPart / 2 * down) -
+                                              pixel_of(view, state, at - kPart / 2 * down)) /
+                                             kPart;
+            if (is_measurable(image, expected)) dots.push_back({{i, j}, symbol, expected});
+        }
+    }
+    return dots;
+}
+
+}  // namespace
+
+SpaceDot space_dot(const PatternView& view, FixedVec step, Symbol symbol, PixelPoint undistorted) {
+    const auto [x_mm, y_mm] = view.spacing_mm;
+    return {{undistorted.u - view.pinhole.centre_px.u, undistorted.v - view.pinhole.centre_px.v},
+            {x_mm * step.x, y_mm * step.y},
+            {x_mm * dx(symbol), y_mm * dy(symbol)}};
+}
+
+std::vector<SpaceDot> dots_in_view(const ImageView& image, const PatternView& view,
+                                   const Trace& trace, const SpaceState& state) {
+    const std::vector<CodedDot> all = coded_dots(image, view, trace, state);
+    const auto max_dots = static_cast<std::size_t>(std::max(trace.options.max_dots, 1));
+    const double step =
+        std::max(static_cast<double>(all.size()) / static_cast<double>(max_dots), 1.0);
+    std::vector<CodedDot> chosen;
+    for (double at = 0; at < static_cast<double>(all.size()); at += step)
+        chosen.push_back(all[static_cast<std::size_t>(at)]);
+    std::vector<ExpectedDot> expected;
+    for (const CodedDot& dot : chosen)
+        expected.push_back(dot.expected);
+    const auto centres = measured_centres(image, expected);
+    std::vector<SpaceDot> dots;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        if (!centres[i]) continue;
+        const auto& [pixel, covariance] = *centres[i];
+        dots.push_back(space_dot(view, chosen[i].step, chosen[i].symbol,
+                                 undistorted(view.camera, {pixel.x(), pixel.y()})));
+        dots.back().centre_covariance = covariance;
+    }
+    return dots;
+}
+
+std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& view,
+                                     const Trace& trace) {
+    constexpr std::size_t kMinDots = 12;
+    std::vector<SpaceDot> read;
+    for (const LocatedDot& dot : dots_read(trace))
+        read.push_back(space_dot(view, dot.step, dot.symbol, dot.pixel));
+    if (read.size() < kMinDots) return std::nullopt;
+    const Eigen::Vector2d focal_px(view.pinhole.focal_u_px, view.pinhole.focal_v_px);
+    const auto first = fit_space(read, focal_px);
+    if (!first) return std::nullopt;
+    const std::vector<SpaceDot> all = dots_in_view(image, view, trace, first->state);
+    // The dots cannot be measured if they are small in the image.
+    if (2 * all.size() < read.size()) return first;
+    return fit_space(all, focal_px);
+}
+
+}  // namespace dotpose::calibrate

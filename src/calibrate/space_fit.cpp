@@ -1,0 +1,327 @@
+#include "calibrate/space_fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "calibrate/least_squares.hpp"
+#include "calibrate/plane_start.hpp"
+
+namespace dotpose::calibrate {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// Parameters: position, rotation vector in the camera frame, displacement of the dots.
+constexpr int kParameters = 7;
+using Parameters = Eigen::Matrix<double, kParameters, 1>;
+using Information = Eigen::Matrix<double, kParameters, kParameters>;
+using Derivative = Eigen::Matrix<double, 2, kParameters>;
+
+/// A dot that the fit uses, with the transform of its residual to independent errors of equal
+/// variance.
+struct WeightedDot {
+    SpaceDot dot;
+    Matrix2d whitening = Matrix2d::Identity();
+};
+
+/// Residual of a dot in the image, seen minus predicted, and the derivatives of the prediction.
+struct Prediction {
+    Vector2d residual_px;
+    Derivative by_parameters;
+    Matrix2d px_per_mm;  ///< derivative with respect to the place of the dot on the paper
+    bool is_in_front = false;
+};
+
+Prediction predict(const SpaceState& state, const SpaceDot& dot, const Vector2d& focal_px) {
+    const Vector2d place = dot.intersection_mm + state.displacement * dot.direction_mm;
+    const Vector3d from_camera = Vector3d(place.x(), place.y(), 0) - state.position_mm;
+    const Vector3d seen = state.rotation.transpose() * from_camera;
+    Prediction result;
+    result.is_in_front = seen.z() > 0;
+    const double depth = seen.z();
+    result.residual_px =
+        dot.pixel - Vector2d(focal_px.x() * seen.x() / depth, focal_px.y() * seen.y() / depth);
+    Eigen::Matrix<double, 2, 3> by_seen;
+    by_seen << focal_px.x() / depth, 0, -focal_px.x() * seen.x() / (depth * depth),  //
+        0, focal_px.y() / depth, -focal_px.y() * seen.y() / (depth * depth);
+    const Eigen::Matrix<double, 2, 3> by_place = by_seen * state.rotation.transpose();
+    result.px_per_mm = by_place.leftCols<2>();
+    // A rotation of the camera by a small vector r adds `seen` x r to the place in its frame.
+    for (int i = 0; i < 3; ++i)
+        result.by_parameters.col(3 + i) = by_seen * seen.cross(Vector3d::Unit(i));
+    result.by_parameters.leftCols<3>() = -by_place;
+    result.by_parameters.col(6) = result.px_per_mm * dot.direction_mm;
+    return result;
+}
+
+SpaceState moved(const SpaceState& state, const Parameters& step) {
+    const Vector3d turn = step.segment<3>(3);
+    const double angle = turn.norm();
+    SpaceState result = state;
+    result.position_mm += step.head<3>();
+    if (angle > 0) {
+        // The quaternion remains a rotation in spite of rounding errors.
+        const Eigen::Quaterniond rotation(state.rotation * Eigen::AngleAxisd(angle, turn / angle));
+        result.rotation = rotation.normalized().toRotationMatrix();
+    }
+    result.displacement += step[6];
+    return result;
+}
+
+/// Normal equations of one linearization.
+struct Sums {
+    Information information = Information::Zero();
+    Parameters gradient = Parameters::Zero();
+    double squares = 0;
+};
+
+/// Returns the sums at a state. The squares are infinite if a dot is not in front of the camera.
+Sums sums_at(const SpaceState& state, const std::vector<WeightedDot>& dots,
+             const Vector2d& focal_px) {
+    Sums sums;
+    for (const auto& [dot, whitening] : dots) {
+        const Prediction predicted = predict(state, dot, focal_px);
+        if (!predicted.is_in_front) {
+            sums.squares = std::numeric_limits<double>::infinity();
+            return sums;
+        }
+        const Vector2d residual = whitening * predicted.residual_px;
+        const Derivative rows = whitening * predicted.by_parameters;
+        sums.information.noalias() += rows.transpose() * rows;
+        sums.gradient.noalias() += rows.transpose() * residual;
+        sums.squares += residual.squaredNorm();
+    }
+    return sums;
+}
+
+struct Minimum {
+    SpaceState state;
+    Sums sums;
+};
+
+/// Finds the local minimum of the sum of squares by the Levenberg-Marquardt method.
+Minimum minimum_from(const SpaceState& start, const std::vector<WeightedDot>& dots,
+                     const Vector2d& focal_px) {
+    constexpr int kMaxSteps = 60;
+    constexpr double kMaxDamping = 1e9;
+    constexpr double kMinGain = 1e-12;  // relative decrease of the sum of squares
+    Minimum now{start, sums_at(start, dots, focal_px)};
+    double damping = 1e-4;
+    for (int i = 0; i < kMaxSteps && damping < kMaxDamping; ++i) {
+        Information damped = now.sums.information;
+        damped.diagonal() *= 1 + damping;
+        const SpaceState next = moved(now.state, damped.ldlt().solve(now.sums.gradient));
+        const Sums sums = sums_at(next, dots, focal_px);
+        if (!(sums.squares < now.sums.squares)) {
+            damping *= 10;
+            continue;
+        }
+        const bool is_done = now.sums.squares - sums.squares < kMinGain * now.sums.squares;
+        now = {next, sums};
+        if (is_done) break;
+        damping /= 10;
+    }
+    return now;
+}
+
+/// Returns the dots whose squared whitened residuals are within four standard deviations, which
+/// are estimated from the median.
+std::vector<WeightedDot> inliers(const SpaceState& state, const std::vector<WeightedDot>& dots,
+                                 const Vector2d& focal_px) {
+    constexpr double kMaxResidual_sigmas = 4;
+    std::vector<double> squares;
+    for (const auto& [dot, whitening] : dots)
+        squares.push_back((whitening * predict(state, dot, focal_px).residual_px).squaredNorm());
+    std::vector<double> sorted = squares;
+    const auto median = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::ranges::nth_element(sorted, median);
+    // The median of the squared length of a two-dimensional Gaussian vector is 1.386 sigma^2.
+    const double limit = kMaxResidual_sigmas * kMaxResidual_sigmas * *median / 1.386;
+    std::vector<WeightedDot> kept;
+    for (std::size_t i = 0; i < dots.size(); ++i) {
+        if (squares[i] <= limit) kept.push_back(dots[i]);
+    }
+    return kept;
+}
+
+/// Errors of the dots: a fraction of their variance is due to the print, which has equal variances
+/// along all directions on the paper. The rest is due to the measurement of their centres.
+class NoiseModel {
+  public:
+    NoiseModel(const SpaceState& state, const std::vector<WeightedDot>& dots,
+               const Vector2d& focal_px) {
+        for (const auto& [dot, whitening] : dots) {
+            const Prediction predicted = predict(state, dot, focal_px);
+            const Matrix2d shape = predicted.px_per_mm * predicted.px_per_mm.transpose();
+            print_.push_back(shape);
+            centre_.push_back(dot.centre_covariance);
+            residuals_.push_back(predicted.residual_px);
+        }
+        normalize(print_);
+        normalize(centre_);
+    }
+
+    /// Sets the whitening of the dots for the fraction with the maximum likelihood.
+    void whiten(std::vector<WeightedDot>& dots) const {
+        const double fraction = likeliest_fraction();
+        for (std::size_t i = 0; i < dots.size(); ++i) {
+            const Eigen::LLT<Matrix2d> root(covariance(i, fraction));
+            dots[i].whitening = root.matrixL().solve(Matrix2d::Identity());
+        }
+    }
+
+  private:
+    /// Divides the covariances by their harmonic mean, which single large ones do not change.
+    static void normalize(std::vector<Matrix2d>& covariances) {
+        double sum = 0;
+        for (const Matrix2d& covariance : covariances)
+            sum += 2 / covariance.trace();
+        for (Matrix2d& covariance : covariances)
+            covariance *= sum / static_cast<double>(covariances.size());
+    }
+    /// Covariance of dot `i`, up to a common factor.
+    Matrix2d covariance(std::size_t i, double fraction) const {
+        return (1 - fraction) * centre_[i] + fraction * print_[i];
+    }
+    /// -2 log(likelihood), maximized over the common factor, up to a constant.
+    double cost(double fraction) const {
+        double squares = 0;
+        double log_determinants = 0;
+        for (std::size_t i = 0; i < residuals_.size(); ++i) {
+            const Matrix2d variance = covariance(i, fraction);
+            squares += residuals_[i].dot(variance.inverse() * residuals_[i]);
+            log_determinants += std::log(variance.determinant());
+        }
+        return 2 * static_cast<double>(residuals_.size()) * std::log(squares) + log_determinants;
+    }
+    double likeliest_fraction() const {
+        // Golden-section search. At the upper end, the covariances of a plane seen from the side
+        // would be singular.
+        constexpr double kMaxFraction = 0.999;
+        constexpr double kTolerance = 0.02;
+        double low = 0;
+        double high = kMaxFraction;
+        const double part = 1 / std::numbers::phi;
+        double left = high - part * (high - low);
+        double right = low + part * (high - low);
+        double left_cost = cost(left);
+        double right_cost = cost(right);
+        while (high - low > kTolerance) {
+            if (left_cost < right_cost) {
+                high = right;
+                right = left;
+                right_cost = left_cost;
+                left_cost = cost(left = high - part * (high - low));
+            } else {
+                low = left;
+                left = right;
+                left_cost = right_cost;
+                right_cost = cost(right = low + part * (high - low));
+            }
+        }
+        return (low + high) / 2;
+    }
+
+    std::vector<Matrix2d> print_;   ///< covariances in the image due to the print
+    std::vector<Matrix2d> centre_;  ///< covariances due to the measurement
+    std::vector<Vector2d> residuals_;
+};
+
+/// The first and the second solution, with the dots and weights of the first.
+struct Solutions {
+    std::vector<WeightedDot> dots;
+    Minimum first;
+    std::optional<Minimum> second;
+
+    /// Exchanges the solutions if the second has smaller residuals. Returns true if it has.
+    bool put_better_first() {
+        if (!second || !(second->sums.squares < first.sums.squares)) return false;
+        std::swap(first, *second);
+        return true;
+    }
+};
+
+/// Returns true if two minima found from different starts are the same.
+bool is_same(const SpaceState& a, const SpaceState& b) {
+    constexpr double kSame_rad = 1e-4;
+    return Eigen::Quaterniond(a.rotation).angularDistance(Eigen::Quaterniond(b.rotation)) <
+           kSame_rad;
+}
+
+/// Returns the solutions for a part of the dots, which takes less time.
+Solutions rough_solutions(const std::array<SpaceState, 2>& starts,
+                          const std::vector<WeightedDot>& all, const Vector2d& focal_px) {
+    constexpr std::size_t kDots = 300;
+    Solutions result;
+    for (std::size_t i = 0; i < all.size(); i += 1 + all.size() / kDots)
+        result.dots.push_back(all[i]);
+    result.first = minimum_from(starts[0], result.dots, focal_px);
+    const Minimum second = minimum_from(starts[1], result.dots, focal_px);
+    if (!is_same(result.first.state, second.state)) result.second = second;
+    result.put_better_first();
+    return result;
+}
+
+/// Improves the first solution with outliers rejected and weights estimated, and then the second
+/// solution with the same dots and weights.
+void refine(const std::vector<WeightedDot>& all, const Vector2d& focal_px, Solutions& solutions) {
+    constexpr int kRounds = 2;
+    solutions.first = minimum_from(solutions.first.state, all, focal_px);
+    for (int round = 0; round < kRounds; ++round) {
+        solutions.dots = inliers(solutions.first.state, all, focal_px);
+        NoiseModel(solutions.first.state, solutions.dots, focal_px).whiten(solutions.dots);
+        solutions.first = minimum_from(solutions.first.state, solutions.dots, focal_px);
+    }
+    if (!solutions.second) return;
+    solutions.second = minimum_from(solutions.second->state, solutions.dots, focal_px);
+    if (is_same(solutions.first.state, solutions.second->state)) solutions.second.reset();
+}
+
+double residual_px(const Solutions& solutions, const Vector2d& focal_px) {
+    double squares = 0;
+    for (const auto& [dot, whitening] : solutions.dots)
+        squares += predict(solutions.first.state, dot, focal_px).residual_px.squaredNorm();
+    return std::sqrt(squares / (2 * static_cast<double>(solutions.dots.size())));
+}
+
+}  // namespace
+
+std::optional<SpaceFit> fit_space(const std::vector<SpaceDot>& dots, const Vector2d& focal_px) {
+    const auto starts = plane_starts(dots, focal_px);
+    if (!starts) return std::nullopt;
+    std::vector<WeightedDot> all;
+    for (const SpaceDot& dot : dots)
+        all.push_back({dot});
+    Solutions solutions = rough_solutions(*starts, all, focal_px);
+    refine(all, focal_px, solutions);
+    if (solutions.put_better_first()) refine(all, focal_px, solutions);
+
+    const Minimum& first = solutions.first;
+    const auto count = static_cast<double>(2 * solutions.dots.size());
+    if (!(count > kParameters) || !std::isfinite(first.sums.squares)) return std::nullopt;
+    SpaceFit fit;
+    fit.state = first.state;
+    for (const WeightedDot& dot : solutions.dots)
+        fit.used.push_back(dot.dot);
+    fit.residual_px = residual_px(solutions, focal_px);
+    const Eigen::MatrixXd inverse = inverse_of(first.sums.information);
+    fit.covariance = first.sums.squares / (count - kParameters) * inverse.topLeftCorner<6, 6>();
+    if (solutions.second && std::isfinite(solutions.second->sums.squares)) {
+        fit.second = solutions.second->state;
+        // Likelihood ratio of Gaussian errors whose variance is unknown.
+        const double ratio = solutions.second->sums.squares / first.sums.squares;
+        fit.second_odds_log2 = std::min(-count / 2 * std::log2(ratio), 0.0);
+    }
+    return fit;
+}
+
+}  // namespace dotpose::calibrate

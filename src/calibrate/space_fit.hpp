@@ -1,0 +1,47 @@
+// Space fit: maximum likelihood of the pose of a camera over a plane of dots, and the second
+// solution of such a view.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace dotpose::calibrate {
+
+/// A dot on the paper and in the image.
+struct SpaceDot {
+    /// Undistorted pixel minus the pixel on the optical axis.
+    Eigen::Vector2d pixel;
+    Eigen::Vector2d intersection_mm;  ///< place of its intersection on the paper
+    Eigen::Vector2d direction_mm;     ///< its displacement, if this is 1 spacing
+    /// Covariance of the measured pixel, up to a factor that all dots share.
+    Eigen::Matrix2d centre_covariance = Eigen::Matrix2d::Identity();
+};
+
+/// Position and rotation of a camera: X_paper = rotation * X_camera + position. The paper is the
+/// plane z = 0, and z points away from the camera.
+struct SpaceState {
+    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+    double displacement = 1.0 / 6;  ///< displacement of the dots in the image, in spacings
+};
+
+/// Result of a fit.
+struct SpaceFit {
+    SpaceState state;
+    /// Covariance of position_mm and of the rotation vector in the camera frame: true rotation =
+    /// rotation * exp(vector).
+    Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+    std::vector<SpaceDot> used;  ///< dots that are not outliers
+    double residual_px = 0;      ///< rms residual of these dots, per axis
+    std::optional<SpaceState> second;
+    double second_odds_log2 = 0;
+};
+
+/// Fits the pose of a camera with the given focal lengths in px. Returns none if the dots do not
+/// determine a pose.
+std::optional<SpaceFit> fit_space(const std::vector<SpaceDot>& dots,
+                                  const Eigen::Vector2d& focal_px);
+
+}  // namespace dotpose::calibrate

@@ -1,0 +1,109 @@
+// Bindings for SpacePose: poses of cameras in space.
+#include <fmt/core.h>
+
+#include "binding.hpp"
+#include "dotpose/tools/space_pose.hpp"
+#include "sheets.hpp"
+
+namespace dotpose::python {
+namespace {
+
+py::tuple position_of(const CameraInSpace& camera) {
+    return py::make_tuple(camera.x_mm, camera.y_mm, camera.z_mm);
+}
+
+py::tuple tuple_of(const Quaternion& q) {
+    return py::make_tuple(q.x, q.y, q.z, q.w);
+}
+
+py::array_t<double> array_of(const SpaceCovariance& covariance) {
+    py::array_t<double> array({6, 6});
+    auto at = array.mutable_unchecked<2>();
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t j = 0; j < 6; ++j)
+            at(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(j)) = covariance[i][j];
+    }
+    return array;
+}
+
+/// Returns the pose in the world of the page of an entry, or none.
+std::optional<CameraInWorld> in_world_of(const SpacePose& pose, const SheetEntry& entry) {
+    if (!entry.world) return std::nullopt;
+    return in_world(on_sheet(pose.camera, entry), pose.covariance, *entry.world);
+}
+
+void define_world_pose(py::module_& module) {
+    py::class_<CameraInWorld>(module, "WorldSpacePose",
+                              "Pose of a camera in the world: m, y up, z out of the paper.")
+        .def_property_readonly(
+            "position_m",
+            [](const CameraInWorld& c) { return py::make_tuple(c.x_m, c.y_m, c.z_m); },
+            "Position (x, y, z) of the projection centre, in m.")
+        .def_property_readonly(
+            "quaternion", [](const CameraInWorld& c) { return tuple_of(c.rotation); },
+            "Rotation (x, y, z, w) from the camera frame to the world.")
+        .def_property_readonly(
+            "covariance", [](const CameraInWorld& c) { return array_of(c.covariance); },
+            "Covariance of the position, in m, and of a small rotation vector about the axes of "
+            "the world, in rad, 6 x 6.");
+}
+
+}  // namespace
+
+void define_space(py::module_& module) {
+    define_world_pose(module);
+    py::class_<SpacePose>(
+        module, "SpacePose",
+        "Pose of a camera in space. Frames: pattern, x right, y DOWN, z INTO the paper, mm; "
+        "camera, x right and y down in the image, z forward.")
+        .def_property_readonly(
+            "position_mm", [](const SpacePose& p) { return position_of(p.camera); },
+            "Position (x, y, z) of the projection centre in the pattern frame, in mm; z is below "
+            "0 above the paper.")
+        .def_property_readonly(
+            "quaternion", [](const SpacePose& p) { return tuple_of(p.camera.rotation); },
+            "Rotation (x, y, z, w) from the camera frame to the pattern frame.")
+        .def_property_readonly(
+            "tilt_rad", [](const SpacePose& p) { return lean_of(p.camera.rotation).tilt_rad; },
+            "Angle between the optical axis and the normal of the paper, in rad.")
+        .def_property_readonly(
+            "azimuth_rad",
+            [](const SpacePose& p) { return lean_of(p.camera.rotation).azimuth_rad; },
+            "Direction on the paper in which the camera leans, clockwise, in rad.")
+        .def_property_readonly(
+            "turn_rad", [](const SpacePose& p) { return lean_of(p.camera.rotation).turn_rad; },
+            "Angle of the image x axis before the camera leans, clockwise, in rad.")
+        .def_property_readonly(
+            "covariance", [](const SpacePose& p) { return array_of(p.covariance); },
+            "Covariance of the position, in mm, and of a small rotation vector in the camera "
+            "frame, in rad, 6 x 6.")
+        .def_readonly("dots", &SpacePose::dots, "Number of dots used.")
+        .def_readonly("residual_px", &SpacePose::residual_px,
+                      "Root mean square residual of these dots, per axis, in px.")
+        .def_property_readonly("is_ambiguous", &SpacePose::is_ambiguous,
+                               "True if the dots do not exclude the second pose.")
+        .def_property_readonly(
+            "second",
+            [](const SpacePose& p) -> std::optional<py::tuple> {
+                if (!p.second) return std::nullopt;
+                return py::make_tuple(position_of(p.second->camera),
+                                      tuple_of(p.second->camera.rotation), p.second->odds_log2);
+            },
+            "Position in mm, quaternion, and log2 of the odds of the second pose that explains the "
+            "view; None if there is none.")
+        .def(
+            "on_sheet",
+            [](const SpacePose& p, const SheetEntry& entry) {
+                return position_of(on_sheet(p.camera, entry));
+            },
+            "entry"_a, "Position (x, y, z) from the top left corner of a page, in mm.")
+        .def("in_world", &in_world_of, "entry"_a,
+             "WorldSpacePose for the page of an entry; None if the page has no place in the world.")
+        .def("__repr__", [](const SpacePose& p) {
+            return fmt::format("<SpacePose ({:.3f}, {:.3f}, {:.3f}) mm, tilt {:.4f} rad>",
+                               p.camera.x_mm, p.camera.y_mm, p.camera.z_mm,
+                               lean_of(p.camera.rotation).tilt_rad);
+        });
+}
+
+}  // namespace dotpose::python
