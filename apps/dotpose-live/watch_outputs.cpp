@@ -57,11 +57,11 @@ WatchOutputs::WatchOutputs(const OutputOptions& options, const Follower& followe
         if (!late.empty()) require_writable(late);
     }
     if (options.lines.format == RecordFormat::csv) {
-        write_line(csv_header_of_readings(follower, options.lines.units));
+        write_line(csv_header_of_readings(empty_record(follower), options.lines.units));
     }
     if (!options.log.empty()) {
         log_.emplace(options.log);
-        log_->write(csv_header_of_readings(follower, Units::mm));
+        log_->write(csv_header_of_readings(empty_record(follower), Units::mm));
     }
     if (!options.packets.empty()) packets_.emplace(options.packets);
     states_ = open_publisher(options.publish, options.sheets);

@@ -25,8 +25,8 @@ std::string name_at(const std::string& robot, std::time_t now) {
 }  // namespace
 
 WebRecordings::WebRecordings(std::filesystem::path folder, RobotOutputOptions messages,
-                             bool has_sheets)
-    : folder_(std::move(folder)), messages_(std::move(messages)), has_sheets_(has_sheets) {
+                             Record empty)
+    : folder_(std::move(folder)), messages_(std::move(messages)), empty_(std::move(empty)) {
     messages_.dds.reset();
 }
 
@@ -45,7 +45,7 @@ void WebRecordings::start() {
         RobotOutputOptions options = messages_;
         options.mcap = path_of(name + kMessagesEnding).string();
         running_.emplace(path_of(name + kLogEnding).string(), options);
-        running_->log.write(csv_header_of_readings(has_sheets_, Units::mm));
+        running_->log.write(csv_header_of_readings(empty_, Units::mm));
     } catch (const std::exception& error) {
         running_.reset();
         notice_ = fmt::format(

@@ -17,8 +17,9 @@ namespace dotpose::cli {
 
 class WebRecordings {
   public:
-    /// `messages` describes the robot; its MCAP file and its DDS publisher are not used.
-    WebRecordings(std::filesystem::path folder, RobotOutputOptions messages, bool has_sheets);
+    /// `messages` describes the robot; its MCAP file and its DDS publisher are not used. `empty` is
+    /// a record without a fix, with the fields of the run.
+    WebRecordings(std::filesystem::path folder, RobotOutputOptions messages, Record empty);
 
     /// Starts a recording, unless one is running. The files are new, and are named after the robot
     /// and the time. If they cannot be written, `notice` contains the reason.
@@ -54,7 +55,7 @@ class WebRecordings {
 
     std::filesystem::path folder_;
     RobotOutputOptions messages_;
-    bool has_sheets_;
+    Record empty_;
     std::optional<Running> running_;
     std::string name_;
     std::int64_t frames_ = 0;

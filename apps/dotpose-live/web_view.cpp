@@ -63,7 +63,7 @@ WebView::WebView(WebOptions options, const Follower& follower)
     : options_(std::move(options)),
       follower_(follower),
       sheets_(map_sheets(follower.sheets(), plane_of(follower))),
-      recordings_(options_.recordings, options_.messages, !follower.sheets().empty()),
+      recordings_(options_.recordings, options_.messages, empty_record(follower)),
       rate_begun_(Clock::now()),
       server_(with_pages(options_.server)),
       setup_(server_.add_topic("setup", serve::Format::text)),

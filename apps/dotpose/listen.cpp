@@ -141,7 +141,9 @@ class ListenOutputs {
         }
         if (arguments.log.empty()) return;
         log_.emplace(arguments.log);
-        log_->write(csv_header_of_readings(follower_.has_sheets(), Units::mm));
+        Record empty;
+        empty.has_sheets = follower_.has_sheets();
+        log_->write(csv_header_of_readings(empty, Units::mm));
     }
 
     void take(const PosePacket& packet) {

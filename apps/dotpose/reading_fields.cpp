@@ -96,9 +96,9 @@ std::vector<Field> fields(const Reading& reading, Units units) {
     return all;
 }
 
-std::string csv_header_of_readings(const Follower& follower, Units units) {
+std::string csv_header_of_readings(const Record& empty, Units units) {
     Reading reading;
-    reading.record = empty_record(follower);
+    reading.record = empty;
     return csv_header(fields(reading, units));
 }
 

@@ -11,7 +11,7 @@ namespace dotpose::cli {
 
 std::vector<Field> fields(const Reading& reading, Units units);
 
-/// Returns the CSV header of a run with or without sheets.
-std::string csv_header_of_readings(const Follower& follower, Units units);
+/// Returns the CSV header of a run. `empty` is a record without a fix, with the fields of the run.
+std::string csv_header_of_readings(const Record& empty, Units units);
 
 }  // namespace dotpose::cli

@@ -43,10 +43,26 @@ Camera read_native(const YamlMap& file) {
         file.fail("version", fmt::format("is {}; this program reads version {}",
                                          file.integer("version"), kCameraFileVersion));
     }
-    file.allow_only({"format", "version", "width_px", "height_px", "k_per_px2", "centre_px",
-                     "mm_per_px", "skew", "perspective_per_px", "focal_px", "pinhole_px",
-                     "tilt_rad", "reference_px", "theta_offset_rad", "flip", "flat_field",
-                     "readout_ms", "exposure_us", "gain", "sigma"});
+    file.allow_only({"format",
+                     "version",
+                     "width_px",
+                     "height_px",
+                     "k_per_px2",
+                     "centre_px",
+                     "mm_per_px",
+                     "skew",
+                     "perspective_per_px",
+                     "focal_px",
+                     "pinhole_px",
+                     "tilt_rad",
+                     "reference_px",
+                     "theta_offset_rad",
+                     "flip",
+                     "flat_field",
+                     "readout_ms",
+                     "exposure_us",
+                     "gain",
+                     "sigma"});
     Camera camera;
     camera.width_px = file.integer("width_px");
     camera.height_px = file.integer("height_px");
