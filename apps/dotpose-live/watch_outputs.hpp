@@ -15,6 +15,7 @@
 #include "reading.hpp"
 #include "robot_output.hpp"
 #include "video/screen.hpp"
+#include "watch_tally.hpp"
 #include "web_view.hpp"
 
 namespace dotpose::cli {
@@ -33,16 +34,6 @@ struct OutputOptions {
     std::string world_map;  ///< map name of the sheet file's world
     video::ScreenOptions screen;
     std::optional<WebOptions> web;  ///< none if there is no page
-};
-
-/// Number of frames, fixes and events of a run.
-struct WatchTally {
-    std::int64_t frames = 0;
-    std::int64_t fixes = 0;
-    std::int64_t lost = 0;
-    std::int64_t kidnapped = 0;
-
-    void count(const Reading& reading);
 };
 
 /// Writes pose packets to a file or serial device.
