@@ -17,13 +17,6 @@
 
 namespace dotpose::cli {
 
-void WatchTally::count(const Reading& reading) {
-    ++frames;
-    fixes += reading.record.fix.status == Status::ok;
-    lost += reading.track.events.lost;
-    kidnapped += reading.track.events.kidnapped;
-}
-
 PacketOutput::PacketOutput(const std::string& path)
     : path_(path),
       descriptor_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY | O_CLOEXEC, 0666)) {
@@ -79,7 +72,7 @@ bool WatchOutputs::take(const capture::Frame& frame, const Reading& reading,
     write_packet(reading);
     if (states_) states_->take(reading);
     if (messages_) messages_->take(frame, reading);
-    if (web_) web_->take(frame, reading, path_, source);
+    if (web_) web_->take(frame, reading, tally_, path_, source);
     if (!is_anything_left()) return false;
     if (frame.image.pixels.empty()) return screen_.is_wanted();
     return !screen_.is_on() || show(frame, reading, source.dropped);

@@ -16,6 +16,7 @@
 #include "robot_output.hpp"
 #include "state_output.hpp"
 #include "video/screen.hpp"
+#include "watch_tally.hpp"
 #include "web_view.hpp"
 
 namespace dotpose::cli {
@@ -31,16 +32,6 @@ struct OutputOptions {
     std::string sheets;           ///< path of the sheet file
     video::ScreenOptions screen;
     std::optional<WebOptions> web;  ///< none if there is no page
-};
-
-/// Number of frames, fixes and events of a run.
-struct WatchTally {
-    std::int64_t frames = 0;
-    std::int64_t fixes = 0;
-    std::int64_t lost = 0;
-    std::int64_t kidnapped = 0;
-
-    void count(const Reading& reading);
 };
 
 /// Writes pose packets to a file or serial device.

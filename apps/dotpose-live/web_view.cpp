@@ -109,8 +109,8 @@ bool WebView::is_time_for(const serve::Topic& topic, Timer& timer, milliseconds 
     return true;
 }
 
-void WebView::take(const capture::Frame& frame, const Reading& reading, const PathMemory& path,
-                   const SourceState& source) {
+void WebView::take(const capture::Frame& frame, const Reading& reading, const WatchTally& tally,
+                   const PathMemory& path, const SourceState& source) {
     const Clock::time_point now = Clock::now();
     count(reading, now);
     obey();
@@ -118,7 +118,7 @@ void WebView::take(const capture::Frame& frame, const Reading& reading, const Pa
     offer_recordings();
     const bool has_image = !frame.image.pixels.empty();
     if (has_image) publish_frame(reading, now);
-    if (is_time_for(state_, state_timer_, kStatePeriod, now)) publish_state(reading, source);
+    if (is_time_for(state_, state_timer_, kStatePeriod, now)) publish_state(reading, tally, source);
     if (is_time_for(history_topic_, history_timer_, kSlowPeriod, now)) publish_history();
     if (is_time_for(path_topic_, path_timer_, kSlowPeriod, now)) publish_path(path);
     if (has_image && is_time_for(advice_, advice_timer_, kAdvicePeriod, now))
@@ -126,9 +126,6 @@ void WebView::take(const capture::Frame& frame, const Reading& reading, const Pa
 }
 
 void WebView::count(const Reading& reading, Clock::time_point now) {
-    ++frames_;
-    fixes_ += reading.record.fix.status == Status::ok;
-    lost_ += reading.track.events.lost;
     history_.add(reading.time_us, reading.record.fix.status);
     if (const auto& place = reading.record.place) visited_.insert(place->entry->name);
     ++rate_frames_;
@@ -155,9 +152,10 @@ void WebView::publish_frame(const Reading& reading, Clock::time_point now) {
     if (is_small) server_.publish(small_frame_, encoder(kMaxSmallSide_px));
 }
 
-void WebView::publish_state(const Reading& reading, const SourceState& source) {
-    json state = {{"rate_hz", rate_hz_},       {"frames", frames_},
-                  {"fixes", fixes_},           {"lost", lost_},
+void WebView::publish_state(const Reading& reading, const WatchTally& tally,
+                            const SourceState& source) {
+    json state = {{"rate_hz", rate_hz_},       {"frames", tally.frames},
+                  {"fixes", tally.fixes},      {"lost", tally.lost},
                   {"dropped", source.dropped}, {"clients", server_.clients()}};
     json doubts = json::array();
     for (const std::string& warning : warnings(reading.record)) {
@@ -193,17 +191,18 @@ void WebView::publish_history() {
 void WebView::publish_path(const PathMemory& path) {
     const std::vector<video::PathMark>& marks = path.marks();
     const std::size_t step = 1 + marks.size() / kMaxPathPoints;
-    json strokes = json::array();
+    std::vector<std::vector<double>> strokes;
     bool is_jump = true;
     for (std::size_t i = 0; i < marks.size(); ++i) {
         is_jump = is_jump || marks[i].is_jump;
         if (i % step != 0 && !marks[i].is_jump) continue;
-        if (std::exchange(is_jump, false)) strokes.push_back(json::array());
+        if (std::exchange(is_jump, false)) strokes.emplace_back();
         strokes.back().push_back(std::round(marks[i].x * 1000) / 1000);
         strokes.back().push_back(std::round(marks[i].y * 1000) / 1000);
     }
-    const json text = {{"strokes_mm", std::move(strokes)}, {"visited", visited_}};
-    server_.publish(path_topic_, [text] { return dump(text); });
+    server_.publish(path_topic_, [strokes = std::move(strokes), visited = visited_] {
+        return dump({{"strokes_mm", strokes}, {"visited", visited}});
+    });
 }
 
 void WebView::publish_advice(const Reading& reading, const SourceState& source) {

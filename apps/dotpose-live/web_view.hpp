@@ -15,6 +15,7 @@
 #include "reading.hpp"
 #include "refusal_history.hpp"
 #include "serve/server.hpp"
+#include "watch_tally.hpp"
 #include "web_recording.hpp"
 
 namespace dotpose::cli {
@@ -40,8 +41,8 @@ class WebView {
     WebView(WebOptions options, const Follower& follower);
 
     /// Sends a frame to the clients that are ready, and obeys their commands.
-    void take(const capture::Frame& frame, const Reading& reading, const PathMemory& path,
-              const SourceState& source);
+    void take(const capture::Frame& frame, const Reading& reading, const WatchTally& tally,
+              const PathMemory& path, const SourceState& source);
 
     /// Completes a running recording.
     void finish() { recordings_.stop(); }
@@ -56,7 +57,7 @@ class WebView {
 
     void publish_setup();
     void publish_frame(const Reading& reading, Clock::time_point now);
-    void publish_state(const Reading& reading, const SourceState& source);
+    void publish_state(const Reading& reading, const WatchTally& tally, const SourceState& source);
     void publish_history();
     void publish_path(const PathMemory& path);
     void publish_reason(const std::string& reason);
@@ -78,9 +79,6 @@ class WebView {
     Clock::time_point rate_begun_;
     std::int64_t rate_frames_ = 0;
     double rate_hz_ = 0;  ///< frames per second, in the last full second
-    std::int64_t frames_ = 0;
-    std::int64_t fixes_ = 0;
-    std::int64_t lost_ = 0;
 
     Timer frame_timer_;
     Timer small_timer_;

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 constexpr double kRightAngle = std::numbers::pi / 2;
 
-double yaw(const Quaternion& rotation) {
+double yaw(const ros::Quaternion& rotation) {
     return 2 * std::atan2(rotation.z, rotation.w);
 }
 
@@ -290,7 +290,7 @@ TEST(CameraMount, IsWhereTheImageCentreIsSeenFromTheRobot) {
     EXPECT_NEAR(left->transform.translation.x, 0, 1e-12);
     EXPECT_NEAR(left->transform.translation.y, 0.01, 1e-12);
     // The image x axis is the robot's y axis, so the rotation maps (1, 0, 0) to (0, 1, 0).
-    const Quaternion& q = left->transform.rotation;
+    const ros::Quaternion& q = left->transform.rotation;
     EXPECT_NEAR(1 - 2 * (q.y * q.y + q.z * q.z), 0, 1e-12);
     EXPECT_NEAR(2 * (q.x * q.y + q.w * q.z), 1, 1e-12);
     EXPECT_NEAR(1 - 2 * (q.x * q.x + q.y * q.y), -1, 1e-12);

@@ -1,13 +1,13 @@
 // The WebSocket to the program. Each topic delivers its newest value, and the next one only after
 // the previous one was shown, so a slow page or connection receives fewer values, not old ones.
 
-export type Values = string | Uint8Array<ArrayBuffer>;
-export type Show = (value: Values) => Promise<void> | void;
+export type Value = string | Uint8Array<ArrayBuffer>;
+export type Show = (value: Value) => Promise<void> | void;
 
 const kRetry_ms = 1000;
 const kNewline = 10;
 
-function split(data: string | ArrayBuffer): [string, Values] {
+function split(data: string | ArrayBuffer): [string, Value] {
     if (typeof data === "string") {
         const end = data.indexOf("\n");
         return [data.slice(0, end), data.slice(end + 1)];

@@ -1,6 +1,6 @@
 // The page of `dotpose watch --web`: shows what the program sees, live.
 import { announcer, element, show } from "../page/dom.js";
-import { Connection, type Values } from "./connection.js";
+import { Connection, type Value } from "./connection.js";
 import { PathMap } from "./map.js";
 import type { Advice, History, Path, Setup, State } from "./messages.js";
 import { Picture } from "./picture.js";
@@ -51,7 +51,7 @@ function showResult(status: string): void {
 }
 
 function subscribe<T>(topic: string, take: (value: T) => unknown): void {
-    connection.subscribe(topic, async (value: Values) => {
+    connection.subscribe(topic, async (value: Value) => {
         take(JSON.parse(value as string) as T);
         await new Promise(requestAnimationFrame);
     });

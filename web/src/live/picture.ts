@@ -4,7 +4,7 @@ import { measureQuality } from "../engine/quality.js";
 import type { ImageQuality } from "../engine/messages.js";
 import { element, show } from "../page/dom.js";
 import { hintOfPicture } from "../page/hints.js";
-import type { Connection, Values } from "./connection.js";
+import type { Connection, Value } from "./connection.js";
 import { frameOf, type LiveFrame } from "./messages.js";
 
 const kLarge = "frame";
@@ -86,7 +86,7 @@ export class Picture {
         drawFrame(this.#canvas, this.#last, { found: is_on, grid: is_on, pose: is_on });
     }
 
-    async #take(value: Values): Promise<void> {
+    async #take(value: Value): Promise<void> {
         const frame = await frameOf(value as Uint8Array<ArrayBuffer>);
         this.#last?.picture.close();
         this.#last = frame;
