@@ -103,11 +103,13 @@ DotSums sums_of(const ImageView& image, const ExpectedDot& expected, const DotIm
     const auto last = [](double px, int side) {
         return std::min(static_cast<int>(std::floor(px)), side - 1);
     };
+    const int first_u = first(expected.pixel.x() - reach.x());
+    const int last_u = last(expected.pixel.x() + reach.x(), image.width_px);
+    const int first_v = first(expected.pixel.y() - reach.y());
+    const int last_v = last(expected.pixel.y() + reach.y(), image.height_px);
     DotSums sums;
-    for (int v = first(expected.pixel.y() - reach.y());
-         v <= last(expected.pixel.y() + reach.y(), image.height_px); ++v) {
-        for (int u = first(expected.pixel.x() - reach.x());
-             u <= last(expected.pixel.x() + reach.x(), image.width_px); ++u) {
+    for (int v = first_v; v <= last_v; ++v) {
+        for (int u = first_u; u <= last_u; ++u) {
             const Vector2d pixel(u, v);
             if ((to_paper * (pixel - expected.pixel)).squaredNorm() > kFitRadius * kFitRadius)
                 continue;

@@ -166,12 +166,16 @@ std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& 
         read.push_back(space_dot(view, dot.step, dot.symbol, dot.pixel));
     if (read.size() < kMinDots) return std::nullopt;
     const Eigen::Vector2d focal_px(view.pinhole.focal_u_px, view.pinhole.focal_v_px);
-    const auto first = fit_space(read, focal_px);
+    // A part of these dots is sufficient to predict all dots.
+    constexpr std::size_t kPart = 300;
+    std::vector<SpaceDot> part;
+    for (std::size_t i = 0; i < read.size(); i += 1 + read.size() / kPart)
+        part.push_back(read[i]);
+    const auto first = fit_space(part, focal_px);
     if (!first) return std::nullopt;
     const std::vector<SpaceDot> all = dots_in_view(image, view, trace, first->state);
     // The dots cannot be measured if they are small in the image.
-    if (2 * all.size() < read.size()) return first;
-    return fit_space(all, focal_px);
+    return fit_space(2 * all.size() < read.size() ? read : all, focal_px);
 }
 
 }  // namespace dotpose::calibrate
