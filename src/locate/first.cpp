@@ -189,7 +189,7 @@ bool locate_first(const Kernels& kernels, const ImageView& image, const DeviceOp
     }
     w.fix.attempt = Attempt::first;
     if (confirmation == Confirmation::uncertain || confirmation == Confirmation::too_few_bits)
-        w.fix.status = w.shows_too_few_cells ? Status::grid_too_small : Status::not_certain;
+        w.fix.status = Status::not_certain;
     return confirmation == Confirmation::ok;
 }
 

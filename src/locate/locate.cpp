@@ -102,10 +102,13 @@ class Cascade {
     CodeReading make(std::initializer_list<Step> steps) {
         std::optional<CodeReading> doubtful;
         std::optional<Fix> failure;
+        bool shows_too_few_cells = false;
         for (const Step step : steps) {
             for (const CodeVariant code : worth_trying(step)) {
                 if (!attempt(step, code)) {
-                    if (code == codes_.likeliest()) failure = w_.fix;
+                    shows_too_few_cells |= w_.shows_too_few_cells;
+                    // The failure of a search for a rotation says nothing about the frame.
+                    if (code == codes_.likeliest() && step != Step::turning) failure = w_.fix;
                     if (step > Step::turning && !leaves_code_open(w_.fix.status)) break;
                     continue;
                 }
@@ -114,7 +117,7 @@ class Cascade {
                 if (!doubtful) doubtful = in_doubt(code, judgement);
             }
             if (doubtful && doubtful->fix.status == Status::ambiguous_code) break;
-            if (w_.shows_too_few_cells) break;
+            if (shows_too_few_cells) break;
         }
         if (!doubtful)
             doubtful = CodeReading{failure.value_or(Fix{}), codes_.likeliest(), evidence_};

@@ -55,7 +55,7 @@ void assign(const dotpose_plane& from, PlaneFromImage& to) {
     to = to_core(from);
 }
 
-constexpr std::size_t kFirstFixBytes = 248;  ///< size of a fix in version 1 of the struct
+constexpr std::size_t kFirstFixBytes = 256;  ///< size of a fix in version 1 of the struct
 
 bool is_size_of_fix(std::size_t bytes) {
     return bytes >= kFirstFixBytes && bytes <= sizeof(dotpose_fix) && bytes % 8 == 0;

@@ -118,7 +118,7 @@ TEST_F(CameraFile, WrongFilesAreRefusedByKey) {
     EXPECT_THAT(refusal_with("[93.75, 59.25]", "[2000, 59.25]"), HasSubstr("centre_px is more"));
     EXPECT_THAT(refusal_with("width_px: 188", "width_px: 18.5"),
                 HasSubstr("width_px must be a whole number"));
-    EXPECT_THAT(refusal_with("width_px: 188", "width_px: 8"), HasSubstr("width_px must be 64"));
+    EXPECT_THAT(refusal_with("width_px: 188", "width_px: 8"), HasSubstr("width_px must be 24"));
     EXPECT_THAT(refusal_with("[0.046, 0.0461]", "[0, 0.0461]"), HasSubstr("mm_per_px must be"));
     EXPECT_THAT(refusal_with("reference_px", "refrence_px"),
                 HasSubstr("refrence_px is not a key of a camera file"));
