@@ -150,7 +150,7 @@ void set_known_sheet(DeviceLocator& to) {
 int locate_frames(const char* path) {
     set_known_sheet(locator);
     if (!host::open(path)) {
-        host::print("cannot open the file of frames\n");
+        host::print("cannot open the frames\n");
         return 1;
     }
     FrameHeader frame;

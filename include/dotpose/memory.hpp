@@ -32,7 +32,7 @@ class AnyDeviceMemory {
     /// Returns the size of a workspace in bytes, or 0 if frames of this size are not supported.
     static constexpr std::size_t bytes_for(int width_px, int height_px) {
         const bool has_32_bits = sizeof(void*) == 4;
-        if (width_px == 36 && height_px == 36) return has_32_bits ? 4'624 : 4'848;
+        if (width_px == 36 && height_px == 36) return has_32_bits ? 4'632 : 4'848;
         if (width_px == 160 && height_px == 120) return has_32_bits ? 10'640 : 11'808;
         if (width_px == 188 && height_px == 120) return has_32_bits ? 12'608 : 13'312;
         if (width_px == 320 && height_px == 240) return has_32_bits ? 23'104 : 25'040;

@@ -366,7 +366,7 @@ typedef struct dotpose_locator dotpose_locator;
 /* Sizes for static memory. Each size is at least dotpose_locator_bytes() for its kind.
  *     static uint64_t memory[DOTPOSE_DEVICE_BYTES / 8]; */
 #define DOTPOSE_DEVICE_BYTES (sizeof(void*) == 4 ? 12736u : 13504u)
-#define DOTPOSE_DEVICE_36X36_BYTES (sizeof(void*) == 4 ? 4752u : 5040u)
+#define DOTPOSE_DEVICE_36X36_BYTES (sizeof(void*) == 4 ? 4768u : 5040u)
 #define DOTPOSE_DEVICE_160X120_BYTES (sizeof(void*) == 4 ? 10768u : 12000u)
 #define DOTPOSE_DEVICE_320X240_BYTES (sizeof(void*) == 4 ? 23232u : 25232u)
 

@@ -123,7 +123,7 @@ TEST(LocateFrames, AnEmptyFileHoldsNoFrame) {
 
 TEST(LocateFrames, RefusesWhatIsNoFileOfFrames) {
     EXPECT_EQ(locate_frames("nothing"), 1);
-    EXPECT_EQ(output, "cannot open the file of frames\n");
+    EXPECT_EQ(output, "cannot open the frames\n");
     for (const char* text : {"P", "P2\n188 120\n255\n", "P5\n188\n", "P5\n-1 2\n255\n", "P5\n",
                              "P5\n189 120\n255\n", "P5\n188 120\n65535\n", "P5\n0 120\n255\n"}) {
         SCOPED_TRACE(text);
