@@ -6,7 +6,7 @@
 
 namespace dotpose::core {
 
-const Fix& finish_device_attempt(const DeviceOptions&, Workspace& w) {
+const Fix& finish_device_attempt(const DeviceOptions&, DeviceWorkspace& w) {
     w.fix.status = Status::bad_argument;
     return w.fix;
 }
