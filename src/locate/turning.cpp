@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/detect/derotate.hpp"
+#include "core/detect/patch.hpp"
 #include "core/detect/undistort.hpp"
 #include "core/lattice/outwards.hpp"
 #include "core/pose/float_fit.hpp"
@@ -270,6 +271,11 @@ bool locate_turning(const Kernels& kernels, const ImageView& image, const Device
     for (const int scale : {1, 2, 4}) {
         if (!place_patch(image, {image.width_px / 2, image.height_px / 2}, scale, w)) break;
         if (!find_patch_dots(kernels, image, options, w)) continue;
+        const int seen = w.patch->dots.count;
+        keep_isolated(*w.patch);
+        if (static_cast<float>(w.patch->dots.count) <
+            tuned::kMinIsolated * static_cast<float>(seen))
+            continue;
         const Confirmation confirmation = locate_turning_in_patch(kernels, image, options, w, turn);
         if (confirmation == Confirmation::ok) {
             w.fix.attempt = Attempt::first;

@@ -295,10 +295,19 @@ std::array<int, kMaxAnchors + 1> min_losses_of_unshared(const RankedLines& lines
 struct Search {
     int anchors;
     int shared;
-    /// Number of pairs of anchors that `Finder` visits if no group has more than two anchors. It
-    /// determines the time.
-    int pairs() const { return anchors - shared + 1; }
+    /// Number of pairs of anchors that `Finder` visits. It determines the time.
+    int pairs() const {
+        const int groups = shared - 1;
+        const int size = anchors / groups;
+        const int larger = anchors % groups;  // groups with one more anchor
+        return groups * size * (size - 1) / 2 + larger * size;
+    }
 };
+
+/// Maximum number of pairs of anchors in a search for all alternatives with large odds. A search
+/// that also limits the expected odds of the others visits at most as many, unless the fix would be
+/// refused.
+constexpr int kMaxPairs = 18;
 
 /// Returns the fastest search that finds all alternatives whose odds may exceed 2^log2_odds.
 Search fastest_search(const RankedLines& lines, int log2_odds) {
@@ -320,8 +329,8 @@ Search fastest_search(const RankedLines& lines, int log2_odds) {
 
 float sum_of_double_alternatives(const Kernels& kernels, const RankedLines& lines, float expected,
                                  float negligible, float max_odds) {
-    if (kMargin * expected <= 4 * negligible) {
-        const Search search = fastest_search(lines, kLargeOdds_log2);
+    const Search search = fastest_search(lines, kLargeOdds_log2);
+    if (kMargin * expected <= 4 * negligible && search.pairs() <= kMaxPairs) {
         return kFloor + kMargin * expected + Finder(lines, search.anchors, search.shared).sum();
     }
     const int anchors = std::min(lines.count(), kMaxAnchors);
