@@ -28,10 +28,10 @@ struct WebOptions {
     RobotOutputOptions messages;       ///< robot of the recordings
 };
 
-/// What the source reports.
+/// State of the source of the frames.
 struct SourceState {
-    std::int64_t dropped = 0;
-    double bits_per_px = 0;
+    std::int64_t dropped = 0;  ///< number of frames that were dropped since the start
+    double bits_per_px = 0;    ///< compression of the video; 0 if it is not compressed
 };
 
 class WebView {

@@ -104,12 +104,9 @@ class ByteSource {
 class LossCounter {
   public:
     void count(const PosePacket& packet) {
-        // Maximum decrease of the sequence number for a repeated or late packet. A larger decrease
-        // means that the device was restarted.
-        constexpr int kMaxLate = 16;
-        const int step = last_ ? static_cast<std::int16_t>(packet.sequence - *last_) : 1;
+        const int step = last_ ? packets_since(*last_, packet.sequence) : 1;
         if (step > 1) lost_ += static_cast<std::uint64_t>(step - 1);
-        if (step > 0 || step < -kMaxLate) last_ = packet.sequence;
+        if (!is_late(step)) last_ = packet.sequence;
         ++arrived_;
     }
     void report(std::uint32_t damaged) const {

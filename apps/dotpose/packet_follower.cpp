@@ -97,12 +97,10 @@ std::optional<Reading> PacketFollower::follow(const PosePacket& packet) {
 
 /// Advances the time to that of a packet. Returns false if the packet is not newer.
 bool PacketFollower::advance(const PosePacket& packet) {
-    // As for lost packets: a larger decrease of the sequence number means a restart.
-    constexpr int kMaxLate = 16;
     constexpr std::int64_t kRestart_us = 1'000'000;
     if (newest_) {
-        const int step = static_cast<std::int16_t>(packet.sequence - newest_->sequence);
-        if (step <= 0 && step >= -kMaxLate) return false;
+        const int step = packets_since(newest_->sequence, packet.sequence);
+        if (is_late(step)) return false;
         const auto elapsed_us = static_cast<std::int32_t>(packet.time_us - newest_->time_us);
         // A clock that went back belongs to a restarted device. The time without packets is
         // unknown.

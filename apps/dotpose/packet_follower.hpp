@@ -12,6 +12,19 @@
 
 namespace dotpose::cli {
 
+/// Returns the number of packets from an earlier packet to a later one, from their sequence
+/// numbers. The result is not positive for a repeated or late packet.
+inline int packets_since(std::uint16_t earlier, std::uint16_t later) {
+    return static_cast<std::int16_t>(later - earlier);
+}
+
+/// Returns true if a packet with this result of `packets_since` is repeated or late. A larger
+/// decrease of the sequence number means that the device was restarted.
+inline bool is_late(int packets) {
+    constexpr int kMaxLate = 16;
+    return packets <= 0 && packets >= -kMaxLate;
+}
+
 class PacketFollower {
   public:
     /// Without sheets, the robot is followed in the pattern frame, and `spacing_mm` is the spacing

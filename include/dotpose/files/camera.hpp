@@ -44,7 +44,7 @@ struct Tilt {
     double y_rad = 0;
 };
 
-/// Minimum value of a flat field. In darker parts of an image, dots cannot be told from noise.
+/// Minimum value of a flat field. Darker parts of an image are too noisy to show dots.
 inline constexpr double kMinFlatField = 0.05;
 
 /// Directions of view of the undistorted image: pixel (u, v) is the image of the points in the

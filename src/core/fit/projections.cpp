@@ -29,8 +29,8 @@ FourVecs ScaledPlane::project(Four x, Four y) const {
 Parameters ScaledPlane::distortions() const {
     const FloatPlane& p = plane_;
     const float by = scale_ * scale_ / (p.du_x * p.dv_y - p.dv_x * p.du_y);
-    // As complex numbers, the linear part of the plane maps z to a z + m conj(z). The shear is m /
-    // conj(a).
+    // With points written as complex numbers z, the linear part of the plane is z -> a z + m
+    // conj(z). The shear is m / conj(a).
     const float ax = (p.du_x + p.dv_y) / 2;
     const float ay = (p.du_y - p.dv_x) / 2;
     const float mx = (p.du_x - p.dv_y) / 2;

@@ -19,7 +19,8 @@ constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 /// log2 of the odds above which an alternative is always evaluated, not only expected.
 constexpr int kLargeOdds_log2 = -36;
 
-/// Set of anchors, one bit per rank. Anchors are the lines with the most information.
+/// Set of anchors, the lines with the most information. Bit n is the anchor with index n. Anchors
+/// are indexed in the order of the lines.
 using Anchors = std::uint32_t;
 
 /// One byte per anchor. The vector fits in one register.
@@ -44,7 +45,7 @@ class Groups {
     }
 
     /// Calls `use(one, other)` for each pair of anchors in the same group. `one` and `other` are
-    /// ranks.
+    /// the indices of the anchors.
     template <typename Use>
     void visit_pairs(Use use) const {
         for (std::size_t group = 0; group < static_cast<std::size_t>(count_); ++group) {

@@ -281,8 +281,9 @@ TEST(CameraLean, IsTurnThenLean) {
             for (int turn = -170; turn <= 180; turn += 50) {
                 const CameraLean wanted{tilt * kDegree_rad, azimuth * kDegree_rad,
                                         turn * kDegree_rad};
-                // The same rotation as a quaternion: a rotation about an axis in the paper, at
-                // right angles to the azimuth, times a rotation about the optical axis.
+                // The quaternion of this rotation is a product. The first factor rotates about an
+                // axis in the paper, at right angles to the azimuth. The second factor rotates
+                // about the optical axis.
                 const double sine = std::sin(wanted.tilt_rad / 2);
                 const std::array lean = {std::cos(wanted.tilt_rad / 2),
                                          sine * std::sin(wanted.azimuth_rad),
