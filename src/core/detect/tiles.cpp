@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Row step: every kRowsEvery-th row of a band is measured. At least some of the dots in a tile
-/// extend over a measured row.
+/// Row step. Measures every kRowsEvery-th row of a band. The rows cross at least some of the dots
+/// in a tile.
 constexpr int kRowsEvery = 4;
 
 /// The measured rows of a band.

@@ -117,7 +117,7 @@ bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane)
     const auto right_of = [](const std::array<float, 6>& s) {
         return std::array{s[1], s[2], s[0]};
     };
-    // Extract the sums of x (x, y, 1) and y (x, y, 1), multiplied by each cell's column or row.
+    // Selects the sums of x (x, y, 1) and y (x, y, 1), each times the column or row of the cell.
     const auto with_x = [](const std::array<float, 6>& s) { return std::array{s[3], s[4], s[1]}; };
     const auto with_y = [](const std::array<float, 6>& s) { return std::array{s[4], s[5], s[2]}; };
     std::array<float, 3> i = inverse(right_of(sums.i));
@@ -162,13 +162,13 @@ bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
 }
 
 /// Returns the factor by which `CellPass::reach_px` changes for the next round. `fraction` is the
-/// fraction of dots within this distance that are near one of their cell's places.
+/// fraction of the dots within this distance that are near one of the four places of their cell.
 float growth(float fraction) {
     if (fraction > tuned::kGoodFraction) return tuned::kGoodGrowth;
     return fraction > tuned::kFairFraction ? tuned::kFairGrowth : tuned::kPoorGrowth;
 }
 
-/// Rank of the neighbour whose distance gives the spacing: the 20th nearest neighbour.
+/// Rank of the neighbour whose distance determines the spacing.
 constexpr std::size_t kNearest = 20;
 
 /// Returns the squared distance from the dot at `of` to its kNearest-th nearest neighbour, in px^2.
@@ -199,8 +199,8 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
     PatchDots& dots = patch.dots;
     const int count = dots.count;
     if (count < tuned::kMinDots) return false;
-    // Limits for the number of dots tested as origins, and for the number of distances computed. If
-    // noise adds many dots, fewer dots are tested.
+    // Limits for the number of dots tested as origins, and for the number of computed distances. If
+    // noise adds many dots, the search tests fewer dots as origins.
     constexpr int kMaxCandidates = 64;
     constexpr int kMinCandidates = 16;
     constexpr int kMaxDistances = 32768;
@@ -213,7 +213,7 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
         const float reach_2 = squared_reach_of_nearest(dots, candidate);
         if (reach_2 >= min_reach_2) continue;
         min_reach_2 = reach_2;
-        // In whole px, so planes can be moved to this origin without loss of precision.
+        // Whole pixels, so a plane moves to this origin without loss of precision.
         from_middle_px = {std::floor(candidate.x), std::floor(candidate.y)};
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
@@ -247,8 +247,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     if (mean_square < kUndisplaced) return false;
     grid.displacement =
         std::clamp(std::sqrt(mean_square), tuned::kMinDisplacement, tuned::kMaxDisplacement);
-    // Further rounds assign each dot to the nearest of its cell's four places. This reduces the
-    // noise to a fifth.
+    // Further rounds assign each dot to the nearest of the four places of its cell. The noise is
+    // then only a fifth.
     pass.displacement = grid.displacement;
     pass.max_off = std::min(tuned::kMaxOffsetPart * grid.displacement, tuned::kMaxOffset);
     for (int round = 0; round < tuned::kMaxRounds; ++round) {
@@ -264,8 +264,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
             break;
         pass.reach_px = std::min(std::max(pass.reach_px * growth(fraction), 4 * spacing), full);
     }
-    // Graphics may stop the fit before it covers the whole patch. A fit to the dots within 5
-    // spacings is enough to read bits.
+    // Accepts a fit to the dots within five spacings, because graphics may stop the fit before it
+    // covers the whole patch. Five spacings are enough to read bits.
     if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
     grid.agreement = sums.used * pass.max_off * pass.max_off - sums.squares;
