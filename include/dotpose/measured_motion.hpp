@@ -1,6 +1,6 @@
-/// Measured motion: the camera's displacement and rotation between two frames, from wheel odometry
-/// or an inertial unit. A Locator uses motions to combine frames that are not certain alone. A
-/// Tracker uses motions to follow a robot across places without a pattern.
+/// Measured motion: the displacement and rotation of the camera between two frames, from wheel
+/// odometry or an inertial unit. A Locator uses motions to combine frames that are not certain
+/// alone. A Tracker uses motions to follow a robot across places without a pattern.
 #pragma once
 
 #include "dotpose/export.hpp"
@@ -10,8 +10,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Camera motion since the previous frame, with its uncertainty. The displacement is that of the
-/// reference point, along the axes of the previous image.
+/// Camera motion since the previous frame, with its uncertainty. The displacement is the
+/// displacement of the reference point, along the axes of the previous image.
 struct MeasuredMotion {
     float right_mm = 0;  ///< displacement along the image x axis
     float down_mm = 0;   ///< displacement along the image y axis

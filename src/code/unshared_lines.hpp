@@ -86,8 +86,8 @@ inline constexpr std::array<std::uint16_t, 741> kUnshared{
 /// Maximum number of unshared lines that `kMaxPositionsWith` covers.
 inline constexpr std::size_t kMaxCounted = 7;
 
-/// Upper bounds on the number of positions with exactly n unshared lines. Indices: row, sequence, n
-/// - 1. The positions differ from the decoded position only in the sequence of the second index. A
+/// Upper bounds on the number of positions with exactly n unshared lines, at the index
+/// [row][sequence][n - 1]. The positions differ from the decoded position only in this sequence. A
 /// position counts once for each shift where it shares a line. The bounds hold for all decoded
 /// positions and all codes.
 inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>, 3>

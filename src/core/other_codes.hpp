@@ -45,9 +45,8 @@ struct OtherCodes {
     int log2_in_question_q8 = 0;
     /// Positions of the first compared column and row, in the code variant that was read.
     Cell first;
-    std::array<OtherCode, kCodeVariantCount>
-        /// Indexed by code variant. The entry for the variant that was read is unused.
-        of;
+    /// Indexed by code variant. The entry for the variant that was read is unused.
+    std::array<OtherCode, kCodeVariantCount> of;
 };
 
 }  // namespace dotpose::core

@@ -46,15 +46,16 @@ struct CheckPrintOptions {
     /// region of a sheet is checked against the pattern of that sheet. Only sheets with the code
     /// variant of `pattern` are found.
     std::vector<Sheet> sheets;
-    /// Resolution of the scan. An image without a resolution, or with the perspective or lens
-    /// distortion of a camera, is treated as a photo: the check allows for both effects and does
-    /// not judge the scale. A resolution that contradicts the spacing is reported as a fault.
+    /// Resolution of the scan. An image counts as a photo if it has no resolution, or if it has the
+    /// perspective or lens distortion of a camera. The check of a photo allows for perspective and
+    /// lens distortion, and does not judge the scale. A resolution that contradicts the spacing is
+    /// reported as a fault.
     std::optional<Resolution> resolution;
     /// True if the image file states that a camera took the image. In this case, the resolution is
     /// ignored.
     bool is_photo = false;
     /// Reflectance of solid ink relative to the paper, 0 to 0.9. The value must be given, because
-    /// it cannot be measured on dots of a few pixels. The measured diameter of a dot is the
+    /// dots of a few pixels are too small to measure it. The measured diameter of a dot is the
     /// diameter of a disc of this ink that has the same total darkness.
     double ink_reflectance = 0.15;
     /// Called after each part of the work. Returning false stops the work with an Error.
@@ -62,7 +63,7 @@ struct CheckPrintOptions {
 };
 
 /// Scale and angles of a print on a flatbed scan, including the scale and angles of the scanner. A
-/// second scan, with the page turned by 90 degrees, separates printer and scanner.
+/// second scan, with the page turned by 90 degrees, separates the printer from the scanner.
 struct PrintScale {
     double scale_x = 1;       ///< printed length over nominal length along the pattern's x axis
     double scale_y = 1;       ///< printed length over nominal length along the pattern's y axis
@@ -70,8 +71,9 @@ struct PrintScale {
     double skew_rad = 0;      ///< excess over 90 degrees of the angle from the x to the y axis
 };
 
-/// Ratio of the two scales of a print, measured in a photo. Available only if its uncertainty, due
-/// to perspective and the unknown focal length of the camera, is at most half a percent.
+/// Ratio of the two scales of a print, measured in a photo. Perspective and the unknown focal
+/// length of the camera make the ratio uncertain. It is available only if the uncertainty is at
+/// most half a percent.
 struct ScaleRatio {
     double x_over_y = 1;
     double uncertainty = 0;  ///< maximum error of the ratio

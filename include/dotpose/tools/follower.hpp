@@ -46,10 +46,10 @@ struct FollowerOptions {
     double spacing_mm = kDefaultSpacing_mm;
     /// Lens, view and mount of the camera. Images must have the size in the camera file.
     std::optional<Camera> camera;
-    /// True if images are flipped left to right before they are located, like `flip` in a camera
-    /// file. All pixel coordinates refer to the flipped images.
+    /// True to flip images left to right before they are located, like `flip` in a camera file. All
+    /// pixel coordinates refer to the flipped images.
     bool flip = false;
-    /// The reference pixel of the pose, instead of the image centre or the reference point of the
+    /// The reference pixel of the pose. Replaces the image centre and the reference point of the
     /// camera file.
     std::optional<PixelPoint> reference_px;
     /// True to fit the pose of the camera in space, in addition to the pose on the paper. Requires
@@ -63,9 +63,9 @@ struct Located {
     /// The pose of the reference point, corrected by the camera file if there is one.
     Fix fix;
     std::optional<SheetPlace> place;  ///< place of the fix; none if the fix is not on any sheet
-    /// The code variant of the fix and, if a place in another code variant also explains the image,
-    /// this place. After `locate`, `reading.fix` does not include the correction by the camera
-    /// file.
+    /// The code variant of the fix. If a place in another code variant also explains the image,
+    /// contains this place. After `locate`, `reading.fix` does not include the correction by the
+    /// camera file.
     CodeReading reading;
     /// Spacing of the sheet, or the common spacing of all sheets, in mm. NaN if spacings differ and
     /// the fix is not on any sheet.
@@ -100,8 +100,8 @@ std::optional<Sighting> world_sighting(const Fix& fix, const SheetPlace& place,
 /// Locates single images, or the images of a sequence in order.
 class Follower {
   public:
-    /// Throws BadArgument if the options require a pose in space and have no camera file, or one
-    /// without a focal length.
+    /// Throws BadArgument if the options require a pose in space, and the camera file is missing or
+    /// has no focal length.
     explicit Follower(const FollowerOptions& options);
 
     /// Locates an image without a prediction from other images. Reduces images larger than
@@ -119,8 +119,8 @@ class Follower {
     const std::vector<SheetEntry>& sheets() const { return options_.sheets; }
     bool fits_space_pose() const { return options_.fits_space_pose; }
 
-    /// Return, for the latest image: the image that was located (possibly flipped, reduced, and
-    /// corrected by the flat field), the options used, and the trace of the stages.
+    /// Return results for the latest image: the image that was located (possibly flipped, reduced,
+    /// and corrected by the flat field), the options used, and the trace of the stages.
     ImageView image() const { return image_; }
     const DeviceOptions& used_options() const { return used_; }
     Trace trace() const { return locator_.trace(); }
@@ -179,7 +179,7 @@ class Follower {
     DeviceOptions used_;
     ImageView image_;
     std::optional<FlatFieldCorrection> flat_field_;
-    GreyImage corrected_;  ///< the image, flipped and with even light
+    GreyImage corrected_;  ///< image after flipping and correcting the light
     GreyImage reduced_;
     std::vector<KnownRegion> known_;  ///< regions of the sheets
     Locator locator_{DeviceOptions{}};

@@ -8,13 +8,16 @@
 ///     if (messages.pose) publish(to_cdr(*messages.pose));
 ///
 /// Coordinate frames (ROS REP 103: metres, x forward, y left, z up, counter-clockwise; REP 105):
-/// `map` is the world of the sheet file. Without a sheet file, `map` is the pattern frame with y up
-/// and the same origin. `odom` begins at the first pose of the robot. While the robot is followed,
-/// the transform from `map` to `odom` does not change. When the robot is found again after it was
-/// lost or moved by hand, or is in another plane, the transform from `map` to `odom` jumps, and the
-/// transform from `odom` to `base_link` remains continuous. `base_link` is the reference point of
-/// the camera file on the paper, with the robot's heading. Without a camera file, `base_link` is
-/// the point under the image centre, with x along the image x axis.
+/// - `map` is the world of the sheet file. Without a sheet file, `map` is the pattern frame with y
+///   up and the same origin.
+/// - `odom` begins at the first pose of the robot.
+/// - `base_link` is the reference point of the camera file on the paper, with the robot's heading.
+///   Without a camera file, `base_link` is the point under the image centre, with x along the image
+///   x axis.
+///
+/// While the robot is followed, the transform from `map` to `odom` is constant. It jumps when the
+/// robot is found again after it was lost or moved by hand, or is in another plane. The transform
+/// from `odom` to `base_link` is always continuous.
 #pragma once
 
 #include <array>

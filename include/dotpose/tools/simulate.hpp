@@ -59,10 +59,10 @@ struct CameraModel {
     /// 75 % of the side of the image along each axis. The pose applies to the time of the middle
     /// row. (0, 0) for a global shutter.
     Vec2 readout_px;
-    /// Rotation of the scene about the image centre while a rolling shutter reads the rows, from
-    /// the image x axis towards the image y axis, in addition to the motion. Both rates are
-    /// constant, as for a camera on a robot that drives in a circle. The scene must not overtake
-    /// the rows: the limit is about 80 degrees in an image of 4:3.
+    /// Rotation of the scene about the image centre while a rolling shutter reads the rows, in
+    /// addition to the motion. The direction is from the image x axis towards the image y axis.
+    /// Both rates are constant, as for a camera on a robot that drives in a circle. The scene must
+    /// not overtake the rows: the limit is about 80 degrees in an image of 4:3.
     double readout_turn_rad = 0;
 };
 
@@ -91,9 +91,9 @@ struct Imperfections {
     double paper_level = 200;       ///< grey level of bare paper at the image centre, 0 to 255
     double ink_reflectance = 0.15;  ///< reflectance relative to paper
     double ink_variation = 0;  ///< standard deviation of a dot's reflectance, relative to paper
-    /// Contrast of the palest ink relative to the darkest ink. Each direction of displacement may
-    /// have its own ink: the darkest ink has `ink_reflectance`, and the contrasts of the remaining
-    /// two inks are evenly spaced between the contrasts of the palest and of the darkest ink.
+    /// Contrast of the palest ink relative to the darkest ink. Each of the four directions of
+    /// displacement has its own ink. The darkest ink has `ink_reflectance`. The contrasts of the
+    /// four inks are evenly spaced.
     double palest_ink = 1;
     double vignetting = 0;  ///< loss of light in the image corners, growing with r^2
     /// Linear change of light from one side to the opposite side, relative to the light at the
@@ -153,8 +153,8 @@ struct PageArea {
 struct Page {
     Pattern pattern;
     /// Seed of the printing errors and of the texture of the paper. The seed, the section and the
-    /// cell determine the jitter, the ink and the absence of a dot. These properties are therefore
-    /// the same in every frame.
+    /// cell determine the jitter, the ink and the absence of a dot, which are therefore the same in
+    /// every frame.
     std::uint64_t seed = 1;
     /// Printed intersections: `columns` x `rows`, starting at `origin`. The whole plane if
     /// `columns` is 0.
@@ -195,10 +195,12 @@ class Projection {
     void offsets_from_row(Vec2 first_pixel, std::span<Vec2> offsets_mm) const;
 
   private:
-    /// Returns the undistorted point, in px from the image centre, at which a point of the middle
-    /// row's time is seen at `time`. Time is in readouts, and 0 at the middle row.
+    /// Returns the undistorted image point, at `time`, of the scene point that is at `undistorted`
+    /// at the time of the middle row. Points are in px from the image centre. Time is in readouts,
+    /// and 0 at the middle row.
     Vec2 moved(Vec2 undistorted, double time) const;
-    /// Returns the motion of the pose point in the undistorted image until `time`, an arc.
+    /// Returns the motion of the pose point in the undistorted image until `time`. The path is an
+    /// arc.
     Vec2 way_at(double time) const;
 
     Vec2 centre_px_;
@@ -282,8 +284,8 @@ void cover_partly(Shot& shot, const PartialView& view);
 /// Renders a shot.
 GreyImage render(const Shot& shot);
 
-/// Frames without a unique valid position. A locator must refuse these frames. At a seam, however,
-/// the position and section of either side count as correct.
+/// Frames without a unique valid position, which a locator must refuse. At a seam, however, the
+/// position and section of either side count as correct.
 enum class Scene : std::uint8_t {
     black,
     white,

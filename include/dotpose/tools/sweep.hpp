@@ -36,8 +36,8 @@ const char* name(SweepKind kind);
 /// Options for a sweep. The options apply to all values of the condition.
 struct SweepOptions {
     Setup setup;  ///< setup of all frames, except for the varied condition
-    /// Number of frames per value. Frame i is the same at every value, except for the condition
-    /// that is varied.
+    /// Number of frames per value. Frame i is the same at every value, except for the varied
+    /// condition.
     int frames_per_value = 200;
     /// Options for `locate`; `decoder` is ignored, because both decoders are run.
     DeviceOptions locate;

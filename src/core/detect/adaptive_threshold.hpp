@@ -41,9 +41,8 @@ struct AdaptiveThreshold {
     int tiles_per_band = 0;
     int rows_taken = 0;
     bool has_contrast = false;  ///< true if any tile so far has contrast
-    int max_contrast =
-        /// Largest contrast between paper and ink in all tiles so far, in grey levels.
-        0;
+    /// Largest contrast between paper and ink in all tiles so far, in grey levels.
+    int max_contrast = 0;
     /// Pixels of the two newest bands. Rows are padded to whole tiles.
     std::span<std::uint8_t> rows;
     std::span<Tile> tiles;  ///< tiles of the four newest bands

@@ -6,8 +6,7 @@
 // - Alternative: any other position or section.
 // - Place: the index of a position in a secondary sequence.
 // - Roll offset: the roll of the alternative minus the roll of the reading in a line, modulo 63.
-// The
-//   places determine the roll offsets up to a shift.
+//   The places determine the roll offsets up to a shift.
 // - Shift: a number that is added to the rolls of all lines. It depends on the section.
 // - Shared line: a line in which the roll offset is 0.
 // - Single alternative: differs from the reading in the place in one sequence.

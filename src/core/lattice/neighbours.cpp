@@ -30,9 +30,8 @@ class Buckets {
     }
 
   private:
-    const std::span<BucketedSeed>
-        /// Element columns * rows contains the end of the last bucket.
-        memory_;
+    /// Element columns * rows contains the end of the last bucket.
+    const std::span<BucketedSeed> memory_;
     const std::size_t count_;
     int shift_ = 0;
     int columns_ = 1;

@@ -119,18 +119,14 @@ namespace uneven {
 /// Limits for the scatter between blocks. The scatter is measured as its excess over chance, in
 /// standard deviations. `dotpose_tables slips` measures the fractions of flat sheets.
 /// - kMaybeLine: above this limit, the second attempt searches for a line that divides the sheet.
-/// The limit
-///   is low because the plane absorbs most of a step, and because the dots of the second attempt
-///   are noisier than those of fast attempts.
+///   The limit is low because the plane absorbs most of a step, and because the dots of the second
+///   attempt are noisier than those of fast attempts.
 /// - kShared: above this limit, the mean block residuals increase the covariance. 1 in 20 flat
-/// sheets exceeds
-///   this limit.
+///   sheets exceeds this limit.
 /// - kSuspect: above this limit, fast attempts search for a line. Up to this limit, one side of a
-/// line counts
-///   as even.
+///   line counts as even.
 /// - kUneven: above this limit, a sheet without a line counts as uneven. At most about 1 in 1,000
-/// flat sheets
-///   exceeds this limit.
+///   flat sheets exceeds this limit.
 inline constexpr float kMaybeLine = 0.9F;
 /// Number of dots up to which kMaybeLine applies. With more dots, the limit is kMaybeLine *
 /// sqrt(dots / kMaybeLineDots), because block residuals become more significant on any sheet.
