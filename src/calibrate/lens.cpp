@@ -1,6 +1,7 @@
 // Calibrates a lens in three rounds. The first round locates the frames and fits a lens. The second
 // round locates the frames again with this lens. The third round adds all dots that the second fit
-// predicts. Then sets the camera and the verdict.
+// predicts. Then sets the camera and the verdict. Unlike the paper, which uses calibration images,
+// dotpose calibrates with frames of any printed sheet.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
-// First attempt: locates an image without a prediction, starting with a patch around the image
-// centre.
+// First attempt: locates an image without a prediction. Unlike the paper, this attempt finds the
+// grid in a part of the image, starting with a patch around the image centre.
 #pragma once
 
 #include "core/kernels/select.hpp"

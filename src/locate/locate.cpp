@@ -1,5 +1,5 @@
 // Locate: chooses the attempts for a frame on a desktop, and the codes to try. Decides whether a
-// fix is accepted.
+// fix is accepted. Unlike the paper, dotpose makes up to three attempts:
 //
 //   tracked    measures the dots where a prediction expects them    locate/tracked.hpp
 //   first      finds the grid in a part of the image                locate/first.hpp

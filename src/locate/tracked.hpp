@@ -1,5 +1,5 @@
-// Tracked attempt: locates an image near a predicted pose. Measures the dots where the prediction
-// expects them.
+// Tracked attempt: locates an image near a predicted pose. Unlike the paper, this attempt measures
+// the dots only where a prediction expects them.
 #pragma once
 
 #include "core/kernels/select.hpp"

@@ -96,8 +96,8 @@ std::int32_t best_agreement(const Voters& voters) {
 }  // namespace
 
 Orientation rank_turns(const Grid& grid, const GridRegion& region) {
-    // Adds up the best scores of the lines. Unlike this sum, the paper's count of exact lines
-    // ignores lines with misread bits.
+    // Adds up the best scores of the lines. Unlike the paper, which counts the lines that occur
+    // exactly in the main sequence, this sum includes lines with misread bits.
     const Voters x_columns(grid, region, true, &GridCell::x);
     const Voters y_rows(grid, region, false, &GridCell::y);
     const BothWays of_columns = agreement(x_columns);

@@ -1,6 +1,6 @@
 // Search: finds the position on one axis that agrees best with all lines in view. Unlike the paper,
-// does not decode lines separately, and uses more than the clearest 8 x 8 symbols. See
-// docs/differs-from-paper.md.
+// this search does not decode each line separately, and is not limited to the clearest 8 x 8
+// symbols. See docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/lines.hpp"

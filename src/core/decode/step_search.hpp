@@ -1,6 +1,6 @@
 // Step search: finds the position on one axis from the steps between adjacent lines. A *step* is
-// the difference between the rolls of two adjacent lines. Unlike the paper, does not decode lines
-// separately. See docs/differs-from-paper.md.
+// the difference between the rolls of two adjacent lines. Unlike the paper, this search does not
+// decode each line separately. See docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/lines.hpp"

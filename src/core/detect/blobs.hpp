@@ -1,5 +1,6 @@
-// Blobs: connects dark pixels, computes centroids weighted by darkness, and selects the dots
-// (paper, section II-B.1).
+// Blobs: connects dark pixels, computes centroids, and selects the dots (paper, section II-B.1).
+// Unlike the paper, which uses the centres of mass of binary blobs, this stage weights pixels by
+// their darkness.
 #pragma once
 
 #include <cstddef>

@@ -19,7 +19,7 @@ constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
 /// Moves the origin by the median offset of the dots near the origin (paper, eq. 6). Unlike the
-/// paper, adds the median to the origin, because offsets are measured from the estimated origin.
+/// paper, this function adds the median, because offsets are measured from the estimated origin.
 /// The subtraction in eq. 6 is a sign error.
 void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     std::array<std::int32_t, kMedianSample> x;
@@ -106,7 +106,7 @@ void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, Ta
 }
 
 /// Fits the plane to the dots whose cells are at most `reach_cells` from the origin, each at its
-/// nearest intersection. Unlike the paper, which continues with median lengths after eq. 6,
+/// nearest intersection. Unlike the paper, which uses median lengths after eq. 6, this fit
 /// determines all terms by least squares. Displacements count as noise.
 void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {

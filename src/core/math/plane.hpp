@@ -34,8 +34,8 @@ inline bool is_affine(const PlaneFromImage& plane) {
 PlaneFromImage plane_from_lattice(const Lattice& lattice, FixedVec centre_q8);
 
 /// Returns the plane point of an image point, in 2^-16 spacings (paper, eq. 3). Unlike the paper,
-/// inverts the map instead of projecting the point onto u and v. The projection is correct only for
-/// perpendicular axes and a camera without tilt.
+/// which projects the point onto u and v, this function inverts the map. The projection is correct
+/// only for perpendicular axes and a camera without tilt.
 FixedVec plane_point_q16(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the intersection nearest to an image point, and the point's offset from this
