@@ -12,7 +12,7 @@
 namespace dotpose::core {
 
 /// Returns true if the plane is a plausible view of paper over the whole image (see
-/// `is_within_reason`). All stages that use a plane require this.
+/// `is_within_reason`). All stages require a plausible plane.
 bool is_plausible(const ImageView& image, const FloatPlane& plane);
 
 /// Result of `confirm`.

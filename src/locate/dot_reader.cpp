@@ -13,8 +13,9 @@ namespace {
 
 namespace tuned = tuning::confirm;
 
-/// Prefetches the pixels in view if they take kMinFetched_bytes to kMaxFetched_bytes. A new camera
-/// image is not in the cache, and hardware does not prefetch pixels that are read in this order.
+/// Prefetches the pixels in view if they occupy kMinFetched_bytes to kMaxFetched_bytes. A new
+/// camera image is not in the cache, and hardware does not prefetch pixels that are read in this
+/// order.
 void fetch_pixels(const ImageView& image, const CellsInView& view) {
     constexpr std::ptrdiff_t kLine_bytes = 64;
     const auto range = [&](float centre, int size_px) {

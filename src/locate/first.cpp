@@ -49,7 +49,7 @@ bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane&
 }
 
 /// Finds the grid in the patch at the image centre, and tests its hypothesis. If `is_skewed` is
-/// true, cells may be any parallelograms. Otherwise, cells must be about square.
+/// true, cells may be arbitrary parallelograms. Otherwise, cells must be about square.
 Confirmation locate_grid(const Kernels& kernels, const ImageView& image,
                          const DeviceOptions& options, bool is_skewed, DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -68,8 +68,8 @@ Confirmation locate_grid(const Kernels& kernels, const ImageView& image,
 }
 
 /// Searches the patch at the image centre for a square grid. If there is no plausible hypothesis,
-/// also searches for a grid of any parallelograms, because a rolling shutter shears and stretches
-/// moving scenes.
+/// also searches for a grid of arbitrary parallelograms, because a rolling shutter shears and
+/// stretches moving scenes.
 Confirmation locate_in_middle(const Kernels& kernels, const ImageView& image,
                               const DeviceOptions& options, DesktopWorkspace& w) {
     Patch& patch = *w.patch;

@@ -91,8 +91,8 @@ inline constexpr float kSecondOff = 0.15F;
 inline constexpr float kMaxOffset_px = 1.5F;
 /// Offset of a typical dot at a moment-to-weight ratio of 1, accurate to 20 %.
 inline constexpr float kWeight_px = 0.84F;
-/// Motion of the dots at the image border above which they are measured again, for the scale and
-/// rotation of a correction.
+/// Motion of the dots at the image border, due to the scale and rotation of a correction, above
+/// which the dots are measured again.
 inline constexpr float kTurned_px = 2;
 /// Maximum number of measurements in one correction.
 inline constexpr int kMaxLooks = 3;
@@ -180,8 +180,8 @@ inline constexpr float kRough = 0.027F;
 /// Views of known sheets (locate/hypothesis, locate/on_sheets).
 namespace known {
 /// Shorter image side, in spacings, below which dots are read up to kMargin_px from the border. In
-/// 300 views of 36 x 36 px at 6 px per spacing, a margin of 1.0 px locates 97 %, and the usual
-/// margin of 1.7 px locates 88 %, with equal errors (`dotpose_tables known`).
+/// 300 views of 36 x 36 px at 6 px per spacing, a margin of 1.0 px locates 97 %. The usual margin
+/// of 1.7 px locates 88 %, with equal errors (`dotpose_tables known`).
 inline constexpr float kSmallView = 9;
 inline constexpr float kMargin_px = 1;
 /// Minimum weight of both bits of a cell, in 1/127, for the second attempt to use the cell.

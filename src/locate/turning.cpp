@@ -39,8 +39,8 @@ float max_rad_per_row(const ImageView& image) {
                     tuned::kMaxFall / (static_cast<float>(image.width_px) / 2));
 }
 
-/// Returns the distance by which a rotation of 1 rad per row moves the dots in the corners of an
-/// area around the image centre, in px.
+/// Returns the motion of the dots in the corners of an area around the image centre, in px, for a
+/// rotation of 1 rad per row.
 float corner_px_per_turn(int width_px, int height_px) {
     const float half_width = static_cast<float>(width_px) / 2;
     const float half_height = static_cast<float>(height_px) / 2;
@@ -75,7 +75,7 @@ class TurnSearch {
     }
 
     float step() const { return step_; }
-    /// Sets whether cells may be any parallelograms. Otherwise, cells must be about square.
+    /// Sets whether cells may be arbitrary parallelograms. Otherwise, cells must be about square.
     void accept_skewed(bool is_skewed) { view_.is_skewed = is_skewed; }
 
     /// Searches from a rotation in decreasing steps. Returns false if the dots do not form a grid
@@ -224,7 +224,7 @@ bool find_turning_hypothesis(const Kernels& kernels, const ImageView& image,
     return false;
 }
 
-/// Searches the dots of the patch for a grid of square cells, and then for a grid of any
+/// Searches the dots of the patch for a grid of square cells, and then for a grid of arbitrary
 /// parallelograms. Confirms the hypothesis.
 Confirmation locate_turning_in_patch(const Kernels& kernels, const ImageView& image,
                                      const DeviceOptions& options, DesktopWorkspace& w,

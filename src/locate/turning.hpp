@@ -14,8 +14,8 @@ namespace dotpose::core {
 bool shows_turn(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                 DesktopWorkspace& w);
 
-/// Searches a patch at the image centre for a grid and a rotation, removes the rotation from the
-/// image, and measures the dots of the whole image. Returns true if a fix was found and its
+/// Searches a patch at the image centre for a grid and a rotation. Then removes the rotation from
+/// the image, and measures the dots of the whole image. Returns true if a fix was found and its
 /// rotation is significant. The workspace then contains the fix. Otherwise, restores the previous
 /// fix.
 bool locate_turning(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,

@@ -43,7 +43,7 @@ struct PaperScale {
 /// Tilt of the paper relative to the image plane, with the sign convention of tools/simulate.hpp.
 struct Tilt {
     double x_rad = 0;  ///< about the image x axis; above 0, the paper recedes towards the bottom
-    /// About the image y axis; above 0, the paper comes closer towards the right.
+    /// About the image y axis. If the angle is above 0, the paper comes closer towards the right.
     double y_rad = 0;
 };
 
@@ -74,7 +74,7 @@ struct Camera {
     /// Directions of view, if pixels are not square or `centre_px` is not on the optical axis. The
     /// files of ROS describe such cameras. See `pinhole_of`.
     std::optional<Pinhole> pinhole;
-    /// Tilt of a mounted camera; none if the calibration did not determine it.
+    /// Tilt of a mounted camera. None if the calibration did not determine the tilt.
     std::optional<Tilt> tilt;
 
     /// Reference point of the pose: an undistorted pixel, which may be outside the image. If there
@@ -140,8 +140,8 @@ PixelPoint on_image(const Camera& camera, CameraPoint point);
 double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 
 /// Returns the position on the paper of an undistorted pixel, in mm from the point under the image
-/// centre, with x along the image x axis at this point. `camera.paper` must be known. In this
-/// frame, two calibrations of the same camera give positions that agree to within microns, even far
+/// centre. x is along the image x axis at this point. `camera.paper` must be known. In this frame,
+/// two calibrations of the same camera give positions that agree to within microns, even far
 /// outside the image. Their pixel coordinates differ by more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 /// Returns the undistorted pixel of a point returned by `from_image_centre`.

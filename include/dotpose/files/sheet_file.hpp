@@ -134,9 +134,9 @@ class SheetFile {
     /// `sheet.origin`. A single page gets the given name. Several pages get the names "name-1",
     /// "name-2" and so on.
     ///
-    /// The next free region is the topmost, then leftmost free region that is at least
-    /// kSheetGap_cells away from the ends of the plane and from all other regions, regardless of
-    /// their code variant and section. Cells alone therefore distinguish allocated sheets.
+    /// A free region is at least kSheetGap_cells away from the ends of the plane and from all other
+    /// regions, regardless of their code variant and section. Cells alone therefore distinguish
+    /// allocated sheets. The next free region is the topmost, then leftmost free region.
     ///
     /// Returns the added entries. Throws BadArgument as `validate` does, and if the name is taken,
     /// the plane is full, or the count is below 1.
@@ -203,7 +203,7 @@ class SheetReservation {
     std::filesystem::path path_;
     SheetFileWait wait_;
     std::vector<SheetEntry> entries_;  ///< reserved and unconfirmed entries
-    /// Text of the file before the reservation; none if the file did not exist.
+    /// Text of the file before the reservation. None if the file did not exist.
     std::optional<std::string> text_before_;
     std::optional<std::string> text_reserved_;
 };

@@ -1,6 +1,6 @@
-/// Coverage: the parts of the image, the places and the directions that the frames so far cover for
-/// a lens calibration, and the requirements that are not met yet. Intended for programs that take
-/// frames while the camera moves, such as `dotpose calibrate --live`.
+/// Coverage: what the frames so far cover for a lens calibration (parts of the image, places and
+/// directions), and which requirements are not met yet. Intended for programs that take frames
+/// while the camera moves, such as `dotpose calibrate --live`.
 ///
 ///     CalibrationCoverage coverage(640, 480);
 ///     coverage.add(view);  // for each frame taken
@@ -36,7 +36,7 @@ inline constexpr int kWantedPlaces = 4;
 /// sectors. Different directions distinguish lens distortion from a printer that stretches one axis
 /// of the paper.
 inline constexpr int kWantedDirections = 3;
-/// Maximum uncertainty of the lens in the corner of the image; see `corner_sigma_px`.
+/// Maximum uncertainty of the lens in the corner of the image (see `corner_sigma_px`).
 inline constexpr double kWantedCornerSigma_px = 0.1;
 
 /// Returns the corner of the image that is farthest from the distortion centre.

@@ -112,14 +112,14 @@ struct PrintField {
     std::vector<DistortionBin> distortion;
     double largest_distortion_mm = 0;  ///< maximum length of a deviation in `distortion`
 
-    /// Number of cells under other print, such as text; not counted in `cells`.
+    /// Number of cells under other print, such as text. `cells` excludes these cells.
     int covered = 0;
     int cells = 0;       ///< number of cells of the region that are in view and not covered
     int missing = 0;     ///< number of cells without a dot
     int merged = 0;      ///< number of dots that touch a neighbour
     int dots = 0;        ///< number of dots found
     int bits_wrong = 0;  ///< number of wrong bits, at most two per dot found
-    /// Median diameter of equivalent discs; see CheckPrintOptions::ink_reflectance.
+    /// Median diameter of equivalent discs (see CheckPrintOptions::ink_reflectance).
     double dot_mm = 0;
     double dot_sigma_mm = 0;  ///< standard deviation of the diameter, from the median absolute
                               ///< deviation
@@ -135,7 +135,7 @@ struct PrintField {
     double missing_share() const { return cells > 0 ? double(missing) / cells : 0; }
     double merged_share() const { return dots > 0 ? double(merged) / dots : 0; }
     double wrong_share() const { return dots > 0 ? 0.5 * bits_wrong / dots : 0; }
-    /// Returns the relative growth of the dot diameter over the nominal diameter; negative if the
+    /// Returns the relative growth of the dot diameter over the nominal diameter. Negative if the
     /// dots shrank.
     double gain() const { return dot_mm / pattern.dot_mm - 1; }
     /// Returns the fraction of the cells that cannot be used: covered, missing, merged or with a
@@ -172,7 +172,7 @@ const char* name(FindingKind kind);
 struct Finding {
     FindingKind kind = FindingKind::good;
     bool is_fault = false;  ///< true for a fault to correct, false for a remark
-    /// Index of the field concerned; none for the scan as a whole.
+    /// Index of the field concerned. None for the scan as a whole.
     std::optional<std::size_t> field;
     /// One or two sentences for the user: the fault, the likely cause, the remedy.
     std::string text;

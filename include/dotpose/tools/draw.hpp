@@ -42,8 +42,8 @@ struct DrawOptions {
     /// `locate`. Default: the fix of the trace.
     std::optional<Fix> fix{};
     std::string title{};  ///< for example the name of the file; default: none
-    /// Place of the fix on a sheet. If there is a place, the caption shows the pose in the world in
-    /// large numbers, or the pose on the sheet if the pose in the world is not known. Default: the
+    /// Place of the fix on a sheet. With a place, the caption shows the pose in the world in large
+    /// numbers. If the pose in the world is not known, it shows the pose on the sheet. Default: the
     /// pose in the pattern.
     std::optional<SheetPlace> place{};
     /// Reason and remedy for the caption if there is no fix. Default: the message of the status.
@@ -78,7 +78,7 @@ struct PathPoint {
 };
 
 /// Draws the true path on the page with the measured points. The errors are too small to be visible
-/// on the page, so they are also drawn as a scatter plot and as a function of the frame number.
+/// on the page. They are also drawn as a scatter plot, and as a function of the frame number.
 void draw_path(std::ostream& out, const Sheet& sheet, std::span<const PathPoint> path,
                const std::string& title = {});
 void draw_path(const std::filesystem::path& file, const Sheet& sheet,

@@ -70,7 +70,7 @@ struct Located {
     /// Spacing of the sheet, or the common spacing of all sheets, in mm. NaN if spacings differ and
     /// the fix is not on any sheet.
     double spacing_mm = 0;
-    /// Spacing computed from the fix and the view of the camera file, in mm; NaN if unknown.
+    /// Spacing computed from the fix and the view of the camera file, in mm. NaN if unknown.
     /// `contradicts` (mounted_pose.hpp) compares this spacing with `spacing_mm`.
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
     /// Velocity of the camera during the readout. None without a fix, or if the camera file does

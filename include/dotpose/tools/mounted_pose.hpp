@@ -54,8 +54,9 @@ struct MovingFix {
 MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const Trace& trace,
                                    const AxisScale& print = {});
 
-/// Returns the spacing of the pattern in mm, computed from the fix and the view of the camera file,
-/// divided by the print scale of the sheet (nominal mm). Returns NaN without a fix or a view.
+/// Returns the spacing of the pattern in nominal mm. This is the spacing computed from the fix and
+/// the view of the camera file, divided by the print scale of the sheet. Returns NaN without a fix
+/// or a view.
 double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print = {});
 
 /// Maximum relative difference between the nominal and the measured spacing of a sheet. It exceeds

@@ -35,13 +35,13 @@ struct OverlaidPage {
 /// Options for the dots, and for the pages that contain dots.
 struct OverlayOptions {
     Pattern pattern;  ///< code, section, and dimensions of the dots
-    /// First cell of the first page; the first cells of the following pages are chosen as in
+    /// First cell of the first page. The first cells of the following pages are chosen as in
     /// `make_sheets`.
     Cell origin;
     double margin_mm = 5;  ///< margin without dots inside the visible page (its crop box)
     double dpi = 600;      ///< resolution of the printer; see PrintOptions
     DotDrawing drawing = DotDrawing::automatic;
-    /// Pages that get dots, from 1, for example "1-3,7"; "z" is the last page. Empty: all.
+    /// Pages that get dots, from 1, for example "1-3,7". "z" is the last page. Empty: all.
     std::string pages;
     int copies = 1;  ///< number of copies of the document, each with its own cells
     /// Paper on which several pages with dots are printed side by side as cards, with cut marks.

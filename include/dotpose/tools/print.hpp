@@ -31,7 +31,7 @@ inline constexpr int kMaxPages = 10'000;
 /// Maximum resolution of PNG, TIFF and PDF files.
 inline constexpr double kMaxResolution_dpi = 19'200;
 
-/// Size of a page; the default is A4, portrait.
+/// Size of a page. The default is A4, portrait.
 struct Paper {
     double width_mm = 210;
     double height_mm = 297;

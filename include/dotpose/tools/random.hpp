@@ -1,5 +1,5 @@
-/// Random numbers that are the same on every machine and with every standard library, unlike the
-/// distributions of `<random>`. For simulation only; not for secrets.
+/// Random numbers that are the same on every machine. The distributions of `<random>` depend on the
+/// standard library. For simulation only, not for secrets.
 #pragma once
 
 #include <cstdint>

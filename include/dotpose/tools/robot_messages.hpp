@@ -123,10 +123,10 @@ class RobotMessenger {
     std::optional<std::uint32_t> plane_;  ///< none before the first pose
 };
 
-/// Returns the mount of the camera: the pose of the optical frame (z towards the paper, x and y
-/// along the axes of the image) in `base_link`, above the point under the image centre. The height
-/// is 0 if the camera file has no focal length. Returns none if the camera file has no view of the
-/// paper.
+/// Returns the mount of the camera: the pose of the optical frame in `base_link`. The optical frame
+/// is above the point under the image centre, with z towards the paper, and x and y along the axes
+/// of the image. The height is 0 if the camera file has no focal length. Returns none if the camera
+/// file has no view of the paper.
 std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFrames& frames = {});
 
 }  // namespace dotpose::ros

@@ -55,7 +55,7 @@ struct CameraModel {
     double k = 0;
     /// Distance of the projection centre from the pose point, relevant only with tilt. Above 0.
     double working_distance_mm = 16;
-    /// Motion of the scene in the undistorted image while a rolling shutter reads the rows, at most
+    /// Motion of the scene in the undistorted image while a rolling shutter reads the rows. At most
     /// 75 % of the side of the image along each axis. The pose applies to the time of the middle
     /// row. (0, 0) for a global shutter.
     Vec2 readout_px;
@@ -85,7 +85,7 @@ double x_grid(const CameraPose& pose);
 double y_grid(const CameraPose& pose);
 
 /// Effects of printer, paper, light and sensor on a frame. The defaults are those of the preset
-/// `clean`, which has none of these effects. Fractions and reflectances are in [0, 1]; sigmas,
+/// `clean`, which has none of these effects. Fractions and reflectances are in [0, 1]. Sigmas,
 /// lengths and counts are not negative.
 struct Imperfections {
     double paper_level = 200;       ///< grey level of bare paper at the image centre, 0 to 255
@@ -97,7 +97,7 @@ struct Imperfections {
     double palest_ink = 1;
     double vignetting = 0;  ///< loss of light in the image corners, growing with r^2
     /// Linear change of light from one side to the opposite side, relative to the light at the
-    /// centre; 0 to 2.
+    /// centre. 0 to 2.
     double fall = 0;
     double fall_direction_rad = 0;  ///< direction in which the light decreases, from +u towards +v
     double blur_sigma_px = 0;
@@ -145,7 +145,7 @@ struct PageArea {
     double half_height = 0;
     double angle_rad = 0;  ///< direction of the side along `half_width`, from +x towards +y
 
-    /// Returns the distance of a point from the area, in grid units; negative inside.
+    /// Returns the distance of a point from the area, in grid units. Negative inside.
     double distance(double x, double y) const;
 };
 

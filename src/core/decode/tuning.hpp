@@ -57,10 +57,11 @@ inline constexpr int kGain = 300;
 /// Maximum light at a cell relative to the image centre, in 1/256. Brighter light does not increase
 /// the weights further.
 inline constexpr int kMaxLight_q8 = 1024;
-/// Test for two patterns in one image. A cell has two dots if its second darkest place exceeds
-/// kSecondDot_3rds / 3 of the darkness of a typical dot, and kSecondDot_4ths / 4 of the darkness of
-/// the darkest place. The image shows two patterns if more than kMaxCrowded_8ths / 8 of the cells
-/// have two dots. In hard frames, at most a quarter of the cells had two dots.
+/// Test for two patterns in one image. A cell has two dots if its second darkest place is dark
+/// enough in two comparisons: more than kSecondDot_3rds / 3 of a typical dot, and more than
+/// kSecondDot_4ths / 4 of the darkest place. The image shows two patterns if more than
+/// kMaxCrowded_8ths / 8 of the cells have two dots. In hard frames, at most a quarter of the cells
+/// had two dots.
 inline constexpr int kSecondDot_3rds = 2;
 inline constexpr int kSecondDot_4ths = 3;
 inline constexpr int kMaxCrowded_8ths = 3;

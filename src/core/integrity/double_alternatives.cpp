@@ -136,9 +136,9 @@ class AnchorOffsets {
     std::array<std::array<AnchorBytes, code::kA4Restored.size()>, 4> all_;
 };
 
-/// A place in one sequence, and the negated offsets of this place relative to one anchor, modulo
-/// 63. A place in another sequence shares an anchor with this place if its offset at the anchor,
-/// relative to the same anchor, equals the negated offset.
+/// A place in one sequence. `offsets` are its roll offsets relative to its offset at one anchor,
+/// negated, modulo 63. This place and a place in another sequence share every anchor at which the
+/// relative offset of the other place equals the negated offset.
 struct Opposite {
     AnchorBytes offsets;
     std::uint32_t place;

@@ -9,8 +9,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Summed odds of other places in other codes above which a fix is ambiguous. A second attempt may
-/// reduce smaller odds.
+/// Summed odds of other places in other codes above which a fix is ambiguous. Below this limit, a
+/// second attempt may reduce the odds.
 constexpr float kAmbiguousOdds = 1e-3F;
 /// Maximum odds of a code that earlier frames rule out, relative to the likeliest code. The locator
 /// makes no attempt in such a code.

@@ -16,7 +16,8 @@ namespace {
 /// seam explains the view equally well. It is refused if a seam explains the view better by two
 /// bits.
 constexpr int kSeam_q8 = -32 * 256;
-/// Minimum odds of an alternative in the sum, without the prior, as log2 in units of 2^-8.
+/// Minimum odds, without the prior, of an alternative that is included in the sum. The value is
+/// log2 in units of 2^-8.
 constexpr int kMin_q8 = -8 * 256;
 
 /// Minimum losses of an alternative before and after each border, over all shifts. Ignores a shift

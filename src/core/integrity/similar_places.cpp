@@ -39,7 +39,7 @@ class Losses {
         digit ^= alternatives;
     }
 
-    // Counters start at 1. A loss of 15 parts therefore carries out of the highest bit.
+    // Counters start at 1, so a loss of 15 parts overflows the highest bit.
     static_assert(kLimitParts == 15);
     std::uint32_t ones_ = ~std::uint32_t{0};
     std::uint32_t twos_ = 0;

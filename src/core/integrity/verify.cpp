@@ -56,7 +56,8 @@ Place corner_place(CodeVariant code, const Decoding& decoding, const Upright& up
 
 /// Comparison of all bits in view with the code, before alternatives are evaluated.
 struct Doubt {
-    int odds_per_bit_q8 = 0;  ///< 0 if the bits carry no information or too many bits are wrong
+    int odds_per_bit_q8 = 0;  ///< 0 if the bits contain no information, or if too many bits are
+                              ///< wrong
     /// For each axis, log2 of an upper bound on the probability of a chance agreement, in units of
     /// 2^-8. In a chance agreement, random bits agree with the code as well as the bits that were
     /// read.

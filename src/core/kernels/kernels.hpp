@@ -364,11 +364,11 @@ struct Kernels {
     /// combination.
     std::uint32_t (*similar_in_batch)(const OffsetBatch& batch, const std::uint8_t* opposite,
                                       std::span<const std::uint8_t> losses, int limit);
-    /// Returns the expected odds of the alternatives that differ from the reading in certain
-    /// sequences (`different`, one bit per sequence), and share at most `max_shared` (up to 8)
-    /// adjacent lines. Assumes that the digits of the alternatives are uniform. `places` are the
-    /// places of the first line. `lines` contains the odds of an alternative in each line. The odds
-    /// at offset 0 are 1, and the padding is 0.
+    /// Returns the expected odds of certain far alternatives. These alternatives differ from the
+    /// reading in the sequences `different` (one bit per sequence), and share at most `max_shared`
+    /// (up to 8) adjacent lines. Assumes that the digits of the alternatives are uniform. `places`
+    /// are the places of the first line. `lines` contains the odds of an alternative in each line.
+    /// The odds at offset 0 are 1, and the padding is 0.
     float (*sum_expected_alternatives)(const code::Basis& basis,
                                        const std::array<std::uint32_t, 4>& places,
                                        unsigned different, std::span<const OddsByOffset> lines,

@@ -31,8 +31,8 @@ struct PatchView {
     /// Approximate number of central dots, from which the waves are computed. At most 64.
     float central_dots = 30;
     int min_dots = 40;  ///< minimum number of dots in the patch
-    /// True if the cells may be any parallelograms, because a rolling shutter shears and stretches
-    /// the image. Otherwise, the cells must be about square.
+    /// True if the cells may be arbitrary parallelograms, because a rolling shutter shears and
+    /// stretches the image. Otherwise, the cells must be about square.
     bool is_skewed = false;
 };
 
@@ -46,8 +46,8 @@ PatchView whole_view(const Patch& patch);
 /// if there are fewer than kMinDots dots.
 bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
-/// Finds the grid. Returns false if there are fewer than `view.min_dots` dots, if the dots do not
-/// form a grid, or if the dots are not displaced from the intersections.
+/// Finds the grid. Returns false if there are fewer than `view.min_dots` dots, or if the dots do
+/// not form a grid. Also returns false if the dots are not displaced from the intersections.
 bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view, PatchGrid& grid);
 
 }  // namespace dotpose::core

@@ -24,8 +24,8 @@ constexpr float kBehind = tuned::kBehind;
 /// Sums over the dots in one part of the sheet. A dot is *coherent* if a displacement of the whole
 /// part can explain its residual.
 struct PartSums {
-    /// Four values: number of dots, sum of their log odds for the plane of the whole sheet, number
-    /// of coherent dots, and sum of the squared residuals of the coherent dots.
+    /// Number of dots, sum of their log odds for the plane of the whole sheet, number of coherent
+    /// dots, and sum of the squared residuals of the coherent dots.
     Four counts;
     Four places;  ///< coherent dots: sums of x and y, and of the residuals along x and y
     /// Coherent dots: sums of xx, xy and yy, and of the cross products of place and residual.
@@ -97,9 +97,8 @@ struct Symmetric3 {
 class AffineFit {
   public:
     AffineFit() = default;
-    /// `x_off` contains the sums of r, x r and y r over all coherent dots, where (x, y) is the
-    /// place of a dot and r its residual along x. `y_off` contains the same sums for the residual
-    /// along y.
+    /// `x_off` contains the sums of r, x r and y r over all coherent dots. (x, y) is the place of a
+    /// dot, and r is its residual along x. `y_off` contains the same sums for the residual along y.
     AffineFit(const PartSums& all, const Triple& x_off, const Triple& y_off)
         : inverse_(Symmetric3{all.dots(), all.places[0], all.places[1], all.moments[0],
                               all.moments[1], all.moments[2]}

@@ -1,6 +1,6 @@
-// Uneven: tests the residuals of neighbouring dots for correlation. If the residuals are
-// correlated, the sheet is not flat, and the fix is less accurate than its covariance. Unlike the
-// paper, dotpose does not assume that all dots are in one plane.
+// Uneven: tests the residuals of neighbouring dots for correlation. Correlated residuals mean that
+// the sheet is not flat, and that the covariance of the fix is too small. Unlike the paper, dotpose
+// does not assume that all dots are in one plane.
 #pragma once
 
 #include "core/math/float_plane.hpp"
