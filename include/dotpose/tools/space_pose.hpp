@@ -68,8 +68,8 @@ CameraLean lean_of(const Quaternion& rotation);
 /// Covariance of a pose: position, then rotation.
 using SpaceCovariance = std::array<std::array<double, 6>, 6>;
 
-/// The other local maximum of the likelihood of the view of a plane. Its tilt is approximately
-/// mirrored about the line of sight.
+/// The second local maximum of the likelihood, if the view of the plane has two. Its tilt is
+/// approximately the first tilt, mirrored about the line of sight.
 struct SecondPose {
     CameraInSpace camera;
     /// log2 of the likelihood of the dots with this pose divided by their likelihood with the first

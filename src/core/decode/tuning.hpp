@@ -51,7 +51,7 @@ inline constexpr int kTooDark_10ths = 16;
 /// Reliability of a cell whose darkest place is probably dirt, in 1/16.
 inline constexpr int kReliabilityTooDark_q4 = 6;
 /// Weight of a bit whose two values differ by the darkness of a typical dot, before clamping to
-/// 127. About two fifths of this difference already give a weight of 127. A value of 150 locates
+/// 127. About two fifths of this difference already gives a weight of 127. A value of 150 locates
 /// 1,994 frames, and a value of 600 locates 1,992 frames.
 inline constexpr int kGain = 300;
 /// Maximum light at a cell relative to the image centre, in 1/256. Brighter light does not increase

@@ -77,7 +77,7 @@ struct Raster {
     int stretches;
 };
 
-/// Returns the strongest wave in a raster around `around`.
+/// Returns the strongest wave in a raster centred on the wave `around`.
 template <typename Power>
 Wave best_around(const Wave& around, const Raster& raster, Power power) {
     Wave best = around;

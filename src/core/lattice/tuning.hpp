@@ -67,8 +67,8 @@ namespace outwards {
 /// dots.
 inline constexpr int kMinDots = 40;
 /// Minimum and maximum number of central dots for the waves. With fewer dots, random places may
-/// give waves as strong as a grid. More dots hardly improve the waves, but cost time in at least 12
-/// directions.
+/// give waves as strong as a grid. More dots hardly improve the waves, but each dot is evaluated in
+/// at least 12 directions.
 inline constexpr int kMinCentralDots = 14;
 inline constexpr int kMaxCentralDots = 64;
 /// Limits for the total power of both waves, divided by the squared number of dots. A grid without
