@@ -26,7 +26,7 @@ struct AlternativeSet {
 inline constexpr std::array<AlternativeSet, 5> kAlternativeSets{
     {{3694, -661}, {4444, -811}, {5712, -1067}, {6057, -1217}, {7326, -1473}}};
 /// log2 of the safety factor 1.03 for digits that are not random, in units of 2^-8, rounded up. See
-/// `kUnevenness` in expected_alternatives.cpp.
+/// `kUnevenness` in kernels/loops/alternatives.inc.
 inline constexpr int kUnevenness_q8 = 11;
 
 }  // namespace dotpose::core

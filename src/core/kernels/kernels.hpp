@@ -350,7 +350,7 @@ struct Kernels {
     /// - there are too many places,
     /// - there are fewer than two lines,
     /// - `loss_limit` exceeds 200, or
-    /// - an alternative that shares none of the first four lines may lose less than `loss_limit`.
+    /// - an alternative that shares none of the first eight lines may lose less than `loss_limit`.
     bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,
                                 unsigned sequences, std::span<const LineLoss> lines, int loss_limit,
                                 SimilarPlaceList& list);

@@ -194,11 +194,11 @@ inline constexpr int kRounds = 3;
 /// Rotation during the readout of a rolling shutter (pose/turn_fit).
 namespace turn {
 /// Steps for numerical derivatives: kStep_px is the motion of the dots in the image corners, and
-/// kDriftStep is the change of the drift, as a fraction.
+/// kDriftStep is the change of the drift, in px per row.
 inline constexpr float kStep_px = 0.3F;
 inline constexpr float kDriftStep = 0.02F;
-/// Standard deviation of the drift that is computed from the plane. A camera tilted by 14 degrees
-/// sees the paper shortened by 3 %.
+/// Standard deviation of the drift that is computed from the plane, in px per row. A camera tilted
+/// by 14 degrees sees the paper shortened by 3 %.
 inline constexpr float kDrift = 0.02F;
 }  // namespace turn
 

@@ -77,7 +77,7 @@ bool has_outliers(const Blocks& blocks) {
 }
 
 /// Adds the squared difference between two planes at the reference point to the covariance, times
-/// `weight`. The correct plane is unknown.
+/// `weight`, because either plane may be correct.
 void add_difference(const FloatPlane& plane, const FloatPlane& other, FloatVec reference_px,
                     float weight, PoseFit& fit) {
     const FloatVec p = plane_point(plane, reference_px);
