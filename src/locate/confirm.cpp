@@ -381,7 +381,7 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
             return Confirmation::implausible;
         if (!is_clean(bits)) {
             if (hypothesis.is_exact) return Confirmation::implausible;
-            // Fits the plane to all dots in the deciding round and reads the bits again. The new
+            // In the deciding round, fits the plane to all dots and reads the bits again. The new
             // plane reduces the number of misread bits.
             if (decides && !fit_to_dots(kernels, dots, bits, image, hypothesis, fit))
                 return Confirmation::implausible;

@@ -148,8 +148,8 @@ inline constexpr float kMinSpacingForDirectSampling_px = 8;
 inline constexpr float kWindowRadii = 2.4F;
 /// Minimum radius of a centroid window.
 inline constexpr float kMinWindowRadius_px = 3.3F;
-/// Window radius above which facing dots bias each other, as a fraction of the distance between
-/// facing dots.
+/// Window radius above which facing dots bias each other's centroids, as a fraction of the distance
+/// between the two dots. See pose/facing_dots.hpp.
 inline constexpr float kFacing = 0.55F;
 /// Maximum deviation of a grid step from whole pixels at which the dots of a row or column have
 /// about the same sub-pixel phase. At larger deviations, the phases in view are evenly distributed.

@@ -36,8 +36,8 @@ inline constexpr int kSolidInk_q8 = 230;
 inline constexpr std::array<int, 5> kReliabilityBySeen_q4{0, 6, 8, 10, 16};
 /// Reliability of a cell with a place under graphics, in 1/16.
 inline constexpr int kReliabilityCovered_q4 = 10;
-/// Shade next to a place above which the cell is near graphics, in fifths of the shade that counts
-/// as graphics.
+/// Minimum shade beside the places of a cell near graphics, in fifths of the shade that counts as
+/// graphics.
 inline constexpr int kNearGraphics_5ths = 3;
 /// Reliability of a cell near graphics, in 1/16. With a value of 3, 1,993 frames are located. With
 /// a value of 14, 1,994 frames are located.

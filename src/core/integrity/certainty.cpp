@@ -124,9 +124,10 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
     return lost;
 }
 
-/// Returns an upper bound on the odds of the single alternatives that share a line. For most
-/// sequences, a table is sufficient. In the other sequences, evaluates the alternatives that may
-/// lose less than `loss_limit` one by one. Returns 1 if `Kernels::list_similar_places` fails.
+/// Returns an upper bound on the odds of the single alternatives that share a line. Uses the bounds
+/// of `tabled_alternatives` where possible. In the other sequences, adds the odds of each
+/// alternative that may lose less than `loss_limit`. Returns 1 if `Kernels::list_similar_places`
+/// fails.
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;

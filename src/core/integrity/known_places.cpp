@@ -9,9 +9,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of bits on one axis that agree with the code, over all positions in a class. The
-/// first index is the class, which is the position modulo 63. The second index is the roll that is
-/// added to the rolls in section 0.
+/// Stores the maximum number of bits on one axis that agree with the code. The first index is the
+/// class: the position modulo 63. The second index is the roll that is added to the rolls in
+/// section 0. Each maximum is over all positions in a class.
 class Peaks {
   public:
     Peaks(const ScoredAxis& axis, CodeVariant code, const PositionRange& range) {

@@ -18,7 +18,7 @@ constexpr int distance_of(std::size_t first, std::size_t other, std::size_t leng
 }
 
 /// Minimum Hamming distance between a substring of the main sequence and all other substrings of
-/// the same length. Also contains the number of substrings at this distance.
+/// the same length, and the number of substrings at this distance.
 struct NearestSubstrings {
     int distance = kMaxComparedLines + 1;
     int count = 0;

@@ -12,7 +12,7 @@ namespace {
 /// then positive, because kPeriods periods of any sequence contain more than kMaxLines places.
 constexpr std::uint32_t kPeriods = kMaxLines / code::kA3.size() + 1;
 
-/// Roll offsets of 16 lines, or sums of two roll offsets.
+/// Roll offsets of 16 lines, or sums of two roll offsets in each of 16 lines.
 using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
 static_assert(kMaxLines % sizeof(Bytes) == 0);
 

@@ -196,8 +196,8 @@ class ByShift {
     /// The alternative avoids these losses. Values below `none_` belong to earlier alternatives and
     /// count as `none_`.
     std::array<std::uint32_t, kSections> kept_{};
-    /// Value in `kept_` that represents no avoided loss. Increasing `none_` for each alternative
-    /// resets `kept_` without writing to it.
+    /// Value in `kept_` at shifts where the alternative avoids no losses. Increasing `none_` for
+    /// each alternative resets `kept_` without writing to it.
     std::uint32_t none_;
 };
 
