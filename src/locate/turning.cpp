@@ -181,7 +181,7 @@ Confirmation settle(const ImageView& image, DesktopWorkspace& w, ReadoutTurn& tu
     return Confirmation::implausible;
 }
 
-/// Measures the dots of a hypothesis in the image without the rotation.
+/// Measures the dots of a hypothesis in the image from which the rotation is removed.
 Confirmation confirm_turning(const Kernels& kernels, const ImageView& image,
                              const DeviceOptions& options, Hypothesis hypothesis, ReadoutTurn turn,
                              DesktopWorkspace& w) {

@@ -341,8 +341,9 @@ float sum_of_double_alternatives(const Kernels& kernels, const RankedLines& line
     const auto expected_odds = [&](int shared) {
         return kMargin * by_shared[static_cast<std::size_t>(shared)];
     };
-    // Fewer required anchors mean more pairs: 6 of 66 for seven anchors, 18 for four, and all 66
-    // for two. Requires fewer than four anchors only to avoid a refusal.
+    // The search visits 6 pairs of anchors if seven shared anchors are required, 18 pairs for four,
+    // and 66 pairs for two. Fewer than four shared anchors are required only if the fix would be
+    // refused otherwise.
     constexpr int kMinForDetail = 4;
     int shared = std::min(kMinFound, anchors);
     while (shared > 2 &&

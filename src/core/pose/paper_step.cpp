@@ -286,10 +286,10 @@ class Search {
                           std::max(max_of(here) - here.on_plane(), 0.0F));
     }
 
-    /// Returns the gain of separate planes over one plane for the whole sheet, as a log likelihood
-    /// ratio. The part with the reference point also gets its own plane, because the plane of the
-    /// whole sheet may be a compromise. If the dots beyond the line have no common plane, their log
-    /// odds are 0.
+    /// Returns the log likelihood ratio between separate planes and one plane for the whole sheet.
+    /// The part with the reference point also gets its own plane, because the plane of the whole
+    /// sheet may be a compromise. If the dots beyond the line have no common plane, their log odds
+    /// are 0.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));
