@@ -232,10 +232,6 @@ struct OffsetBatch {
 /// Odds by roll offset. The last element is padding.
 using OddsByOffset = std::array<float, kRollEntries>;
 
-/// Lower bound on the odds of an alternative in a line, in the elements of `OddsByOffset` other
-/// than the padding. Avoids denormal numbers, which are slow.
-inline constexpr float kMinOddsOfOffset = 0x1p-40F;
-
 /// Expected odds by the number of shared anchors, up to 6.
 using OddsByShared = std::array<float, 7>;
 
