@@ -37,9 +37,10 @@ float sum_of_other_sections(const RankedLines& lines) {
 }
 
 int log2_rounded_up(float sum) {
+    if (sum >= 1) return 0;  // including infinity
     int exponent = 0;
     std::frexp(sum, &exponent);  // sum < 2^exponent
-    return std::min(exponent, 0);
+    return exponent;
 }
 
 /// Expected odds of the far alternatives, averaged over all places.

@@ -17,7 +17,7 @@ RankedLines::RankedLines(const LikelihoodRatios& of) : ratios(of) {
         for (std::size_t offset = 0; offset < kSections; ++offset) {
             const int lost = ratios.loss(static_cast<int>(line), static_cast<int>(offset));
             losses[offset] = static_cast<std::int16_t>(lost);
-            odds[offset] = std::max(ratios.odds(lost), kMinOddsOfOffset);
+            odds[offset] = ratios.odds(lost);
         }
         odds.back() = 0;
         for (std::size_t n = kSections; n < losses.size(); n += kSections) {

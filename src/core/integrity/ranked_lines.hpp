@@ -15,7 +15,7 @@ class RankedLines {
     int count() const { return ratios.lines.count(); }
     int rank(std::uint32_t line) const { return ranks_[line]; }
     /// Returns the odds of an alternative in each line, by roll offset. The odds are at least
-    /// kMinOddsOfOffset.
+    /// kNegligible, except for the padding.
     std::span<const OddsByOffset> odds() const {
         return std::span(odds_).first(static_cast<std::size_t>(count()));
     }

@@ -233,10 +233,6 @@ struct OffsetBatch {
 /// Odds by roll offset. The last element is padding.
 using OddsByOffset = std::array<float, kRollEntries>;
 
-/// Lower bound on the odds of an alternative in a line. Applies to all elements of `OddsByOffset`
-/// except the padding. Avoids denormal numbers, which are slow.
-inline constexpr float kMinOddsOfOffset = 0x1p-40F;
-
 /// Expected odds by the number of shared anchors, from 0 to 6.
 using OddsByShared = std::array<float, 7>;
 

@@ -15,6 +15,7 @@
 
 #include "code/tables.hpp"
 #include "core/kernels/select.hpp"
+#include "core/math/odds.hpp"
 
 namespace dotpose::core {
 
