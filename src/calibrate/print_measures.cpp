@@ -19,8 +19,8 @@ constexpr double kInch_mm = 25.4;
 constexpr double kMergedShare = 0.6;
 /// Minimum number of dots in a part of the page for which distortion is reported.
 constexpr int kMinBinDots = 60;
-/// Quantile of the darkness of the dots. The darkness at this quantile is used as the darkness of
-/// ink if it exceeds the expected darkness.
+/// Quantile of the darkness of the dots. If the darkness at this quantile exceeds the expected
+/// darkness, it replaces the expected darkness of ink.
 constexpr double kDarkest = 0.98;
 constexpr double kSigmaPerDeviation = 1.4826;
 

@@ -72,7 +72,7 @@ struct SourceOptions {
     std::optional<std::pair<int, int>> whole_size_px;
     /// Maximum number of pixels. A larger image throws ImageTooLarge before it is decoded.
     int max_pixels = kMaxFrameSide_px * kMaxFrameSide_px;
-    /// Called periodically. The source ends if the function returns true.
+    /// Called periodically. If the function returns true, the source ends.
     std::function<bool()> stop = [] { return false; };
     /// Called with messages for the user, for example if a camera was unplugged. The source
     /// continues afterwards.

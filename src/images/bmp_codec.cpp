@@ -1,5 +1,6 @@
-// Reads BMP: the headers of Windows 3 to 5 and of OS/2; palettes of 1, 4 and 8 bits; 16, 24 and 32
-// bits without compression. Microsoft documents the layout under BITMAPV5HEADER.
+// Reads BMP files with the headers of Windows 3 to 5 and of OS/2. Supports palettes of 1, 4 and 8
+// bits, and 16, 24 and 32 bits per pixel without compression. Microsoft documents the layout under
+// BITMAPV5HEADER.
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -1,4 +1,4 @@
-/// Operations on files that the standard library lacks. If they fail, they set errno, unless the
+/// File operations that the standard library lacks. On failure, they set errno, unless their
 /// comment states otherwise.
 #pragma once
 
