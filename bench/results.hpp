@@ -15,7 +15,7 @@ struct Result {
 };
 
 /// Prints and stores the fastest repetition of each benchmark. Other load on the machine can only
-/// slow a repetition down.
+/// make a repetition slower.
 class Results : public benchmark::ConsoleReporter {
   public:
     Results();

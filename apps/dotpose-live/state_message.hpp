@@ -50,7 +50,7 @@ std::optional<MessageTopic> parse_topic(std::string_view topic);
 /// Value of RobotState::reason if the frame was located, but its sheet has no place in the world.
 inline constexpr std::string_view kNoPlace = "no_place";
 
-/// Number of refused frames by Status. The last element counts Status::other.
+/// Number of refused frames, indexed by Status. The last element counts Status::other.
 using RefusedFrames = std::array<std::uint64_t, kStatusCount + 1>;
 
 /// Frames of the camera of a robot since its program started.
@@ -103,7 +103,7 @@ std::string json_of(const RobotConnection& connection);
 /// Parses a message with the subject `connection`. Returns none if the message is invalid.
 std::optional<RobotConnection> parse_connection(std::string_view json);
 
-/// A change of a robot that requires attention, or its end.
+/// A change of the condition of a robot that requires attention, or the end of such a condition.
 struct RobotAlert {
     std::string robot;
     std::uint64_t header_id = 0;

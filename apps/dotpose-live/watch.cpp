@@ -157,12 +157,12 @@ void save(FrameSaver& saver, GreyImage& image, const Fix& fix, const WatchArgume
     undo_or_redo();
 }
 
-/// Delays recorded frames until their recording time is reached.
+/// Delays each recorded frame until its recording time.
 class Pace {
   public:
     void wait_for(const capture::Frame& frame) {
         using namespace std::chrono;
-        // Live frames are due on arrival, and the first recorded frame immediately.
+        // A live frame is due on arrival. The first recorded frame is due immediately.
         if (frame.is_live) return;
         if (!begun_) begun_ = steady_clock::now() - microseconds(frame.time_us);
         const auto due = *begun_ + microseconds(frame.time_us);

@@ -41,10 +41,12 @@ Record record_of(const Located& located, const Follower& follower);
 
 /// Number of kinds of warnings.
 inline constexpr std::size_t kWarnings = 4;
-/// Returns the warnings for a frame. An empty string means no warning. The warnings are, in order:
-/// another code than the given code explains the frame; the place is not on any sheet of the sheet
-/// file; the spacing implied by the camera file differs from the spacing of the sheet; the dots do
-/// not exclude the second pose in space.
+/// Returns the warnings for a frame. An empty string means no warning. The warnings are, in this
+/// order:
+/// - another code than the given code explains the frame,
+/// - the place is not on any sheet of the sheet file,
+/// - the spacing implied by the camera file differs from the spacing of the sheet,
+/// - the dots do not exclude the second pose in space.
 std::array<std::string, kWarnings> warnings(const Record& record);
 
 /// Explains why there is no fix, with the relevant numbers. Returns an empty string if there is a

@@ -48,7 +48,7 @@ struct SourceArguments {
 class Sources {
   public:
     /// If this program cannot read one of the sources (a camera or a video), replaces this process
-    /// with dotpose-live (live_sources.hpp). Therefore, no output may be open yet. Throws
+    /// with dotpose-live (live_sources.hpp). No output may therefore be open yet. Throws
     /// BadArgument if no source is given, or if standard input is given twice. Throws Error if the
     /// list, a folder or a glob cannot be read.
     explicit Sources(const SourceArguments& arguments);

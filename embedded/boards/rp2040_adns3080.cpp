@@ -80,8 +80,8 @@ void set_up() {
 }
 
 /// Reads the pixels of the captured frame, column by column from the lower left corner. Each byte
-/// has six bits of the level. The order was not verified on a sensor: if frames are `mirrored`,
-/// reverse the columns.
+/// contains six bits of the grey level. The order was not verified on a sensor. If frames have the
+/// status `mirrored`, reverse the columns.
 void read_pixels() {
     gpio_put(kSelect, false);
     transfer(kPixelBurst);
@@ -108,7 +108,7 @@ Frame start_frame(std::int64_t not_before_us) {
         sleep_until(from_us_since_boot(static_cast<std::uint64_t>(not_before_us)));
     write(kFrameCapture, kCapture);
     sleep_us(kCapture_us);
-    // The third frame after the command is captured, so its exposure ends about here.
+    // The sensor captures the third frame after the command, whose exposure ends about here.
     const auto time_us = static_cast<std::int64_t>(time_us_64());
     read_pixels();
     next = 0;

@@ -14,7 +14,7 @@ namespace dotpose::calibrate {
 
 /// Map from the scan, in px, to the code plane, in cells. The map is valid in and around one tile:
 ///
-/// cell = centre_cell + cells_per_px q / (1 + perspective_per_px . q + lens_per_px2 q^2)
+///   cell = centre_cell + cells_per_px q / (1 + perspective_per_px . q + lens_per_px2 q^2)
 ///
 /// where q = pixel - centre_px. The map is that of a fix (PlaneFromImage), converted to pixels of
 /// the scan.
