@@ -185,7 +185,7 @@ class DriveCamera {
     GreyImage view_of(std::size_t sheet_index, const DriveState& state, std::uint64_t seed) const {
         constexpr double kExposure_s = 5e-5;
         Imperfections imperfections = base_;
-        // The robot drives along the image's x axis, so the scene moves in the opposite direction.
+        // The robot drives along the image's x axis. The scene moves in the opposite direction.
         const double speed_mm_s = std::hypot(state.vx_mm_s, state.vy_mm_s);
         imperfections.motion_px = {-speed_mm_s * kExposure_s / camera_.mm_per_px, 0};
         imperfections.graphics = state.has_graphics ? 2 : 0;

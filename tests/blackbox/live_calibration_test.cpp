@@ -198,7 +198,7 @@ TEST_F(LiveCalibration, RefusesWhatItCannotDo) {
         EXPECT_THAT(errors_, HasSubstr("cannot be given together")) << other;
     }
     EXPECT_EQ(run("calibrate --no-window frames"), 2);
-    // The output path is checked first, so that the user does not move the camera in vain.
+    // The tool checks the output path before the user moves the camera.
     EXPECT_EQ(run("calibrate --live --no-window frames -o nowhere/camera.yaml"), 1);
     EXPECT_THAT(errors_, HasSubstr("nowhere/camera.yaml"));
     EXPECT_THAT(errors_, Not(HasSubstr("taken")));

@@ -121,7 +121,7 @@ void expect_accurate_at_seam(const std::vector<json>& lines, const Drive& drive)
     EXPECT_GT(frames, 10);
 }
 
-// This is a single test, because rendering and locating the drive takes seconds.
+// A single test checks all properties, because rendering and locating the drive takes seconds.
 TEST_F(Watch, FollowsADrive) {
     put_video(drive_.frames(), "drive.avi");
     ASSERT_EQ(run(std::string("watch drive.avi ") + kTrack), 0);
@@ -210,7 +210,7 @@ void cover_all_but(GreyImage& image, int side) {
 
 TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
     // In whole frames, p_wrong is below 1e-13. In frames with about 45 dots, p_wrong is larger,
-    // although the sheet is known.
+    // even on a known sheet.
     constexpr int kSide_px = 76;
     const DriveCamera camera(188, 120);
     std::ofstream raw(directory_ / "weak.raw", std::ios::binary);

@@ -178,7 +178,7 @@ TEST(CheckPrint, maps_distortion) {
 }
 
 TEST(CheckPrint, bits_of_another_place_are_wrong) {
-    // The lower 12 rows are printed from another cell, as by a driver that prints a page in tiles.
+    // The lower 12 rows continue at another cell, as if a driver printed the page in tiles.
     Sheet upper = small_sheet();
     Sheet lower = upper;
     upper.rows -= 12;

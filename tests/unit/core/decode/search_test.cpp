@@ -161,8 +161,8 @@ TEST(FindAxis, RandomBitsAreNotInTheCodeOrScoreLow) {
         AxisReading reading;
         if (lines.find(CodeVariant::anoto, reading) == Status::not_in_code) continue;
         // A line of random bits agrees with its best roll in 9 or 10 of 12 bits. The 6 lines of the
-        // selected run reach this score, and the other 14 lines score 0 on average. Selecting the
-        // best of 15 runs adds a little.
+        // selected run reach this score. The other 14 lines score 0 on average. Selecting the best
+        // of 15 runs increases the score slightly.
         EXPECT_FALSE(reading.is_clear()) << i << ", seed " << kSeed;
         EXPECT_LT(reading.score, reading.max_possible * 7 / 10) << i << ", seed " << kSeed;
     }

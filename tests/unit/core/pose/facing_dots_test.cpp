@@ -1,5 +1,5 @@
-// Tests the correction of the bias of facing dots: the measured centres of two facing dots are
-// shifted towards each other, unlike the centres of other neighbours.
+// Tests the correction of the bias of facing dots. The measured centres of two facing dots are
+// shifted towards each other. The centres of other neighbours are not.
 #include "core/pose/facing_dots.hpp"
 
 #include <map>
