@@ -64,7 +64,7 @@ struct AdversarialFrame {
     GreyImage image;
     DeviceOptions options;
     std::vector<Answer>
-        answers;  ///< empty if every fix is wrong; otherwise, the first is the place at the centre
+        answers;  ///< empty if every fix is wrong. The first answer is the place at the centre.
     Pattern printed;
 };
 

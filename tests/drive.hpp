@@ -1,5 +1,6 @@
 /// A simulated robot that drives a figure eight over two sheets, rests, is lifted twice, and
-/// crosses printed graphics: the frames of its camera, and its true poses. World frame: mm, y up.
+/// crosses printed graphics. Provides the frames of its camera, and its true poses. World frame:
+/// mm, y up.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +42,8 @@ struct DrivePlan {
     double second_put_down = 3.55;  ///< displaced a little to the side
     double stop = 4.5;              ///< the robot slows down before this time, and rests after it
     double end = 5.5;
-    double speed_mm_s = 300;  ///< maximum speed, in the middle of the eight; 0 for a robot at rest
+    /// Maximum speed, in the middle of the figure eight. 0 for a robot at rest.
+    double speed_mm_s = 300;
 };
 
 class Drive {

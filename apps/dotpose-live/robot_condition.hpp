@@ -13,7 +13,7 @@ namespace dotpose::cli {
 enum class Condition {
     moving,
     still,
-    lost,    ///< the robot does not know its pose, for example because it sees no pattern
+    lost,    ///< the pose is unknown, for example because no pattern is in view
     silent,  ///< no message for some time, or the connection broke
     gone,    ///< no message for a long time, or the robot disconnected
 };
@@ -22,7 +22,7 @@ inline constexpr int kConditionCount = 5;
 /// Returns the identifier of a condition, such as "moving".
 std::string_view name_of(Condition condition);
 
-/// Returns true if the robot knows its pose.
+/// Returns true if the pose of the robot is known.
 inline bool is_fine(Condition condition) {
     return condition == Condition::moving || condition == Condition::still;
 }

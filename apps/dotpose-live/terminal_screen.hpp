@@ -34,7 +34,7 @@ class TerminalScreen {
   private:
     void read_input();
 
-    std::optional<termios> before_;  ///< settings of the terminal; none if no keys are read
+    std::optional<termios> before_;  ///< settings of the terminal, or none if no keys are read
     std::string input_;              ///< bytes that are not yet recognized as keys
 };
 

@@ -99,7 +99,7 @@ struct WatchArguments {
     bool lists_cameras = false;
     bool has_no_window = false;
     bool is_realtime = false;
-    std::int64_t frames = 0;  ///< number of frames to take; 0 means no limit
+    std::int64_t frames = 0;  ///< number of frames to take, or 0 for no limit
 };
 
 void report(const WatchOutputs& outputs, std::int64_t dropped) {

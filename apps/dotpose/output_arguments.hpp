@@ -70,7 +70,7 @@ class DocumentOutput {
 
   private:
     std::filesystem::path path_;
-    std::filesystem::path folder_;  ///< temporary folder; empty if there is none
+    std::filesystem::path folder_;  ///< temporary folder, or empty if there is none
 };
 
 }  // namespace dotpose::cli

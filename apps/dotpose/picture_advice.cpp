@@ -151,9 +151,9 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
     return std::nullopt;
 }
 
-/// Returns the mean squared second difference of the grey levels: the difference between a pixel
-/// and the mean of the two pixels at a distance of `step_px` on opposite sides. Noise contributes
-/// equally at all distances. A linear brightness gradient contributes nothing.
+/// Returns the mean squared second difference of the grey levels. A second difference is the
+/// difference between a pixel and the mean of two opposite pixels at a distance of `step_px`. Noise
+/// contributes equally at all distances. A linear brightness gradient contributes nothing.
 double second_difference(ImageView image, int step_px) {
     std::int64_t squares = 0;
     for (int v = step_px; v + step_px < image.height_px; ++v) {

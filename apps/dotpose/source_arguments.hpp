@@ -21,7 +21,7 @@ inline constexpr const char* kSourcesHelp =
 
 struct SourceArguments {
     std::vector<std::string> names;
-    std::string list;  ///< file with additional names; "-" for standard input; none if empty
+    std::string list;  ///< file with additional names, "-" for standard input, or empty for none
     capture::SourceOptions options;
 
     bool is_given() const { return !names.empty() || !list.empty(); }

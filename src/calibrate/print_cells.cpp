@@ -49,8 +49,8 @@ bool is_nearest(const LocatedTile& view, const SeenCell& cell,
     });
 }
 
-/// Returns a grid without measurements that covers the cells of all tiles of a field, according to
-/// the maps of the tiles, plus a margin of two cells.
+/// Returns a grid without measurements. According to the maps of the tiles, the grid covers the
+/// cells of all tiles of a field, plus a margin of two cells.
 CellGrid empty_grid(const Tiling& tiling, const Field& field) {
     Vector2d low = Vector2d::Constant(1e18);
     Vector2d high = -low;

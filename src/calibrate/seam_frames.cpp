@@ -152,8 +152,8 @@ SeamLocator::SeamLocator(const std::vector<SheetEntry>& sheets, const std::optio
     }
 }
 
-/// Returns the parts in the order in which they are located: the whole image, then halves and
-/// corners, then overlapping parts of two thirds of a side.
+/// Returns the parts in the order in which they are located. The whole image is first. Halves,
+/// corners, and overlapping parts of two thirds of a side follow.
 std::vector<SeamLocator::Part> SeamLocator::parts_of(const GreyImage& image) {
     std::vector<Part> parts;
     const auto cut = [](const Stretch& stretch, int side, int& begin, int& length) {

@@ -14,9 +14,9 @@
 
 namespace dotpose::core {
 
-/// Distance from the middle of a square to its outermost pixels, for spacings of 7 to 13 px.
-/// kHalf_px is for the square around an intersection, which contains the dot at any of its four
-/// places. kDotHalf_px is for the square around the centre of a dot.
+/// Distance from the middle of a square to its outermost pixels, for spacings of 7 to 13 px. The
+/// square of kHalf_px is around an intersection, and contains the dot at any of its four places.
+/// The square of kDotHalf_px is around the centre of a dot.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kFineHalf_px = 2;
 inline constexpr int kDotHalf_px = 2;

@@ -51,7 +51,7 @@ class Shifts {
     int cut_ = 0;
     int depth_ = 0;
     std::array<std::uint8_t, kMaxPerSide> dots_{};  ///< number of dots summed in each row of steps
-    /// Sums of darkness; means after `divide_by_dots`.
+    /// Sums of darkness. Contains means after `divide_by_dots`.
     std::array<std::uint16_t, kPerRow * kPerRow> sums_{};
 };
 

@@ -68,8 +68,8 @@ struct Tracking {
     int stride_px = 0;
     int half_px = 0;  ///< see kHalf_px
     /// corner_offset is the offset of the upper left corner of the square around an intersection
-    /// from its middle pixel, in bytes. corners_apart is the offset of the lower corners from the
-    /// upper corners, in bytes.
+    /// from its middle pixel, in bytes. The offset of the lower corners from the upper corners is
+    /// corners_apart, in bytes.
     std::ptrdiff_t corner_offset = 0;
     std::ptrdiff_t corners_apart = 0;
     std::span<std::uint8_t> rows;  ///< the newest rows of the image

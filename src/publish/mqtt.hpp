@@ -32,12 +32,12 @@ enum class Presence {
 struct MqttOptions {
     std::string host = "localhost";
     int port = 1883;
-    std::string user;  ///< empty: no user name
+    std::string user;  ///< user name, or empty for none
     std::string password;
     bool has_tls = false;
-    std::string ca_file;    ///< trusted certificates; empty: the certificates of the system
-    int qos = 0;            ///< 0: at most once, 1: at least once
-    std::string client_id;  ///< empty: the broker chooses an ID
+    std::string ca_file;    ///< trusted certificates, or empty for the certificates of the system
+    int qos = 0;            ///< 0 for at most once, 1 for at least once
+    std::string client_id;  ///< client ID, or empty to let the broker choose an ID
     /// Topic of the presence messages of a publisher, or empty if no presence messages are sent.
     /// The broker retains the newest message for later subscribers. The last will is the message
     /// for a broken connection.

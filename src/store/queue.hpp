@@ -25,7 +25,7 @@ struct QueueOptions {
     /// Time between two transactions. PostgreSQL stores the states of a transaction together,
     /// sorted by robot. With a longer period, the history of a robot can be read faster.
     std::chrono::milliseconds period{5000};
-    int keep_days = 0;  ///< number of days to keep; 0 keeps all days
+    int keep_days = 0;  ///< number of days to keep, or 0 to keep all days
     /// Called with messages for the user, for example that the database is not available. May be
     /// called by another thread.
     std::function<void(const std::string&)> tell = [](const std::string&) {};

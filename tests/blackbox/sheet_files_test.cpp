@@ -1,6 +1,6 @@
-// Tests poses on the page and in the world end to end: prints pages with `dotpose print` and a
-// sheet file, renders frames of the pages, and locates the frames with `dotpose locate` and the
-// sheet file.
+// Tests poses on the page and in the world end to end. Prints pages with `dotpose print` and a
+// sheet file, and renders frames of the pages. Then locates the frames with `dotpose locate` and
+// the sheet file.
 #include <algorithm>
 #include <cmath>
 #include <complex>

@@ -84,8 +84,8 @@ void expect_events(const std::vector<json>& lines, const Drive& drive) {
     EXPECT_NEAR(events[2].first, first_away(drive, frame_at(plan.start), 1, 0), 1);
     // The robot is lost 70 ms, or 14 frames, after the last frame before it was lifted.
     EXPECT_EQ(events[3].first, frame_at(plan.lift) - 1 + 14);
-    // The event is reported in the third frame in which the robot is farther away than it can have
-    // driven at 400 mm/s.
+    // The tracker reports the event in the third frame in which the robot is too far away to have
+    // driven there at 400 mm/s.
     EXPECT_EQ(events[4].first, frame_at(plan.put_down) + 2);
     EXPECT_EQ(events[5].first, frame_at(plan.second_lift) - 1 + 14);
     EXPECT_EQ(events[6].first, frame_at(plan.second_put_down));

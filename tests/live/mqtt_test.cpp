@@ -1,4 +1,4 @@
-// Tests publishing to a real broker: which messages arrive and which messages are dropped,
+// Tests publishing to a real broker. Checks which messages arrive and which messages are dropped,
 // including when the broker disconnects.
 #include "publish/mqtt.hpp"
 

@@ -17,7 +17,7 @@ namespace dotpose::store {
 struct Refused : Error {
     Refused(const std::string& message, std::string state)
         : Error(message), sql_state(std::move(state)) {}
-    std::string sql_state;  ///< code of five characters; empty if the connection broke
+    std::string sql_state;  ///< code of five characters, or empty if the connection broke
 };
 
 class Rows {

@@ -188,7 +188,7 @@ Fix pushed(const GreyImage& image, const LocatorOptions& options) {
 using Way = std::function<Fix(const GreyImage&, const LocatorOptions&)>;
 
 /// Expects that an attempt locates a frame if the minimum contrast is a third of the contrast of
-/// the frame, and refuses it if the minimum is twice the contrast.
+/// the frame. Also expects that the attempt refuses the frame if the minimum is twice the contrast.
 void expect_contrast_counts(const Way& locate, const GreyImage& image, Attempt attempt) {
     const int contrast = contrast_of(image);
     ASSERT_GT(contrast, 15);

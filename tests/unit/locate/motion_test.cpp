@@ -1,5 +1,5 @@
-// Tests locators that know the motion between frames: frames that are read together, and
-// predictions from motions.
+// Tests locators that receive the motion between frames. Frames are then read together, and a
+// motion predicts the next frame.
 #include <array>
 #include <cmath>
 #include <memory>

@@ -97,9 +97,9 @@ inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequ
     return rolls;
 }
 
-/// Returns log2 of the sum of the odds, for both axes, of three kinds of alternatives: those that
-/// differ in one sequence and share a line, other sections, and chance. Uses the same odds per bit
-/// as the verdict.
+/// Returns log2 of the sum of the odds, for both axes, of three kinds of alternatives: alternatives
+/// that differ in one sequence and share a line, other sections, and chance. Uses the same odds per
+/// bit as the verdict.
 inline double exact_log2(const Block& block) {
     double sum = 0;
     core::Confidence both;
