@@ -63,8 +63,8 @@ struct Answer {
 struct AdversarialFrame {
     GreyImage image;
     DeviceOptions options;
-    std::vector<Answer>
-        answers;  ///< empty if every fix is wrong. The first answer is the place at the centre.
+    /// The first answer is the place at the centre. Empty if every fix is wrong.
+    std::vector<Answer> answers;
     Pattern printed;
 };
 

@@ -1,11 +1,11 @@
 // Port for a Raspberry Pi Pico (RP2040) with the Pico SDK and an ADNS-3080, the sensor of an
-// optical mouse: 30 x 30 px, read by SPI. The port was compiled against stand-ins of the SDK, but
-// never run.
+// optical mouse with 30 x 30 px, which is read by SPI. The port was compiled against replacements
+// of the SDK, but never run.
 //
-// The sensor sees about 5 x 5 cells, so it is located on known sheets only, and rarely in one
-// frame: add `locator_.set_known(kSheets, OtherSheets::impossible)` to PoseSender, with the regions
-// of your sheets as constants. Build with -DDOTPOSE_FRAME_WIDTH_PX=36 -DDOTPOSE_FRAME_HEIGHT_PX=36.
-// A lens must show the pattern at 5 to 6 px per spacing (docs/hardware.md). Link with pico_stdlib
+// The sensor sees about 5 x 5 cells. It is located on known sheets only, and rarely in one frame.
+// Add `locator_.set_known(kSheets, OtherSheets::impossible)` to PoseSender, with the regions of
+// your sheets as constants. Build with -DDOTPOSE_FRAME_WIDTH_PX=36 -DDOTPOSE_FRAME_HEIGHT_PX=36. A
+// lens must show the pattern at 5 to 6 px per spacing (docs/hardware.md). Link with pico_stdlib
 // hardware_spi.
 //
 //     ADNS-3080   SCLK   MOSI   MISO   NCS   RESET   NPD   line   TX

@@ -14,8 +14,8 @@ namespace dotpose {
 namespace {
 
 constexpr double kMaxCentre_px = 1000;
-/// Maximum distance of the reference point from the image centre: far outside any image, and well
-/// within the range of the fixed-point pose.
+/// Maximum distance of the reference point from the image centre. This distance is far outside any
+/// image, and well within the range of the fixed-point pose.
 constexpr double kMaxReference_px = 10'000;
 constexpr double kMaxFocal_px = 1e6;
 constexpr double kMinStretch = 0.5;

@@ -244,8 +244,8 @@ void require_spin(const SpinCalibration& spin, double spacing_mm) {
                     spin.sigma_mm, spacing_mm / 2, why));
 }
 
-/// Returns the direction of the best-fitting line through the places: the major axis of their
-/// scatter, pointing forwards along `drive`.
+/// Returns the direction of the best-fitting line through the places. This is the major axis of
+/// their scatter, pointing forwards along `drive`.
 Vector2d direction_of_line(const std::vector<Station>& stations, const Vector2d& mean,
                            const Vector2d& drive) {
     double difference = 0;  // scatter along x minus scatter along y

@@ -130,7 +130,7 @@ void measure_distortion(const Measuring& m, const Fitted& fitted, PrintField& re
     }
 }
 
-/// Returns true if two dots are merged: the point halfway between them is dark.
+/// Returns true if two dots are merged, that is, if the point halfway between them is dark.
 bool have_merged(const Measuring& m, const SeenCell& a, const SeenCell& b) {
     if (!a.has_dot || !b.has_dot || a.is_covered || b.is_covered) return false;
     const double paper = 0.5 * (double(a.paper) + double(b.paper));

@@ -1,5 +1,5 @@
-// Tests `dotpose calibrate --live` without a display: the tool takes frames that add information,
-// reports the missing requirements, and ends automatically.
+// Tests `dotpose calibrate --live` without a display. The tool must take frames that add
+// information, report the missing requirements, and end automatically.
 #include <fstream>
 #include <iterator>
 #include <regex>

@@ -1,4 +1,4 @@
-// Tests `dotpose replay`: compares the figures of a log with values computed by hand.
+// Tests `dotpose replay`. Compares the figures of a log with values computed by hand.
 #include <string>
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-// Tests device workspaces for several frame sizes: they locate and track frames of these sizes, and
-// refuse larger frames.
+// Tests device workspaces for several frame sizes. They must locate and track frames of these
+// sizes, and refuse larger frames.
 #include "device/workspace.hpp"
 
 #include <cmath>

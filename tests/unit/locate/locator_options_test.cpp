@@ -162,7 +162,7 @@ TEST(LocatorOptions, TheCodeIsDetectedUnlessItIsGiven) {
               Status::ok);
 }
 
-/// Returns the frame with its contrast multiplied by `by`: the grey levels move towards 128.
+/// Returns the frame with its contrast multiplied by `by`. The grey levels move towards 128.
 GreyImage paled(GreyImage image, double by) {
     for (std::uint8_t& grey : image.pixels)
         grey = static_cast<std::uint8_t>(std::lround(128 + by * (grey - 128)));

@@ -14,8 +14,8 @@ namespace {
 constexpr std::uint64_t kSeed = 7171;
 constexpr KnownRegion kSheet{CodeVariant::anoto, {}, {1024, 2048}, 393, 564};
 
-/// Returns the shot of a camera that has moved: its displacement along the axes of the image of
-/// `shot`, in mm, and its rotation. Noise and light are those of another frame.
+/// Returns the shot of a camera that has moved. The motion is the displacement along the axes of
+/// the image of `shot`, in mm, and the rotation. Noise and light are those of another frame.
 Shot moved_shot(const Shot& shot, const MeasuredMotion& motion) {
     Shot next = shot;
     CameraPose& pose = next.pose;

@@ -166,8 +166,8 @@ export class Tracker {
     }
 
     /**
-     * Updates the tracker with a frame: its time on any clock, as a whole number, and its fix,
-     * which need not be ok. `motion` is the motion since the previous update. Without fixes, the
+     * Updates the tracker with a frame. `time_us` is its time on any clock, as a whole number. The
+     * fix need not be ok. `motion` is the motion since the previous update. Without fixes, the
      * motions move the pose. A frame that is not newer than the previous frame is ignored.
      */
     update(time_us: number, fix?: Fix | null, motion?: MeasuredMotion | null): Track {
