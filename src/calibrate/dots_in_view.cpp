@@ -167,8 +167,7 @@ std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& 
         read.push_back(space_dot(view, dot.step, dot.symbol, dot.pixel));
     if (read.size() < kMinDots) return std::nullopt;
     const Eigen::Vector2d focal_px(view.pinhole.focal_u_px, view.pinhole.focal_v_px);
-    // Maximum number of dots for the first fit. A fit to more dots does not improve the prediction
-    // of all dots.
+    // Maximum number of dots for the first fit. This number is sufficient to predict all dots.
     constexpr std::size_t kPart = 300;
     std::vector<SpaceDot> part;
     for (std::size_t i = 0; i < read.size(); i += 1 + read.size() / kPart)

@@ -142,8 +142,9 @@ void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& p
 /// Returns the velocity during the readout of a rolling shutter, from the last three parameters.
 ReadoutVelocity velocity_of(const PoseFit& pose, double readout_ms, const AxisScale& print) {
     constexpr int kFirst = kParameters;
-    // Factors that convert the motion during the readout, along x and y, to a velocity in nominal
-    // spacings per second, and the turn to rad per second.
+    // Factors that convert the motion during the readout to velocities. The motion along x and y
+    // becomes a velocity in nominal spacings per second, and the turn a turn rate in rad per
+    // second.
     const std::array per_s{1000 / (readout_ms * print.x), 1000 / (readout_ms * print.y),
                            1000 / readout_ms};
     ReadoutVelocity velocity{per_s[0] * pose.parameters[kFirst],

@@ -31,10 +31,10 @@ struct HardLines {
     const HardLine& operator[](int line) const { return first[line * step]; }
 
     /// Returns the number of bits that contradict the code if the roll of line i is rolls[i] plus
-    /// `added`, modulo 63. The count ends early when it exceeds `limit`.
+    /// `added`, modulo 63. The count may end early when it exceeds `limit`.
     int wrong_with(const std::uint8_t* rolls, std::uint32_t added, int limit) const;
     /// Returns the number of bits that contradict the code if the first line is at `position`. The
-    /// roll of each line is its roll in section 0 plus `added`. The count ends early when it
+    /// roll of each line is its roll in section 0 plus `added`. The count may end early when it
     /// exceeds `limit`.
     int wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added, int limit) const;
 };

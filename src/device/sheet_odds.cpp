@@ -109,8 +109,8 @@ int unknown_sheet_log2_q8(const KnownSheets& sheets, CodeVariant code, const Pla
 
 int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
                    const IntegrityOptions& options) {
-    // Only large views have certain places with more wrong bits. This function does not count bits
-    // above this limit.
+    // Maximum number of wrong bits to test. Only large views have certain places with more wrong
+    // bits. For these views, the function returns the number of all bits, which excludes no place.
     constexpr int kMaxTested = 8;
     const int trials_q8 = trials_log2_q8(sheets, code, lines, lines);
     for (int wrong = 0; wrong <= std::min(kMaxTested, 2 * dots); ++wrong) {

@@ -150,7 +150,7 @@ void MqttClient::set_up_security() {
 void MqttClient::start() {
     set_up_security();
     // Without this option, TCP may delay a small message by up to 40 ms to combine it with the next
-    // one.
+    // message.
     require(mosquitto_int_option(mosquitto_, MOSQ_OPT_TCP_NODELAY, 1), "cannot set the connection");
     if (!options_.presence_topic.empty()) {
         const std::string will = options_.presence(Presence::broken);

@@ -57,7 +57,7 @@ Imperfections draw_hard(Rng& rng) {
 }
 
 /// The sensor of an optical mouse behind a simple lens. The lens has strong vignetting, and the
-/// pixels differ in sensitivity.
+/// pixels have different offsets.
 Imperfections draw_mouse(Rng& rng) {
     Imperfections drawn;
     drawn.paper_level = rng.uniform(140, 200);

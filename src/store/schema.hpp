@@ -21,7 +21,7 @@ struct Dialect {
     std::string_view generated_key;  ///< definition of a primary key: an integer column whose
                                      ///< values are generated
     std::string_view partition;      ///< last part of the definition of the table `states`
-    std::string_view create_view;    ///< creates or replaces a view
+    std::string_view create_view;    ///< creates a view if it is missing, or replaces it
     std::string_view time;           ///< SQL expression that converts `time_us` to a time
 };
 

@@ -96,8 +96,8 @@ TEST(SheetOdds, MoreDotsAreNeededIfOtherSheetsArePossible) {
     const int only_log2 = fix.p_wrong_log2;
     const core::KnownSheets possible{{&kSheet, 1}, OtherSheets::possible};
     is_certain(block, corner, possible, fix);
-    // An unknown sheet may have the same columns. Each of its 3 rows agrees by chance with a
-    // probability of 2^-36.
+    // An unknown sheet may have the same columns. Its rows can then have 3 positions. Each position
+    // agrees by chance with a probability of 2^-36.
     EXPECT_GE(fix.p_wrong_log2, -36);
     EXPECT_GT(fix.p_wrong_log2, only_log2);
 }

@@ -60,7 +60,7 @@ TEST(Pose, FittedToExactDotsIsExact) {
         const Reading reading = reading_off_grid(i, rng);
         const Fitted fit = fitted(reading);
         ASSERT_TRUE(fit.ok);
-        // The rounding to 1/256 px varies across the image. The fit represents this variation as a
+        // The rounding to 1/256 px varies across the image. This variation has the same effect as a
         // slight lens distortion.
         expect_pose(reading, fit.pose, reading.view.centre_px(), 2e-4);
         EXPECT_GE(fit.fix.dots_used, static_cast<int>(reading.dots.size()) * 9 / 10);
