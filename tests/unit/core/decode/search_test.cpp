@@ -87,8 +87,8 @@ TEST(FindAxis, FindsThePositionAmongWrongBits) {
     // The search succeeds in two cases. In the first case, some run has the correct roll among the
     // best rolls of each line. In the second case, the steps have the correct place among the best
     // places of each sequence. Longer lines tolerate more wrong bits. With 12 rows and every fifth
-    // bit wrong, only half of the windows are found. The 240 bits have 0.28 bits of information
-    // each, which would distinguish all 4e8 * 63 hypotheses.
+    // bit wrong, only half of the windows are found. In principle, 240 bits with 0.28 bits of
+    // information each would suffice to distinguish all 4e8 * 63 hypotheses.
     for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::microdots}) {
         EXPECT_GE(found_of_200(code, 12, 0.08), 198) << "seed " << kSeed;
         EXPECT_GE(found_of_200(code, 20, 0.12), 198) << "seed " << kSeed;
