@@ -222,7 +222,8 @@ class Sensor {
     const std::vector<float>& paper_;
     std::vector<Raster::Spot> losses_;  // darkness times the light of bare paper
     std::vector<Reach> reaches_;        // disjoint, from left to right
-    // One sub-row after horizontal spreading, with two borders on each side.
+    // One sub-row after horizontal spreading, with at least 2 * border_ elements on each side of
+    // the image.
     std::vector<float> row_;
     std::vector<float> levels_;  // rows with the same length as row_
 };

@@ -132,7 +132,7 @@ TEST_F(FramesReadTogether, SmallViewsOfTheWholePlaneBecomeCertain) {
     EXPECT_GT(series.with_earlier, 100);
 }
 
-// Alone, views of 4.9 cells are never certain on a sheet.
+// A single view of 4.9 cells per side never gives a certain place on a sheet.
 TEST_F(FramesReadTogether, SmallViewsOfKnownSheetsBecomeCertain) {
     ASSERT_EQ(locator_.set_known({&kSheet, 1}, OtherSheets::impossible), Status::ok);
     const Series series =
