@@ -121,7 +121,7 @@ class Board:
         """Renders with 4 x 4 samples a pixel, then blur, noise and rounding."""
         fine = 4
         rotation, position = truth
-        # Pixel of a place (x, y, 1) on the paper.
+        # Pixels of the points (x, y, 1) on the paper.
         columns = numpy.column_stack(
             [rotation.T[:, 0], rotation.T[:, 1], -rotation.T @ position])
         to_fine = numpy.array([[fine, 0, (fine - 1) / 2], [0, fine, (fine - 1) / 2], [0, 0, 1]])

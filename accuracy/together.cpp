@@ -1,5 +1,5 @@
-// Counts how soon a moving camera is located whose views are too small to be certain alone, by
-// reading its frames together. Prints a table in Markdown.
+// Counts how soon a moving camera is located by reading its frames together. Each view is too small
+// to be certain alone. Prints a table in Markdown.
 //
 //   dotpose_tables together [--series N] [--seed S]
 //

@@ -19,8 +19,8 @@ constexpr double kBeyondPage_mm = 400;
 /// reliable.
 constexpr std::size_t kMinViewDots = 30;
 constexpr int kFieldsPerSide = 8;
-/// Minimum number of fields, out of 64, that must show dots of located sheets. Once this number is
-/// reached, no more parts of the frame are located. The number of dots in a fix is not a suitable
+/// Minimum number of fields, out of 64, that must show dots of located sheets. At this number, the
+/// search locates no more parts of the frame. The number of dots in a fix is not a suitable
 /// criterion, because a fix includes only one sheet.
 constexpr int kNearlyAllFields = 58;
 
@@ -152,8 +152,8 @@ SeamLocator::SeamLocator(const std::vector<SheetEntry>& sheets, const std::optio
     }
 }
 
-/// Returns the parts in the order in which they are located: the whole image, then halves and
-/// corners, then overlapping parts of two thirds of a side.
+/// Returns the parts in the order in which they are located. The whole image is first. Halves,
+/// corners, and overlapping parts of two thirds of a side follow.
 std::vector<SeamLocator::Part> SeamLocator::parts_of(const GreyImage& image) {
     std::vector<Part> parts;
     const auto cut = [](const Stretch& stretch, int side, int& begin, int& length) {

@@ -13,7 +13,8 @@ int excess_bits(std::int64_t value, int bits) {
     return std::max(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value))) - bits, 0);
 }
 
-/// Returns n / d. If n fits in 32 bits, divides in 32 bits, which takes a fifth of the time.
+/// Returns n / d. Divides in 32 bits if n fits in 32 bits, because small processors divide 32-bit
+/// numbers five times as fast as 64-bit numbers.
 std::int64_t quotient(std::int64_t n, std::int32_t d) {
     const auto small = static_cast<std::int32_t>(n);
     return small == n ? small / d : n / d;

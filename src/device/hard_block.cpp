@@ -112,7 +112,7 @@ TrackedBlock::TrackedBlock(std::span<const ComparedLine> lines, CodeVariant code
                 ((line.code ^ line.wrong) & line.seen) >> first_cell, line.seen >> first_cell};
         }
     };
-    // Without bits, there are no lines, and the shift by `first_cell` is not used.
+    // If there are no bits, there are no lines, and `first_cell` is not used.
     take(all_columns, columns, rows.first, columns_);
     take(all_rows, rows, columns.first, rows_);
     column_count_ = columns.count;

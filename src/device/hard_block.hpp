@@ -31,21 +31,23 @@ struct HardLines {
     const HardLine& operator[](int line) const { return first[line * step]; }
 
     /// Returns the number of bits that contradict the code if the roll of line i is rolls[i] plus
-    /// `added`, modulo 63. If the number exceeds `limit`, returns any number above `limit`.
+    /// `added`, modulo 63. The count may end early when it exceeds `limit`.
     int wrong_with(const std::uint8_t* rolls, std::uint32_t added, int limit) const;
-    /// Returns the same for lines of which the first is at `position`. The rolls are those in
-    /// section 0 plus `added`.
+    /// Returns the number of bits that contradict the code if the first line is at `position`. The
+    /// roll of each line is its roll in section 0 plus `added`. The count may end early when it
+    /// exceeds `limit`.
     int wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added, int limit) const;
 };
 
-/// The bits of a block in all four orientations. The memory contains the block and the block turned
-/// upside down; lines of these two blocks, from either end, are the lines of all orientations.
+/// The bits of a block in all four orientations. Stores the block and the block turned by 180
+/// degrees. Each orientation reads the lines of one of these blocks, from the first or from the
+/// last line.
 class HardBlock {
   public:
     /// Reads the clear cells of a region of at most kMaxComparedLines columns and rows.
     HardBlock(const Grid& grid, const GridRegion& region);
 
-    /// Returns the number of bits of one axis, which is the number of clear cells.
+    /// Returns the number of clear cells, which is the number of bits per axis.
     int dots() const { return dots_; }
     /// Returns the lines after `quarters` quarter turns, as for QuarterTurn.
     HardLines lines(Axis axis, int quarters) const;
@@ -61,8 +63,8 @@ class HardBlock {
     std::array<Lines, 2> row_lines_{};
 };
 
-/// The bits that were read in a tracked frame, from the first to the last column and row that have
-/// bits. The block is upright.
+/// The bits read in a tracked frame. The block is upright. It extends from the first to the last
+/// column and row that contain bits.
 class TrackedBlock {
   public:
     /// `lines` are the lines of Tracking, and `corner` is the place of cell (0, 0).

@@ -22,7 +22,8 @@ bool lay_dot_pixels(Tracking& tracking) {
 
 namespace {
 
-/// Not inlined, because only fine grids need it, and the code of other grids needs the registers.
+/// Not inlined, because only fine grids call this function. Inlining would take registers from the
+/// code for other grids.
 DOTPOSE_NOINLINE bool measure_fine_square(const Tracking& tracking, FixedVec intersection_q16,
                                           std::int32_t level, NearDot& dot) {
     return measure_square<kFineHalf_px>(tracking, intersection_q16, level, dot);

@@ -18,8 +18,8 @@ DotErrors errors_of(const Page& page, Cell cell) {
     const Section section = page.pattern.section;
     const std::uint64_t sheet = page.seed * 4096 + section.u * std::uint64_t{64} + section.v;
     Rng rng(sheet, (std::uint64_t{cell.x} << 32) | cell.y);
-    // All random numbers are always drawn, so disabling one imperfection does not change the other
-    // imperfections.
+    // Draws all random numbers in every case. Disabling one imperfection then does not change the
+    // others.
     DotErrors errors{};
     errors.presence = rng.uniform();
     errors.jitter.x = rng.normal();

@@ -21,7 +21,7 @@ constexpr float kScatter_sightings = 32;
 constexpr float kMinScatter = 0.01F;
 constexpr float kMaxScatter = 9;
 
-/// Upper bound on the rounding error when two variances are subtracted, relative to the larger
+/// Upper bound on the rounding error of the difference of two variances, relative to the larger
 /// variance.
 constexpr float kRounding = 4e-6F;
 
@@ -43,7 +43,7 @@ std::int32_t turned(std::int32_t theta_bam, float angle_rad) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(std::int64_t{theta_bam} + turn));
 }
 
-/// Adds a step to the state.
+/// Adds a correction to the state.
 void move(MotionEstimate& motion, const Vector9& step) {
     constexpr float kNm_per_mm = 1e6F;
     TrackedPose& pose = motion.pose;
@@ -62,7 +62,7 @@ float kept(float dt_s) {
     return kHold_s / (kHold_s + dt_s);
 }
 
-/// Advances a state by `dt_s`, or one row or column of its covariance. `at(i)` is a reference to
+/// Advances a state, or one row or column of its covariance, by `dt_s`. `at(i)` is a reference to
 /// element i. Assumes constant acceleration over the interval.
 template <typename State>
 void advance(const State& at, float dt_s) {
@@ -150,9 +150,10 @@ void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, cons
         }
         p[i][i] += kRounding * before[i][i];
     }
-    // The upper three rows equal R S^-1 H P, a product without cancellation. After a long gap, the
-    // subtraction above would leave no correct digit in single precision. All other elements need
-    // the subtraction, so their diagonal includes a bound on the rounding error.
+    // The upper three rows equal R S^-1 H P. This product has no cancellation, while the
+    // subtraction above would lose all digits in single precision after a long gap. All other
+    // elements need the subtraction. Their diagonal therefore includes a bound on the rounding
+    // error.
     const auto upper = product(noise, weighted);
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 9; ++j)
@@ -242,7 +243,7 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
                        std::int64_t time_us, bool is_y_up, const TrackOptions& options) {
     const float dt_s = static_cast<float>(time_us - motion.pose.time_us) * 1e-6F;
     const PlaneMotion seen = in_plane(measured, motion.pose.theta_bam, is_y_up);
-    // The agility was fitted to sightings, so this agility does not apply between sightings.
+    // The agility is fitted to sightings and does not apply between them.
     MotionEstimate later = motion;
     later.agility = {1, 1, 1};
     later = predicted(later, time_us, options);

@@ -33,9 +33,9 @@ class ImageFileTest : public testing::Test {
     ~ImageFileTest() override { std::filesystem::remove_all(directory); }
 
     std::filesystem::path write(const Bytes& bytes) const {
-        auto path = directory / "image";  // no extension, because it must not matter
-        // The file is removed and not truncated, because some file systems flush truncated files,
-        // which made the test 10 times slower.
+        auto path = directory / "image";  // no extension, because the reader must not depend on it
+        // Removes the file instead of truncating it. Some file systems flush truncated files, which
+        // made the test 10 times slower.
         std::filesystem::remove(path);
         std::ofstream(path, std::ios::binary)
             .write(reinterpret_cast<const char*>(bytes.data()),

@@ -298,8 +298,8 @@ Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int 
 }
 
 TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
-    // One of the 10 differences is wrong. The five differences on one side of the wrong difference
-    // determine the position, which the wrong difference contradicts.
+    // One of the 10 differences is wrong. The five differences on one side of it determine a
+    // position, and the wrong difference contradicts this position.
     std::mt19937 rng(kSeed);
     int found_in_8 = 0;
     constexpr int kDraws = 20'000;

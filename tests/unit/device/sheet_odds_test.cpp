@@ -80,7 +80,7 @@ TEST(SheetOdds, BoundIsAboveTheSumOverAllPlaces) {
             term *= (2.0 * block.dots() - k) / (k + 1);
         }
         const double expected_log2 = std::log2(std::exp2(sum_log2) + 4 * 145 * 135 * chance);
-        // Rounding up costs 1. Chernoff's bound exceeds the binomial sum by at most 3.
+        // Rounding up adds at most 1. Chernoff's bound exceeds the binomial sum by at most 3.
         EXPECT_LE(fix.p_wrong_log2, expected_log2 + 4) << trial;
     }
 }
@@ -96,7 +96,8 @@ TEST(SheetOdds, MoreDotsAreNeededIfOtherSheetsArePossible) {
     const int only_log2 = fix.p_wrong_log2;
     const core::KnownSheets possible{{&kSheet, 1}, OtherSheets::possible};
     is_certain(block, corner, possible, fix);
-    // An unknown sheet may have the same columns: 3 rows of the class agree by 2^-36 each.
+    // An unknown sheet may have the same columns. Its rows can then have 3 positions. Each position
+    // agrees by chance with a probability of 2^-36.
     EXPECT_GE(fix.p_wrong_log2, -36);
     EXPECT_GT(fix.p_wrong_log2, only_log2);
 }
@@ -121,8 +122,8 @@ TEST(SheetOdds, TooManyWrongBitsAreRefused) {
 }
 
 TEST(SheetOdds, MaximumOfWrongBitsFollowsFromChance) {
-    // 4 * 145 * 135 places are 2^16.3 hypotheses. 48 bits without error leave 2^-31.7, and one
-    // wrong bit of 48 leaves 2^-26.
+    // 4 * 145 * 135 places are 2^16.3 hypotheses. 48 bits without an error leave a probability of
+    // 2^-31.7. One wrong bit of 48 leaves 2^-26.
     EXPECT_EQ(core::max_wrong_bits(kOnly, kSheet.code, 24, 6, {}), 0);
     EXPECT_EQ(core::max_wrong_bits(kOnly, kSheet.code, 22, 6, {}), -1);
     EXPECT_EQ(core::max_wrong_bits(kOnly, kSheet.code, 200, 16, {}), 400);

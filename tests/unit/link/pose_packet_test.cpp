@@ -69,8 +69,8 @@ std::vector<PosePacket> received(const Bytes& stream) {
     return packets;
 }
 
-/// Encodes with COBS as defined by its authors: appends a zero, cuts after every zero, and writes
-/// each piece as its length and its bytes without the zero.
+/// Encodes with COBS as defined by its authors. Appends a zero, and splits the bytes after every
+/// zero. Then writes each piece as its length and its bytes without the zero.
 Bytes cobs(Bytes plain) {
     plain.push_back(0);
     Bytes coded;

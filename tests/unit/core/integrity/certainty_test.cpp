@@ -77,7 +77,7 @@ TEST(IsCertain, AcceptsWhatIsClearlyRead) {
     }
 }
 
-/// Returns bits between two alternatives: where the columns of the two alternatives differ, half of
+/// Returns bits between two alternatives. In the columns where the two alternatives differ, half of
 /// the distinguishing bits agree with one alternative, and half with the other. The two
 /// alternatives therefore explain the view equally well.
 Block between(const Block& block, const std::vector<int>& own,

@@ -105,8 +105,8 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
                         lost += places.offset(k, place, line) == shift ? 0 : loss;
                     const std::array<int, 3> alternative{static_cast<int>(k),
                                                          static_cast<int>(place), shift};
-                    // The kernel adds up only the losses of lines after the shared line, so it may
-                    // list additional places, which this test does not check.
+                    // The kernel adds up only the losses of lines after the shared line. It may
+                    // therefore list additional places, which this test does not check.
                     if (lost >= enough) continue;
                     ASSERT_TRUE(found.count(alternative) > 0) << k << ' ' << place << ' ' << shift;
                     ++listed;
