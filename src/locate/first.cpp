@@ -41,8 +41,8 @@ void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, Des
 }
 
 /// Returns true if the patch predicts all dots in the image to within a fraction of a pixel. The
-/// patch must cover the whole image, because its grid is then fitted to all dots. The spacing must
-/// be at least kMinSpacingForPrediction_px.
+/// patch must cover the whole image, because only such a patch has a grid that is fitted to all
+/// dots. The spacing must be at least kMinSpacingForPrediction_px.
 bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane& plane) {
     return patch.width_px == image.width_px && patch.height_px == image.height_px &&
            spacing_px(plane) >= tuned::kMinSpacingForPrediction_px;

@@ -25,7 +25,7 @@ bool has_room(const ImageView& image, const DesktopWorkspace& w) {
 
 /// Returns the centre of the rotation that is removed from an image. This is the distortion centre,
 /// because a rotation about the distortion centre does not change the distortion of a point. A
-/// rotation about any other point differs by a motion, which is part of the drift.
+/// rotation about any other point differs by a translation, which is part of the drift.
 FloatVec axis_of(const FixedLens& lens) {
     if (lens.k_q40 == 0) return {};
     return {static_cast<float>(lens.centre_dx_q8) / 256,
@@ -88,7 +88,7 @@ class TurnSearch {
         for (float step = step_; step > finest;) {
             if (!improves(step) && !improves(-step) && !improves(0)) step /= 2;
         }
-        // Converts the dots of the patch to the best rotation.
+        // Removes the best rotation from the dots of the patch.
         PatchGrid last;
         return fits(turn_, last);
     }
@@ -106,8 +106,8 @@ class TurnSearch {
         return find_grid(kernels_, patch_, view_, grid);
     }
 
-    /// Tries the rotation `step` larger, with the drift of the best grid so far. Returns true if
-    /// the grid is better.
+    /// Tries a rotation that is larger by `step`, with the drift of the best grid so far. Returns
+    /// true if the grid is better.
     bool improves(float step) {
         ReadoutTurn turn = turn_;
         turn.rad_per_row += step;

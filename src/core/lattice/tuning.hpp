@@ -38,9 +38,9 @@ inline constexpr int kPlaceRounds = 2;
 /// First grid of the second attempt, from the periodogram (lattice/periodogram_search).
 namespace periodogram_search {
 /// Half side of the central square whose dots are in the periodogram, in spacings. Raster searches
-/// use kNear_cells, because a coarse raster cannot miss the wide peak of a small square. The ascent
-/// uses kWider_cells, because a larger square has a more precise maximum. kNear_cells = 3 locates
-/// 1,964 frames, and kNear_cells = 10 locates 1,993 frames.
+/// use kNear_cells, because the periodogram of a small square has a wide peak, which a coarse
+/// raster cannot miss. The ascent uses kWider_cells, because the peak of a larger square is more
+/// precise. kNear_cells = 3 locates 1,964 frames, and kNear_cells = 10 locates 1,993 frames.
 inline constexpr int kNear_cells = 5;
 inline constexpr int kWider_cells = 8;
 /// Raster of the first search: direction step in degrees, spacing divided by its step, and spacing
@@ -81,8 +81,8 @@ inline constexpr float kFaintWaves = 0.12F;
 inline constexpr float kFinest_px = 5.2F;
 inline constexpr float kCoarsest_px = 40;
 /// Limits of a plausible fit: minimum and maximum spacing relative to the first spacing, and
-/// maximum change in scale within the reach. These limits reject fits with half or twice the true
-/// spacing.
+/// maximum difference between the perspective divisor and 1 within the reach. These limits reject
+/// fits with half or twice the true spacing.
 inline constexpr float kMinSpacing = 0.7F;
 inline constexpr float kMaxSpacing = 1.4F;
 inline constexpr float kMaxFold = 0.7F;
