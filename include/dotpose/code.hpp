@@ -2,10 +2,10 @@
 /// symbols.
 ///
 /// The code follows section II-A of the paper. Every column contains the same cyclic sequence,
-/// called *main*, read downwards. The *roll* of a column is the index at which its sequence starts.
-/// Rolls of adjacent columns differ by 5 to 58, modulo 63. Each difference has four digits, taken
-/// from the cyclic sequences a1 to a4. The lengths of these sequences are coprime, so consecutive
-/// differences determine the position of a column. Rows encode y in the same way.
+/// called *main*, read downwards. The *roll* of a column is the index in *main* of the bit in row
+/// 0. Rolls of adjacent columns differ by 5 to 58, modulo 63. Each difference has four digits,
+/// taken from the cyclic sequences a1 to a4. The lengths of these sequences are coprime, so
+/// consecutive differences determine the position of a column. Rows encode y in the same way.
 ///
 /// Coordinates: x points right and y points DOWN, as the printed page is read. All functions are
 /// pure and thread-safe, and do not allocate.

@@ -71,7 +71,8 @@ struct TrackOptions {
     float angular_acceleration_rad_s2 = 6;
 
     /// Maximum possible acceleration, for example in a collision. If this acceleration does not
-    /// explain a sighting, the tracker accepts it only after further sightings have confirmed it.
+    /// explain a sighting, the tracker accepts the sighting only after further sightings have
+    /// confirmed it.
     float max_acceleration_mm_s2 = 10'000;
     float max_angular_acceleration_rad_s2 = 200;
     /// Maximum speed. Limits how far the robot can have moved since its last sighting.

@@ -88,10 +88,10 @@ struct Camera {
     bool flip = false;
 
     /// Flat field: the brightness of evenly lit white paper in the image, relative to its brightest
-    /// point. Contains rows of values from kMinFlatField to 1, at equal distances from the first to
-    /// the last pixel along each axis. Values between them are interpolated bilinearly. The flat
-    /// field includes the vignetting of the lens and the light of the lamps. Empty if the
-    /// brightness is even or not known.
+    /// point. Contains rows of values from kMinFlatField to 1. The values are sampled at equal
+    /// distances, from the first to the last pixel along each axis. Values between them are
+    /// interpolated bilinearly. The flat field includes the vignetting of the lens and the light of
+    /// the lamps. Empty if the brightness is even or not known.
     std::vector<std::vector<double>> flat_field;
 
     /// Time from the first to the last row of an image, if the sensor has a rolling shutter. The
@@ -158,9 +158,10 @@ std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera
 /// as `validate` does, and if the crop exceeds the image.
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
-/// Sets the lens and the reference point in `options`, for images of the given size. If the view of
-/// the camera is known, also sets `show_stages`, because `with_camera` needs the dots in the trace.
-/// Throws BadArgument if the given size is not the image size of the camera.
+/// Sets the lens in `options`, and the reference point if the camera has one, for images of the
+/// given size. If the view of the camera is known, also sets `show_stages`, because `with_camera`
+/// needs the dots in the trace. Throws BadArgument if the given size is not the image size of the
+/// camera.
 void use_camera(const Camera& camera, int width_px, int height_px, DeviceOptions& options);
 
 }  // namespace dotpose

@@ -196,9 +196,9 @@ struct FlatFieldCalibration {
 
 /// Computes the flat field of a camera from at least 20 frames of a sheet or of white paper, taken
 /// with constant exposure and light. The dots must be at different places in the frames, because
-/// their mean must be even. Without a camera, makes one with the size of the frames. Throws Error
-/// if there are fewer frames, frames differ in size, the image is too dark, or the mean frame is
-/// not smooth. Uses only `progress` of the options.
+/// the mean of the frames must show even paper. Without a camera, makes one with the size of the
+/// frames. Throws Error if there are fewer frames, frames differ in size, the image is too dark, or
+/// the mean frame is not smooth. Uses only `progress` of the options.
 FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
                                           const std::optional<Camera>& camera,
                                           const CalibrateOptions& options);
@@ -216,7 +216,7 @@ struct ReadoutCalibration {
 /// frames, taken at intervals of `interval_ms`. Compares the motion during the readout of each
 /// frame with the motion from the previous to the next frame. Throws Error in these cases:
 /// - The camera file has no view of the paper.
-/// - There are fewer than 5 located frames with a located frame before and after them.
+/// - Fewer than 5 located frames are preceded and followed by a located frame.
 /// - The motion does not determine the readout time to 10 %.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);

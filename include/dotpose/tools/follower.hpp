@@ -86,7 +86,7 @@ struct Located {
 /// The result for one image of a sequence, given the previous images.
 struct Followed {
     /// Result of the image. If the fix was accepted only because of the predicted place, its
-    /// `p_wrong` includes the prior probability of that place.
+    /// `p_wrong` takes the prior probability of that place into account.
     Located located;
     Track track;
 };

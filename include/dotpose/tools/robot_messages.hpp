@@ -67,7 +67,8 @@ struct PlanarMotion {
 /// The results of a frame, in the frame `map`.
 struct RobotUpdate {
     std::int64_t time_ns = 0;            ///< middle of the exposure
-    std::optional<PlanarFix> fix;        ///< none without a fix, or if its place is not known
+    std::optional<PlanarFix> fix;        ///< none if there is no fix, or if the place of the fix is
+                                         ///< unknown
     std::optional<PlanarMotion> motion;  ///< none while the robot is lost
     std::uint32_t plane = 0;             ///< ID of the plane; poses in different planes are
                                          ///< unrelated

@@ -9,9 +9,9 @@
 ///     const Shot shot = draw_shot(setup, i);  // change anything here: shot.pose.theta_rad = 0;
 ///     const GreyImage image = render(shot);
 ///
-/// Every frame depends on (setup, i) alone: the same bytes on every machine, in any order and from
-/// any number of threads. All functions are pure and thread-safe. Functions throw BadArgument for
-/// invalid values.
+/// Every frame depends only on (setup, i). Its bytes are the same on every machine, for any order
+/// of rendering and any number of threads. All functions are pure and thread-safe. Functions throw
+/// BadArgument for invalid values.
 ///
 /// Coordinate frames: *pixel* (centre of the first pixel (0, 0), v down), *pattern* (x right, y
 /// DOWN as the page is read, mm). Offsets named `offset_mm` are in the pattern frame, relative to
@@ -62,7 +62,7 @@ struct CameraModel {
     /// Rotation of the scene about the image centre while a rolling shutter reads the rows, in
     /// addition to the motion. The direction is from the image x axis towards the image y axis.
     /// Both rates are constant, as for a camera on a robot that drives in a circle. The scene must
-    /// not overtake the rows: the limit is about 80 degrees in an image of 4:3.
+    /// not move down faster than the rows are read: the limit is about 80 degrees in a 4:3 image.
     double readout_turn_rad = 0;
 };
 
@@ -199,8 +199,8 @@ class Projection {
     /// at the time of the middle row. Points are in px from the image centre. Time is in readouts,
     /// and 0 at the middle row.
     Vec2 moved(Vec2 undistorted, double time) const;
-    /// Returns the motion of the pose point in the undistorted image until `time`. The path is an
-    /// arc.
+    /// Returns the motion of the pose point in the undistorted image from time 0 to `time`. The
+    /// path is an arc.
     Vec2 way_at(double time) const;
 
     Vec2 centre_px_;
