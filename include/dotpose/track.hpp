@@ -99,9 +99,9 @@ struct TrackOptions {
     float still_rad = 0.02F;
     std::int64_t stationary_after_us = 500'000;
 
-    /// Standard deviations of printing errors. Their squares are added to the covariance of each
-    /// sighting. Printing errors at one place are the same in every frame, so they do not average
-    /// out.
+    /// Standard deviations of printing errors. The squares of these values are added to the
+    /// covariance of each sighting. Printing errors at one place are the same in every frame, so
+    /// they do not average out.
     float min_sigma_mm = 0.0002F;
     float min_sigma_rad = 0.00002F;
 

@@ -31,7 +31,7 @@ float half_side_px(const ImageView& image) {
 }
 
 /// Returns true if all of these conditions hold:
-/// - At least `min_dots` dots were read, and at least half of the dots seen.
+/// - At least `min_dots` dots were read, and at least half of the seen dots were read.
 /// - Dots were seen in at least a quarter of the listed cells, or the view is partial.
 /// - On each axis, at most max_bit_error_q8 / 256 of the bits contradict the code.
 bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOptions& options,

@@ -164,7 +164,8 @@ Confirmation locate_outwards(const Kernels& kernels, const ImageView& image,
         if (!place_patch(image, {image.width_px / 2, image.height_px / 2}, scale, w)) break;
         const Confirmation confirmation = locate_in_middle(kernels, image, options, w);
         if (confirmation == Confirmation::ok) return confirmation;
-        // Other patches of the same dots give the same bits.
+        // If the patch covers the whole image, other patches contain the same dots and give the
+        // same bits.
         const bool is_whole_image =
             w.patch->width_px == image.width_px && w.patch->height_px == image.height_px;
         if (confirmation == Confirmation::too_few_bits && is_whole_image) return confirmation;

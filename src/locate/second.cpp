@@ -41,8 +41,8 @@ void detect_filtered(const ImageView& image, const DeviceOptions& filtered, Desk
         detect_row(next_smooth_row(image, w.smoothing), filtered, w);
 }
 
-/// Finds the grid, including perspective and lens distortion. Takes longer than `find_grid`, which
-/// devices use.
+/// Finds the grid, including perspective and lens distortion. Takes longer than `find_grid` in
+/// device/attempt.cpp.
 Status find_grid_thoroughly(const DeviceOptions& options, DesktopWorkspace& w) {
     const FixedVec centre_q8 = image_centre_q8(w.threshold);
     Status status = find_axes(centre_q8, kMaxSeeds, w);

@@ -45,9 +45,10 @@ inline constexpr float kStepParts = 32;
 /// Minimum factor by which the agreement of a better grid exceeds the agreement of the best grid so
 /// far.
 inline constexpr float kBetter = 1.0005F;
-/// Minimum ratio of the squared residuals that the rotation explains to the squared residuals that
-/// remain. kMinGainIfEven applies if the remaining residuals of neighbouring dots are not
-/// correlated, and kMinGain otherwise.
+/// Minimum ratio of the squared residuals that the rotation explains, summed over both axes, to the
+/// number of dots times the remaining variance along one axis. The two values correspond to a fifth
+/// and to three fifths of all squared residuals. kMinGainIfEven applies if the remaining residuals
+/// of neighbouring dots are not correlated, and kMinGain otherwise.
 inline constexpr float kMinGainIfEven = 0.5F;
 inline constexpr float kMinGain = 3;
 /// Maximum variance of the offset between a dot and the nearest place of its cell, per axis, in
@@ -90,7 +91,7 @@ inline constexpr float kFirstOff = 0.30F;
 inline constexpr float kSecondOff = 0.15F;
 /// Maximum offset at which a dot is measured in a centroid window.
 inline constexpr float kMaxOffset_px = 1.5F;
-/// Offset of a typical dot at a moment-to-weight ratio of 1, accurate to 20 %.
+/// Offset of a typical dot, in px, at a moment-to-weight ratio of 1. Accurate to 20 %.
 inline constexpr float kWeight_px = 0.84F;
 /// Motion of the dots at the image border, due to the scale and rotation of a correction, above
 /// which the dots are measured again.

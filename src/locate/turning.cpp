@@ -51,7 +51,8 @@ float distance(FloatVec a, FloatVec b) {
     return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y));
 }
 
-/// Returns true if rotation and drift are in range. Returns false if either is NaN.
+/// Returns true if the rotation and the drift (see ReadoutTurn) are in range. Returns false if
+/// either is NaN.
 bool is_possible(const ReadoutTurn& turn, const ImageView& image) {
     return std::abs(turn.rad_per_row) <= max_rad_per_row(image) &&
            std::abs(turn.drift.x) <= tuned::kMaxDrift && std::abs(turn.drift.y) <= tuned::kMaxDrift;
@@ -148,8 +149,9 @@ void write_turn(const ReadoutTurn& turn, const ImageView& image, const FixedLens
 }
 
 /// Returns true if the rotation explains enough of the squared residuals that the dots have without
-/// the rotation: a third, or three quarters if the remaining residuals are correlated. The
-/// residuals of a wrinkled sheet may be similar to those of a rotation.
+/// the rotation: about a fifth, or three fifths if the remaining residuals are correlated (see
+/// kMinGainIfEven and kMinGain). The residuals of a wrinkled sheet may be similar to those of a
+/// rotation.
 bool is_significant(const TurnFit& fit, int dots, Surface surface) {
     const float min_gain = surface == Surface::even ? tuned::kMinGainIfEven : tuned::kMinGain;
     return fit.turn.rad_per_row * fit.turn.rad_per_row >=

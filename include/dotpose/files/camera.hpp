@@ -110,7 +110,7 @@ struct Camera {
 
 /// Checks all values. Throws BadArgument in these cases:
 /// - `locate` does not accept the image size.
-/// - The lens folds the image: 1 + k r^2 is outside [0.5, 2].
+/// - The distortion is too strong: 1 + k r^2 is outside [0.5, 2] in a corner of the image.
 /// - The distortion centre is more than 1000 px from the image centre.
 /// - The reference point is more than 10,000 px from the image centre.
 /// - A value is not finite, or a length is not positive.

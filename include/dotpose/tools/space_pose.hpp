@@ -72,8 +72,9 @@ using SpaceCovariance = std::array<std::array<double, 6>, 6>;
 /// approximately the first tilt, mirrored about the line of sight.
 struct SecondPose {
     CameraInSpace camera;
-    /// log2 of the likelihood of the dots with this pose divided by their likelihood with the first
-    /// pose. Assumes that the errors of the dots are independent. At most 0.
+    /// log2 of a likelihood ratio: the likelihood of the dots with this pose, divided by their
+    /// likelihood with the first pose. Assumes that the errors of the dots are independent. At most
+    /// 0.
     double odds_log2 = 0;
 };
 

@@ -18,7 +18,7 @@ constexpr std::uint32_t kMaxMass = 65535;
 /// Value of `OpenBlob::last_v` for a blob that was merged into another blob.
 constexpr std::uint16_t kNoRow = UINT16_MAX;
 
-/// Returns an upper bound of the distance between a dot and the image centre, per axis.
+/// Returns an upper bound on the distance between a dot and the image centre, per axis.
 int all_within_px(const AdaptiveThreshold& threshold) {
     return std::max(threshold.width_px, threshold.height_px);
 }
@@ -205,8 +205,8 @@ void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& thr
     }
 }
 
-/// Returns the upper quartile of a member, over a sample of the blobs. The quartile is typical of
-/// dots even if half the blobs are noise, because noise is smaller than dots, and few blobs are
+/// Returns the upper quartile of a data member over a sample of the blobs. The quartile is typical
+/// of dots even if half the blobs are noise, because noise is smaller than dots, and few blobs are
 /// larger than dots.
 std::int32_t typical(std::span<const DetectedDot> dots, std::uint16_t DetectedDot::*member) {
     constexpr std::size_t kSample = 128;

@@ -183,10 +183,10 @@ struct BitsRead {
     float squares = 0;
 };
 
-/// Minimum loss, in bits, of an alternative that does not share `line`. The *reading* is the
-/// position that was read, and an *alternative* is any other position. The *loss* of an alternative
-/// in a line is the score of the reading minus the score of the alternative. An alternative
-/// *shares* a line if its roll in this line is the roll of the reading.
+/// Minimum loss of an alternative that does not share `line`, in a unit that the caller chooses.
+/// The *reading* is the position that was read, and an *alternative* is any other position. The
+/// *loss* of an alternative in a line is the score of the reading minus the score of the
+/// alternative. An alternative *shares* a line if its roll in this line is the roll of the reading.
 struct LineLoss {
     std::uint8_t line = 0;
     std::uint8_t loss = 0;

@@ -189,7 +189,7 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;
     // Unlike the paper, which uses both medians as axes, this estimate averages them into a square
-    // grid. The medians deviate from a square mostly because of scatter, not because of tilt.
+    // grid. The medians deviate from a square mostly because of random errors, not because of tilt.
     // Averaging halves the variance.
     const FixedVec twice_u{u.x + v.y, u.y - v.x};
     lattice.u_q16 = {twice_u.x * kLengthening_q8 / 2, twice_u.y * kLengthening_q8 / 2};

@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::outwards;
 
-/// Returns the strongest waves through the central dots. Returns nullopt if the waves are too weak,
-/// the spacing is out of range, or there are too few central dots.
+/// Returns the pair of plane waves that fits the central dots best. Returns nullopt if the waves
+/// are too weak, the spacing is out of range, or there are too few central dots.
 std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, const PatchView& view) {
     const float spacing = view.spacing_px;
     const PatchDots& dots = patch.dots;
@@ -237,7 +237,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     plane = plane_from_waves(*waves);
     const float spacing = spacing_px(plane);
     const float full = view.full_reach_px;
-    // The first rounds fit the plane to the intersections. Displacements count as noise.
+    // The first rounds fit the plane as if all dots were on their intersections. Displacements
+    // count as noise.
     CellPass pass{tuned::kFirstReach * spacing, tuned::kFirstMaxOffset, 0};
     CellSums sums;
     for (int round = 0; round < 2; ++round) {

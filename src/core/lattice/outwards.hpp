@@ -1,5 +1,5 @@
 // Outwards: finds the grid of a patch, starting near its middle (paper, sections II-B.2 and
-// II-B.3). Two plane waves through the central dots give a first plane. The search then refits the
+// II-B.3). Two plane waves that fit the central dots give a first plane. The search then refits the
 // plane to more and more dots. The fit includes perspective once it uses dots more than four
 // spacings from the middle.
 #pragma once

@@ -27,11 +27,11 @@ inline constexpr int kMedianSample = 256;
 /// correct cells.
 inline constexpr int kMaxRounds = 4;
 /// Maximum distance between a dot and the nearest of the four places of its cell, in 2^-16
-/// spacings. Dots at a larger distance are false. The limit is slightly less than the displacement.
-/// Half or twice this value also locates 1,994 frames.
+/// spacings. Dots at a larger distance count as false dots. The limit is slightly less than the
+/// displacement. Half or twice this value also locates 1,994 frames.
 inline constexpr int kFar_q16 = 65536 / 8;
 /// Number of fits to the nearest places. The second fit starts from a more precise plane, and
-/// assigns dots to the correct places.
+/// assigns more dots to their correct places.
 inline constexpr int kPlaceRounds = 2;
 }  // namespace refine_grid
 
