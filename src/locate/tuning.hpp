@@ -187,7 +187,8 @@ namespace known {
 /// of 1.7 px locates 88 %, with equal errors (`dotpose_tables known`).
 inline constexpr float kSmallView = 9;
 inline constexpr float kMargin_px = 1;
-/// Minimum weight of both bits of a cell, in 1/127, for the second attempt to use the cell.
+/// Minimum weight of a bit, in 1/127. The second attempt uses a cell only if each of its two bits
+/// has at least this weight.
 inline constexpr int kMinWeight = 48;
 }  // namespace known
 

@@ -105,7 +105,7 @@ void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing)
         add_row(image, smoothing.sums_begin++, false, smoothing);
 }
 
-/// Minimum level of the normalised image. Darker pixels take this level.
+/// Minimum level of the normalised image. Darker pixels are set to this level.
 constexpr std::uint32_t kMinLevel = kNormalLevel * tuned::kMinLevel_5ths / 5;
 
 /// Divides by multiplication and rounds down. The result is exact for n / d < 256 and d < 2^20,

@@ -20,8 +20,8 @@ inline constexpr int kSamplesPerSide = 12;
 /// a much smaller fraction.
 inline constexpr int kDarker_3rds = 2;
 /// Minimum level of a block, in fourths of the level of its brightest neighbour. A darker block is
-/// assumed to be under graphics, and takes the neighbour's level. Light gradients cause smaller
-/// differences between neighbouring blocks.
+/// assumed to be under graphics, and its level is replaced with the level of the neighbour. Light
+/// gradients cause smaller differences between neighbouring blocks.
 inline constexpr int kCovered_4ths = 3;
 }  // namespace paper
 

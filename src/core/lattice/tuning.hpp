@@ -71,9 +71,9 @@ inline constexpr int kMinDots = 40;
 /// at least 12 directions.
 inline constexpr int kMinCentralDots = 14;
 inline constexpr int kMaxCentralDots = 64;
-/// Limits for the total power of both waves, divided by the squared number of dots. A grid without
-/// displacements reaches about 2. The search stops trying other spacings above kClearWaves, and
-/// rejects waves below kFaintWaves.
+/// Limits for the total power of the two waves, divided by the squared number of dots. A grid
+/// without displacements reaches about 2. The search stops trying other spacings above kClearWaves,
+/// and rejects waves below kFaintWaves.
 inline constexpr float kClearWaves = 0.2F;
 inline constexpr float kFaintWaves = 0.12F;
 /// Range of spacings in the smoothed patch, in patch pixels. Dots of a finer grid merge. Dots of a
