@@ -42,7 +42,7 @@ struct PaperScale {
 
 /// Tilt of the paper relative to the image plane, with the sign convention of tools/simulate.hpp.
 struct Tilt {
-    double x_rad = 0;  ///< about the image x axis; above 0, the paper recedes towards the bottom
+    double x_rad = 0;  ///< about the image x axis; if above 0, the paper recedes towards the bottom
     /// About the image y axis. If the angle is above 0, the paper comes closer towards the right.
     double y_rad = 0;
 };
@@ -132,7 +132,8 @@ struct CameraPoint {
     double x_mm = 0;
     double y_mm = 0;
 };
-/// Returns the point in the camera frame of an undistorted pixel. `camera.paper` must be known.
+/// Returns the point on the paper that an undistorted pixel shows, in the camera frame.
+/// `camera.paper` must be known.
 CameraPoint on_paper(const Camera& camera, PixelPoint undistorted);
 /// Returns the undistorted pixel of a point in the camera frame. `camera.paper` must be known.
 PixelPoint on_image(const Camera& camera, CameraPoint point);
@@ -140,10 +141,10 @@ PixelPoint on_image(const Camera& camera, CameraPoint point);
 /// Returns the direction of the image x axis at an undistorted pixel, in the camera frame.
 double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 
-/// Returns the position on the paper of an undistorted pixel, in mm from the point under the image
-/// centre. x is along the image x axis at this point. `camera.paper` must be known. In this frame,
-/// two calibrations of the same camera give positions that agree to within microns, even far
-/// outside the image. Their pixel coordinates differ by more.
+/// Returns the point on the paper that an undistorted pixel shows, in mm from the point under the
+/// image centre. x is along the image x axis at this point. `camera.paper` must be known. In this
+/// frame, two calibrations of the same camera give positions that agree to within microns, even far
+/// outside the image. The undistorted pixels of the same points differ by more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 /// Returns the undistorted pixel of a point returned by `from_image_centre`.
 PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);

@@ -93,8 +93,9 @@ struct LensCalibration {
     int duplicates = 0;  ///< number of frames that repeat an earlier image, and are not used
     int dots = 0;        ///< number of dots used
     int outliers = 0;    ///< number of dots not used
-    double residual_before_px = 0;  ///< rms per axis for a camera without distortion, skew and tilt
-    double residual_px = 0;         ///< rms per axis for the calibrated camera
+    double residual_before_px = 0;  ///< rms residual per axis for a camera without distortion, skew
+                                    ///< and tilt
+    double residual_px = 0;         ///< rms residual per axis for the calibrated camera
     double px_per_spacing = 0;      ///< mean over the frames, at the image centre
     double dot_width = 0;           ///< width at half darkness, in spacings; 1/6 for a sharp dot
     double coverage = 0;            ///< fraction of the 12 x 8 parts of the image that show dots
@@ -188,7 +189,8 @@ DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
 struct FlatFieldCalibration {
     Camera camera;  ///< the given camera with `flat_field` set
     int frames = 0;
-    double min_brightness = 0;  ///< at the darkest point, relative to the brightest point
+    double min_brightness = 0;  ///< brightness at the darkest point, relative to the brightest
+                                ///< point
     /// Rms deviation of the mean frame from the flat field, relative to the flat field. It is due
     /// to remaining dots, and to pixels with a different sensitivity.
     double residual = 0;

@@ -23,7 +23,7 @@ constexpr std::uint64_t scramble(std::uint64_t bits) noexcept {
 /// generator.
 class Rng {
   public:
-    /// Starts the stream of numbers of a seed.
+    /// Starts the stream of numbers that belongs to a seed.
     explicit constexpr Rng(std::uint64_t seed) noexcept : state_(seed) {}
 
     /// Starts an independent stream for item `index` of a run.

@@ -16,8 +16,8 @@
 ///   x axis.
 ///
 /// While the robot is followed, the transform from `map` to `odom` is constant. It jumps when the
-/// robot is found again after it was lost or moved by hand, or is in another plane. The transform
-/// from `odom` to `base_link` is always continuous.
+/// robot is found again after it was lost or moved by hand, and when the robot enters another
+/// plane. The transform from `odom` to `base_link` is always continuous.
 #pragma once
 
 #include <array>
