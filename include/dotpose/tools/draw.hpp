@@ -33,7 +33,7 @@ struct SpinCalibration;
 struct Stitching;
 struct Sweep;
 
-/// Contents of the caption of `draw_frame`, in addition to the fix.
+/// Options for the caption of `draw_frame`.
 struct DrawOptions {
     /// Spacing of the printed grid in mm, for the pose in mm. If the spacing is NaN, the pose is in
     /// spacings.

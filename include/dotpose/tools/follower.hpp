@@ -73,11 +73,11 @@ struct Located {
     /// Spacing computed from the fix and the view of the camera file, in mm. NaN if unknown.
     /// `contradicts` (mounted_pose.hpp) compares this spacing with `spacing_mm`.
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
-    /// Velocity of the camera during the readout. None without a fix, or if the camera file does
-    /// not contain the readout time of a rolling shutter.
+    /// Velocity of the camera during the readout. None if there is no fix, or if the camera file
+    /// does not contain the readout time of a rolling shutter.
     std::optional<ReadoutVelocity> velocity;
-    /// Pose of the camera in space, if `FollowerOptions::fits_space_pose` is set. None without a
-    /// fix or if the spacing is not known.
+    /// Pose of the camera in space, if `FollowerOptions::fits_space_pose` is set. None if there is
+    /// no fix, or if the spacing is not known.
     std::optional<SpacePose> space;
     bool code_is_given = false;  ///< true if options or sheets determine the code variant
     int reduced_by = 1;          ///< factor by which the image was reduced
@@ -86,7 +86,7 @@ struct Located {
 /// The result for one image of a sequence, given the previous images.
 struct Followed {
     /// Result of the image. If the fix was accepted only because of the predicted place, its
-    /// `p_wrong` includes the prior probability of that place.
+    /// `p_wrong` takes the prior probability of that place into account.
     Located located;
     Track track;
 };
