@@ -40,7 +40,8 @@ constexpr std::array kKinds{
 
 struct SeriesTally {
     std::uint64_t series = 0;
-    std::array<std::uint64_t, kLength> located{};  ///< series with a fix in their first k frames
+    /// located[k] is the number of series with a fix in their first k + 1 frames.
+    std::array<std::uint64_t, kLength> located{};
     std::uint64_t fixes = 0;
     std::uint64_t wrong = 0;
 

@@ -206,7 +206,8 @@ Camera SeamLocator::camera_of(const GreyImage& image, const Part& part) const {
         camera = *camera_;
         if (camera.width_px != image.width_px || camera.height_px != image.height_px) {
             DeviceOptions unused;
-            use_camera(camera, image.width_px, image.height_px, unused);  // throws the error
+            // Throws the error for a wrong image size.
+            use_camera(camera, image.width_px, image.height_px, unused);
         }
     } else {
         camera.centre_px = {(image.width_px - 1) / 2.0, (image.height_px - 1) / 2.0};

@@ -35,9 +35,9 @@ struct MqttOptions {
     std::string user;  ///< user name, or empty for none
     std::string password;
     bool has_tls = false;
-    std::string
-        ca_file;  ///< file with trusted certificates, or empty to use the system's certificates
-    int qos = 0;  ///< 0 for at most once, 1 for at least once
+    /// File with trusted certificates, or empty to use the system's certificates.
+    std::string ca_file;
+    int qos = 0;            ///< 0 for at most once, 1 for at least once
     std::string client_id;  ///< client ID, or empty to let the broker choose an ID
     /// Topic of the presence messages of a publisher, or empty if no presence messages are sent.
     /// The broker retains the newest message for later subscribers. The message for a broken

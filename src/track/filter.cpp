@@ -141,8 +141,9 @@ Right product(const Left& left, const Right& right) {
     return result;
 }
 
-/// Updates the covariance P for a sighting: replaces P by (I - K H) P. `weighted` is S^-1 H P, the
-/// transposed gain.
+/// Updates the covariance P for a sighting: replaces P by (I - K H) P. K is the gain, and H selects
+/// the pose from the state. `weighted` is S^-1 H P, the transpose of K, where S is the covariance
+/// of the innovation. `noise` is R, the covariance of the sighting.
 void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, const Matrix3& noise) {
     const Covariance9 before = p;
     for (std::size_t i = 3; i < 9; ++i) {
