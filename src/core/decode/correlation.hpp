@@ -20,7 +20,7 @@ struct Match {
 /// small weights. `weights` contains at most 256 values in [-127, 127].
 void correlate(std::span<const std::int8_t> weights, LineScores& scores);
 
-/// Correlates two lines, in little more time than `correlate` takes for one.
+/// Correlates two lines. Takes little more time than `correlate` takes for one line.
 void correlate_both(std::span<const std::int8_t> a, std::span<const std::int8_t> b,
                     LineScores& scores_a, LineScores& scores_b);
 
