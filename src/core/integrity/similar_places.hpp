@@ -1,5 +1,6 @@
 // Similar places: the places in a sequence whose digits are similar to the digits of the reading.
-// Only alternatives at these places may matter. The search tests 32 places at a time, one per bit.
+// All other places lose too much to be relevant. The search tests 32 places at a time, one per bit
+// of a word.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"

@@ -1,6 +1,6 @@
-// Unshared lines: lower bounds on the losses of single alternatives. Tables contain the minimum
-// number of lines that an alternative does not share. With these bounds, few alternatives have to
-// be enumerated.
+// Unshared lines: lower bounds on the losses of single alternatives. The bounds are computed from
+// tables, which contain the minimum number of lines that an alternative does not share. With these
+// bounds, few alternatives have to be enumerated.
 #pragma once
 
 #include <array>
