@@ -53,8 +53,8 @@ class Choices {
     std::array<std::uint8_t, kChoices> rolls_;
 };
 
-/// Returns the reading of the first line, if line `line` is at `position` with roll `roll`. The
-/// score of the reading is the total over all lines.
+/// Returns the reading of the first line, given that line `line` is at `position` with roll `roll`.
+/// The score of the reading is the total over all lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
     std::array<std::uint8_t, kMaxLines> storage;

@@ -45,7 +45,7 @@ StepLosses losses_of(const LineScores& line, const LineScores& next) {
     return losses;
 }
 
-/// Number of places to keep per secondary sequence: the places with the smallest losses.
+/// Number of places with the smallest losses that are kept for each secondary sequence.
 constexpr std::size_t kChoices = tuning::step_search::kChoices;
 using Choices = std::array<std::uint32_t, kChoices>;
 

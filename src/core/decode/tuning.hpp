@@ -87,7 +87,8 @@ inline constexpr int kReadingsBriefly = 8;
 
 /// Search by steps between adjacent lines (decode/step_search).
 namespace step_search {
-/// Number of places to keep per secondary sequence. All their combinations are evaluated.
+/// Number of places that are kept for each secondary sequence. All combinations of these places are
+/// evaluated.
 inline constexpr std::size_t kChoices = 3;
 }  // namespace step_search
 

@@ -127,7 +127,7 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
 /// Returns an upper bound on the odds of the single alternatives that share a line. Uses the bounds
 /// of `tabled_alternatives` where possible. In the other sequences, adds the odds of each
 /// alternative that may lose less than `loss_limit`. Returns 1 if `Kernels::list_similar_places`
-/// fails.
+/// returns false.
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;

@@ -17,7 +17,7 @@ namespace {
 /// the reading.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// log2 of the odds above which an alternative is counted individually.
+/// log2 of the odds above which an alternative is always counted individually.
 constexpr int kLargeOdds_log2 = -36;
 
 /// Set of anchors. Bit n is the anchor with index n, in the order of the lines. Anchors are the
@@ -248,7 +248,8 @@ class Finder {
         return sum;
     }
 
-    /// Returns the odds of a pair of places at the shift at which it shares an anchor.
+    /// Returns the odds of an alternative with two given places, at the shift at which it shares
+    /// the given anchor.
     float odds(std::size_t sequence_a, std::uint32_t place_a, std::size_t sequence_b,
                std::uint32_t place_b, std::size_t anchor) const {
         RollOffsets a;
@@ -302,7 +303,8 @@ std::array<int, kMaxAnchors + 1> min_losses_of_unshared(const RankedLines& lines
 struct Search {
     int anchors;
     int shared;
-    /// Number of pairs of anchors that `Finder` visits, which determines the time.
+    /// Returns the number of pairs of anchors that `Finder` visits. The time is proportional to
+    /// this number.
     int pairs() const {
         const int groups = shared - 1;
         const int size = anchors / groups;

@@ -62,7 +62,7 @@ class UnsharedLines {
     const LikelihoodRatios& ratios_;
     /// Index of the table in `code::kUnsharedOf`, or SIZE_MAX if the view has too few lines.
     std::size_t row_ = SIZE_MAX;
-    /// First table line, as an index in the view.
+    /// Index of the first table line among the lines in view.
     std::uint32_t first_line_ = 0;
     SmallestSums smallest_sums_{};  ///< element n is the sum of the n smallest losses
 };

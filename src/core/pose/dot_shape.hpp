@@ -38,7 +38,7 @@ class DotShape {
     /// Returns the mean offset of the dots from their expected places, in px.
     FloatVec offset() const { return {terms_[offset_u], terms_[offset_v]}; }
     /// Returns the variance of a quantity that depends on the terms, given its derivatives with
-    /// respect to the terms. The misfit is a factor of this variance.
+    /// respect to the terms. The variance is scaled by the misfit.
     float variance(const Terms& derivatives) const;
     /// Returns the reduced chi-squared of the fit, but at least 1. The misfit is about 1 if the
     /// residuals contain only noise.

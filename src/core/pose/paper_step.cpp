@@ -183,8 +183,8 @@ class Search {
         const auto wanted = static_cast<std::size_t>(kLinesPerSpacing * length);
         lines_ = std::clamp(wanted, std::size_t{4}, kLines);
         per_spacing_ = static_cast<float>(lines_) / length;
-        // If outliers are frequent, for example in printed text, they are only weak evidence of a
-        // displacement of the paper.
+        // If outliers are frequent, for example because of printed text, they are only weak
+        // evidence of a displacement of the paper.
         off_plane_ = natural_log((outliers + 1) / static_cast<float>(count_ + 1));
         for (std::size_t k = 0; k < count_; ++k)
             sums_[k] = sums_of(dots_[k]);
@@ -261,9 +261,9 @@ class Search {
         affine_ = AffineFit(all_, x_off, y_off);
     }
 
-    /// Returns the gain of a step over the affine map, as a log likelihood ratio. For n coherent
-    /// dots, the gain is n ln(s / r), where s and r are the summed squared residuals without and
-    /// with the step. Returns 0 if the upper bound n (s - r) / r is at most `min_gain`.
+    /// Returns the gain of a step relative to the affine map, as a log likelihood ratio. For n
+    /// coherent dots, the gain is n ln(s / r), where s and r are the summed squared residuals
+    /// without and with the step. Returns 0 if the upper bound n (s - r) / r is at most `min_gain`.
     float gain_of_step(const PartSums& beyond, float min_gain) const {
         const float explained = affine_.explained_by_step(beyond);
         const float remaining = affine_.squares() - explained;

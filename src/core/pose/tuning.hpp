@@ -120,12 +120,12 @@ namespace uneven {
 /// Limits for the scatter between blocks. The limits apply to `GroupScatter::excess`, in standard
 /// deviations. `dotpose_tables slips` measures the fractions of flat sheets.
 /// - kMaybeLine: above this limit, the second attempt searches for a line that divides the sheet.
-/// The limit is low because the plane fitted to all dots explains most of a step, and because the
-/// dots of the second attempt are noisier than those of the other attempts.
+///   The limit is low because the plane fitted to all dots explains most of a step, and because the
+///   dots of the second attempt are noisier than those of the other attempts.
 /// - kShared: above this limit, the mean block residuals increase the covariance. 1 in 20 flat
 ///   sheets exceeds this limit.
 /// - kSuspect: above this limit, the first and tracked attempts search for a line. If the scatter
-/// on one side of a line is below this limit, this side counts as even.
+///   on one side of a line is below this limit, this side counts as even.
 /// - kUneven: above this limit, a sheet without a line counts as uneven. At most about 1 in 1,000
 ///   flat sheets exceeds this limit.
 inline constexpr float kMaybeLine = 0.9F;
