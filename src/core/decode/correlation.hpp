@@ -27,7 +27,8 @@ void correlate_both(std::span<const std::int8_t> a, std::span<const std::int8_t>
 /// Returns the roll with the highest score. Ties are broken by taking the smallest roll.
 Match best_match(const LineScores& scores);
 
-/// Returns the next match after `last`, by decreasing score and then by increasing roll.
+/// Returns the match that follows `last` in the order of decreasing scores. Matches with equal
+/// scores are in the order of increasing rolls.
 Match next_match(const LineScores& scores, Match last);
 
 /// Returns the highest score and its margin over the second highest score.

@@ -154,8 +154,8 @@ class LikelihoodRatios {
     std::array<std::int16_t, kMaxComparedLines> log2_of_nearest_q8_;
 };
 
-/// Roll offsets of an alternative in each line, from 0 to 62. A common shift of all offsets is
-/// unknown.
+/// Roll offsets of an alternative in each line, from 0 to 62. They are known only up to a shift
+/// that is common to all lines.
 using RollOffsets = std::array<std::uint8_t, kMaxLines>;
 
 /// Returns the roll offset, from 0 to 62. `own` is the roll of the reading, and `alternative` is

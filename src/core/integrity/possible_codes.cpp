@@ -12,8 +12,8 @@ namespace {
 /// Limit for the summed odds of other places in other codes. Above this limit, a fix is ambiguous.
 /// Below it, a second attempt may reduce the odds.
 constexpr float kAmbiguousOdds = 1e-3F;
-/// Maximum odds of a code that earlier frames rule out, relative to the likeliest code. The locator
-/// makes no attempt in such a code.
+/// A code is ruled out by earlier frames if its odds relative to the likeliest code are at most
+/// this value. The locator makes no attempt in a code that is ruled out.
 constexpr float kRuledOutOdds = 1e-9F;
 /// Maximum factor that is considered to be a rounding error.
 constexpr float kRoundings = 1.01F;

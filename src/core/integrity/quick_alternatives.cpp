@@ -186,8 +186,8 @@ class ByShift {
     std::size_t count_ = 0;               ///< number of lines with a positive minimum loss
     std::array<Loss, kMaxLines> losses_;  ///< sorted by decreasing loss
     std::uint32_t in_all_ = 0;            ///< total of all losses
-    /// Number of lines that `may_matter` adds before its first check, in the order of `losses_`,
-    /// and the sum of their losses. An alternative that shares the first of these lines cannot lose
+    /// Number of elements of `losses_` that `may_matter` adds before its first check, and the sum
+    /// of these losses. An alternative that shares the first of these lines cannot lose
     /// `loss_limit_` in these lines alone.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
