@@ -12,6 +12,7 @@
 #include "image_copy.hpp"
 #include "reading_fields.hpp"
 #include "serve/frame_message.hpp"
+#include "sheet_messages.hpp"
 #include "terminal_text.hpp"
 #include "web_pages.hpp"
 
@@ -29,10 +30,6 @@ constexpr int kMaxSide_px = 1280;
 constexpr int kMaxSmallSide_px = 480;
 /// Maximum number of points of the path that a message contains.
 constexpr std::size_t kMaxPathPoints = 2000;
-
-std::string dump(const json& value) {
-    return value.dump(-1, ' ', false, json::error_handler_t::replace);
-}
 
 /// Removes user and password from the URL of a camera.
 std::string without_user(const std::string& source) {
@@ -74,7 +71,9 @@ WebView::WebView(WebOptions options, const Follower& follower)
       path_topic_(server_.add_topic("path", serve::Format::text)),
       advice_(server_.add_topic("advice", serve::Format::text)),
       adviser_([this](const std::string& reason) { publish_reason(reason); }) {
+    if (!options_.sheets.path.empty()) sheet_view_.emplace(options_.sheets, server_);
     server_.start();
+    if (sheet_view_) sheet_view_->start();
     // A pipe has one reader, which is not the page.
     if (!std::filesystem::is_regular_file(options_.log)) options_.log.clear();
     if (!options_.log.empty()) {
@@ -98,6 +97,7 @@ void WebView::publish_setup() {
                         {"source", text_of(options_.sources)},
                         {"plane", follower_.is_in_world() ? "world" : "pattern"},
                         {"sheets", std::move(sheets)},
+                        {"has_sheet_file", sheet_view_.has_value()},
                         {"log", options_.log.empty() ? json(nullptr) : json("/log.csv")}};
     server_.publish(setup_, [text = dump(setup)] { return text; });
 }
@@ -118,6 +118,7 @@ void WebView::take(const capture::Frame& frame, const Reading& reading, const Wa
     offer_recordings();
     const bool has_image = !frame.image.pixels.empty();
     if (has_image) publish_frame(reading, now);
+    if (has_image && sheet_view_) sheet_view_->take(reading, follower_.image());
     if (is_time_for(state_, state_timer_, kStatePeriod, now)) publish_state(reading, tally, source);
     if (is_time_for(history_topic_, history_timer_, kSlowPeriod, now)) publish_history();
     if (is_time_for(path_topic_, path_timer_, kSlowPeriod, now)) publish_path(path);
@@ -219,8 +220,18 @@ void WebView::publish_reason(const std::string& reason) {
     server_.publish(advice_, [text = dump({{"reason", reason}})] { return text; });
 }
 
+std::optional<std::vector<SheetEntry>> WebView::take_changed_sheets() {
+    return sheet_view_ ? sheet_view_->take_changed() : std::nullopt;
+}
+
+void WebView::use_sheets() {
+    sheets_ = map_sheets(follower_.sheets(), plane_of(follower_));
+    publish_setup();
+}
+
 void WebView::obey() {
     while (const std::optional<serve::Command> command = server_.take_command()) {
+        if (sheet_view_ && sheet_view_->obey(*command)) continue;
         const bool* is_on = command->argument<bool>("on");
         if (command->name != "record" || is_on == nullptr) continue;
         if (*is_on) {
