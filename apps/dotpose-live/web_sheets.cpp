@@ -77,12 +77,15 @@ std::string offset_text(const SheetEntry& entry) {
 
 }  // namespace
 
-WebSheets::WebSheets(WebSheetsOptions options, serve::Server& server)
+SheetTopics::SheetTopics(serve::Server& server)
+    : sheets(server.add_topic("sheets", serve::Format::text)),
+      answers(server.add_topic("sheet-answers", serve::Format::text)),
+      stitch(server.add_topic("stitch", serve::Format::text)) {}
+
+WebSheets::WebSheets(WebSheetsOptions options, serve::Server& server, const SheetTopics& topics)
     : options_(std::move(options)),
       server_(server),
-      sheets_topic_(server.add_topic("sheets", serve::Format::text)),
-      answers_topic_(server.add_topic("sheet-answers", serve::Format::text)),
-      stitch_topic_(server.add_topic("stitch", serve::Format::text)),
+      topics_(topics),
       edits_(options_.path,
              {kMaxWait_s, [](const std::string& message) { tell(message); },
               [this] { return ends_.load(); }}) {}
@@ -309,12 +312,12 @@ void WebSheets::answer(SheetAnswer answer) {
     const std::lock_guard lock(mutex_);
     answers_.push_back(std::move(answer));
     if (answers_.size() > kMaxAnswers) answers_.pop_front();
-    server_.publish(answers_topic_, [text = dump(answers_message(answers_))] { return text; });
+    server_.publish(topics_.answers, [text = dump(answers_message(answers_))] { return text; });
 }
 
 /// Publishes the sheets to the pages, and passes them to the thread that follows the robot.
 void WebSheets::publish_sheets() {
-    server_.publish(sheets_topic_, [text = dump(sheets_message(edits_, options_.may_edit))] {
+    server_.publish(topics_.sheets, [text = dump(sheets_message(edits_, options_.may_edit))] {
         return text;
     });
     if (edits_.version() == taken_version_ || edits_.sheets().empty()) return;
@@ -324,7 +327,7 @@ void WebSheets::publish_sheets() {
 }
 
 void WebSheets::publish_measurement(const StitchJob::Progress* progress) {
-    server_.publish(stitch_topic_, [text = dump(stitch_message(progress))] { return text; });
+    server_.publish(topics_.stitch, [text = dump(stitch_message(progress))] { return text; });
 }
 
 }  // namespace dotpose::cli

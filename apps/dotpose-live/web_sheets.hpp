@@ -30,11 +30,21 @@ struct WebSheetsOptions {
     std::optional<Camera> camera;
 };
 
+/// Topics about sheets. They exist without a sheet file too, because a page subscribes to them.
+struct SheetTopics {
+    /// Adds the topics. The server must not be started yet.
+    explicit SheetTopics(serve::Server& server);
+
+    serve::Topic& sheets;
+    serve::Topic& answers;
+    serve::Topic& stitch;
+};
+
 class WebSheets {
   public:
-    /// Reads the sheet file, and adds the topics. The server must not be started yet, and must
-    /// outlive this object. Throws Error if the file cannot be read.
-    WebSheets(WebSheetsOptions options, serve::Server& server);
+    /// Reads the sheet file. The server must outlive this object. Throws Error if the file cannot
+    /// be read.
+    WebSheets(WebSheetsOptions options, serve::Server& server, const SheetTopics& topics);
     /// Ends running work. A change of the sheet file is completed, or not begun.
     ~WebSheets();
     WebSheets(const WebSheets&) = delete;
@@ -69,9 +79,7 @@ class WebSheets {
 
     WebSheetsOptions options_;
     serve::Server& server_;
-    serve::Topic& sheets_topic_;
-    serve::Topic& answers_topic_;
-    serve::Topic& stitch_topic_;
+    SheetTopics topics_;
 
     // Used by the thread only.
     SheetEdits edits_;

@@ -70,8 +70,11 @@ WebView::WebView(WebOptions options, const Follower& follower)
       history_topic_(server_.add_topic("history", serve::Format::text)),
       path_topic_(server_.add_topic("path", serve::Format::text)),
       advice_(server_.add_topic("advice", serve::Format::text)),
+      sheet_topics_(server_),
       adviser_([this](const std::string& reason) { publish_reason(reason); }) {
-    if (!options_.sheets.path.empty()) sheet_view_.emplace(options_.sheets, server_);
+    if (!options_.sheets.path.empty()) {
+        sheet_view_.emplace(options_.sheets, server_, sheet_topics_);
+    }
     server_.start();
     if (sheet_view_) sheet_view_->start();
     // A pipe has one reader, which is not the page.

@@ -102,6 +102,7 @@ class WebView {
     serve::Topic& history_topic_;
     serve::Topic& path_topic_;
     serve::Topic& advice_;
+    SheetTopics sheet_topics_;
     std::optional<WebSheets> sheet_view_;  ///< none without a sheet file
     AdviceWorker adviser_;  ///< destroyed before the server, to which its thread publishes
 };
