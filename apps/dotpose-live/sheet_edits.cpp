@@ -64,8 +64,10 @@ SheetEdits::Values SheetEdits::values_of(const SheetEntry& entry) {
 SheetEntry SheetEdits::with_values(SheetEntry entry, const Values& values) {
     entry.world.reset();
     if (const auto& world = values.world) entry.world = {(*world)[0], (*world)[1], (*world)[2]};
-    std::tie(entry.print_scale_x, entry.print_scale_y) = std::tie(values.print_scale[0], values.print_scale[1]);
-    std::tie(entry.sheet.origin_x_mm, entry.sheet.origin_y_mm) = std::tie(values.origin_mm[0], values.origin_mm[1]);
+    std::tie(entry.print_scale_x, entry.print_scale_y) =
+        std::tie(values.print_scale[0], values.print_scale[1]);
+    std::tie(entry.sheet.origin_x_mm, entry.sheet.origin_y_mm) =
+        std::tie(values.origin_mm[0], values.origin_mm[1]);
     return entry;
 }
 
@@ -73,8 +75,8 @@ bool SheetEdits::is_same_sheet(const SheetEntry& a, const SheetEntry& b) {
     const auto layout = [](const Sheet& sheet) {
         const Pattern& pattern = sheet.pattern;
         return std::tuple(pattern.code, pattern.section.u, pattern.section.v, pattern.spacing_mm,
-                          sheet.origin.x, sheet.origin.y, sheet.columns, sheet.rows,
-                          sheet.width_mm, sheet.height_mm);
+                          sheet.origin.x, sheet.origin.y, sheet.columns, sheet.rows, sheet.width_mm,
+                          sheet.height_mm);
     };
     return values_of(a) == values_of(b) && layout(a.sheet) == layout(b.sheet);
 }
@@ -101,7 +103,8 @@ std::int64_t SheetEdits::revision(const std::string& name) const {
 SheetEntry SheetEdits::require(const Target& target) const {
     const SheetEntry* entry = find(sheets_, target.name);
     if (entry == nullptr) {
-        throw Error(fmt::format("there is no sheet '{}' any more; nothing was written", target.name));
+        throw Error(
+            fmt::format("there is no sheet '{}' any more; nothing was written", target.name));
     }
     if (revision(target.name) != target.revision) {
         throw Error(
@@ -140,7 +143,8 @@ void SheetEdits::change_all(const std::vector<Target>& targets,
     Step step{what, {}};
     for (const SheetEntry& entry : measured) {
         const auto target = std::ranges::find(targets, entry.name, &Target::name);
-        const SheetEntry before = require(target == targets.end() ? Target{entry.name, 0} : *target);
+        const SheetEntry before =
+            require(target == targets.end() ? Target{entry.name, 0} : *target);
         SheetEntry after = before;
         after.world = entry.world;
         after.print_scale_x = entry.print_scale_x;
@@ -171,7 +175,8 @@ std::string SheetEdits::redo() {
 }
 
 std::string SheetEdits::move_step(std::vector<Step>& from, std::vector<Step>& to, bool is_undo) {
-    if (from.empty()) throw Error(is_undo ? "there is nothing to undo" : "there is nothing to redo");
+    if (from.empty())
+        throw Error(is_undo ? "there is nothing to undo" : "there is nothing to redo");
     SheetFile file(path(), wait_);
     take(file.sheets());
     const Step step = from.back();
@@ -179,10 +184,10 @@ std::string SheetEdits::move_step(std::vector<Step>& from, std::vector<Step>& to
         const SheetEntry* entry = find(sheets_, sheet.name);
         if (entry == nullptr || values_of(*entry) != (is_undo ? sheet.after : sheet.before)) {
             from.pop_back();
-            throw Error(
-                fmt::format("'{}' was changed by someone else since, so \"{}\" can no longer be {}; "
-                            "nothing was written",
-                            sheet.name, step.text, is_undo ? "undone" : "redone"));
+            throw Error(fmt::format(
+                "'{}' was changed by someone else since, so \"{}\" can no longer be {}; "
+                "nothing was written",
+                sheet.name, step.text, is_undo ? "undone" : "redone"));
         }
         file.replace(with_values(*entry, is_undo ? sheet.before : sheet.after));
     }

@@ -24,8 +24,11 @@ json json_of(const std::optional<PagePose>& pose) {
 
 json json_of(const std::optional<SheetPrint>& print) {
     if (!print) return nullptr;
-    return {{"title", print->title}, {"pages", print->pages},       {"dpi", print->dpi},
-            {"command", print->command}, {"document", print->document}};
+    return {{"title", print->title},
+            {"pages", print->pages},
+            {"dpi", print->dpi},
+            {"command", print->command},
+            {"document", print->document}};
 }
 
 json json_of(const SheetEntry& entry, std::int64_t revision) {
@@ -50,7 +53,8 @@ json json_of(const SheetEntry& entry, std::int64_t revision) {
 }
 
 json json_of(const StitchedSheet& sheet, const SheetEntry& entry) {
-    const bool is_known = is_scale_known(sheet.sigma_scale_x) && is_scale_known(sheet.sigma_scale_y);
+    const bool is_known =
+        is_scale_known(sheet.sigma_scale_x) && is_scale_known(sheet.sigma_scale_y);
     return {{"name", sheet.name},
             {"is_fixed", sheet.is_fixed},
             {"sigma_mm", sheet.sigma_mm},

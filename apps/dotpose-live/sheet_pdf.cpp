@@ -1,9 +1,6 @@
 #include "sheet_pdf.hpp"
 
-#include <cerrno>
 #include <cstdint>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,21 +10,15 @@
 
 #include "dotpose/files/error.hpp"
 #include "sheet_reprint.hpp"
+#include "system/files.hpp"
 
 namespace dotpose::cli {
 namespace {
 
-/// A new folder that only this user can read, removed at the end.
+/// A new folder, removed at the end.
 class TemporaryFolder {
   public:
-    TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "dotpose-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) {
-            throw Error(fmt::format("cannot create a temporary folder {}: {}", name,
-                                    std::strerror(errno)));
-        }
-        path_ = name;
-    }
+    TemporaryFolder() : path_(system::create_temporary_folder()) {}
     ~TemporaryFolder() {
         std::error_code ignored;
         std::filesystem::remove_all(path_, ignored);

@@ -13,11 +13,13 @@ namespace {
 /// Maximum memory for frames.
 constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
 
-/// Returns true if the frame may show dots beyond the edge of the sheet, or if its sheet is unknown.
+/// Returns true if the frame may show dots beyond the edge of the sheet, or if its sheet is
+/// unknown.
 bool is_near_edge(const Record& record, ImageView image) {
     if (!record.place) return true;
     const Sheet& sheet = record.place->entry->sheet;
-    const double reach_cells = std::hypot(image.width_px, image.height_px) / 2 / record.fix.spacing_px();
+    const double reach_cells =
+        std::hypot(image.width_px, image.height_px) / 2 / record.fix.spacing_px();
     const auto is_inside = [reach_cells](std::uint32_t cell, std::uint32_t origin, int count) {
         const double from_origin = static_cast<double>(cell) - static_cast<double>(origin);
         return from_origin > reach_cells && from_origin + reach_cells < count;
@@ -50,7 +52,8 @@ void StitchJob::offer(const Reading& reading, ImageView image) {
         if (!is_idle_) return;
     }
     if (reading.record.fix.status == Status::ok) {
-        if (!is_near_edge(reading.record, image) || !places_.take(reading.record.fix, image)) return;
+        if (!is_near_edge(reading.record, image) || !places_.take(reading.record.fix, image))
+            return;
     } else {
         // A frame over a seam may not be located, because it shows two patterns.
         constexpr std::chrono::milliseconds kPause(500);
@@ -100,7 +103,9 @@ bool StitchJob::shows_seam(const GreyImage& frame) const {
     for (SheetEntry& entry : sheets)
         entry.world.reset();
     try {
-        return stitch_sheets(1, [&frame](int) { return frame; }, sheets, camera_, options_).used > 0;
+        return stitch_sheets(
+                   1, [&frame](int) { return frame; }, sheets, camera_, options_)
+                   .used > 0;
     } catch (const Error&) {
         return false;
     }

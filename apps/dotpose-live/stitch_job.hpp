@@ -25,10 +25,10 @@ class StitchJob {
     static constexpr std::size_t kMaxFrames = 60;
 
     struct Progress {
-        int tried = 0;              ///< number of frames examined
-        std::size_t used = 0;       ///< number of frames that show two sheets
-        bool is_complete = false;   ///< true if no further frames are used
-        std::string problem;        ///< reason why there is no result yet; may be empty
+        int tried = 0;             ///< number of frames examined
+        std::size_t used = 0;      ///< number of frames that show two sheets
+        bool is_complete = false;  ///< true if no further frames are used
+        std::string problem;       ///< reason why there is no result yet; may be empty
         std::optional<Stitching> result;
     };
 

@@ -256,13 +256,13 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
 std::optional<WebOptions> web_options(const WatchArguments& arguments) {
     const auto server = arguments.web.options();
     if (!server) return std::nullopt;
-    return WebOptions{*server,
-                      arguments.sources.names,
-                      arguments.web_recordings,
-                      arguments.outputs.log,
-                      arguments.outputs.messages,
-                      {arguments.follower.sheets, arguments.web_edits_sheets,
-                       arguments.follower.camera.camera}};
+    return WebOptions{
+        *server,
+        arguments.sources.names,
+        arguments.web_recordings,
+        arguments.outputs.log,
+        arguments.outputs.messages,
+        {arguments.follower.sheets, arguments.web_edits_sheets, arguments.follower.camera.camera}};
 }
 
 void print_cameras() {

@@ -86,9 +86,8 @@ WebSheets::WebSheets(WebSheetsOptions options, serve::Server& server, const Shee
     : options_(std::move(options)),
       server_(server),
       topics_(topics),
-      edits_(options_.path,
-             {kMaxWait_s, [](const std::string& message) { tell(message); },
-              [this] { return ends_.load(); }}) {}
+      edits_(options_.path, {kMaxWait_s, [](const std::string& message) { tell(message); },
+                             [this] { return ends_.load(); }}) {}
 
 WebSheets::~WebSheets() {
     {
@@ -249,8 +248,8 @@ void WebSheets::print_new(const serve::Command& command, SheetAnswer& answer) {
 
 /// Makes the PDF of a sheet, which can be downloaded until several others were made.
 void WebSheets::offer_pdf(const SheetEntry& entry, SheetAnswer& answer) {
-    const auto bytes = std::make_shared<const std::string>(
-        pdf_of(entry, [this] { return !ends_.load(); }));
+    const auto bytes =
+        std::make_shared<const std::string>(pdf_of(entry, [this] { return !ends_.load(); }));
     const std::string file = pdf_name(entry.name);
     const std::string path = fmt::format("/sheets/{}/{}", ++pdfs_, file);
     server_.set_route(path, [bytes, file] {
@@ -317,9 +316,8 @@ void WebSheets::answer(SheetAnswer answer) {
 
 /// Publishes the sheets to the pages, and passes them to the thread that follows the robot.
 void WebSheets::publish_sheets() {
-    server_.publish(topics_.sheets, [text = dump(sheets_message(edits_, options_.may_edit))] {
-        return text;
-    });
+    server_.publish(topics_.sheets,
+                    [text = dump(sheets_message(edits_, options_.may_edit))] { return text; });
     if (edits_.version() == taken_version_ || edits_.sheets().empty()) return;
     taken_version_ = edits_.version();
     const std::lock_guard lock(mutex_);

@@ -1,5 +1,5 @@
-/// The view of the sheets in the page of `dotpose watch --web`. docs/web.md describes its topics and
-/// commands.
+/// The view of the sheets in the page of `dotpose watch --web`. docs/web.md describes its topics
+/// and commands.
 ///
 /// The sheet file is read, changed and printed on a thread of its own, because another program may
 /// hold the lock of the file, and large pages take seconds.
@@ -83,9 +83,9 @@ class WebSheets {
 
     // Used by the thread only.
     SheetEdits edits_;
-    std::deque<std::string> pdf_paths_;  ///< paths of the PDFs that can be downloaded
-    std::int64_t taken_version_ = 0;     ///< version of the sheets in `changed_`
-    std::int64_t pdfs_ = 0;              ///< number of PDFs made
+    std::deque<std::string> pdf_paths_;         ///< paths of the PDFs that can be downloaded
+    std::int64_t taken_version_ = 0;            ///< version of the sheets in `changed_`
+    std::int64_t pdfs_ = 0;                     ///< number of PDFs made
     std::vector<SheetEdits::Target> measured_;  ///< sheets when the measurement began
 
     std::mutex mutex_;

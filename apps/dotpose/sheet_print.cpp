@@ -41,7 +41,8 @@ double default_margin_mm(PrintFormat format, const Paper& paper) {
 
 std::string pdf_name(const std::string& sheet) {
     constexpr std::size_t kMaxLength = 60;
-    constexpr const char* kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+    constexpr const char* kPlain =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
     std::string name = sheet.substr(0, kMaxLength);
     for (std::size_t at = name.find_first_not_of(kPlain); at != std::string::npos;
          at = name.find_first_not_of(kPlain, at))

@@ -72,8 +72,7 @@ std::string world_text(const SheetEntry& entry) {
     const std::optional<PagePose> pose = page_pose(entry);
     if (!pose) return "its pose in the world is not known";
     return fmt::format("its top left corner is at x {} mm, y {} mm in the world, yaw {} deg",
-                       short_number(pose->x_mm, 3),
-                       short_number(pose->y_mm, 3),
+                       short_number(pose->x_mm, 3), short_number(pose->y_mm, 3),
                        short_number(pose->yaw_deg, 4));
 }
 

@@ -226,8 +226,8 @@ void add_scale(Command& sheets, const Arguments& arguments) {
 }
 
 void add_offset(Command& sheets, const Arguments& arguments) {
-    Command& command = add_command_of_one(
-        sheets, arguments, "offset", "Enter where the dots are on the printed page", offset);
+    Command& command = add_command_of_one(sheets, arguments, "offset",
+                                          "Enter where the dots are on the printed page", offset);
     command.footer(kOffset);
     add_wait_option(command, arguments);
     const auto add = [&](const char* flag, double& distance_mm, const char* help) {

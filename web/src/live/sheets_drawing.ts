@@ -156,6 +156,10 @@ export function drawScale(context: CanvasRenderingContext2D, frame: Frame): void
     const { scale, height } = frame;
     const step_mm = gridStep(scale);
     const [left, bottom] = [12, height - 12];
+    context.fillStyle = themed("--ground");
+    context.globalAlpha = 0.8;
+    context.fillRect(left - 6, bottom - 24, step_mm * scale + 12, 30);
+    context.globalAlpha = 1;
     context.strokeStyle = context.fillStyle = themed("--soft");
     context.lineWidth = 2;
     context.beginPath();
