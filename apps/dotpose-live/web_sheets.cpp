@@ -176,9 +176,9 @@ void WebSheets::answer_to(const serve::Command& command) {
 void WebSheets::perform(const serve::Command& command, SheetAnswer& answer) {
     const std::string& name = command.name;
     if (name == "sheet-undo") {
-        answer.message = "undone: " + edits_.undo();
+        answer.message = "Undone: " + edits_.undo();
     } else if (name == "sheet-redo") {
-        answer.message = "done again: " + edits_.redo();
+        answer.message = "Done again: " + edits_.redo();
     } else if (name == "sheet-reprint") {
         reprint(command, answer);
     } else if (name == "sheet-print") {
@@ -217,7 +217,7 @@ void WebSheets::change(const serve::Command& command, SheetAnswer& answer) {
         throw BadArgument("there is no command " + command.name);
     }
     const SheetEntry after = edits_.change(target, what, change);
-    answer.message = fmt::format("{}: {}", printable(after.name), text(after));
+    answer.message = fmt::format("Saved. {}: {}", printable(after.name), text(after));
 }
 
 void WebSheets::reprint(const serve::Command& command, SheetAnswer& answer) {
@@ -261,7 +261,7 @@ void WebSheets::offer_pdf(const SheetEntry& entry, SheetAnswer& answer) {
         pdf_paths_.pop_front();
     }
     answer.url = path;
-    answer.message = fmt::format("{}: {}", file, printable(entry.name));
+    answer.message = fmt::format("The PDF of {} is ready.", printable(entry.name));
 }
 
 /// Starts a measurement with the current sheets, or discards the running measurement.
@@ -303,7 +303,7 @@ void WebSheets::accept_measurement(SheetAnswer& answer) {
     edits_.change_all(measured_, measured, "measured places");
     job.reset();
     measure(false);
-    answer.message = fmt::format("the measured places of {} sheets were saved", measured.size());
+    answer.message = fmt::format("Saved the measured places of {} sheets", measured.size());
 }
 
 void WebSheets::answer(SheetAnswer answer) {

@@ -147,17 +147,17 @@ test("a sheet is moved and turned by mouse and keyboard, and the edits are undon
         await message(page, /^Saved/);
         assert.equal(placeOf("shelf").yaw_deg, 89);
         await page.keyboard.press("Control+z");
-        await message(page, /^Saved. undone: place 'shelf'/);
+        await message(page, /^Undone: place 'shelf'/);
         assert.deepEqual(placeOf("shelf"), turned);
         await page.click("#sheets-undo");
-        await message(page, /undone/);
+        await message(page, /Undone/);
         assert.deepEqual(placeOf("shelf"), moved);
         await page.click("#sheets-undo");
-        await message(page, /undone/);
+        await message(page, /Undone/);
         assert.deepEqual(placeOf("shelf"), { x_mm: 150, y_mm: 0, yaw_deg: 0 });
         assert.equal(await page.isDisabled("#sheets-undo"), true);
         await page.click("#sheets-redo");
-        await message(page, /done again/);
+        await message(page, /Done again/);
         assert.deepEqual(placeOf("shelf"), moved);
 
         // A sheet without a place gets one where it is dropped.
@@ -209,7 +209,7 @@ test("numbers, ruler and offset are saved like on the command line", async () =>
         assert.equal(sheetOf(kTable).first_y_mm, 10.4);
         for (let i = 0; i < 4; ++i) {
             await page.click("#sheets-undo");
-            await message(page, /undone/);
+            await message(page, /Undone/);
         }
         assert.deepEqual(sheetOf(kTable), JSON.parse(readFileSync(join(folder, "first.json"), "utf8")).sheets[0]);
         assert.deepEqual(complaints, []);
@@ -355,12 +355,12 @@ test("the places of sheets are measured with the running camera", async () => {
         await page.click("#stitch-start");
         await page.locator("#stitch-frames", { hasText: /^\d{2,} of/ }).waitFor();
         await page.click("#stitch-accept");
-        await message(page, /the measured places of 2 sheets were saved/);
+        await message(page, /Saved the measured places of 2 sheets/);
         const place = placeOf("right");
         assert.ok(Math.hypot(place.x_mm - seam.right.x_mm, place.y_mm - seam.right.y_mm) < 0.05, JSON.stringify(place));
         assert.ok(Math.abs(place.yaw_deg - seam.right.yaw_deg) < 0.1, JSON.stringify(place));
         await page.click("#sheets-undo");
-        await message(page, /undone: measured places/);
+        await message(page, /Undone: measured places/);
         assert.equal(placeOf("right"), null);
         assert.deepEqual(complaints, []);
         await page.close();

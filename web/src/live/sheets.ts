@@ -16,7 +16,7 @@ function placeText(pose: Pose | null): string {
 
 function printText(sheet: Sheet): string {
     if (sheet.is_reserved) return "reserved: being printed, or the print was stopped";
-    if (!sheet.print) return "printed by an earlier version";
+    if (!sheet.print) return "settings are not known";
     return sheet.print.document === "" ? `printed for ${sheet.print.dpi} dpi` : `printed over ${sheet.print.document}`;
 }
 
@@ -77,6 +77,7 @@ export class SheetsView implements LiveView {
         this.#map.take(file.sheets, file.may_edit);
         this.#stitching.enable(file.may_edit, file.sheets.length);
         this.#showList();
+        element("sheets-keys", HTMLElement).hidden = !file.may_edit;
         for (const [button, what, name] of [[this.#undo, file.undo, "Undo"], [this.#redo, file.redo, "Redo"]] as const) {
             button.disabled = what === "" || !file.may_edit;
             button.title = what;

@@ -47,10 +47,15 @@ export class SheetCommands {
     }
 }
 
-/** Shows the result of a command. */
+let hiding: ReturnType<typeof setTimeout> | undefined;
+
+/** Shows the result of a command. The reason of a refusal stays until the next result. */
 export function showAnswer({ is_ok, message }: Pick<Answer, "is_ok" | "message">): void {
     const shown = element("sheets-message", HTMLElement);
     shown.hidden = message === "";
+    const kShown_ms = 8000;
+    clearTimeout(hiding);
+    if (is_ok) hiding = setTimeout(() => (shown.hidden = true), kShown_ms);
     shown.classList.toggle("done", is_ok);
-    show({ "sheets-message": is_ok ? `Saved. ${message}` : `Refused: ${message}` });
+    show({ "sheets-message": is_ok ? message : `Refused: ${message}` });
 }

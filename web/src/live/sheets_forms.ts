@@ -152,7 +152,7 @@ export class SheetForms {
     async #print(link: string, command: string, values: Record<string, string | number | boolean>): Promise<Answer> {
         const answer = await this.#commands.send(command, values);
         if (answer.is_ok) offer(link, answer);
-        showAnswer(answer.is_ok ? { is_ok: true, message: "The PDF is ready." } : answer);
+        showAnswer(answer);
         return answer;
     }
 }
