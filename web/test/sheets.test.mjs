@@ -238,6 +238,12 @@ test("changes by other programs appear, and conflicts lose nothing", async () =>
         assert.match(answer.message, /'shelf' was changed by someone else/);
         assert.deepEqual(placeOf("shelf"), { x_mm: 333, y_mm: 44, yaw_deg: 5 });
 
+        // What was typed before the change is refused once, and saved when the user insists.
+        await save(page, "place");
+        await message(page, /^Refused: 'shelf' was changed by someone else/);
+        assert.deepEqual(placeOf("shelf"), { x_mm: 333, y_mm: 44, yaw_deg: 5 });
+        assert.equal(await page.inputValue("#place-x"), "777");
+
         // An edit that another program has overwritten cannot be undone.
         await save(page, "place");
         await message(page, /x 777 mm, y 44 mm/);

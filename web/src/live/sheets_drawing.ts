@@ -55,6 +55,14 @@ function gridStep(scale: number): number {
     return [1, 2, 5, 10].map((factor) => factor * power).find((step) => step * scale >= kMin_px)!;
 }
 
+/** Returns the multiples of a step in a range. Their number is bounded, also if the step is below the rounding error. */
+function multiples(from: number, to: number, step: number): number[] {
+    const kMax = 200;
+    const first = Math.ceil(from / step);
+    const count = Math.min(Math.floor(to / step) - first + 1, kMax);
+    return Array.from({ length: Math.max(count, 0) || 0 }, (_, i) => (first + i) * step);
+}
+
 function line(context: CanvasRenderingContext2D, is_axis: boolean, from: Pixel, to: Pixel): void {
     context.strokeStyle = themed(is_axis ? "--soft" : "--line");
     context.beginPath();
@@ -79,10 +87,14 @@ export function drawGrid(context: CanvasRenderingContext2D, frame: Frame): void 
     const first = worldAt(frame, 0, height);
     const last = worldAt(frame, width, 0);
     context.lineWidth = 1;
-    for (let x_mm = Math.ceil(first.x_mm / step_mm) * step_mm; x_mm <= last.x_mm; x_mm += step_mm)
-        line(context, x_mm === 0, [at(frame, { x_mm, y_mm: 0 })[0], 0], [at(frame, { x_mm, y_mm: 0 })[0], height]);
-    for (let y_mm = Math.ceil(first.y_mm / step_mm) * step_mm; y_mm <= last.y_mm; y_mm += step_mm)
-        line(context, y_mm === 0, [0, at(frame, { x_mm: 0, y_mm })[1]], [width, at(frame, { x_mm: 0, y_mm })[1]]);
+    for (const x_mm of multiples(first.x_mm, last.x_mm, step_mm)) {
+        const [u] = at(frame, { x_mm, y_mm: 0 });
+        line(context, x_mm === 0, [u, 0], [u, height]);
+    }
+    for (const y_mm of multiples(first.y_mm, last.y_mm, step_mm)) {
+        const [, v] = at(frame, { x_mm: 0, y_mm });
+        line(context, y_mm === 0, [0, v], [width, v]);
+    }
 }
 
 export function drawSheet(context: CanvasRenderingContext2D, frame: Frame, placed: Placed, { is_selected, has_handle }: SheetStyle): void {
@@ -111,6 +123,8 @@ export function drawSheet(context: CanvasRenderingContext2D, frame: Frame, place
 function drawName(context: CanvasRenderingContext2D, frame: Frame, { sheet, pose, is_known }: Placed, corners: readonly Pixel[]): void {
     const [u, v] = at(frame, middleOf(sheet, pose));
     const room = Math.max(Math.abs(corners[1]![0] - corners[3]![0]), Math.abs(corners[0]![0] - corners[2]![0]));
+    const kMinRoom_px = 24;
+    if (room < kMinRoom_px) return;
     const texts = [sheet.name, is_known ? `${size(sheet)} mm` : "no place yet", sheet.is_reserved ? "reserved" : ""].filter((text) => text !== "");
     context.textAlign = "center";
     context.textBaseline = "middle";

@@ -53,6 +53,8 @@ export class SheetForms {
     readonly #place = { x: new NumberField("place-x"), y: new NumberField("place-y"), yaw: new NumberField("place-yaw") };
     readonly #offset = { right: new NumberField("offset-right"), below: new NumberField("offset-below") };
     #sheet: Sheet | undefined;
+    /** Revision of the sheet when the user began to type. */
+    #revision = 0;
 
     constructor(commands: SheetCommands, select: (name: string) => void) {
         this.#commands = commands;
@@ -87,6 +89,8 @@ export class SheetForms {
         const { world } = sheet;
         element("place-remove", HTMLButtonElement).disabled = !may_edit || !world;
         element("sheet-reprint", HTMLButtonElement).disabled = !may_edit || (sheet.print?.document ?? "") !== "";
+        // What was typed before a change by someone else is refused once, so that the user sees the change.
+        if (is_other || ![...Object.values(this.#place), ...Object.values(this.#offset)].some(({ is_typed }) => is_typed)) this.#revision = sheet.revision;
         this.#fill([this.#place.x, this.#place.y, this.#place.yaw], [world?.x_mm ?? null, world?.y_mm ?? null, world?.yaw_deg ?? null], is_other);
         this.#fill([this.#offset.right, this.#offset.below], [sheet.first_x_mm, sheet.first_y_mm], is_other);
         show({ "scale-now": `Now x ${+sheet.scale_x.toFixed(6)}, y ${+sheet.scale_y.toFixed(6)}. Measure a long distance, such as the ruler in the margin.` });
@@ -123,7 +127,8 @@ export class SheetForms {
     async #change(command: string, values: Record<string, string | number>): Promise<Answer | undefined> {
         const sheet = this.#sheet;
         if (!sheet) return undefined;
-        const answer = await this.#commands.send(command, { name: sheet.name, revision: sheet.revision, ...values });
+        const answer = await this.#commands.send(command, { name: sheet.name, revision: this.#revision, ...values });
+        this.#revision = this.#sheet?.revision ?? 0;
         showAnswer(answer);
         return answer;
     }
