@@ -67,10 +67,6 @@ json json_of(const StitchedSheet& sheet, const SheetEntry& entry) {
 
 }  // namespace
 
-std::string dump(const json& value) {
-    return value.dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
 json sheets_message(const SheetEdits& edits, bool may_edit) {
     json sheets = json::array();
     for (const SheetEntry& entry : edits.sheets()) {

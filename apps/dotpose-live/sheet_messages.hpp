@@ -20,9 +20,6 @@ struct SheetAnswer {
     std::string url = {};   ///< path of a file to download; empty if there is none
 };
 
-/// Returns the JSON text of a value. Replaces bytes that are not UTF-8.
-std::string dump(const nlohmann::json& value);
-
 /// Returns the sheets of the file, and what can be undone.
 nlohmann::json sheets_message(const SheetEdits& edits, bool may_edit);
 nlohmann::json answers_message(const std::deque<SheetAnswer>& answers);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dotpose/files/error.hpp"
+#include "json_text.hpp"
 #include "serve/background_thread.hpp"
 #include "sheet_changes.hpp"
 #include "sheet_pdf.hpp"
@@ -311,13 +312,13 @@ void WebSheets::answer(SheetAnswer answer) {
     const std::lock_guard lock(mutex_);
     answers_.push_back(std::move(answer));
     if (answers_.size() > kMaxAnswers) answers_.pop_front();
-    server_.publish(topics_.answers, [text = dump(answers_message(answers_))] { return text; });
+    server_.publish(topics_.answers, [text = text_of(answers_message(answers_))] { return text; });
 }
 
 /// Publishes the sheets to the pages, and passes them to the thread that follows the robot.
 void WebSheets::publish_sheets() {
     server_.publish(topics_.sheets,
-                    [text = dump(sheets_message(edits_, options_.may_edit))] { return text; });
+                    [text = text_of(sheets_message(edits_, options_.may_edit))] { return text; });
     if (edits_.version() == taken_version_ || edits_.sheets().empty()) return;
     taken_version_ = edits_.version();
     const std::lock_guard lock(mutex_);
@@ -325,7 +326,7 @@ void WebSheets::publish_sheets() {
 }
 
 void WebSheets::publish_measurement(const StitchJob::Progress* progress) {
-    server_.publish(topics_.stitch, [text = dump(stitch_message(progress))] { return text; });
+    server_.publish(topics_.stitch, [text = text_of(stitch_message(progress))] { return text; });
 }
 
 }  // namespace dotpose::cli

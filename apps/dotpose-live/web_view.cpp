@@ -10,9 +10,9 @@
 
 #include "dotpose/tools/grey_image.hpp"
 #include "image_copy.hpp"
+#include "json_text.hpp"
 #include "reading_fields.hpp"
 #include "serve/frame_message.hpp"
-#include "sheet_messages.hpp"
 #include "terminal_text.hpp"
 #include "web_pages.hpp"
 
@@ -42,7 +42,7 @@ std::string without_user(const std::string& source) {
     return source.substr(0, begin) + source.substr(at + 1);
 }
 
-std::string text_of(const std::vector<std::string>& sources) {
+std::string names_of(const std::vector<std::string>& sources) {
     std::string text;
     for (const std::string& source : sources)
         text += (text.empty() ? "" : " ") + without_user(source);
@@ -97,12 +97,12 @@ void WebView::publish_setup() {
         sheets.push_back({{"name", sheet.name}, {"corners_mm", std::move(corners)}});
     }
     const json setup = {{"robot", options_.messages.robot},
-                        {"source", text_of(options_.sources)},
+                        {"source", names_of(options_.sources)},
                         {"plane", follower_.is_in_world() ? "world" : "pattern"},
                         {"sheets", std::move(sheets)},
                         {"has_sheet_file", sheet_view_.has_value()},
                         {"log", options_.log.empty() ? json(nullptr) : json("/log.csv")}};
-    server_.publish(setup_, [text = dump(setup)] { return text; });
+    server_.publish(setup_, [text = text_of(setup)] { return text; });
 }
 
 bool WebView::is_time_for(const serve::Topic& topic, Timer& timer, milliseconds period,
@@ -174,7 +174,7 @@ void WebView::publish_state(const Reading& reading, const WatchTally& tally,
     // The line is the JSON line of the frame, so its keys are those of docs/schema.
     std::string line = json_line(fields(reading, Units::mm));
     server_.publish(state_, [state = std::move(state), line = std::move(line)] {
-        std::string text = dump(state);
+        std::string text = text_of(state);
         text.back() = ',';
         return text + "\"line\":" + line + "}";
     });
@@ -189,7 +189,7 @@ void WebView::publish_history() {
         seconds.push_back({{"second", second.second}, {"frames", std::move(frames)}});
     }
     server_.publish(history_topic_,
-                    [text = dump({{"seconds", std::move(seconds)}})] { return text; });
+                    [text = text_of({{"seconds", std::move(seconds)}})] { return text; });
 }
 
 void WebView::publish_path(const PathMemory& path) {
@@ -205,7 +205,7 @@ void WebView::publish_path(const PathMemory& path) {
         strokes.back().push_back(std::round(marks[i].y * 1000) / 1000);
     }
     server_.publish(path_topic_, [strokes = std::move(strokes), visited = visited_] {
-        return dump({{"strokes_mm", strokes}, {"visited", visited}});
+        return text_of({{"strokes_mm", strokes}, {"visited", visited}});
     });
 }
 
@@ -220,7 +220,7 @@ void WebView::publish_advice(const Reading& reading, const SourceState& source) 
 }
 
 void WebView::publish_reason(const std::string& reason) {
-    server_.publish(advice_, [text = dump({{"reason", reason}})] { return text; });
+    server_.publish(advice_, [text = text_of({{"reason", reason}})] { return text; });
 }
 
 std::optional<std::vector<SheetEntry>> WebView::take_changed_sheets() {

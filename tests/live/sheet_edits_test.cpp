@@ -16,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-class SheetEditsTest : public testing::Test {
+class SheetEditing : public testing::Test {
   protected:
     void SetUp() override {
         SheetOptions options;
@@ -66,7 +66,7 @@ class SheetEditsTest : public testing::Test {
     std::filesystem::path path_ = directory_.path() / "sheets.json";
 };
 
-TEST_F(SheetEditsTest, EditsAreUndoneAndDoneAgain) {
+TEST_F(SheetEditing, EditsAreUndoneAndDoneAgain) {
     SheetEdits edits(path_.string(), {});
     edits.change(seen(edits, "left"), "place", at(1));
     edits.change(seen(edits, "right"), "place", at(2));
@@ -86,7 +86,7 @@ TEST_F(SheetEditsTest, EditsAreUndoneAndDoneAgain) {
     EXPECT_EQ(x_of(0), 1);
 }
 
-TEST_F(SheetEditsTest, AnEditOfAnOldStateIsRefused) {
+TEST_F(SheetEditing, AnEditOfAnOldStateIsRefused) {
     SheetEdits edits(path_.string(), {});
     const SheetEdits::Target old = seen(edits, "left");
     change_outside("left", 7);
@@ -104,7 +104,7 @@ TEST_F(SheetEditsTest, AnEditOfAnOldStateIsRefused) {
                 HasSubstr("no sheet 'gone'"));
 }
 
-TEST_F(SheetEditsTest, AnEditThatWasOverwrittenIsNotUndone) {
+TEST_F(SheetEditing, AnEditThatWasOverwrittenIsNotUndone) {
     SheetEdits edits(path_.string(), {});
     edits.change(seen(edits, "left"), "place", at(1));
     change_outside("left", 7);
@@ -113,7 +113,7 @@ TEST_F(SheetEditsTest, AnEditThatWasOverwrittenIsNotUndone) {
     EXPECT_EQ(edits.undo_text(), "");
 }
 
-TEST_F(SheetEditsTest, AnInvalidEditWritesNothing) {
+TEST_F(SheetEditing, AnInvalidEditWritesNothing) {
     SheetEdits edits(path_.string(), {});
     const auto scale = [](SheetEntry entry) {
         entry.print_scale_x = 9;
@@ -125,7 +125,7 @@ TEST_F(SheetEditsTest, AnInvalidEditWritesNothing) {
     EXPECT_EQ(edits.undo_text(), "");
 }
 
-TEST_F(SheetEditsTest, ALockedFileIsNotChanged) {
+TEST_F(SheetEditing, ALockedFileIsNotChanged) {
     SheetEdits edits(path_.string(), {.max_s = 0.05});
     const SheetFile other(path_);
     EXPECT_THAT(failure([&] { edits.change(seen(edits, "left"), "place", at(1)); }),
@@ -133,7 +133,7 @@ TEST_F(SheetEditsTest, ALockedFileIsNotChanged) {
     EXPECT_TRUE(std::isnan(x_of(0)));
 }
 
-TEST_F(SheetEditsTest, ChangesByOtherProgramsAreRead) {
+TEST_F(SheetEditing, ChangesByOtherProgramsAreRead) {
     SheetEdits edits(path_.string(), {});
     const std::int64_t version = edits.version();
     EXPECT_FALSE(edits.refresh());
@@ -150,7 +150,7 @@ TEST_F(SheetEditsTest, ChangesByOtherProgramsAreRead) {
     EXPECT_EQ(edits.version(), valid);
 }
 
-TEST_F(SheetEditsTest, MeasuredPlacesAreOneEdit) {
+TEST_F(SheetEditing, MeasuredPlacesAreOneEdit) {
     SheetEdits edits(path_.string(), {});
     const std::vector<SheetEdits::Target> targets = {seen(edits, "left"), seen(edits, "right")};
     std::vector<SheetEntry> measured = edits.sheets();
