@@ -110,7 +110,7 @@ before(async () => {
     dotpose("sheets", "place", kTable, "--sheets", file, "--x", "0", "--y", "0", "--yaw", "0");
     dotpose("sheets", "place", "shelf", "--sheets", file, "--x", "150", "--y", "0", "--yaw", "0");
     copyFileSync(file, join(folder, "first.json"));
-    browser = await launch({ viewport: { width: 1200, height: 900 } });
+    browser = await launch({ viewport: { width: 1200, height: 900 }, reducedMotion: "reduce" });
 });
 beforeEach(() => copyFileSync(join(folder, "first.json"), file));
 after(async () => {

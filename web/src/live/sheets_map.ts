@@ -20,8 +20,8 @@ export interface MapEvents {
 interface Drag {
     kind: "pan" | "move" | "turn";
     from: Point_mm;
-    sheet: Sheet;
-    pose: Pose;
+    /** The sheet under the pointer, as it was before. */
+    on: Placed | undefined;
     has_moved: boolean;
 }
 
@@ -125,13 +125,11 @@ export class SheetsMap {
         const handle = selected && handleOf(this.#frame, selected);
         const is_on_handle = handle && this.#may_edit && Math.hypot(event.offsetX - handle[0], event.offsetY - handle[1]) < 2 * kHandle_px;
         const hit = is_on_handle ? selected : this.#hit(from);
+        // A finger that scrolls the page must not move a sheet, so it moves only the selected one.
+        const may_move = this.#may_edit && (event.pointerType === "mouse" || hit?.sheet.name === this.#selected);
         if (hit && hit.sheet.name !== this.#selected) this.#events.select(hit.sheet.name);
-        const kind = is_on_handle ? "turn" : hit && this.#may_edit ? "move" : "pan";
-        const { x_mm, y_mm } = this.#frame;
-        this.#drag = hit
-            ? { kind, from, sheet: hit.sheet, pose: hit.pose, has_moved: false }
-            : { kind, from, sheet: this.#sheets[0]!, pose: { x_mm, y_mm, yaw_deg: 0 }, has_moved: false };
-        if (kind === "pan") this.#view = { x_mm, y_mm, scale: this.#frame.scale };
+        const kind = is_on_handle ? "turn" : hit && may_move ? "move" : "pan";
+        this.#drag = { kind, from, on: hit, has_moved: false };
     }
 
     #hit(point: Point_mm): Placed | undefined {
@@ -153,16 +151,19 @@ export class SheetsMap {
             const view = { x_mm: this.#frame.x_mm - x_mm, y_mm: this.#frame.y_mm - y_mm, scale: this.#frame.scale };
             this.#view = view;
             this.#frame = { ...this.#frame, ...view };
-        } else if (drag.kind === "move") {
-            this.#change(drag.sheet, moved(drag.pose, x_mm, y_mm));
-        } else {
-            const middle = middleOf(drag.sheet, drag.pose);
-            const angle = Math.atan2(to.y_mm - middle.y_mm, to.x_mm - middle.x_mm);
-            const kSnap_deg = event.shiftKey ? 15 : 0.1;
-            const yaw_deg = Math.round(((angle * 180) / Math.PI - 90) / kSnap_deg) * kSnap_deg;
-            this.#change(drag.sheet, turned(drag.sheet, drag.pose, yaw_deg));
+        } else if (drag.on && drag.kind === "move") {
+            this.#change(drag.on.sheet, moved(drag.on.pose, x_mm, y_mm));
+        } else if (drag.on) {
+            this.#turn(drag.on, to, event.shiftKey ? 15 : 0.1);
         }
         this.redraw();
+    }
+
+    /** Turns a sheet so that its upper edge faces a point. */
+    #turn({ sheet, pose }: Placed, to: Point_mm, step_deg: number): void {
+        const middle = middleOf(sheet, pose);
+        const angle_deg = (Math.atan2(to.y_mm - middle.y_mm, to.x_mm - middle.x_mm) * 180) / Math.PI;
+        this.#change(sheet, turned(sheet, pose, Math.round((angle_deg - 90) / step_deg) * step_deg));
     }
 
     #change(sheet: Sheet, pose: Pose): void {
@@ -173,7 +174,7 @@ export class SheetsMap {
         const drag = this.#drag;
         this.#drag = null;
         this.#canvas.releasePointerCapture(event.pointerId);
-        if (drag?.has_moved && drag.kind !== "pan") void this.#save(drag.sheet);
+        if (drag?.has_moved && drag.on && drag.kind !== "pan") void this.#save(drag.on.sheet);
         this.redraw();
     }
 
