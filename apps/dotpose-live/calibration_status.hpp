@@ -10,6 +10,13 @@
 
 namespace dotpose::cli {
 
+/// Tilt of the camera in one frame, as the change of the scale from the middle to a corner of the
+/// image relative to the scale, along the image axes.
+struct FrameTilt {
+    double u = 0;
+    double v = 0;
+};
+
 struct CalibrationStatus {
     explicit CalibrationStatus(const CalibrationCoverage& shown) : coverage(shown) {}
 
@@ -18,6 +25,7 @@ struct CalibrationStatus {
     /// Standard deviation of the newest calibration in the corners of the image.
     std::optional<double> corner_sigma_px;
     std::optional<double> theta_rad;  ///< direction of the newest frame, if it was located
+    std::vector<FrameTilt> tilts;     ///< tilts of the frames that were taken
     std::string now;                  ///< result of the newest frame
     std::string remark;               ///< advice after the newest calibration; may be empty
     bool is_taken = false;            ///< true if the newest frame was accepted for calibration

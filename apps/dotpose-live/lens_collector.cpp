@@ -37,6 +37,13 @@ CalibrationView view_of(const calibrate::LocatedFrame& located, const Fix& fix) 
     return view;
 }
 
+FrameTilt tilt_of(const Trace& trace, ImageView image) {
+    const FixedVec& perspective = trace.pattern_from_image.perspective_q30;
+    const double corner_px = std::hypot(image.width_px, image.height_px) / 2;
+    const double scale = std::ldexp(corner_px, -30);
+    return {scale * perspective.x, scale * perspective.y};
+}
+
 }  // namespace
 
 double ImageMotion::speed_px_s(const Fix& fix, std::int64_t time_us, double reach_px) {
@@ -119,6 +126,7 @@ LensCollector::Outcome LensCollector::take(capture::Frame& frame) {
     Outcome outcome{refusal(frame, located), frame.image.view(), located.has_value()};
     if (outcome.is_taken()) {
         coverage_->add(view_of(*located, reader_.trace().fix));
+        tilts_.push_back(tilt_of(reader_.trace(), outcome.image));
         taken_.push_back(std::make_shared<const GreyImage>(std::move(frame.image)));
     }
     return outcome;
@@ -127,6 +135,7 @@ LensCollector::Outcome LensCollector::take(capture::Frame& frame) {
 CalibrationStatus LensCollector::status(const Outcome& outcome) const {
     CalibrationStatus status(*coverage_);
     status.needs = needs();
+    status.tilts = tilts_;
     status.is_taken = outcome.is_taken();
     status.now = status.is_taken ? "move on to another place" : outcome.refusal;
     if (outcome.is_located) status.theta_rad = reader_.trace().fix.theta_rad();

@@ -114,6 +114,7 @@ class LensCollector {
     CalibrationJob job_;
     CalibrationJob::Frames taken_;
     std::optional<CalibrationCoverage> coverage_;  ///< none before the first frame
+    std::vector<FrameTilt> tilts_;
     int width_px_ = 0;
     int height_px_ = 0;
     NewPlaces places_;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "refusal_history.hpp"
 #include "serve/server.hpp"
 #include "watch_tally.hpp"
+#include "web_calibration.hpp"
 #include "web_recording.hpp"
 
 namespace dotpose::cli {
@@ -26,6 +28,8 @@ struct WebOptions {
     std::string recordings = ".";      ///< folder of the recordings that are started in the page
     std::string log;                   ///< log of the run; empty if there is none
     RobotOutputOptions messages;       ///< robot of the recordings
+    /// Calibration in the page; none if the page may not calibrate.
+    std::optional<GuideOptions> calibration;
 };
 
 /// State of the source of the frames.
@@ -43,6 +47,9 @@ class WebView {
     /// Sends a frame to the clients that are ready, and obeys their commands.
     void take(const capture::Frame& frame, const Reading& reading, const WatchTally& tally,
               const PathMemory& path, const SourceState& source);
+
+    /// Returns the camera that was calibrated in the page since the previous call, or none.
+    std::optional<Camera> take_camera();
 
     /// Completes a running recording.
     void finish() { recordings_.stop(); }
@@ -64,6 +71,7 @@ class WebView {
     void publish_advice(const Reading& reading, const SourceState& source);
     void obey();
     void offer_recordings();
+    ImageView image_for_calibration(const capture::Frame& frame) const;
     void count(const Reading& reading, Clock::time_point now);
     bool is_time_for(const serve::Topic& topic, Timer& timer, std::chrono::milliseconds period,
                      Clock::time_point now) const;
@@ -95,6 +103,7 @@ class WebView {
     serve::Topic& history_topic_;
     serve::Topic& path_topic_;
     serve::Topic& advice_;
+    WebCalibration calibration_;
     AdviceWorker adviser_;  ///< destroyed before the server, to which its thread publishes
 };
 
