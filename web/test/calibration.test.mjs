@@ -80,10 +80,13 @@ class Run {
     #frames = [];
     #next = 0;
     #timer;
+    /** True if the program reads the frames from its standard input. */
+    #reads;
 
-    async start(options) {
-        const always = ["--size", `${kWidth_px}x${kHeight_px}`, "--fps", String(1000 / kPeriod_ms), "--no-window", "-o", "/dev/null"];
-        this.program = spawn(kTool, ["watch", "-", "--web", "0", ...always, ...options], { stdio: ["pipe", "ignore", "pipe"] });
+    async start(options, source = ["-", "--size", `${kWidth_px}x${kHeight_px}`, "--fps", String(1000 / kPeriod_ms)]) {
+        this.#reads = source[0] === "-";
+        const always = ["--web", "0", "--no-window", "-o", "/dev/null"];
+        this.program = spawn(kTool, ["watch", ...source, ...always, ...options], { stdio: ["pipe", "ignore", "pipe"] });
         this.program.stdin.on("error", () => {});
         this.messages = "";
         this.ended = new Promise((resolve) => this.program.on("exit", resolve));
@@ -104,13 +107,14 @@ class Run {
     }
 
     #write() {
-        if (this.#frames.length > 0) this.program.stdin.write(this.#frames[this.#next++ % this.#frames.length]);
+        if (this.#reads && this.#frames.length > 0) this.program.stdin.write(this.#frames[this.#next++ % this.#frames.length]);
     }
 
     /** Returns the exit status. */
     async stop() {
         clearInterval(this.#timer);
         this.program.stdin.end();
+        if (!this.#reads) this.program.kill("SIGINT");
         return this.ended;
     }
 }
@@ -152,7 +156,7 @@ before(async () => {
     // Three frames at each place, so the camera is steady.
     const rests = places().flatMap((frame) => [frame, frame, frame]);
     shots = { rests, turn: turn(24), drive: drive(50, 1.6), fast: fastDrive(60, 1.4) };
-    browser = await launch({ viewport: { width: 1200, height: 900 } });
+    browser = await launch({ viewport: { width: 1200, height: 900 }, reducedMotion: "reduce" });
 });
 after(async () => {
     await browser?.close();
@@ -255,28 +259,30 @@ test("the page keeps the mount of the file that it replaces", async () => {
 test("the page says why there is no result", async () => {
     mkdirSync(join(folder, "gone"));
     const run = await new Run().start(["--calibrate-to", join(folder, "gone/camera.yaml")]);
-    const problemIs = (text) => document.getElementById("calibration-problem").textContent.includes(text);
+    const problemIs = (text) => document.getElementById("calibration-problem").textContent.toLowerCase().includes(text);
     try {
         const { page, complaints } = await open(browser.context, `${run.url}calibration`);
         run.show(shots.rests);
         await page.click("[data-step=readout]");
         await page.waitForFunction(problemIs, "first calibrate the lens");
 
-        run.show(shots.turn.slice(0, 3));
+        run.show(shots.turn.slice(0, 2));
         await page.click("[data-step=spin]");
-        await page.waitForFunction(() => /^3 /.test(document.getElementById("calibration-frames").textContent));
+        await page.waitForFunction(() => /^2 /.test(document.getElementById("calibration-frames").textContent));
         await page.click("#calibration-finish");
-        await page.waitForFunction(problemIs, "turn the robot on the spot");
+        await page.waitForFunction(problemIs, "at least 3 are needed");
 
-        run.show(shots.rests);
+        // Two places are not enough.
+        run.show(shots.rests.slice(0, 6));
         await page.click("[data-step=lens]");
         await page.click("#calibration-finish");
         await page.waitForFunction(problemIs, "missing:");
+        run.show(shots.rests);
         await page.click("[data-step=lens]");
         await page.waitForFunction(titleIs, ": result");
         rmSync(join(folder, "gone"), { recursive: true });
         await page.click("#calibration-save");
-        await page.waitForFunction(problemIs, "cannot");
+        await page.waitForFunction(problemIs, "cannot create");
         assert.match(await page.textContent("#calibration-title"), /: result$/);
         // The result is not lost: it is saved when the folder is there again.
         mkdirSync(join(folder, "gone"));
@@ -297,6 +303,77 @@ test("without --calibrate-to, the page says how to calibrate", async () => {
         await page.waitForSelector("#calibration-off:not([hidden])");
         assert.match(await page.textContent("#calibration-off"), /--calibrate-to/);
         assert.equal(await page.locator("[data-step]:enabled").count(), 0);
+        await page.close();
+    } finally {
+        await run.stop();
+    }
+});
+
+test("axe finds no violation in any state, and nothing is wider than the screen", async () => {
+    const run = await new Run().start(["--calibrate-to", join(folder, "axe.yaml")]);
+    try {
+        run.show(shots.rests);
+        const { page } = await open(browser.context, `${run.url}calibration`);
+        const require_accessible = async () => {
+            for (const colorScheme of ["light", "dark"]) {
+                for (const width of [1200, 390, 320]) {
+                    await page.emulateMedia({ colorScheme });
+                    await page.setViewportSize({ width, height: 800 });
+                    // Scripts of the test are not bound by the content security policy of the page.
+                    await page.evaluate(readFileSync(kAxe, "utf8"));
+                    const { violations } = await page.evaluate(() => globalThis.axe.run());
+                    assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes[0].html]), []);
+                    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width);
+                }
+            }
+        };
+        await page.waitForSelector("[data-step=lens]:enabled");
+        await require_accessible();
+        run.show(shots.rests.slice(0, 3));
+        await page.click("[data-step=lens]");
+        await page.waitForSelector("#calibration-needs li");
+        await require_accessible();
+        run.show(shots.rests);
+        await page.waitForFunction(titleIs, ": result");
+        await require_accessible();
+        await page.click("#calibration-save");
+        await page.waitForFunction(titleIs, ": saved");
+        run.show(shots.turn.slice(0, 2));
+        await page.click("[data-step=spin]");
+        await page.waitForFunction(() => /^2 /.test(document.getElementById("calibration-frames").textContent));
+        await require_accessible();
+        await page.click("#calibration-finish");
+        await page.waitForFunction(titleIs, ": no result");
+        await require_accessible();
+        await page.click("[data-step=spin]");
+        await page.waitForFunction(titleIs, ": taking frames");
+        run.show(shots.turn);
+        await page.waitForFunction(titleIs, ": result");
+        await require_accessible();
+        await page.close();
+    } finally {
+        await run.stop();
+    }
+});
+
+test("a drive on video is calibrated", async () => {
+    const sheets = join(folder, "sheets.json");
+    const video = join(folder, "drive.mp4");
+    const file = join(folder, "video.yaml");
+    dotpose("print", "-o", join(folder, "table.pdf"), "--sheets", sheets, "--name", "table");
+    const scene = ["--size", "320x240", "--mm-per-px", "0.03", "--k", "-2e-6", "--seed", "11"];
+    dotpose("simulate", "--drive", "--sheets", sheets, "--frames", "800", "-o", video, ...scene);
+    const run = await new Run().start(["--sheets", sheets, "--calibrate-to", file], [video, "--realtime", "--fps", "20"]);
+    try {
+        const { page } = await open(browser.context, `${run.url}calibration`);
+        await page.click("[data-step=lens]");
+        await page.waitForFunction(titleIs, ": result");
+        assert.match(await page.textContent("#calibration-report"), /of the sheet in the sheet file/);
+        await page.click("#calibration-save");
+        await page.waitForFunction(titleIs, ": saved");
+        const camera = cameraIn(file);
+        assert.ok(Math.abs(camera.k_per_px2 / -2e-6 - 1) < 0.01, JSON.stringify(camera));
+        for (const scale of camera.mm_per_px) assert.ok(Math.abs(scale / 0.03 - 1) < 1e-3, String(scale));
         await page.close();
     } finally {
         await run.stop();

@@ -68,7 +68,7 @@ before(async () => {
     folder = mkdtempSync(join(tmpdir(), "dotpose-live-"));
     dotpose("print", "-o", join(folder, "table.pdf"), "--sheets", join(folder, "sheets.json"), "--name", "<b>table</b>");
     drive = makeDrive("drive.mp4", 500);
-    browser = await launch({ viewport: { width: 1200, height: 900 } });
+    browser = await launch({ viewport: { width: 1200, height: 900 }, reducedMotion: "reduce" });
 });
 after(async () => {
     await browser?.close();

@@ -2,7 +2,7 @@
 import { announcer, element, make, show } from "../page/dom.js";
 import { drawMissing, drawResiduals, drawSpin, drawTilts, drawTurns, fullScale_px } from "./calibration_drawings.js";
 import type { CalibrationState, CalibrationValue, Gauge, LensCoverage, Result } from "./calibration_state.js";
-import { StepList, stepOf } from "./calibration_steps.js";
+import { StepList, stepOf, typeset } from "./calibration_steps.js";
 import { Connection, type Value } from "./connection.js";
 import type { Setup } from "./messages.js";
 import { Picture } from "./picture.js";
@@ -53,8 +53,12 @@ function showGauges(gauges: readonly Gauge[]): void {
         const [name, meter, output] = [...box.children].slice(3 * i) as [HTMLElement, HTMLMeterElement, HTMLElement];
         name.textContent = label;
         meter.value = is_reached ? 1 : Math.min(share, 0.99);
-        output.textContent = is_reached ? `${text}, enough` : text;
+        output.textContent = typeset(is_reached ? `${text}, enough` : text);
     });
+}
+
+function sentence(text: string): string {
+    return text === "" ? "" : `${text[0]!.toUpperCase()}${text.slice(1)}.`;
 }
 
 function showList(id: string, texts: readonly string[]): void {
@@ -76,7 +80,8 @@ function tiltsText(tilts: LensCoverage["tilts"]): string {
 function draw(id: string, text: string, paint: (canvas: HTMLCanvasElement) => void): void {
     const canvas = element(id, HTMLCanvasElement);
     canvas.setAttribute("aria-label", text);
-    paint(canvas);
+    // A canvas in a hidden part of the page has no size.
+    if (canvas.clientWidth > 0) paint(canvas);
 }
 
 function showProgress(state: CalibrationState): void {
@@ -84,11 +89,11 @@ function showProgress(state: CalibrationState): void {
     const seen = lens?.directions ?? state.directions;
     show({
         "calibration-frames": `${state.frames} ${state.frames === 1 ? "frame" : "frames"} taken`,
-        "calibration-remark": lens?.remark ?? "",
+        "calibration-remark": sentence(lens?.remark ?? ""),
     });
     showGauges(state.gauges);
     const needs = lens?.needs ?? [];
-    showList("calibration-needs", needs);
+    showList("calibration-needs", needs.map(typeset));
     setHidden("calibration-missing", needs.length === 0);
     setHidden("calibration-turns-figure", seen.length === 0);
     setHidden("calibration-tilts-figure", lens === null);
@@ -108,7 +113,7 @@ function showResult(result: Result, is_saved: boolean, file: string): void {
     verdict.textContent = is_saved ? `Saved in ${file}. The run uses it.` : `${accepted}. It is not saved yet.`;
     const report = element("calibration-report", HTMLElement);
     report.replaceChildren(
-        ...result.rows.map(([label, text]) => make("div", {}, make("dt", { textContent: label }), make("dd", { textContent: text }))),
+        ...result.rows.map(([label, text]) => make("div", {}, make("dt", { textContent: label }), make("dd", { textContent: typeset(text) }))),
     );
     const { residuals, stations_mm } = result;
     setHidden("calibration-field-figure", residuals === null);
@@ -133,10 +138,10 @@ function showStep(state: CalibrationState): void {
     show({
         "calibration-title": `${title}: ${kTitles[phase]}`,
         "calibration-task": is_collecting ? task : "",
-        "calibration-now": state.advice,
-        "calibration-problem": state.problem,
+        "calibration-now": sentence(state.advice),
+        "calibration-problem": sentence(state.problem),
         "calibration-save": `Save as ${file}`,
-        "calibration-file": `Results are saved in ${file} when you say so. Values of other steps are kept.`,
+        "calibration-file": `Save writes ${file}. The values of the other steps are kept.`,
     });
     const has_result = state.result !== null && (phase === "solved" || phase === "saved");
     setHidden("calibration-current", phase === "idle");
@@ -150,7 +155,7 @@ function showStep(state: CalibrationState): void {
     setHidden("calibration-cancel", phase === "idle");
     element("calibration-finish", HTMLButtonElement).disabled = state.frames < 2;
     show({ "calibration-cancel": phase === "collecting" || phase === "solving" ? "Cancel" : phase === "solved" ? "Discard" : "Close" });
-    if (phase !== "idle" && !has_result) showProgress(state);
+    if (!element("calibration-progress", HTMLElement).hidden) showProgress(state);
     if (has_result) showResult(state.result!, phase === "saved", file);
 }
 

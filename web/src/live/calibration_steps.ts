@@ -18,23 +18,28 @@ export const kSteps: readonly Step[] = [
     },
     {
         name: "spin",
-        title: "Mount: turn on the spot",
+        title: "Mount (turn on the spot)",
         finds: "Position of the camera on the robot.",
         task: "Let the robot turn slowly on the spot, until it has turned once. The centre of the turn becomes the position that is reported.",
     },
     {
         name: "drive",
-        title: "Direction: straight drive",
+        title: "Direction (straight drive)",
         finds: "Direction of the camera on the robot.",
         task: "Let the robot drive straight ahead for 60 mm. Its direction becomes the angle that is reported.",
     },
     {
         name: "readout",
-        title: "Readout time: fast drive",
+        title: "Readout time (fast drive)",
         finds: "Only for cameras with a rolling shutter: the time from the first to the last row.",
         task: "Let the robot drive fast over the sheet. 40 consecutive frames are taken.",
     },
 ];
+
+/** Replaces the plain characters of texts for terminals. */
+export function typeset(text: string): string {
+    return text.replaceAll("+-", "±").replaceAll("^2", "²");
+}
 
 export function stepOf(name: StepName): Step {
     return kSteps.find((step) => step.name === name)!;
@@ -62,10 +67,11 @@ export class StepList {
     show(state: CalibrationState | null): void {
         for (const [name, { value, button, item }] of this.#items) {
             const text = state?.values[name] ?? "";
-            value.textContent = text === "" ? "not calibrated" : text;
+            value.textContent = text === "" ? "not calibrated" : typeset(text);
             value.classList.toggle("known", text !== "");
             const is_running = state?.phase === "collecting" || state?.phase === "solving";
-            button.disabled = state === null || is_running;
+            // A result must be saved or discarded first.
+            button.disabled = state === null || is_running || state.phase === "solved";
             item.classList.toggle("current", is_running && state?.step === name);
         }
     }
