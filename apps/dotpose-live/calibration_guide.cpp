@@ -259,6 +259,11 @@ void CalibrationGuide::solve() {
 GuideResult CalibrationGuide::lens_result() {
     if (!collector_->finish([this] { return !cancels_; })) throw Error("cancelled");
     LensCalibration lens = collector_->result();
+    if (options_.needs_focal_length && !lens.camera.focal_px) {
+        throw Error(
+            "these frames do not determine the focal length, which --pose space needs: also tilt "
+            "the camera");
+    }
     if (const auto camera = state().camera) keep_mount(*camera, lens.camera);
     GuideResult result{lens.camera, lens_report(lens, options_.spacing) + corner_report(lens.camera)};
     result.residuals = draw::residual_field(lens);

@@ -52,6 +52,7 @@ struct GuideOptions {
     SpacingSource spacing = SpacingSource::assumed;
     /// Camera of the run: the values that a step does not calibrate are kept.
     std::optional<Camera> camera;
+    bool needs_focal_length = false;  ///< true if the run fits poses in space
     bool flip = false;  ///< true if the source flips the frames, which the file then contains
 };
 

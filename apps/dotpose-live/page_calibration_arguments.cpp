@@ -52,6 +52,7 @@ std::optional<GuideOptions> PageCalibrationArguments::options(const FollowerArgu
     GuideOptions guide;
     guide.file = file_;
     guide.camera = arguments.camera.camera;
+    guide.needs_focal_length = follower.fits_space_pose();
     guide.flip = sources.options.flip;
     CalibrateOptions& calibrate = guide.calibrate;
     calibrate.sheets = follower.sheets();

@@ -215,11 +215,8 @@ std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
 void use_calibrated_camera(WatchOutputs& outputs, Follower& follower) {
     const std::optional<Camera> camera = outputs.take_camera();
     if (!camera) return;
-    try {
-        follower.set_camera(*camera);
-    } catch (const BadArgument& error) {
-        tell(fmt::format("the new camera file is not used in this run: {}", error.what()));
-    }
+    follower.set_camera(*camera);
+    tell("a calibration was saved in the page; the next frames are located with it");
 }
 
 /// Follows the robot over all frames. `length` is the number of frames, or 0 if unknown. Returns
