@@ -136,8 +136,9 @@ void CalibrationGuide::begin(GuideStep step) {
     const std::optional<Camera> camera = state().camera;
     if (step == GuideStep::readout && !(camera && camera->paper)) {
         update([step](GuideState& state) { state.step = step; });
-        fail("the camera file has no view of the paper: first calibrate the lens of the mounted "
-             "camera");
+        fail(
+            "the camera file has no view of the paper: first calibrate the lens of the mounted "
+            "camera");
         return;
     }
     if (step == GuideStep::lens) collector_ = std::make_unique<LensCollector>(options_.calibrate);
@@ -205,11 +206,10 @@ void CalibrationGuide::offer(const capture::Frame& frame, ImageView image, doubl
     const Clock::time_point now = Clock::now();
     if (is_busy_ || !jobs_.empty() || now < next_offer_) return;
     next_offer_ = now + kOfferPeriod;
-    jobs_.emplace_back([this, bits_per_px,
-                        copy = capture::Frame{copy_of(image), frame.time_us, frame.index,
-                                              frame.file, frame.is_live}] {
-        look(copy, bits_per_px);
-    });
+    jobs_.emplace_back(
+        [this, bits_per_px,
+         copy = capture::Frame{copy_of(image), frame.time_us, frame.index, frame.file,
+                               frame.is_live}] { look(copy, bits_per_px); });
     changed_.notify_one();
 }
 
@@ -265,8 +265,9 @@ GuideResult CalibrationGuide::lens_result() {
             "the camera");
     }
     if (const auto camera = state().camera) keep_mount(*camera, lens.camera);
-    GuideResult result{lens.camera, lens_report(lens, options_.spacing) + corner_report(lens.camera)};
-    result.residuals = draw::residual_field(lens);
+    GuideResult result{lens.camera,
+                       lens_report(lens, options_.spacing) + corner_report(lens.camera)};
+    result.residuals = residual_field(lens);
     return result;
 }
 

@@ -1,9 +1,9 @@
 /// Calibrates the camera of a running `dotpose watch`, step by step: the lens, the mount by a turn
 /// on the spot, the direction by a straight drive, and the readout time by a fast drive.
 ///
-/// The main thread offers frames and gives commands, which return immediately. A thread with a lower
-/// priority selects the frames of the lens, solves, and writes the file. The main thread copies only
-/// frames that are needed.
+/// The main thread offers frames and gives commands, which return immediately. A thread with a
+/// lower priority selects the frames of the lens, solves, and writes the file. The main thread
+/// copies only frames that are needed.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@
 
 #include "calibrate_report.hpp"
 #include "calibration_status.hpp"
-#include "draw/residual_field.hpp"
+#include "dotpose/tools/draw.hpp"
 #include "guided_frames.hpp"
 #include "lens_collector.hpp"
 #include "reading.hpp"
@@ -59,10 +59,10 @@ struct GuideOptions {
 /// Result of a step.
 struct GuideResult {
     Camera camera;
-    std::string report;   ///< lines of `dotpose calibrate`
-    bool is_good = true;  ///< false if the verdict is a warning
-    std::optional<draw::ResidualField> residuals = {};  ///< only of the lens
-    std::vector<SpinStation> stations = {};             ///< only of the turn
+    std::string report;                           ///< lines of `dotpose calibrate`
+    bool is_good = true;                          ///< false if the verdict is a warning
+    std::optional<ResidualField> residuals = {};  ///< only of the lens
+    std::vector<SpinStation> stations = {};       ///< only of the turn
 };
 
 struct GuideState {

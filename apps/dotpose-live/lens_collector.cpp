@@ -51,8 +51,7 @@ double ImageMotion::speed_px_s(const Fix& fix, std::int64_t time_us, double reac
         std::exchange(newest_, Seen{fix.x_grid(), fix.y_grid(), fix.theta_rad(), time_us});
     const double elapsed_s = before ? static_cast<double>(time_us - before->time_us) * 1e-6 : 0;
     if (elapsed_s <= 0) return std::numeric_limits<double>::infinity();
-    const double turn =
-        std::remainder(fix.theta_rad() - before->theta_rad, 2 * std::numbers::pi);
+    const double turn = std::remainder(fix.theta_rad() - before->theta_rad, 2 * std::numbers::pi);
     const double step_grid =
         std::hypot(fix.x_grid() - before->x_grid, fix.y_grid() - before->y_grid);
     return (step_grid * fix.spacing_px() + std::abs(turn) * reach_px) / elapsed_s;
@@ -91,7 +90,7 @@ bool LensCollector::is_new(const CalibrationView& view, ImageView image) {
 
 /// Returns the reason for not taking a frame, or an empty string if the frame is taken.
 std::string LensCollector::refusal(const capture::Frame& frame,
-                                     const std::optional<calibrate::LocatedFrame>& located) {
+                                   const std::optional<calibrate::LocatedFrame>& located) {
     ++tally_.seen;
     if (!located) {
         motion_.forget();

@@ -1,5 +1,5 @@
-/// Takes frames for the calibration of a lens while the camera moves, and calibrates the lens in the
-/// background.
+/// Takes frames for the calibration of a lens while the camera moves, and calibrates the lens in
+/// the background.
 ///
 ///     LensCollector collector(options);
 ///     while (!collector.is_enough() && !collector.is_full() && source.next(frame)) {

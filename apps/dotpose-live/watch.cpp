@@ -256,12 +256,13 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
 std::optional<WebOptions> web_options(const WatchArguments& arguments, const Follower& follower) {
     const auto server = arguments.web.options();
     if (!server) return std::nullopt;
-    return WebOptions{*server,
-                      arguments.sources.names,
-                      arguments.web_recordings,
-                      arguments.outputs.log,
-                      arguments.outputs.messages,
-                      arguments.calibration.options(arguments.follower, arguments.sources, follower)};
+    return WebOptions{
+        *server,
+        arguments.sources.names,
+        arguments.web_recordings,
+        arguments.outputs.log,
+        arguments.outputs.messages,
+        arguments.calibration.options(arguments.follower, arguments.sources, follower)};
 }
 
 void print_cameras() {

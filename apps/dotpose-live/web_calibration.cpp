@@ -61,14 +61,14 @@ json json_of(const CalibrationStatus& status) {
 }
 
 /// Returns the mean residuals of the parts of the image: u and v alternately.
-json json_of(const draw::ResidualField& field) {
+json json_of(const ResidualField& field) {
     json before = json::array();
     json after = json::array();
     const auto add = [](json& values, PixelPoint sum, int dots) {
         for (const double value : {sum.u, sum.v})
             values.push_back(dots > 0 ? std::round(1e4 * value / dots) / 1e4 : 0);
     };
-    for (const draw::ResidualField::Part& part : field.parts) {
+    for (const ResidualField::Part& part : field.parts) {
         add(before, part.before, part.dots);
         add(after, part.after, part.dots);
     }
@@ -95,8 +95,8 @@ json rows_of(std::string_view report) {
 json json_of(const GuideResult& result) {
     json stations = json::array();
     for (const SpinStation& station : result.stations)
-        stations.push_back({station.x_mm, station.y_mm, station.theta_rad, station.off_x_mm,
-                            station.off_y_mm});
+        stations.push_back(
+            {station.x_mm, station.y_mm, station.theta_rad, station.off_x_mm, station.off_y_mm});
     return {{"rows", rows_of(result.report)},
             {"is_good", result.is_good},
             {"residuals", result.residuals ? json_of(*result.residuals) : json(nullptr)},
@@ -109,7 +109,8 @@ std::string sigma_text(const Camera& camera, const char* key, double factor, int
 }
 
 std::string lens_text(const Camera& camera) {
-    if (!camera.sigma.contains("k_per_px2")) return fmt::format("k {:.4e} per px^2", camera.k_per_px2);
+    if (!camera.sigma.contains("k_per_px2"))
+        return fmt::format("k {:.4e} per px^2", camera.k_per_px2);
     return fmt::format("k {:.4e} per px^2, corner known to {:.3f} px", camera.k_per_px2,
                        corner_sigma_px(camera));
 }

@@ -6,7 +6,6 @@
 
 #include "dotpose/tools/calibrate.hpp"
 #include "dotpose/tools/draw.hpp"
-#include "draw/residual_field.hpp"
 #include "draw/svg.hpp"
 
 namespace dotpose {

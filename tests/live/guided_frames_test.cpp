@@ -23,7 +23,8 @@ class Robot {
             static_cast<std::uint16_t>((x_grid - std::floor(x_grid)) * 65536);
         frame.fix.fraction_y_q16 =
             static_cast<std::uint16_t>((y_grid - std::floor(y_grid)) * 65536);
-        const double half_turns = std::remainder(theta_rad, 2 * std::numbers::pi) / std::numbers::pi;
+        const double half_turns =
+            std::remainder(theta_rad, 2 * std::numbers::pi) / std::numbers::pi;
         frame.fix.theta_bam = static_cast<std::int32_t>(half_turns * 2147483647.0);
         frame.spacing_mm = 0.5;
         frame.index = index_++;

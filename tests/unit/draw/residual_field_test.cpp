@@ -1,8 +1,9 @@
-#include "draw/residual_field.hpp"
-
 #include <gtest/gtest.h>
 
-namespace dotpose::draw {
+#include "dotpose/tools/calibrate.hpp"
+#include "dotpose/tools/draw.hpp"
+
+namespace dotpose {
 namespace {
 
 TEST(ResidualField, SumsTheResidualsOfEachPart) {
@@ -27,4 +28,4 @@ TEST(ResidualField, SumsTheResidualsOfEachPart) {
 }
 
 }  // namespace
-}  // namespace dotpose::draw
+}  // namespace dotpose
