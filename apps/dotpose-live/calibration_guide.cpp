@@ -268,6 +268,8 @@ GuideResult CalibrationGuide::lens_result() {
     GuideResult result{lens.camera,
                        lens_report(lens, options_.spacing) + corner_report(lens.camera)};
     result.residuals = residual_field(lens);
+    for (const CalibrationNeed& need : collector_->needs())
+        result.improvements.push_back(need.advice);
     return result;
 }
 

@@ -63,6 +63,7 @@ struct GuideResult {
     bool is_good = true;                          ///< false if the verdict is a warning
     std::optional<ResidualField> residuals = {};  ///< only of the lens
     std::vector<SpinStation> stations = {};       ///< only of the turn
+    std::vector<std::string> improvements = {};   ///< what more frames could improve
 };
 
 struct GuideState {

@@ -99,6 +99,7 @@ json json_of(const GuideResult& result) {
             {station.x_mm, station.y_mm, station.theta_rad, station.off_x_mm, station.off_y_mm});
     return {{"rows", rows_of(result.report)},
             {"is_good", result.is_good},
+            {"improvements", result.improvements},
             {"residuals", result.residuals ? json_of(*result.residuals) : json(nullptr)},
             {"stations_mm", std::move(stations)}};
 }

@@ -111,6 +111,8 @@ function showResult(result: Result, is_saved: boolean, file: string): void {
     verdict.classList.toggle("good", result.is_good);
     const accepted = result.is_good ? "Accepted" : "Usable, with a warning: see the verdict";
     verdict.textContent = is_saved ? `Saved in ${file}. The run uses it.` : `${accepted}. It is not saved yet.`;
+    const improvements = result.improvements.map(typeset).join("; ");
+    show({ "calibration-improvements": improvements === "" ? "" : `It could be improved: ${improvements}.` });
     const report = element("calibration-report", HTMLElement);
     report.replaceChildren(
         ...result.rows.map(([label, text]) => make("div", {}, make("dt", { textContent: label }), make("dd", { textContent: typeset(text) }))),

@@ -42,6 +42,8 @@ export interface Result {
     /** Labels and texts of the report. */
     rows: [string, string][];
     is_good: boolean;
+    /** What more frames could improve. */
+    improvements: string[];
     residuals: Residuals | null;
     stations_mm: Station[];
 }
