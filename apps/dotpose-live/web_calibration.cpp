@@ -1,5 +1,7 @@
 #include "web_calibration.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <string_view>
@@ -109,9 +111,13 @@ std::string sigma_text(const Camera& camera, const char* key, double factor, int
     return sigma == camera.sigma.end() ? "" : plus_minus(factor * sigma->second, digits);
 }
 
+/// Returns the lens. A lens without distortion and without standard deviations was not calibrated.
 std::string lens_text(const Camera& camera) {
-    if (!camera.sigma.contains("k_per_px2"))
-        return fmt::format("k {:.4e} per px^2", camera.k_per_px2);
+    constexpr std::array kSigmas = {"k_per_px2", "centre_u_px", "centre_v_px"};
+    const auto is_known = [&camera](const char* key) { return camera.sigma.contains(key); };
+    if (!std::ranges::all_of(kSigmas, is_known)) {
+        return camera.k_per_px2 == 0 ? "" : fmt::format("k {:.4e} per px^2", camera.k_per_px2);
+    }
     return fmt::format("k {:.4e} per px^2, corner known to {:.3f} px", camera.k_per_px2,
                        corner_sigma_px(camera));
 }

@@ -235,7 +235,7 @@ test("the page calibrates lens, mount, direction and readout time, and the run u
 test("the page keeps the mount of the file that it replaces", async () => {
     const file = join(folder, "former.yaml");
     const former = ["format: dotpose-camera", "version: 1", "width_px: 188", "height_px: 120", "k_per_px2: -8e-6", "centre_px: [93.5, 59.5]"];
-    writeFileSync(file, [...former, "mm_per_px: [0.046, 0.046]", "reference_px: [140, 20]", "theta_offset_rad: 0.5", ""].join("\n"));
+    writeFileSync(file, [...former, "mm_per_px: [0.046, 0.046]", "reference_px: [140, 20]", "theta_offset_rad: 0.5", "sigma:", "  k_per_px2: 1e-7", ""].join("\n"));
     const run = await new Run().start(["--calibrate-to", file]);
     try {
         const { page } = await open(browser.context, `${run.url}calibration`);
