@@ -1,4 +1,4 @@
-// Encoding: computes the symbol at any position in constant time (paper, section II-A).
+// Encoding: computes the symbol at any place in constant time (paper, section II-A).
 #include "code/basis.hpp"
 #include "dotpose/code.hpp"
 
@@ -14,9 +14,12 @@ int delta(CodeVariant code, std::uint32_t p) noexcept {
 
 int roll(CodeVariant code, std::uint32_t p) noexcept {
     // The roll is the sum of all differences before p, modulo 63:
+    //
     //     roll = 5 p + sum over a1 to a4 of (periods * rolls[length] + rolls[place])
     //     periods = (p - place) / length
-    // `period_roll` is rolls[length] times the inverse of `length` modulo 63. The extra 4 * 63
+    //
+    // To avoid the division, (p - place) is multiplied by `period_roll`, which is rolls[length]
+    // times the inverse of `length` modulo 63. `lines` is equal to p modulo 63. Its term 4 * 63
     // keeps `lines - place` positive.
     const std::uint32_t lines = code::modulo_sections(p) + 4 * kSections;
     std::uint32_t sum = code::kMinDelta * lines;
@@ -46,15 +49,16 @@ int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
 
 namespace {
 
-/// A place along one axis. `own` is this axis's section, and `cross` is the other axis's section.
+/// A place along one axis. `own` is the section of this axis, and `cross` is the section of the
+/// other axis.
 struct AxisPlace {
     std::uint32_t position;
     std::uint8_t own;
     std::uint8_t cross;
 };
 
-/// Moves a place by `distance` positions. Not inlined, because there are two calls and most of the
-/// code is rarely executed.
+/// Moves a place by `distance` positions. Inlining the two calls would duplicate code that is
+/// rarely executed.
 [[gnu::noinline]] AxisPlace moved(CodeVariant code, AxisPlace place, std::int32_t distance) {
     const std::int64_t target = std::int64_t{place.position} + distance;
     const bool is_before = target < 0;
@@ -62,9 +66,10 @@ struct AxisPlace {
         place.position = static_cast<std::uint32_t>(target);
         return place;
     }
-    // The target is outside [0, L), where L = kPositionsPerAxis. Along x, the columns p and p + L
-    // differ by roll(L), so the column section changes by roll(L). The rows begin L cells later, so
-    // the row section changes by L modulo 63. Along y, columns and rows are exchanged.
+    // The target is outside [0, L), where L = kPositionsPerAxis. Along x, the rolls of columns p
+    // and p + L differ by roll(L), so the column section changes by roll(L). Each row continues L
+    // cells farther along the main sequence, so the row section changes by L modulo 63. Along y,
+    // the same holds with columns and rows exchanged.
     const auto shifted = [&](int section, int by) {
         const int sum = section + (is_before ? kSections - by : by);
         return static_cast<std::uint8_t>(sum % kSections);

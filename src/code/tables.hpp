@@ -1,5 +1,5 @@
-// Tables: lookup tables that are computed from the sequences at compile time. Roll tables serve
-// encoding, and place tables serve decoding.
+// Tables: lookup tables that are computed from the sequences at compile time. Encoding uses roll
+// tables, and decoding uses place tables.
 #pragma once
 
 #include <array>
@@ -11,20 +11,21 @@
 
 namespace dotpose::code {
 
-/// Marks a string of digits that does not occur in a sequence.
+/// Index of a string of digits that does not occur in a sequence.
 inline constexpr std::uint8_t kAbsent = 255;
 /// Number of consecutive roll differences that determine a place in a secondary sequence. Each
-/// difference contributes one digit. In the a4 of `libdots`, some strings of this length occur
-/// twice (see `Secondary::has_twins`).
+/// difference contains one digit of the sequence. In the a4 of `libdots`, some strings of this
+/// length occur twice (see `Secondary::has_twins`).
 inline constexpr int kOrder = 5;
 
-/// Table entries beyond the end of a sequence. With these entries, loops over adjacent lines need
-/// not wrap around. kLinesAhead entries cover a view whose first line is at the last place.
-/// kVectorAhead more entries cover a vector load from the view's last line.
+/// Numbers of table entries beyond the end of a sequence. With these entries, loops over adjacent
+/// lines do not have to wrap around. A view whose first line is at the last place uses kLinesAhead
+/// entries. A vector load that starts at the last line of the view uses kVectorAhead further
+/// entries.
 inline constexpr std::size_t kLinesAhead = 64;
 inline constexpr std::size_t kVectorAhead = 32;
 
-/// Returns n modulo 63 for n < 4095. Needs no division, because 64 modulo 63 is 1.
+/// Returns n modulo 63 for n < 4095. Uses no division, because 64 modulo 63 is 1.
 constexpr std::uint32_t short_modulo_sections(std::uint32_t n) {
     n = (n & 63) + (n >> 6);
     return n < kSections ? n : n - kSections;
@@ -37,14 +38,14 @@ constexpr std::uint32_t modulo_sections(std::uint32_t n) {
     return short_modulo_sections((n & 63) + (n >> 6));
 }
 
-/// A secondary sequence with its tables. All lengths and bases use this type.
+/// A secondary sequence with its tables. The type is the same for all lengths and bases.
 struct Secondary {
     const std::uint8_t* digits;  ///< `length` digits
     /// Contribution to the roll, by place: the sum of all weighted digits before the place, modulo
     /// 63. Has kLinesAhead + kVectorAhead entries beyond the end.
     const std::uint8_t* rolls;
     /// First place of each 5-digit string, or kAbsent if the string does not occur. The index is
-    /// the string's `key`.
+    /// the `key` of the string.
     const std::uint8_t* first_place_of;
     /// One bit set per digit: bit i is 1 if place i contains the digit. Place 0 is the lowest bit
     /// of the first word. The sets repeat cyclically up to 256 + kLinesAhead bits.
@@ -57,7 +58,7 @@ struct Secondary {
     std::uint8_t weight;  ///< weight of the digits in a roll difference
     bool has_twins;       ///< true if some string of 5 digits occurs twice
 
-    /// Returns the place of a position, which is `position` modulo `length`. Needs no division.
+    /// Returns the place of a position, which is `position` modulo `length`. Uses no division.
     constexpr std::uint32_t place_of(std::uint32_t position) const {
         // n is less than 2^24, so the product fits in 32 bits.
         const std::uint32_t n = (position >> 16) * rest_of_65536 + (position & 0xFFFF);
@@ -67,8 +68,8 @@ struct Secondary {
         return rest;
     }
     /// Returns a bit set for the places 32 * word to 32 * word + 31. A bit is 1 if the next `count`
-    /// digits at this place equal those at `place`. Indices wrap around. Bits beyond the end of the
-    /// sequence are 0.
+    /// digits at its place equal the digits at `place`. Indices wrap around. Bits beyond the end of
+    /// the sequence are 0.
     constexpr std::uint32_t equal_places(std::uint32_t place, int count, std::uint32_t word) const {
         const std::uint32_t rest = length - 32 * word;
         std::uint32_t places = rest < 32 ? ~(~std::uint32_t{0} << rest) : ~std::uint32_t{0};
@@ -112,7 +113,7 @@ consteval std::uint8_t period_roll(std::size_t length, unsigned roll_of_period) 
 }
 
 /// Returns the first place of each string with `Order` digits, or kAbsent if the string does not
-/// occur. The index is the string's `key` in base `Base`.
+/// occur. The index is the `key` of the string in base `Base`.
 template <unsigned Base, int Order, std::size_t Length>
 constexpr auto first_places(const Digits<Length>& sequence) {
     constexpr std::size_t kKeys = [] {
@@ -178,7 +179,7 @@ constexpr unsigned digit_of_delta(std::size_t delta, std::size_t n) {
     return kDigitsOfDelta[delta - kMinDelta] >> 2 * n & 3U;
 }
 
-/// The main sequence, repeated to provide 256 bits from any index.
+/// The main sequence, repeated to provide the 256 bits that start at any index below 63.
 inline constexpr auto kMainRepeated = [] {
     std::array<std::uint8_t, kSections + 256> bits{};
     for (std::size_t i = 0; i < bits.size(); ++i)
@@ -186,7 +187,7 @@ inline constexpr auto kMainRepeated = [] {
     return bits;
 }();
 
-/// 32 bits of the main sequence, from each index. The first bit is the lowest bit.
+/// The 32 bits of the main sequence that start at each index. The first bit is the lowest bit.
 inline constexpr auto kMainWords = [] {
     std::array<std::uint32_t, kSections> words{};
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -196,7 +197,7 @@ inline constexpr auto kMainWords = [] {
     return words;
 }();
 
-/// Returns 64 bits of the main sequence, from `index`. The first bit is the lowest bit.
+/// Returns the 64 bits of the main sequence that start at `index`. The first bit is the lowest bit.
 constexpr std::uint64_t main_bits(std::size_t index) {
     const std::size_t next = index + 32;
     return kMainWords[index] | std::uint64_t{kMainWords[next < kSections ? next : next - kSections]}

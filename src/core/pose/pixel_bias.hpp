@@ -1,7 +1,7 @@
 // Pixel bias: corrects the centroid bias due to the sub-pixel phase of the dots. The bias averages
 // out if the phases are evenly distributed. If all dots have the same phase, the bias is computed
-// from a model dot and subtracted. Unlike the paper, whose frames contain all phases, dotpose needs
-// this correction.
+// from a model dot and subtracted. The frames of the paper contain all phases, and therefore do not
+// need this correction.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -19,8 +19,8 @@ struct CentroidWindow {
     FloatVec centre_px;
 };
 
-/// Moves the windows to the current centres, before the dots are measured again. Drops dots if
-/// their window is not completely in the image.
+/// Moves the windows to the current centres. The dots must be measured again afterwards. Drops dots
+/// whose window is not completely in the image.
 void recentre_windows(const ImageView& image, const CentroidWindow& window, MeasuredDots& dots);
 
 /// Subtracts the bias from the centres of all inliers. Returns the variance of the mean centre due

@@ -1,5 +1,5 @@
-// Subgrid: computes the angle, and the place of the reference point between intersections.
-// Implements section II-B.8 of the paper (eq. 10-12), and the angle at the end of section II-B.6.
+// Subgrid: computes the angle, and the place of the reference point between intersections (paper,
+// section II-B.8, eq. 10-12, and the end of section II-B.6).
 #pragma once
 
 #include "dotpose/fix.hpp"
@@ -7,10 +7,11 @@
 
 namespace dotpose::core {
 
-/// Returns the plane of the grid, rotated upright. The plane's origin is `Decoding::place`.
+/// Returns the plane of the grid, rotated to the upright pattern. The origin of the pattern
+/// coordinates is at `Decoding::place`.
 PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn pattern_from_grid);
 
-/// Writes the plane and the place of its origin into the fix. Also writes the position, section,
+/// Sets the plane of the fix, and the place of the plane's origin. Also sets the position, section,
 /// angle and spacing at the reference point.
 void write_pose(const PlaneFromImage& pattern_from_image, FixedVec reference_q8, CodeVariant code,
                 const Place& place, Fix& fix);
