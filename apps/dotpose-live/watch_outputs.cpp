@@ -78,6 +78,13 @@ bool WatchOutputs::take(const capture::Frame& frame, const Reading& reading,
     return !screen_.is_on() || show(frame, reading, source.dropped);
 }
 
+std::optional<Camera> WatchOutputs::take_camera() {
+    if (!web_) return std::nullopt;
+    std::optional<Camera> camera = web_->take_camera();
+    if (camera && messages_) messages_->set_camera(*camera);
+    return camera;
+}
+
 /// Writes a line. If the reader has closed the pipe, no more lines are written, but the other
 /// outputs continue.
 void WatchOutputs::write_line(const std::string& line) {

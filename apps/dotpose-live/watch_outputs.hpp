@@ -60,6 +60,9 @@ class WatchOutputs {
     /// cannot be written.
     bool take(const capture::Frame& frame, const Reading& reading, const SourceState& source);
 
+    /// Returns the camera that was calibrated in the page since the previous call, or none.
+    std::optional<Camera> take_camera();
+
     /// Writes the map, completes the recording and sends the last states. Throws Error on failure.
     void finish();
 

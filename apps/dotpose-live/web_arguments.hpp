@@ -14,6 +14,9 @@ class WebArguments {
     /// Adds --web and --web-token-file.
     void add_to(Command& command);
 
+    /// Returns true if --web is given.
+    bool is_wanted() const { return !address_.empty(); }
+
     /// Returns the options of the server, without pages, or none without --web. Outside of the
     /// loopback interface, makes a token if no file contains one. Throws BadArgument or Error if
     /// the options are invalid.

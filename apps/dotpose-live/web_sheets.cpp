@@ -283,11 +283,21 @@ void WebSheets::measure(bool is_on) {
         measured_.push_back({entry.name, edits_.revision(entry.name)});
     const StitchJob::Progress none;
     publish_measurement(&none);
+    std::optional<Camera> camera;
+    {
+        const std::lock_guard lock(mutex_);
+        camera = options_.camera;
+    }
     job = std::make_shared<StitchJob>(
-        edits_.sheets(), options_.camera,
+        edits_.sheets(), std::move(camera),
         [this](const StitchJob::Progress& progress) { publish_measurement(&progress); });
     const std::lock_guard lock(mutex_);
     job_ = std::move(job);
+}
+
+void WebSheets::set_camera(const Camera& camera) {
+    const std::lock_guard lock(mutex_);
+    options_.camera = camera;
 }
 
 void WebSheets::accept_measurement(SheetAnswer& answer) {

@@ -53,6 +53,9 @@ class WebSheets {
     /// Publishes the sheets. Call this function after the server was started.
     void start();
 
+    /// Uses this camera in measurements that start from now on.
+    void set_camera(const Camera& camera);
+
     /// Obeys a command of a page. Returns false if the command is not about sheets.
     bool obey(const serve::Command& command);
 

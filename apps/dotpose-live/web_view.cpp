@@ -71,6 +71,7 @@ WebView::WebView(WebOptions options, const Follower& follower)
       path_topic_(server_.add_topic("path", serve::Format::text)),
       advice_(server_.add_topic("advice", serve::Format::text)),
       sheet_topics_(server_),
+      calibration_(options_.calibration, server_),
       adviser_([this](const std::string& reason) { publish_reason(reason); }) {
     if (!options_.sheets.path.empty()) {
         sheet_view_.emplace(options_.sheets, server_, sheet_topics_);
@@ -127,6 +128,21 @@ void WebView::take(const capture::Frame& frame, const Reading& reading, const Wa
     if (is_time_for(path_topic_, path_timer_, kSlowPeriod, now)) publish_path(path);
     if (has_image && is_time_for(advice_, advice_timer_, kAdvicePeriod, now))
         publish_advice(reading, source);
+    calibration_.take(frame, reading, has_image ? image_for_calibration(frame) : ImageView{},
+                      source.bits_per_px);
+}
+
+/// Returns the image that was located or, if it was reduced, the whole frame.
+ImageView WebView::image_for_calibration(const capture::Frame& frame) const {
+    const ImageView located = follower_.image();
+    return located.width_px == frame.image.width_px ? located : frame.image.view();
+}
+
+std::optional<Camera> WebView::take_camera() {
+    std::optional<Camera> camera = calibration_.take_camera();
+    if (camera) recordings_.set_camera(*camera);
+    if (camera && sheet_view_) sheet_view_->set_camera(*camera);
+    return camera;
 }
 
 void WebView::count(const Reading& reading, Clock::time_point now) {
@@ -229,12 +245,17 @@ std::optional<std::vector<SheetEntry>> WebView::take_changed_sheets() {
 
 void WebView::use_sheets() {
     sheets_ = map_sheets(follower_.sheets(), plane_of(follower_));
+    calibration_.set_sheets(follower_.sheets());
     publish_setup();
 }
 
 void WebView::obey() {
     while (const std::optional<serve::Command> command = server_.take_command()) {
         if (sheet_view_ && sheet_view_->obey(*command)) continue;
+        if (command->name == "calibrate") {
+            calibration_.obey(*command);
+            continue;
+        }
         const bool* is_on = command->argument<bool>("on");
         if (command->name != "record" || is_on == nullptr) continue;
         if (*is_on) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "refusal_history.hpp"
 #include "serve/server.hpp"
 #include "watch_tally.hpp"
+#include "web_calibration.hpp"
 #include "web_recording.hpp"
 #include "web_sheets.hpp"
 
@@ -28,6 +30,8 @@ struct WebOptions {
     std::string log;                   ///< log of the run; empty if there is none
     RobotOutputOptions messages;       ///< robot of the recordings
     WebSheetsOptions sheets;           ///< without a sheet file, the path is empty
+    /// Calibration in the page; none if the page may not calibrate.
+    std::optional<GuideOptions> calibration;
 };
 
 /// State of the source of the frames.
@@ -50,6 +54,8 @@ class WebView {
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
     /// Shows the new sheets of the follower.
     void use_sheets();
+    /// Returns the camera that was calibrated in the page since the previous call, or none.
+    std::optional<Camera> take_camera();
 
     /// Completes a running recording.
     void finish() { recordings_.stop(); }
@@ -71,6 +77,7 @@ class WebView {
     void publish_advice(const Reading& reading, const SourceState& source);
     void obey();
     void offer_recordings();
+    ImageView image_for_calibration(const capture::Frame& frame) const;
     void count(const Reading& reading, Clock::time_point now);
     bool is_time_for(const serve::Topic& topic, Timer& timer, std::chrono::milliseconds period,
                      Clock::time_point now) const;
@@ -104,6 +111,7 @@ class WebView {
     serve::Topic& advice_;
     SheetTopics sheet_topics_;
     std::optional<WebSheets> sheet_view_;  ///< none without a sheet file
+    WebCalibration calibration_;
     AdviceWorker adviser_;  ///< destroyed before the server, to which its thread publishes
 };
 

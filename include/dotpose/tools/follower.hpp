@@ -125,6 +125,11 @@ class Follower {
 
     bool fits_space_pose() const { return options_.fits_space_pose; }
 
+    /// Replaces the camera file, for example after a new calibration. The next image starts a new
+    /// track, because the reference point may have moved on the robot. Throws BadArgument if the
+    /// camera is invalid, or if it has no focal length and poses in space are required.
+    void set_camera(const Camera& camera);
+
     /// Return results for the latest image: the image that was located (possibly flipped, reduced,
     /// and corrected by the flat field), the options used, and the trace of the stages.
     ImageView image() const { return image_; }
@@ -148,6 +153,7 @@ class Follower {
     };
 
     void require_space_camera() const;
+    void use_flat_field();
     void use_sheets();
     void use_options_for(int width_px, int height_px);
     ImageView as_located(ImageView image);

@@ -144,6 +144,33 @@ TEST(Follower, AReferencePointReplacesThatOfTheCameraFile) {
                 std::hypot(kCameraOnRobot_mm.x, kCameraOnRobot_mm.y), 0.01);
 }
 
+TEST(Follower, TracksTheReferencePointOfAReplacedCamera) {
+    const CameraModel model;
+    FollowerOptions options;
+    options.code = CodeVariant::anoto;
+    Follower follower(options);
+    const auto follow = [&](int i) {
+        const GreyImage image =
+            robot_frame(model, kSeed, i, kPivot_x_mm, kPivot_y_mm, kDegree_rad * i);
+        return follower.follow(image.view(), 10'000 * i);
+    };
+    for (int i = 0; i < 10; ++i)
+        follow(i);
+    follower.set_camera(mounted_camera(model, 30 * kDegree_rad));
+    for (int i = 10; i < 20; ++i) {
+        SCOPED_TRACE(testing::Message() << "frame " << i << ", seed " << kSeed);
+        const Followed now = follow(i);
+        ASSERT_EQ(now.located.fix.status, Status::ok);
+        EXPECT_FALSE(now.track.is_lost);
+        EXPECT_NEAR(now.track.pose.x_mm(), kPivot_x_mm, 0.05);
+        EXPECT_NEAR(now.track.pose.y_mm(), kPivot_y_mm, 0.05);
+        EXPECT_LT(turn_between(now.located.fix.theta_rad(), (30 + i) * kDegree_rad), 0.003);
+    }
+    Camera camera = mounted_camera(model, 0);
+    camera.width_px = 0;
+    EXPECT_THROW(follower.set_camera(camera), BadArgument);
+}
+
 TEST(Follower, ImagesOfAnotherSizeThanTheCamerasAreRefused) {
     FollowerOptions options;
     options.camera = true_camera({});

@@ -60,9 +60,12 @@ export class Picture {
     #last: LiveFrame | undefined;
     #times_ms: number[] = [];
     #is_slow = false;
+    readonly #drawMore: () => void;
 
-    constructor(connection: Connection) {
+    /** `drawMore` is called after a frame was drawn, to draw over it. */
+    constructor(connection: Connection, drawMore = () => {}) {
         this.#connection = connection;
+        this.#drawMore = drawMore;
         this.#layers.addEventListener("change", () => this.redraw());
         element("live-refocus", HTMLButtonElement).addEventListener("click", () => this.#meter.restart());
         document.addEventListener("visibilitychange", () => this.request());
@@ -84,6 +87,7 @@ export class Picture {
         if (this.#last === undefined) return;
         const is_on = this.#layers.checked;
         drawFrame(this.#canvas, this.#last, { found: is_on, grid: is_on, pose: is_on });
+        this.#drawMore();
     }
 
     async #take(value: Value): Promise<void> {
