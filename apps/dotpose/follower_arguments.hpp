@@ -15,7 +15,8 @@ struct FollowerArguments {
     std::string sheets;  ///< path of the sheet file, or empty for none
     CameraArgument camera;
     bool is_inverted = false;
-    FollowerOptions options;  ///< without the contents of the sheet file and the camera file
+    FollowerOptions options;  ///< options of the follower, without the contents of the sheet file
+                              ///< and the camera file
 
     /// Adapts the camera file to the frames of `sources` (SourceArguments::fit_to). If a camera
     /// file is given, --reference is a pixel of the whole frame and not of the region --roi.

@@ -105,8 +105,8 @@ ros::RobotUpdate update_of(const LogCells& row) {
     const std::string_view plane = row.text("plane");
     ros::RobotUpdate update;
     update.time_ns = time_ns_in(row);
-    // There is no plane while the robot is lost. In this state, fixes are in the world if they have
-    // x_m. The column x_m requires a sheet file with world poses.
+    // While the robot is lost, the row contains no plane. Fixes are then in the world if the row
+    // contains x_m, because only logs with a sheet file with world poses have this column.
     const bool is_in_world = plane == "world" || (plane.empty() && row.number("x_m"));
     const PoseColumns& columns = is_in_world ? kInWorld : kInPattern;
     if (row.text("status") == "ok") {

@@ -34,7 +34,7 @@ class NewPlaces {
     };
 
     std::vector<Place> places_;
-    double factor_ = 1;  ///< factor on the minimum differences
+    double factor_ = 1;  ///< factor by which the minimum differences are multiplied
 };
 
 /// Removes the elements with odd indices.

@@ -83,8 +83,9 @@ class OrderedThreads {
         std::condition_variable_any changed;
         std::deque<Result> results;
         bool has_ended = false;
-        std::exception_ptr failure;  ///< set before `has_ended`
-        std::jthread thread;         ///< last member, because the thread uses the other members
+        /// Exception that ended the thread, or null. Set before `has_ended`.
+        std::exception_ptr failure;
+        std::jthread thread;  ///< last member, because the thread uses the other members
     };
 
     std::vector<std::unique_ptr<Lane>> lanes_;

@@ -28,7 +28,7 @@ Fix fix_of(const PosePacket& packet) {
 
 /// Sets a diagonal covariance from the deviation of a packet, in units of the spacing.
 void set_covariance(const PosePacket& packet, Fix& fix) {
-    // For 8 x 8 dots, the minimum, the standard deviation of the angle is sqrt(6) / 8 of the
+    // For the minimum of 8 x 8 dots, the standard deviation of the angle is sqrt(6) / 8 of the
     // standard deviation of the position in spacings. With more dots, the angle is more accurate.
     constexpr float kAngleFromPosition = 0.306F;
     constexpr float kThetaStep_rad = 9.6e-5F;  // of PosePacket::theta_bam16

@@ -139,7 +139,7 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
             };
             const auto a = seen(1, 0);
             const auto b = seen(0, 1);
-            // The singular values of the matrix (a b) are the size of a pixel on the paper along
+            // The singular values of the matrix (a b) are the sizes of a pixel on the paper along
             // and across the tilt, in cells.
             const double sum = a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1];
             const double area = std::abs(a[0] * b[1] - a[1] * b[0]);
@@ -316,8 +316,8 @@ std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& s
     if (is_inverted(image, options, scratch)) {
         return "the dots are white on black: locate with --inverted";
     }
-    // Blur may reduce the contrast of dots to a quarter. The remaining contrast must not be less
-    // than min_contrast.
+    // Paper level below which the image is too dark. Blur may reduce the contrast of dots to a
+    // quarter, and the remaining contrast must be at least min_contrast.
     const int darkest_paper = 4 * options.threshold.min_contrast;
     if (const int level = paper_level(image); level < darkest_paper) {
         return fmt::format(

@@ -16,8 +16,8 @@ Plane plane_of(const Follower& follower);
 struct Reading {
     std::int64_t index = 0;
     std::int64_t time_us = 0;
-    /// `p_wrong` includes the prior of the tracker if the fix was accepted only because of this
-    /// prior.
+    /// Result of the frame. Its `p_wrong` includes the prior of the tracker if the fix was accepted
+    /// only because of this prior.
     Record record;
     Track track;
     Plane plane = Plane::pattern;

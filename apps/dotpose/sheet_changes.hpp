@@ -31,15 +31,15 @@ inline const std::vector<std::string> kDirections = {"x", "y", "both"};
 /// A length that was measured on a printed page.
 struct MeasuredLength {
     double measured_mm = 0;
-    double nominal_mm = 0;       ///< the length that it should be
+    double nominal_mm = 0;       ///< intended length
     std::string along = "both";  ///< one of `kDirections`
 };
 
 /// Returns the entry with the print scale of a measured length.
 SheetEntry scaled(SheetEntry entry, const MeasuredLength& length);
 
-/// Returns the entry with another distance of the first intersection from the top left corner of
-/// the page, which moves all dots.
+/// Returns the entry with all dots moved, so that the first intersection is at (`right_mm`,
+/// `below_mm`) from the top left corner of the page.
 SheetEntry with_offset(SheetEntry entry, double right_mm, double below_mm);
 
 }  // namespace dotpose::cli

@@ -8,8 +8,8 @@
 
 namespace dotpose::cli {
 
-/// Returns the default margin in mm. The labels and rulers of a PDF need a margin wider than the
-/// unprintable margin of a printer.
+/// Returns the default margin in mm. The margin of a PDF is wider than the unprintable margin of a
+/// printer, because it contains labels and rulers.
 double default_margin_mm(PrintFormat format, const Paper& paper);
 
 /// Returns a file name without special characters for the PDF of a sheet.

@@ -1,4 +1,4 @@
-/// Names of the sources of frames that a command reads.
+/// Names of the frame sources of a command.
 #pragma once
 
 #include <fstream>

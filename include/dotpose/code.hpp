@@ -21,8 +21,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Positions per axis: 236 * 233 * 31 * 241. The combination of places in the four sequences of
-/// digits repeats after this number of positions.
+/// Positions per axis: 236 * 233 * 31 * 241. The places in the four digit sequences repeat together
+/// after this number of positions.
 inline constexpr std::uint32_t kPositionsPerAxis = 410'815'348;
 /// Length of the main sequence. Also the number of sections per axis.
 inline constexpr int kSections = 63;
@@ -35,7 +35,7 @@ enum class CodeVariant : std::uint8_t {
     /// Sequence a4 as misprinted in the patent. Used by libdots and other open tools. Windows
     /// smaller than 8 x 8 symbols may be ambiguous.
     libdots,
-    /// Sequence a4 as in py-microdots and its ports, which differs from the patent's a4.
+    /// Sequence a4 as in py-microdots and its ports. It differs from the patent's a4.
     microdots,
 };
 /// Number of code variants.
@@ -117,9 +117,9 @@ struct Place {
     friend constexpr bool operator==(const Place&, const Place&) = default;
 };
 
-/// Returns the place that is (dx, dy) intersections away. |dx| and |dy| must be less than
-/// kPositionsPerAxis. Beyond one end of an axis, the result wraps around to the opposite end, in
-/// another section.
+/// Returns the place that is (dx, dy) intersections away from `place`. |dx| and |dy| must be less
+/// than kPositionsPerAxis. Beyond one end of an axis, the result wraps around to the opposite end,
+/// in another section.
 Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noexcept;
 
 /// Decodes an upright window without wrong symbols. Sets `place` only if the window occurs exactly

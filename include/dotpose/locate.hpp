@@ -195,8 +195,9 @@ class Locator : public RowLocator {
     Fix locate_one(const ImageView& image, const Prediction* prediction);
     CodeReading read_one(const ImageView& image, const Prediction* prediction,
                          const CodeEvidence& evidence);
-    /// Adds a motion to the series of images. Returns the prediction for the next image, if the
-    /// previous image was located.
+    /// Adds the motion `since_last` to the series, and returns the prediction for the image to be
+    /// located. Returns nullopt if the previous image was not located. If the motion is not usable
+    /// or the spacing is unknown, ends the series and returns nullopt.
     std::optional<Prediction> begin_motion(const MeasuredMotion& since_last);
     CodeReading finished(CodeReading reading);
     using RowLocator::finished;
@@ -210,8 +211,8 @@ class Locator : public RowLocator {
 /// arithmetic. The time per frame is short and bounded. The options `effort` and `decoder` have no
 /// effect. Computes neither covariance nor residual. Computes only a fast upper bound on the
 /// probability that a position is wrong, and refuses the position as not_certain if this bound
-/// exceeds IntegrityOptions::max_p_wrong_log2. A program that uses only this class does not link
-/// the desktop attempts.
+/// exceeds IntegrityOptions::max_p_wrong_log2. A program that uses only this class is linked
+/// without the attempts of a Locator.
 class DeviceLocator : public RowLocator {
   public:
     /// The rules for memory and options are the same as for Locator.

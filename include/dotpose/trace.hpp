@@ -106,8 +106,8 @@ struct Decoding {
     std::int32_t agreement = 0;
     QuarterTurn pattern_from_grid;
     Place place;  ///< place of grid cell (0, 0) in the code; the cell may be out of view
-    /// True if the workspace contains the line scores of the region, rotated by
-    /// `pattern_from_grid`.
+    /// True if the workspace contains the scores of the lines of the region. The lines are rotated
+    /// by `pattern_from_grid`.
     bool lines_are_scored = false;
     int bits = 0;  ///< number of bits compared with the code at `place`, two per dot
     /// Upper bounds on the probability that the position is wrong along x and y, as log2 times 256.

@@ -58,7 +58,7 @@ class SourceList : public FrameSource {
     std::int64_t next_index_ = 0;
     std::int64_t next_time_us_ = 0;
     std::int64_t first_index_ = 0;  ///< index of the first frame of the open source
-    std::int64_t offset_us_ = 0;    ///< added to the time of the open source
+    std::int64_t offset_us_ = 0;    ///< offset added to the frame times of the open source
     bool has_first_ = false;        ///< true if the open source has returned a frame
     bool is_first_source_ = true;
 };

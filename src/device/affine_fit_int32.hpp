@@ -36,8 +36,9 @@ class AffineFitInt32 {
                    const Products<std::int32_t>& sums)
         : changes_(count), p_(p), target_(target), recent_(sums) {}
 
-    /// Adds an image point p and its target. p is relative to the plane centre, in 1/8 px, and
-    /// within 2048 px. The target is in units of 2^-bits cells (see `solve`), within 2^15.
+    /// Adds an image point p and its target. p is relative to the plane centre, in 1/8 px, and at
+    /// most 2048 px from it along each axis. The target is in units of 2^-bits cells (see `solve`),
+    /// and less than 2^15 in magnitude.
     [[gnu::always_inline]] void add(const FixedVec& p, const FixedVec& target) {
         change(p, p, target);
     }

@@ -75,7 +75,7 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
                                    1;
 
     // Number of fractional bits in the targets. A target is the printed place of a dot, in 1/64
-    // cell, and within 2^15.
+    // cell. Its coordinates are less than 2^15 in magnitude.
     constexpr int kTargetBits = 6;
     const auto targets = displacements(shift_rounded(displacement_q16, 16 - kTargetBits));
     AffineFitInt32 fit;

@@ -1,6 +1,6 @@
 // Grow: extends the first grid estimate to all dots (paper, section II-B.3). Assumes no perspective
 // and no lens distortion. Unlike the paper, which uses eq. 6 and then median lengths between
-// neighbours, this fits all terms by least squares. The fit treats displacements as noise. It
+// neighbours, this stage fits all terms by least squares. The fit treats displacements as noise. It
 // starts near the origin and extends its reach from fit to fit.
 #pragma once
 

@@ -18,7 +18,7 @@ namespace dotpose::core {
 /// The bits of a column or row. Each word has one bit per cell. Bit 0 belongs to the first cell.
 struct HardLine {
     std::uint32_t bits = 0;
-    std::uint32_t seen = 0;  ///< 1 if the bit of the cell was read
+    std::uint32_t seen = 0;  ///< a bit is 1 if the bit of its cell was read
 
     /// Returns the number of bits that contradict the main sequence if the first cell is at index
     /// `roll` of the sequence.
@@ -28,7 +28,7 @@ struct HardLine {
 /// The lines of one axis of a block in one orientation, from the first to the last line.
 struct HardLines {
     const HardLine* first = nullptr;
-    int step = 1;  ///< distance of consecutive lines in memory: 1 or -1
+    int step = 1;  ///< distance between consecutive lines in memory: 1 or -1
     int count = 0;
 
     const HardLine& operator[](int line) const { return first[line * step]; }

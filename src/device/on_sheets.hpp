@@ -8,7 +8,7 @@ namespace dotpose::core {
 struct DeviceWorkspace;
 
 /// The functions for known sheets. DeviceWorkspace has a pointer to them, so a program that does
-/// not set known sheets does not contain them.
+/// not set known sheets does not contain these functions.
 struct SheetFunctions {
     /// Finds the place of the grid of a fresh frame, and its turn. Returns false if no place on the
     /// sheets is certain.

@@ -67,9 +67,9 @@ struct Tracking {
     int first_kept = 0;  ///< index of the first stored image row
     int stride_px = 0;
     int half_px = 0;  ///< see kHalf_px
-    /// Offsets in `rows`, in bytes, in the square around an intersection. corner_offset leads from
-    /// the middle pixel to the upper left corner, and corners_apart from an upper corner to the
-    /// lower corner below it.
+    /// Offsets in `rows`, in bytes, in the square around an intersection. `corner_offset` is the
+    /// offset of the upper left corner from the middle pixel. `corners_apart` is the offset of a
+    /// lower corner from the upper corner above it.
     std::ptrdiff_t corner_offset = 0;
     std::ptrdiff_t corners_apart = 0;
     std::span<std::uint8_t> rows;  ///< the newest rows of the image

@@ -12,8 +12,8 @@ namespace {
 
 /// Number of rings of cells around the middle cell that are measured.
 constexpr int kRounds = 4;
-/// Minimum number of dots that agree with the code, and minimum fraction of the measured dots that
-/// agree, in 1/8.
+/// Minimum number of dots that agree with the code, and minimum ratio of this number to the number
+/// of measured dots, in 1/8.
 constexpr int kMinDots = 12;
 constexpr int kMinFraction_q3 = 6;
 /// Minimum number of measured dots at which the fraction is tested.

@@ -46,9 +46,9 @@ struct DeviceCapacity {
     // blobs beyond the maximum are noise or graphics.
     int runs = 0;
     int blobs = 0;
-    // Maximum number of runs of a whole frame, which bounds the time. The dots of a frame of 188 x
-    // 120 px have about 500 runs. Noisy frames of this size had up to 1,900 runs and were still
-    // located.
+    // Maximum number of runs of a whole frame. This number bounds the time. The dots of a frame of
+    // 188 x 120 px have about 500 runs. Noisy frames of this size had up to 1,900 runs and were
+    // still located.
     int max_runs = 0;
 };
 

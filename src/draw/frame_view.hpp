@@ -6,7 +6,8 @@
 
 namespace dotpose::draw {
 
-/// Stages of `locate` whose results the trace contains.
+/// Stages of `locate` that the frame reached. A member is true if the trace contains the results of
+/// the stage.
 struct Reached {
     bool undistorted = false;  ///< dot centres, corrected for lens distortion
     bool edges = false;        ///< edges between neighbouring dots

@@ -27,8 +27,8 @@ struct Pair {
     PixelPoint wanted;
 };
 
-/// Residual of a pair with its derivatives. The residual is the difference between the point
-/// undistorted by eq. 2 and mapped by the affine map, and the wanted point.
+/// Residual of a pair, and its derivatives. The seen point is undistorted by eq. 2 and then mapped
+/// by the affine map. The residual is the result minus the wanted point.
 struct Misfit {
     double u = 0;
     double v = 0;

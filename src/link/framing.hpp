@@ -24,8 +24,8 @@ using Framed = std::array<std::uint8_t, kFramedBytes>;
 
 /// Returns the CRC-16 with the polynomial 0x5935 and the initial value 0xFFFF, most significant bit
 /// first. At this length, this polynomial detects the most errors of all 16-bit polynomials: all
-/// errors of up to 4 bits in up to 241 bits of data (Koopman and Chakravarty, DSN 2004). Their
-/// notation for it is 0xAC9A.
+/// errors of up to 4 bits in up to 241 bits of data (Koopman and Chakravarty, DSN 2004). In the
+/// notation of this paper, the polynomial is 0xAC9A.
 std::uint16_t crc16(std::span<const std::uint8_t> bytes);
 
 Framed frame(const Plain& plain);

@@ -124,8 +124,8 @@ void require_shallow_page_tree(QPDF& pdf) {
     while (!nodes.empty()) {
         auto [node, level] = nodes.back();
         nodes.pop_back();
-        // A node that was visited before is part of a cycle, or a page that occurs twice. qpdf
-        // checks for both.
+        // A node that was visited before is part of a cycle, or is a page that occurs twice. qpdf
+        // reports both faults, so the node is skipped.
         if (!node.isDictionary() || (node.isIndirect() && !seen.insert(node.getObjGen()).second)) {
             continue;
         }
@@ -166,8 +166,8 @@ void UnpackedBytes::count(QPDFObjectHandle stream) {
     try {
         stream.pipeStreamData(&bytes, &attempted, 0, qpdf_dl_specialized, kSuppressWarnings);
     } catch (const std::runtime_error&) {
-        // Either the document exceeds a limit, which the count below detects, or a stream is
-        // damaged, which is reported when the stream is read.
+        // Ignores the exception. If the document exceeds a limit, the count below detects this. If
+        // the stream is damaged, this is reported when the stream is read.
     }
     page_ += bytes.bytes();
     document_ += bytes.bytes();

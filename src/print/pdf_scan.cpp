@@ -39,8 +39,8 @@ struct PageScan {
     PageContent found;
 };
 
-/// Maximum number of stored operands. Operators have at most 33: the components of a colour and a
-/// name.
+/// Maximum number of stored operands. Operators have at most 33 operands: the 32 components of a
+/// colour, and a name.
 constexpr std::size_t kMaxOperands = 64;
 
 struct Operand {

@@ -124,7 +124,7 @@ class MqttPublisher : public MqttClient {
 
     /// Sends a message, or queues it until there is a connection. Does not block. After an
     /// interruption, the newest messages are sent first. The broker keeps a retained message for
-    /// later subscribers. An empty retained message removes the retained message.
+    /// later subscribers. An empty retained message removes the previous one.
     void publish(std::string topic, std::string payload, bool is_retained = false);
 
     /// Waits until all messages are sent, but at most for `patience`. Returns false on timeout.

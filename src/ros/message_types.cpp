@@ -15,7 +15,7 @@ namespace {
 struct Definition {
     std::string_view package;
     std::string_view name;
-    std::string_view members;  ///< one per line
+    std::string_view members;  ///< definitions of the members, one per line
 };
 
 constexpr std::string_view kXyz = "float64 x\nfloat64 y\nfloat64 z\n";

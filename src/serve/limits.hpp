@@ -7,12 +7,12 @@
 namespace dotpose::serve {
 
 inline constexpr int kMaxConnections = 64;  ///< open sockets, including page requests
-inline constexpr int kMaxClients = 16;      ///< WebSockets
-inline constexpr int kHeadTimeout_s = 5;    ///< time to send the head of a request
+inline constexpr int kMaxClients = 16;      ///< open WebSockets
+inline constexpr int kHeadTimeout_s = 5;    ///< maximum time to send the head of a request
 inline constexpr int kSilence_s = 20;       ///< time without a message after which a ping is sent
 inline constexpr int kMaxSilence_s = 40;    ///< time without an answer after which a client is dead
-inline constexpr std::size_t kMaxHeadBytes = 4096;     ///< head of a request
-inline constexpr std::size_t kChunkBytes = 32 * 1024;  ///< bytes per write
+inline constexpr std::size_t kMaxHeadBytes = 4096;     ///< maximum size of the head of a request
+inline constexpr std::size_t kChunkBytes = 32 * 1024;  ///< size of one write
 inline constexpr std::size_t kMaxWaitingCommands = 32;
 /// Messages of a client per second, and in one burst.
 inline constexpr double kMaxMessages_per_s = 200;

@@ -1,8 +1,9 @@
-// A topic: a value that the program replaces at any time, and of which clients receive the newest
-// version only.
+// A topic: a value that the program may replace at any time. Clients receive only its newest
+// version.
 //
 // A client receives a value only after it acknowledged earlier values (Subscription). The program
-// therefore produces values at the rate of the fastest client, and none if no client is ready:
+// therefore produces values at the rate of the fastest client, and produces no values while no
+// client is ready:
 //
 //     if (frames.is_wanted()) frames.publish([image = copy_of(image)] { return encode(image); });
 #pragma once

@@ -71,8 +71,8 @@ View::View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperf
                 std::hypot(blurred.motion_px.x, blurred.motion_px.y) / 2) {}
 
 OffsetBox visible_offsets(const View& view) {
-    // Number of steps along each side of the image. A distorted side may have its extremes at the
-    // corners or in the middle.
+    // Number of steps along each side of the image. Points between the corners are included,
+    // because the extremes of a distorted side may be at the corners or in the middle.
     constexpr int kSteps = 16;
     OffsetBox box{{1e300, 1e300}, {-1e300, -1e300}};
     const auto include = [&](double along_u, double along_v) {

@@ -40,8 +40,8 @@ Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, 
     }
     Kernel::Weights result(per_pixel, std::vector<float>(kernel.taps));
     for (std::size_t i = 0; i < exact.size(); ++i) {
-        // The order is reversed. Light of a sub-pixel further right in the kernel contributes to a
-        // pixel further left.
+        // The order is reversed, because light on a sub-pixel further right in the kernel
+        // contributes to a pixel further left.
         result[i % per_pixel][pixels - 1 - i / per_pixel] =
             static_cast<float>(exact[i] * share / sum);
     }

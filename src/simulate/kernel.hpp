@@ -21,7 +21,7 @@ struct Kernel {
     /// Weights for the scene at one moment of the exposure.
     struct Moment {
         Weights x;
-        Weights y;  ///< includes the fraction of the exposure time that this moment represents
+        Weights y;  ///< multiplied by the fraction of the exposure time that this moment represents
     };
     std::vector<Moment> moments;
 };

@@ -97,8 +97,8 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
         constexpr double kStep_px = 1e-3;
         const double slope = (seen_at(row_px + kStep_px).y - seen.y) / kStep_px;
         row_px += (seen.y - row_px) / (1 - slope);
-        // If the scene turns, a point far beside the image may cross several rows during the
-        // readout, or none.
+        // If the scene turns, a point far beside the image may be shown by several rows or by none.
+        // Newton's method may then diverge, so the row is clamped.
         if (is_turning) row_px = std::clamp(row_px, -height_px_, height_px_);
         seen = seen_at(row_px);
     }

@@ -10,9 +10,9 @@ namespace {
 constexpr float kHold_s = 0.5F;
 
 /// Factor by which a sighting increases or decreases the agility, the factor of the process noise
-/// (see filter.hpp). Because both directions use the same factor, consecutive innovations have the
-/// same sign as often as opposite signs in equilibrium, as in a filter with the correct noise
-/// variance.
+/// (see filter.hpp). Increases and decreases use the same factor, so they are equally frequent in
+/// equilibrium. Consecutive innovations then have equal signs as often as opposite signs, as in a
+/// filter with the correct noise variance.
 constexpr float kAgility_step = 1.5F;
 constexpr float kMinAgility = 1e-6F;
 /// Innovations above this number of standard deviations are not considered noise.
@@ -342,8 +342,9 @@ MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting,
         const float pushed = push(i, dt_s, options);
         const float possible = squared(moved / kSurprise) / motion.scatter;
         const auto surprise = [&] { return possible - motion.covariance[i][i] - noise[i][i]; };
-        // If the filter lags behind the robot, successive innovations have the same sign. If the
-        // filter follows the noise, the signs alternate.
+        // If the filter lags behind the robot, successive innovations have the same sign, and the
+        // agility is increased. If the filter follows the noise, the signs alternate, and the
+        // agility is decreased.
         const float agility = repeated > 0 ? old * kAgility_step : old / kAgility_step;
         const float needed = old + surprise() / (pushed * squared(effect[0]));
         motion.agility[i] = std::clamp(std::max(agility, needed), kMinAgility, 1.0F);

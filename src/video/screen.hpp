@@ -47,8 +47,8 @@ struct CalibrationScene {
 /// Contents of the picture of one frame.
 struct Scene {
     ImageView image;
-    Trace trace;                             ///< trace of this image
-    bool is_good = false;                    ///< selects the colour of the captions
+    Trace trace;           ///< trace of this image
+    bool is_good = false;  ///< false to draw the captions and the current place in a warning colour
     std::vector<std::string> lines;          ///< captions: pose, rate, quality
     std::span<const PathMark> path;          ///< the path up to this frame
     std::span<const draw::MapSheet> sheets;  ///< the sheets in the plane of the path

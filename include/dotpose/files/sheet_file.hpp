@@ -170,10 +170,10 @@ class SheetFile {
     friend class SheetReservation;
 
     std::filesystem::path path_;
-    std::unique_ptr<system::FileLock> lock_;  ///< on a hidden file beside the sheet file
+    std::unique_ptr<system::FileLock> lock_;  ///< lock on a hidden file beside the sheet file
     std::optional<std::string> text_;  ///< the file as read or saved; none if it did not exist
     std::vector<SheetEntry> sheets_;
-    /// Names of the renamed sheets in `text_`, indexed by the new name.
+    /// Name in `text_` of each renamed sheet, indexed by its new name.
     std::map<std::string, std::string> names_in_text_;
 };
 
@@ -194,7 +194,7 @@ class SheetReservation {
 
     /// Removes the marks. Must be called after the pages have been written. Throws Error if the
     /// file cannot be changed, in which case the sheets remain reserved. Also throws Error if
-    /// another program has removed the sheets and assigned their cells.
+    /// another program has removed the sheets and assigned their cells to other sheets.
     void confirm();
 
   private:

@@ -47,8 +47,8 @@ struct CalibrateOptions {
     /// `pattern`. `stitch_sheets` ignores this option, because each sheet has its own code variant.
     bool any_code = false;
     /// Sheets that the frames may show, for example the sheets of a sheet file. If the list is not
-    /// empty, the spacing is the printed spacing of the sheet in most frames. `stitch_sheets`
-    /// ignores this option.
+    /// empty, the spacing is the printed spacing of the sheet that most frames show.
+    /// `stitch_sheets` ignores this option.
     std::vector<SheetEntry> sheets;
     /// Called after each part of the work. Returning false stops the work with an Error.
     std::function<bool(int done, int total)> progress;
@@ -163,8 +163,8 @@ SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
                                const std::optional<Camera>& camera,
                                const CalibrateOptions& options);
 
-/// Direction of the camera on the robot, from the frames of a straight drive forwards, in the order
-/// of the drive.
+/// Direction of the camera on the robot, computed from the frames of a straight forward drive. The
+/// frames must be in the order in which they were taken.
 struct DriveCalibration {
     Camera camera;  ///< the given camera with `theta_offset_rad` set
     int frames = 0;

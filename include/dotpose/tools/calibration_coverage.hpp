@@ -1,6 +1,6 @@
-/// Coverage: what the frames so far cover for a lens calibration (parts of the image, places and
-/// directions), and which requirements are not met yet. Intended for programs that take frames
-/// while the camera moves, such as `dotpose calibrate --live`.
+/// Coverage: the parts of the image, the places and the directions that the frames of a lens
+/// calibration cover so far, and the requirements that are not met yet. Intended for programs that
+/// take frames while the camera moves, such as `dotpose calibrate --live`.
 ///
 ///     CalibrationCoverage coverage(640, 480);
 ///     coverage.add(view);  // for each frame taken
@@ -111,8 +111,8 @@ class CalibrationCoverage {
     int places() const { return static_cast<int>(places_.size()); }
     /// Returns the number of sectors that contain the direction of at least one frame.
     int directions() const;
-    /// Returns true if the image x axis of a frame is in sector `direction` of the full turn.
-    /// Sectors are counted from the pattern's x axis towards its y axis.
+    /// Returns true if the image x axis of at least one frame points into sector `direction`.
+    /// Sectors are numbered from the pattern's x axis towards its y axis.
     bool has_direction(int direction) const {
         return directions_[static_cast<std::size_t>(direction)];
     }

@@ -63,9 +63,9 @@ struct Located {
     /// The pose of the reference point, corrected by the camera file if there is one.
     Fix fix;
     std::optional<SheetPlace> place;  ///< place of the fix; none if the fix is not on any sheet
-    /// The code variant of the fix. If a place in another code variant also explains the image,
-    /// contains this place. After `locate`, `reading.fix` does not include the correction by the
-    /// camera file.
+    /// The fix and its code variant. If a place in another code variant also explains the image,
+    /// the reading also contains this place. After `locate`, `reading.fix` does not include the
+    /// correction by the camera file.
     CodeReading reading;
     /// Spacing of the sheet, or the common spacing of all sheets, in mm. NaN if spacings differ and
     /// the fix is not on any sheet.

@@ -21,8 +21,8 @@ namespace dotpose {
 struct ProtocolOptions {
     int samples = 20;  ///< number of samples at each position and angle
     /// Light, blur and noise of the device. Their levels are drawn once for all frames. The device
-    /// is at rest and not tilted, and the page has no dirt or graphics. The poses, and the errors
-    /// of the printer over the page, are those of the experiment.
+    /// is at rest and not tilted, and the page has no dirt or graphics. The experiment determines
+    /// the poses and the errors of the printer over the page.
     Setup setup;
     DeviceOptions locate;
     int threads = 0;
@@ -58,9 +58,9 @@ struct ProtocolResult {
 /// The experiment on a perfect page and on a printed page.
 struct Protocol {
     int samples = 0;
-    /// Page with every dot at its intended position, except for jitter.
+    /// Result for a page whose dots are at their intended positions and have only jitter.
     ProtocolResult perfect;
-    ProtocolResult printed;  ///< page with the errors of `PrintModel`
+    ProtocolResult printed;  ///< result for a page with the errors of `PrintModel`
 };
 
 /// Simulates the experiment. Throws Error if `progress` returned false, and BadArgument if there

@@ -63,7 +63,8 @@ class Rng {
 
   private:
     /// Returns the number of set bits among 128 bits. Counts in parallel fields of 2, 4 and 8 bits.
-    /// On processors that may lack the instruction, std::popcount is a slow function call.
+    /// Does not use std::popcount, which is a slow function call on processors that may lack the
+    /// instruction.
     static constexpr int ones_in(std::uint64_t a, std::uint64_t b) noexcept {
         constexpr std::uint64_t kOdd2 = 0x3333333333333333u;
         constexpr std::uint64_t kOdd4 = 0x0F0F0F0F0F0F0F0Fu;

@@ -267,7 +267,7 @@ struct PartialView {
     /// dots. 0 for one area along a border or in a corner of the image.
     int islands = 0;
     static constexpr int kMinIslandDots = 60;
-    /// Range of the fraction of the image that the single area covers. The area has at least
+    /// Minimum and maximum fraction of the image covered by the single area. The area has at least
     /// `min_dots` dots.
     double min_share = 0.15;
     double max_share = 0.45;

@@ -35,9 +35,8 @@ const char* name(SweepKind kind);
 
 /// Options for a sweep. The options apply to all values of the condition.
 struct SweepOptions {
-    Setup setup;  ///< setup of all frames, except for the varied condition
-    /// Number of frames per value. Frame i is the same at every value, except for the varied
-    /// condition.
+    Setup setup;  ///< setup of all frames; only the varied condition is replaced
+    /// Number of frames per value. Frames with the same index differ only in the varied condition.
     int frames_per_value = 200;
     /// Options for `locate`. Both decoders are run, so `decoder` is ignored.
     DeviceOptions locate;

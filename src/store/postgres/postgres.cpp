@@ -61,8 +61,9 @@ class Postgres : public Database {
             run([&] { copy(states, "states"); });
         } catch (const Refused& error) {
             if (error.sql_state != kUniqueViolation) throw;
-            // COPY cannot skip rows that exist. Some states may already be stored, for example if
-            // the connection broke after a transaction, but before its result arrived.
+            // Some states may already be stored, for example if the connection broke after a
+            // transaction, but before its result arrived. COPY cannot skip existing rows, so the
+            // states are first copied to a temporary table.
             run([&] {
                 connection_->run(
                     "CREATE TEMPORARY TABLE batch (LIKE states INCLUDING DEFAULTS) ON COMMIT DROP");

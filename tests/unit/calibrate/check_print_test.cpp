@@ -89,8 +89,8 @@ TEST(CheckPrint, says_when_a_scan_is_too_coarse) {
 }
 
 TEST(CheckPrint, finds_dots_that_run_together) {
-    // The dots of 0.3 mm touch if neighbours are displaced towards each other, to a distance of
-    // 0.339 mm.
+    // The dots have a diameter of 0.31 mm. If two neighbours are displaced towards each other,
+    // their centres are 0.339 mm apart, and the dots run together in the scan.
     ScanSettings settings;
     settings.dot_growth = 3.7;
     const PrintCheck result = check(scan_page(small_sheet(), settings), 600);

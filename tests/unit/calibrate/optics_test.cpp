@@ -106,8 +106,8 @@ TEST(Optics, SaysWhatToChange) {
         return Contains(testing::AllOf(Field(&OpticsAdvice::is_fault, IsTrue()),
                                        Field(&OpticsAdvice::text, HasSubstr(words))));
     };
-    // At 8 px, the magnification is 8 x 0.024 / 0.508 = 0.378, and the distance is 5.5 (1 + 1 /
-    // 0.378) = 20.05.
+    // At 8 px, the magnification is 8 x 0.024 / 0.508 = 0.378, and the distance is 5.5 mm (1 + 1 /
+    // 0.378) = 20.05 mm.
     EXPECT_THAT(faults, says("go closer (20.1 mm)"));
     EXPECT_THAT(faults, says("print larger dots"));
 

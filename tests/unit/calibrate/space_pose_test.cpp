@@ -219,8 +219,8 @@ TEST(SpaceFit, HasTrueCovariancesForErrorsOfPrintAndImage) {
 }
 
 TEST(SpaceFit, ReportsTheMirroredTiltOfANarrowView) {
-    // 15 x 15 dots within 1 degree. The effect of perspective over the view is a fraction of the
-    // noise.
+    // The view contains 15 x 15 dots and has an angle of 1 degree. The effect of perspective within
+    // this view is smaller than the noise.
     const CameraLean lean{10 * kDegree_rad, 0.5, 1};
     const CameraLean mirrored{10 * kDegree_rad, 0.5 - pi, 1};
     int ambiguous = 0;

@@ -53,8 +53,8 @@ Bytes encode_bmp(const Raster& raster, const Bytes& palette = {});
 Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette = {});
 
 /// Encodes a baseline file. Each 8-bit sample becomes a flat block of 8 x 8 px, which JPEG
-/// reproduces exactly. 1 channel is grey, 3 are Y, Cb and Cr, 4 are CMYK, stored inverted as by
-/// Adobe's programs.
+/// reproduces exactly. One channel is grey. Three channels are Y, Cb and Cr. Four channels are
+/// CMYK, and are stored inverted, as by Adobe's programs.
 Bytes encode_jpeg(const Raster& raster);
 
 }  // namespace dotpose::test

@@ -1,4 +1,5 @@
-// Tests the conversion of places in the four sequences to a position against divisions.
+// Tests that `position_at` recovers a position from its remainders modulo the lengths of the four
+// sequences.
 #include "code/basis.hpp"
 
 #include <gtest/gtest.h>

@@ -87,8 +87,8 @@ TEST(AffineFitInt32, IsTheLeastSquaresSolution) {
         ASSERT_TRUE(fit.solve(0, plane));
         const Solution x = least_squares(pairs, &FixedVec::x);
         const Solution y = least_squares(pairs, &FixedVec::y);
-        // Moments have about 28 bits, so slopes are accurate to 2^-24, and values over the reach to
-        // 1/1000 of a spacing.
+        // Moments have about 28 bits, so slopes are accurate to 3 * 2^-24, and values at the ends
+        // of the reach to 1/1000 spacing.
         constexpr double kSlope = 3.0 / (1 << 24);
         EXPECT_NEAR(std::ldexp(plane.du_q24.x, -24), static_cast<double>(x.du), kSlope);
         EXPECT_NEAR(std::ldexp(plane.dv_q24.x, -24), static_cast<double>(x.dv), kSlope);

@@ -119,8 +119,8 @@ TEST(labels, show_the_origin_and_its_pattern_coordinates) {
     options.origin = {1000, 3};
     const Sheet sheet = make_sheet(options);
     const std::string content = content_of_labels(sheet, {1, 1}, named());
-    // The first intersection is at (508, 1.524) mm in the pattern, and at the origin of the sheet,
-    // relative to the corner, on the page.
+    // The first intersection is at (508, 1.524) mm in the pattern. On the page, it is at
+    // (origin_x_mm, origin_y_mm), relative to the corner.
     const std::string corner =
         fmt::format("x_mm {:.3f}, y_mm {:.3f}", 508 - sheet.origin_x_mm, 1.524 - sheet.origin_y_mm);
     EXPECT_THAT(content, HasSubstr("count from this corner, in the pattern " + corner));

@@ -28,7 +28,7 @@ TEST(Undistort, IsEquations1And2) {
                 const Vec2 expected = centre + 1 / (1 + k * (r.x * r.x + r.y * r.y)) * r;
                 const Vec2 found = real(dots[i].centre_q8, 8);
                 // k is rounded to 2^-40. At the corner of the largest image, the error of k r^2 is
-                // up to 4e-6, which a strong lens magnifies.
+                // up to 4e-6, and a strong distortion magnifies this error.
                 const double tolerance = 0.51 / 256 + 4e-5 * length(r);
                 ASSERT_NEAR(found.x, expected.x, tolerance) << "k " << k << ", seed " << kSeed;
                 ASSERT_NEAR(found.y, expected.y, tolerance) << "k " << k << ", seed " << kSeed;
@@ -50,8 +50,8 @@ TEST(Undistort, DistortedIsTheInverse) {
                 const FixedVec seen = fixed({rng.uniform(0, size.x), rng.uniform(0, size.y)}, 8);
                 const FixedVec again =
                     core::distorted(lens, centre, core::undistorted(lens, centre, seen));
-                // Both directions round to 1/256 px. A lens of 0.2 magnifies the rounding by a
-                // factor of up to two.
+                // Both directions round to 1/256 px. A distortion of 0.2 in the corner magnifies
+                // the rounding error by a factor of up to two.
                 ASSERT_LE(std::abs(again.x - seen.x), 3) << at_corner << ", seed " << kSeed;
                 ASSERT_LE(std::abs(again.y - seen.y), 3) << at_corner << ", seed " << kSeed;
             }

@@ -153,7 +153,7 @@ TEST(Chance, EachBitThatAgreesHasItsFactor) {
             const double found = std::ldexp(chance_log2(bits, odds_q8) - 37, -kDoublings);
             ASSERT_GE(found, exact - 1e-6) << weight << " at " << odds_q8;
             // y is rounded down to a multiple of 2^-8, which changes the logarithm by at most 2^-9.
-            // The chords that replace the curve are at most 0.173 / 2^5 above it.
+            // The chords that approximate the curve are at most 0.173 / 2^5 above it.
             ASSERT_LE(found, exact + 0.002 + 0.0055) << weight << " at " << odds_q8;
         }
     }
@@ -178,8 +178,8 @@ TEST(Chance, EachBitThatContradictsHasItsFactor) {
 }
 
 TEST(Chance, WeakBitsThatContradictSayLittle) {
-    // 200 full bits agree. Half of the 50 weak bits contradict, and the weak bits then contain the
-    // least information.
+    // 200 bits of full weight agree with the position. 50 weak bits contain no information, because
+    // half of them contradict the position.
     const auto chance_with_weak = [](int weight) {
         Confidence bits;
         for (int i = 0; i < 200; ++i)
@@ -195,8 +195,8 @@ TEST(Chance, WeakBitsThatContradictSayLittle) {
 }
 
 TEST(Chance, ChanceHoldsForRandomBits) {
-    // Counts the trials that would claim 2^-8 for one hypothesis. The trials consist of random bits
-    // with random weights.
+    // Counts the trials in which the bound for one hypothesis is at most 2^-8. The trials consist
+    // of random bits with random weights.
     Rng rng(kSeed);
     constexpr int kTrials = 200'000;
     int beyond = 0;
@@ -205,8 +205,8 @@ TEST(Chance, ChanceHoldsForRandomBits) {
         for (int i = 0; i < 20; ++i)
             bits.add(static_cast<int>(rng.below(128)), rng.below(2) == 0);
         // The result includes a factor of 2^37, the number of hypotheses. A result of 37 - 8 is
-        // therefore a claim of 2^-8 for one hypothesis. At most 781 of the trials may reach this
-        // claim.
+        // therefore a bound of 2^-8 for one hypothesis. By chance, at most 781 of the 200,000
+        // trials may have such a bound.
         beyond += chance_log2(bits, odds_per_bit_q8(bits)) <= 37 - 8;
     }
     EXPECT_LE(beyond, kTrials / 256 + 100);

@@ -152,7 +152,7 @@ TEST_F(KernelsTest, ScoresOfLinesAreTheSame) {
     });
 }
 
-/// A view of an image of any size, and memory for its rolls.
+/// A random view of an image of the given size, and memory for its rolls.
 struct RandomView {
     CellsInView view;
     std::vector<std::uint8_t> rolls;

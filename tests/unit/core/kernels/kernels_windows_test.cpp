@@ -111,8 +111,8 @@ TEST(KernelsWindows, CentresAreFoundWhereDotsAre) {
     repeat_with_each_form(200, [](const Kernels& kernels, Rng& rng) {
         constexpr double kMargin_px = 2;
         const double sigma_px = rng.uniform(0.7, 4);
-        // A smaller window would contain little more than the top of the dot, which is flat after
-        // rounding to whole grey levels.
+        // A smaller window would contain little more than the top of the dot. After rounding to
+        // whole grey levels, the top is flat.
         const auto reach_px = static_cast<float>(rng.uniform(std::max(3.3, 2.5 * sigma_px), 12));
         const auto anywhere = [&] { return rng.uniform(20, OneDot::kSide_px - 21); };
         const auto at_border = [&] { return rng.uniform(kMargin_px, kMargin_px + 1); };
@@ -122,8 +122,8 @@ TEST(KernelsWindows, CentresAreFoundWhereDotsAre) {
         const double v = anywhere();
         OneDot dot(u, v, sigma_px, rng.uniform(-0.15, 0.15));
         kernels.refine_centres(dot.view, dot.cells, reach_px, dot.table.dots);
-        // Rounding to grey levels causes an error of a few thousandths. The border cuts off the rim
-        // of a dot.
+        // Rounding to grey levels causes an error of a few thousandths of a pixel. If the border of
+        // the image cuts off the rim of the dot, the error is larger.
         const double max_px = is_inside ? 0.01 : 0.04;
         EXPECT_NEAR(dot.table.dots.x[0], u, max_px) << sigma_px << ' ' << reach_px;
         EXPECT_NEAR(dot.table.dots.y[0], v, max_px) << sigma_px << ' ' << reach_px;

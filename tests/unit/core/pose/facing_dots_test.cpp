@@ -40,8 +40,7 @@ class FacingFrame {
         }
     }
 
-    /// Returns the mean distance, in px, of the measured dots from their true places (without
-    /// pull).
+    /// Returns the mean distance, in px, of the measured dots from their true places.
     double mean_error_px() const {
         double sum = 0;
         int count = 0;
