@@ -100,9 +100,8 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
     }
 }
 
-/// Returns a remark that the position of the dots on the page was not fitted, with the largest
-/// expected shift. The scan does not show the position, because the edges of the paper are not
-/// visible.
+/// Returns a remark for the user with the largest expected shift of the dots on the page. This
+/// shift is not fitted, because the edges of the paper are not visible in the scan.
 std::string offset_remark(const SheetEntry& entry) {
     const Sheet& sheet = entry.sheet;
     // Printer drivers usually scale a page about a corner or the centre of the page.
@@ -125,7 +124,7 @@ std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& s
     std::string done;
     std::set<std::size_t> fitted;
     for (const PrintField& field : check.fields) {
-        // Several parts of a sheet may be visible. The first part is the largest.
+        // Several parts of a sheet may be visible. Uses only the first part, which is the largest.
         if (!field.scale || !field.sheet || !fitted.insert(*field.sheet).second) continue;
         // Reads the entry again, because another process may have changed it during the check.
         const std::string& name = sheets[*field.sheet].name;

@@ -187,7 +187,7 @@ void run(const ListenArguments& arguments) {
     files.reads("--mqtt-ca", arguments.publish.mqtt.ca_file);
     files.writes_lines(arguments.lines.out, content_of(arguments.lines.format));
     files.writes("--log", arguments.log, Content::csv);
-    // The first step, because this process may be replaced.
+    // Opens the publisher before all other outputs, because this process may be replaced.
     auto publisher = open_publisher(arguments.publish, arguments.sheets);
     catch_interrupts();
     ByteSource source(arguments);

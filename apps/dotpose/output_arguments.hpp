@@ -24,7 +24,7 @@ struct LineArguments {
 /// -o ends in .csv, the default format is csv.
 void add_format_options(Command& command, LineArguments& arguments, bool has_text = false);
 
-/// Adds --units mm|ros in addition.
+/// Adds the options of `add_format_options`, and --units mm|ros.
 void add_line_options(Command& command, LineArguments& arguments, bool has_text = false);
 
 /// Options of commands that write one report.

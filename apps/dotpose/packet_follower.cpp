@@ -31,7 +31,7 @@ void set_covariance(const PosePacket& packet, Fix& fix) {
     // For the minimum of 8 x 8 dots, the standard deviation of the angle is sqrt(6) / 8 of the
     // standard deviation of the position in spacings. With more dots, the angle is more accurate.
     constexpr float kAngleFromPosition = 0.306F;
-    constexpr float kThetaStep_rad = 9.6e-5F;  // of PosePacket::theta_bam16
+    constexpr float kThetaStep_rad = 9.6e-5F;  // one step of PosePacket::theta_bam16
     const float sigma = std::max<float>(packet.deviation_q12, 1) / 4096;
     const float sigma_rad = kAngleFromPosition * sigma + kThetaStep_rad;
     fix.covariance[0][0] = fix.covariance[1][1] = sigma * sigma;

@@ -42,7 +42,7 @@ class ImageSource : public FrameSource {
 
   private:
     void tell_of_pages(const std::filesystem::path& path) const {
-        // Only TIFF has several pages. Other files are not read twice.
+        // Counts pages only in TIFF files, because files of other formats have a single page.
         const std::string ending = path.extension().string();
         if (!ending.starts_with(".t") && !ending.starts_with(".T")) return;
         const int pages = count_pages(path);

@@ -72,7 +72,7 @@ template class DeviceMemoryFor<320, 240>;
 
 DeviceLocator::DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options)
     : RowLocator(memory.workspace_, options) {
-    // Another locator may have used the memory before, with known sheets.
+    // Another locator may have used this memory and set known sheets.
     workspace().forget_known();
 }
 

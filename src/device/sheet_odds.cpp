@@ -87,7 +87,7 @@ int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int
 
 /// Returns log2 of an upper bound on the probability of an accidental match with an unknown sheet,
 /// in units of 2^-8. The unknown sheet has the same columns or rows as a known sheet, and agrees on
-/// the other axis by chance. Its rolls leave only every 63rd position on the other axis.
+/// the other axis by chance. Its rolls determine its position on the other axis modulo 63.
 int unknown_sheet_log2_q8(const KnownSheets& sheets, CodeVariant code, const PlacedLines& x,
                           const PlacedLines& y, int bits, int odds_per_bit_q8) {
     std::uint32_t columns = 0;

@@ -86,8 +86,8 @@ class PairsOfLines {
         }
     }
     Axis axis() const { return axis_; }
-    /// Returns the orientations in which some agreeing rolls of the two lines differ by `step`, as
-    /// a bit set.
+    /// Returns a bit set of the orientations in which some agreeing rolls of the two lines differ
+    /// by `step`.
     unsigned turns_with(std::uint32_t step) const { return turns_[step]; }
     const LinePair& operator[](int quarters) const {
         return pairs_[static_cast<std::size_t>(quarters)];

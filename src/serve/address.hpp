@@ -15,7 +15,7 @@ struct Address {
 
     /// Returns true if only programs on this computer reach the address.
     bool is_loopback() const;
-    /// Returns true if the address is all interfaces of this computer.
+    /// Returns true if the address represents all interfaces of this computer.
     bool is_any() const;
 };
 

@@ -6,7 +6,8 @@
 namespace dotpose::serve {
 namespace {
 
-/// Returns an empty value if the encoder fails, because the other topics must go on.
+/// Returns the encoded value. Returns an empty string if the encoder throws, so that other topics
+/// are still sent.
 std::string encoded(const Topic::Encode& encode) {
     try {
         return encode();

@@ -132,19 +132,19 @@ struct CameraPoint {
     double x_mm = 0;
     double y_mm = 0;
 };
-/// Returns the point on the paper that an undistorted pixel shows, in the camera frame.
-/// `camera.paper` must be known.
+/// Returns the point on the paper that an undistorted pixel shows. The point is in the camera
+/// frame. `camera.paper` must be known.
 CameraPoint on_paper(const Camera& camera, PixelPoint undistorted);
 /// Returns the undistorted pixel of a point in the camera frame. `camera.paper` must be known.
 PixelPoint on_image(const Camera& camera, CameraPoint point);
 
-/// Returns the direction of the image x axis at an undistorted pixel, in the camera frame.
+/// Returns the direction, in the camera frame, of the image x axis at an undistorted pixel.
 double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 
-/// Returns the point on the paper that an undistorted pixel shows, in mm from the point under the
-/// image centre. x is along the image x axis at this point. `camera.paper` must be known. In this
-/// frame, two calibrations of the same camera give positions that agree to within microns, even far
-/// outside the image. The undistorted pixels of the same points differ by more.
+/// Returns the point on the paper that an undistorted pixel shows. Coordinates are in mm from the
+/// point under the image centre. x is along the image x axis at this point. `camera.paper` must be
+/// known. In this frame, two calibrations of the same camera give positions that agree to within
+/// microns, even far outside the image. The undistorted pixels of the same points differ by more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 /// Returns the undistorted pixel of a point returned by `from_image_centre`.
 PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);

@@ -262,8 +262,8 @@ struct Seam {
     std::string first;
     std::string second;
     int frames = 0;
-    double residual_mm = 0;   ///< rms difference of the two positions over the frames, per axis
-    double residual_rad = 0;  ///< rms difference of the two directions over the frames
+    double residual_mm = 0;   ///< rms difference between the two positions of a frame, per axis
+    double residual_rad = 0;  ///< rms difference between the two directions of a frame
 };
 /// Position of the image centre of one frame on two sheets, relative to the first intersection of
 /// each sheet, in nominal mm.

@@ -105,9 +105,9 @@ struct PrintField {
     std::optional<PrintScale> scale;        ///< only for scans
     std::optional<ScaleRatio> scale_ratio;  ///< only for photos
     double spacing_px = 0;                  ///< spacing in the middle of the field
-    /// Rms deviation of the dots from their fitted places, per axis, on the paper.
+    /// Rms deviation per axis of the dots from their fitted places, in mm on the paper.
     double residual_mm = 0;
-    /// Rms deviation of single dots from their neighbours, per axis, on the paper.
+    /// Rms deviation per axis of single dots from their neighbours, in mm on the paper.
     double scatter_mm = 0;
     std::vector<DistortionBin> distortion;
     double largest_distortion_mm = 0;  ///< maximum length of a deviation in `distortion`

@@ -119,7 +119,7 @@ void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntr
 /// drawn.
 void draw_sheets(const std::filesystem::path& path, std::span<const SheetEntry> sheets);
 
-/// Draws the deviations of all fields of a printed page, enlarged, over the outline of the scan.
+/// Draws the enlarged deviations of all fields of a printed page over the outline of the scan.
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check);
 

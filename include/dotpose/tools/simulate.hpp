@@ -71,8 +71,8 @@ struct CameraPose {
     Cell cell;
     double fraction_x = 0;  ///< distance from `cell`, in grid units; usually in [0, 1)
     double fraction_y = 0;
-    /// Angle of the image x axis in the pattern frame, from +x towards +y (clockwise as seen on
-    /// the paper), at the image centre.
+    /// Angle of the image x axis at the image centre, in the pattern frame. Measured from +x
+    /// towards +y, which is clockwise as seen on the paper.
     double theta_rad = 0;
     /// Tilt of the paper about the image x axis. If above 0, the paper recedes towards the bottom.
     double tilt_x_rad = 0;

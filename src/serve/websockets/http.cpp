@@ -1,4 +1,4 @@
-// HTTP requests: who is answered, and how answers are sent.
+// HTTP requests: decides which requests are answered, and sends the answers.
 #include <algorithm>
 #include <array>
 #include <cstring>

@@ -34,8 +34,8 @@ std::vector<Kind> kinds(const std::vector<CalibrationNeed>& needs) {
     return all;
 }
 
-/// Returns a frame at a place, in spacings of 10 px, with a dot in the middle of each part of the
-/// image except the parts in `empty`.
+/// Returns a frame at the place (`x_grid`, `y_grid`), in spacings. A spacing is 10 px. Each part of
+/// the image that is not in `empty` has a dot in its middle.
 CalibrationView view_at(double x_grid, double y_grid, double theta_deg,
                         const std::vector<std::pair<int, int>>& empty = {}) {
     CalibrationView view;

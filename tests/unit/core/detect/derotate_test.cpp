@@ -1,5 +1,5 @@
-// Tests the removal of the rotation during the readout from images and points, against the
-// simulated camera.
+// Tests that the rotation during the readout is removed from images and from points. The simulated
+// camera gives the expected results.
 #include "core/detect/derotate.hpp"
 
 #include <cmath>

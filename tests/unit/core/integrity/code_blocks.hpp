@@ -74,8 +74,8 @@ inline int contradictions(const Block& block, bool is_x, const std::vector<int>&
     return wrong;
 }
 
-/// Returns the rolls of the lines of an axis with two changes. One sequence is `further` digits
-/// ahead of its place at the position, and all rolls are increased by `shift`.
+/// Returns the rolls of the lines of an axis after two changes of the rolls. One sequence is
+/// `further` digits ahead of its place at the position, and all rolls are increased by `shift`.
 inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequence, int further,
                                  int shift) {
     const Place& p = block.place;

@@ -195,8 +195,10 @@ TEST(KernelsAlternatives, ExpectationsHaveTheSameBitsInEachForm) {
 /// alternative has the digits of the reading and the roll offset 0.
 using OddsByRun = std::array<std::array<double, 66>, 63>;
 
-/// Adds the alternatives after a step, whose digits differ from those of the reading in the
-/// sequences `k` and above by `shift` in total. Visits all digits.
+/// Calls `use(shift, are_equal)` for every choice of digits at one step, in those sequences `k` and
+/// above that are in the bit set `different`. The first argument is the change of the roll modulo
+/// 63. The second argument is true if all digits equal those of the reading. `shift` and
+/// `are_equal` are the values for the sequences below `k`.
 void visit_digits(const OwnPlaces& places, unsigned different, std::size_t line, std::size_t k,
                   int shift, bool are_equal, const auto& use) {
     if (k == 4) return use((shift + 63 * 63) % 63, are_equal);

@@ -1,5 +1,5 @@
-// Tests the growth of grids, with dots of tilted planes, computed in double precision, and with
-// dots that do not form a grid.
+// Tests the growth of grids from dots of tilted planes, and from dots that do not form a grid. The
+// places of the dots are computed in double precision.
 #include "core/lattice/outwards.hpp"
 
 #include <memory>
