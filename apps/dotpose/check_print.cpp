@@ -104,7 +104,8 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
 /// shift is not fitted, because the edges of the paper are not visible in the scan.
 std::string offset_remark(const SheetEntry& entry) {
     const Sheet& sheet = entry.sheet;
-    // Printer drivers usually scale a page about a corner or the centre of the page.
+    // Returns the largest shift of the first dot due to the scale. Printer drivers usually scale a
+    // page about a corner or about its centre.
     const auto shift_mm = [](double scale, double first_mm, double side_mm) {
         return std::abs(1 - scale) * std::max(first_mm, std::abs(side_mm / 2 - first_mm));
     };

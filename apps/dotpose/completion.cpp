@@ -36,7 +36,7 @@ Command* command_named(const std::string& name, const Command& parent) {
 }  // namespace
 
 void print_completions(Command& app, std::vector<std::string> words) {
-    // bash passes the = of --option=value as a separate word.
+    // Removes each word "=", because bash passes the = of --option=value as a separate word.
     if (words.empty() || words.back() == "=") words.emplace_back();
     std::erase(words, "=");
     const std::string typed = words.back();

@@ -1,7 +1,8 @@
 /// Checks the C++ version that all headers require. Older versions fail with a clear error message.
 #pragma once
 
-// Microsoft's compiler sets __cplusplus correctly only with the option /Zc:__cplusplus.
+// Also checks _MSVC_LANG, because Microsoft's compiler sets __cplusplus correctly only with the
+// option /Zc:__cplusplus.
 #if __cplusplus < 202002L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
 #error "dotpose needs C++20: compile with -std=c++20, GCC 12 or clang 14 or later"
 #endif

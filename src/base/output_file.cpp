@@ -27,8 +27,8 @@ OutputFile::OutputFile(const fs::path& target) : target_(without_links(target)) 
     if (fs::exists(status) && !fs::is_regular_file(status)) {
         throw Error(fmt::format("cannot write {}: it is not a regular file", target_.string()));
     }
-    // Renaming a file onto the target does not require write permission for the target. A read-only
-    // target is therefore rejected here.
+    // Rejects a read-only target here, because renaming a file onto the target does not require
+    // write permission for the target.
     if (fs::exists(status) && !system::is_writable(target_)) {
         throw_system("write", target_, errno);
     }
@@ -79,7 +79,8 @@ void OutputFile::commit() {
     require_good();
     std::FILE* stream = stream_;
     stream_ = nullptr;
-    // Network file systems report a full disk only when the file is closed.
+    // Checks the result of fclose, because network file systems report a full disk only when the
+    // file is closed.
     std::error_code error;
     if (std::fclose(stream) != 0) {
         error.assign(errno, std::generic_category());

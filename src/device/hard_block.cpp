@@ -87,8 +87,8 @@ HardBlock::HardBlock(const Grid& grid, const GridRegion& region)
 }
 
 HardLines HardBlock::lines(Axis axis, int quarters) const {
-    // A quarter turn makes the last row the first column, with the same bits. It makes the first
-    // column, with inverted bits in reverse order, the first row.
+    // A quarter turn makes the last row the first column, with the same bits. The first column
+    // becomes the first row, with its bits inverted and in reverse order.
     const bool is_sideways = quarters % 2 == 1;
     const bool are_columns = (axis == Axis::x) != is_sideways;
     const bool is_upside_down = axis == Axis::x ? quarters >= 2 : quarters == 1 || quarters == 2;

@@ -97,7 +97,8 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
     const std::int32_t paper = paper_around(tracking, at);
     const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
     // A dot darkens the sum of its own four pixels by about 6 times `depth`, and the sums of the
-    // adjacent places by about 2 times `depth`.
+    // adjacent places by about 2 times `depth`. A clear dot must reach a third of this darkness,
+    // and a quarter of the difference.
     const bool is_clear =
         paper * 4 - (darkest >> 2) >= 2 * depth && (second >> 2) - (darkest >> 2) >= depth;
     return is_clear ? ReadSymbol(darkest & 3, paper - depth) : ReadSymbol::unclear();

@@ -18,18 +18,19 @@ Shifts::Shifts(const Tracking& tracking) {
     // prediction has little effect on the sums over these dots.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
-    // A rotation of 4 degrees (18/256 rad) about the image centre moves the first rows sideways.
+    // Sideways movement of the first rows by a rotation of 4 degrees (18/256 rad) about the centre.
     const int sideways_px = 18 * ((tracking.height_px - rows_) / 2) >> 8;
     const auto steps = [&](int reach_px) {
         return std::min((reach_px + step_px_ - 1) / step_px_, kMaxSteps);
     };
     steps_ = {steps(tracking.reach_px + sideways_px), steps(tracking.reach_px)};
-    // The dots are at most half a spacing from their intersections.
+    // The margin contains all shifts, and half a spacing for the displacement of dots.
     const int margin = step_px_ * steps_.x + (tracking.spacing_q8 >> 9) + 1;
     left_ = std::max(tracking.width_px / 2 - half, margin);
     right_ = std::min(tracking.width_px / 2 + half, tracking.width_px - margin);
     measure_paper(tracking);
-    // The dots of fine grids are pale, and hardly larger than a pixel.
+    // Pixels below this level count as dark. The level is close to the paper level in fine grids,
+    // because their dots are pale and hardly larger than a pixel.
     cut_ = paper_ - paper_ / (is_fine ? 16 : 4);
     add_dots(tracking);
     divide_by_dots();

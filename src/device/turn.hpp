@@ -6,8 +6,8 @@
 namespace dotpose::core {
 
 /// Measures the dots in the first rows, ring by ring from the middle outwards. Refits the cells
-/// after most rings. Sets the displacement and the mass limits for dots. Returns false if too many
-/// dots contradict the code, or if too few agree with it.
+/// after some of the rings. Sets the displacement and the mass limits for dots. Returns false if
+/// too many dots contradict the code, or if too few agree with it.
 bool find_turn(Tracking& tracking);
 
 }  // namespace dotpose::core

@@ -124,7 +124,7 @@ class SheetMap {
         svg_.add(R"(<polygon class="sheet" points="{}" fill="{}" fill-opacity="0.07" )"
                  R"(stroke="{}" stroke-width="1.2"/>)",
                  points, colour::kEdge, colour::kInk);
-        // The pose refers to the top left corner and the upper edge of the page.
+        // Marks the top left corner and the upper edge of the page, to which the pose refers.
         svg_.circle(corners[0], 5, fmt::format(R"(fill="{}")", colour::kBad));
         svg_.arrow(corners[0], corners[0] + 0.4 * (corners[1] - corners[0]), 2, colour::kBad);
     }

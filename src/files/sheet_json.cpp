@@ -268,7 +268,8 @@ std::string json_from_sheets(const std::vector<SheetEntry>& sheets,
         array.push_back(object);
     }
     document["sheets"] = std::move(array);
-    // A command line may contain bytes that are not UTF-8, for example in file names.
+    // Replaces bytes that are not UTF-8. A command line may contain such bytes, for example in file
+    // names.
     return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }
 

@@ -37,7 +37,8 @@ void Follower::require_space_camera() const {
 void Follower::set_sheets(std::vector<SheetEntry> sheets) {
     if (sheets.empty()) throw BadArgument("a follower needs at least one sheet");
     options_.sheets = std::move(sheets);
-    // The track and the prediction are in the coordinates of the previous sheets.
+    // Starts a new track, because the track and the prediction are in the coordinates of the
+    // previous sheets.
     tracker_ = Tracker(options_.track);
     seen_.reset();
     use_sheets();
@@ -86,7 +87,7 @@ void Follower::set_camera(const Camera& camera) {
     if (options_.fits_space_pose) require_focal_length(camera);
     options_.camera = camera;
     use_flat_field();
-    // The prediction is in the coordinates of the previous lens.
+    // Starts a new track, because the prediction is in the coordinates of the previous lens.
     tracker_ = Tracker(options_.track);
     seen_.reset();
 }

@@ -76,7 +76,7 @@ class TiffReader {
         TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), tmsize_t{8} * kMaxImagePixels);
         tiff_.reset(TIFFClientOpenExt("image", "r", &input_, on_read, on_write, on_seek, on_close,
                                       on_size, nullptr, nullptr, options.get()));
-        // libtiff treats a truncated directory as the last one.
+        // Checks for missing bytes, because libtiff treats a truncated directory as the last one.
         if (!tiff_ || input_.is_short) fail();
     }
 
@@ -261,7 +261,8 @@ class TiffReader {
         Samples<std::uint8_t> samples{width_px_, height_px_, 3, {}};
         samples.values.reserve(3 * pixels.size());
         for (const std::uint32_t abgr : pixels) {
-            // libtiff returns premultiplied colours.
+            // libtiff returns premultiplied colours, so only the transparent fraction of white is
+            // added.
             const std::uint32_t white = 255 - TIFFGetA(abgr);
             for (const std::uint32_t colour : {TIFFGetR(abgr), TIFFGetG(abgr), TIFFGetB(abgr)})
                 samples.values.push_back(static_cast<std::uint8_t>(std::min(colour + white, 255U)));

@@ -237,7 +237,8 @@ QPDFObjectHandle ColourConverter::pattern(QPDFObjectHandle original) {
         unconverted_.insert("shadings");
         return original;
     }
-    // An uncoloured tiling pattern is painted in the current colour of the content that uses it.
+    // An uncoloured tiling pattern is painted in the current colour of the content that uses it, so
+    // the pattern itself is not converted.
     const bool is_coloured = original.getDict().getKey("/PaintType").isInteger() &&
                              original.getDict().getKey("/PaintType").getIntValue() == 1;
     if (!is_coloured) unconverted_.insert("uncoloured patterns");

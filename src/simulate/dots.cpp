@@ -101,9 +101,9 @@ void add_disc(Ink& ink, const View& view, Vec2 offset_mm, double radius_mm, doub
     if (away_u > view.camera.width_px / 2.0 + reach_px) return;
     if (away_v > view.camera.height_px / 2.0 + reach_px) return;
 
-    // The image of the dot is an ellipse if the projection is linear across the dot. At 3 degrees
-    // of tilt, this approximation moves the centroid by less than 0.001 px, even at 60 px per
-    // spacing.
+    // Approximates the projection across the dot by a linear map, so the image of the dot is an
+    // ellipse. At 3 degrees of tilt, this approximation moves the centroid by less than 0.001 px,
+    // even at 60 px per spacing.
     const auto half = [&](Vec2 step) {
         const Vec2 ahead =
             projection.pixel_from_offset({offset_mm.x + step.x, offset_mm.y + step.y});

@@ -247,7 +247,8 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
                        std::int64_t time_us, bool is_y_up, const TrackOptions& options) {
     const float dt_s = static_cast<float>(time_us - motion.pose.time_us) * 1e-6F;
     const PlaneMotion seen = in_plane(measured, motion.pose.theta_bam, is_y_up);
-    // The agility is fitted to sightings and does not apply between them.
+    // The agility is fitted to sightings and does not apply between them, so an agility of 1 is
+    // used.
     MotionEstimate later = motion;
     later.agility = {1, 1, 1};
     later = predicted(later, time_us, options);

@@ -149,7 +149,8 @@ int Server::Service::handle(lws* socket, lws_callback_reasons reason, void* in, 
             return 1;
         case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
             sockets_[socket] = false;
-            // libwebsockets does not limit the time of some requests, such as CONNECT.
+            // Sets a timer, because libwebsockets does not limit the time of some requests, such as
+            // CONNECT.
             lws_set_timer_usecs(socket, kMaxHead_us);
             return 0;
         case LWS_CALLBACK_TIMER:

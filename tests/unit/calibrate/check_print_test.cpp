@@ -162,7 +162,7 @@ TEST(CheckPrint, maps_distortion) {
     settings.wave_mm = 0.3;
     const PrintCheck result = check(scan_page(make_sheet(options), settings), 300);
     ASSERT_EQ(result.fields.size(), 1U);
-    // The fitted scale removes a part of the sine wave.
+    // The tolerance is large, because the fitted scale removes a part of the sine wave.
     EXPECT_NEAR(result.fields[0].largest_distortion_mm, settings.wave_mm, 0.1);
     EXPECT_LT(result.fields[0].scatter_mm, 0.01);
     EXPECT_THAT(remarks(result), Contains("distorted"));
@@ -338,8 +338,8 @@ TEST(CheckPrint, test_page_tells_the_best_settings) {
 }
 
 TEST(CheckPrint, patches_whose_dots_reach_all_around_are_not_good) {
-    // The dots have a diameter of 0.27 mm. The minimum distance of two centres is 0.25 mm, and the
-    // spacing is 0.38 mm.
+    // The dots have a diameter of 0.27 mm. The spacing is 0.38 mm, so the minimum distance between
+    // two centres is 0.25 mm, and dots run together.
     TestPageOptions options;
     options.paper = {60, 60};
     options.margin_mm = 5;

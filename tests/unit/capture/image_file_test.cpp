@@ -294,7 +294,8 @@ std::vector<Sample> samples() {
 TEST_F(ImageFileTest, refuses_files_cut_short) {
     for (const Sample& sample : samples()) {
         const std::size_t size = sample.bytes.size();
-        // A JPEG image ends with a marker of two bytes. The image can be read without this marker.
+        // Removes three bytes of a JPEG image, because the image can be read without its end marker
+        // of two bytes.
         const std::size_t last = sample.format == std::string("JPEG") ? size - 3 : size - 1;
         for (const std::size_t kept : {size / 2, size * 95 / 100, last}) {
             Bytes cut = sample.bytes;

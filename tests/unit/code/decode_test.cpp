@@ -61,7 +61,7 @@ TEST(Decode, RollsFromRealPaperAreOneStraightRun) {
 
 TEST(Decode, RollsFromRealPaperShowTheMisprint) {
     // The window at position 1117 + 17 = 1134 is at place 170 of a4. Because of the misprint, the
-    // digits at this place also occur elsewhere.
+    // digits at this place also occur elsewhere, so this window is ambiguous.
     expect_run(CodeVariant::libdots, kPaperRollsFrom1117, 1117);
     expect_run(CodeVariant::libdots, kPaperRollsFrom1097, 1097);
 }

@@ -140,7 +140,7 @@ TEST(DrawFrame, connects_only_the_dots_that_were_connected) {
     device.effort = Effort::device;
     const Located at_once(render(clean_shot()), device);
     EXPECT_GT(count(group(at_once.drawn(), "connections"), "<line "), 100u);
-    // The second attempt measures all dots again, in another order.
+    // The second attempt measures all dots again, in another order, so no edges are drawn.
     dotpose::Setup setup;
     setup.preset = Preset::hard;
     for (std::uint64_t i = 0;; ++i) {

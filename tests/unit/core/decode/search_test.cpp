@@ -176,7 +176,7 @@ TEST(FindAxis, FewerLinesThanCarryAPositionAreNotInTheCode) {
                       .find(CodeVariant::anoto, reading),
                   Status::not_in_code);
     }
-    // The a4 of libdots has a misprint, and therefore needs two more lines.
+    // Because of the misprint in a4, the code `libdots` needs two more lines.
     const Place place = random_place(rng);
     EXPECT_EQ(
         window(CodeVariant::libdots, place, 7, 12, 0, rng).find(CodeVariant::libdots, reading),

@@ -70,7 +70,8 @@ TEST(ReadoutTurn, ThePlaneOfASquareGridShowsTheDrift) {
 
 TEST(Derotated, IsTheImageOfAStillScene) {
     constexpr int kBorder_px = 40;  // the rotation moves new parts of the scene into the corners
-    // In grey levels. The mean is small, because most pixels are paper and do not differ.
+    // Maximum mean difference, in grey levels. It is small, because most pixels are paper and do
+    // not differ.
     constexpr double kMaxMeanDifference = 1;
     dotpose::Setup setup;
     setup.preset = Preset::clean;

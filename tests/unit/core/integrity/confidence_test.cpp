@@ -205,7 +205,7 @@ TEST(Chance, ChanceHoldsForRandomBits) {
         for (int i = 0; i < 20; ++i)
             bits.add(static_cast<int>(rng.below(128)), rng.below(2) == 0);
         // The result includes a factor of 2^37, the number of hypotheses. A result of 37 - 8 is
-        // therefore a bound of 2^-8 for one hypothesis. By chance, at most 781 of the 200,000
+        // therefore a bound of 2^-8 for one hypothesis. On average, at most 781 of the 200,000
         // trials may have such a bound.
         beyond += chance_log2(bits, odds_per_bit_q8(bits)) <= 37 - 8;
     }

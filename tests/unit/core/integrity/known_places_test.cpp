@@ -178,8 +178,8 @@ TEST(KnownPlaces, UnknownSheetsMayHaveTheSameRows) {
 
 TEST(KnownPlaces, PlacesOnOtherSheetsAreAlternatives) {
     Rng rng(kSeed, 3);
-    // Columns that are 63 apart have the same rolls of rows. Only the x bits distinguish the
-    // sheets.
+    // The sheets are displaced by a multiple of 63 columns, so their rows have the same rolls. Only
+    // the x bits distinguish the sheets.
     KnownRegion other = kSheet;
     other.first.x += 630;
     const std::array both{kSheet, other};
