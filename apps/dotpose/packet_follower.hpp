@@ -34,7 +34,7 @@ class PacketFollower {
 
     bool has_sheets() const { return !sheets_.empty(); }
 
-    /// Returns the record of a packet, with its place on the sheets.
+    /// Returns the record of a packet, including the place of its fix on the sheets.
     Record record_of(const PosePacket& packet) const;
 
     /// Updates the track. Returns nullopt if the packet was repeated or is older than the newest

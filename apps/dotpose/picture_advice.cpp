@@ -92,7 +92,7 @@ struct Stretch {
     double by = 1;
 
     /// Converts an offset from the centre of the stretched image to an offset from the centre of
-    /// the original image, in px.
+    /// the original image. Both offsets are in px.
     PixelPoint in_image(PixelPoint step) const {
         const double c = std::cos(angle_rad);
         const double s = std::sin(angle_rad);

@@ -11,7 +11,7 @@ constexpr double kMm_per_m = 1000;
 constexpr double kExposure_s = 1e-4;
 constexpr int kSteps = 4096;  ///< number of phase steps along the path
 
-/// Converts a point of the world to a point on the page, in mm from the top left corner, y down.
+/// Converts a point of the world to page coordinates: mm from the top left corner, with y down.
 Vec2 on_page(const SheetEntry& entry, Vec2 world_mm) {
     const WorldPose& pose = *entry.world;
     const double x = world_mm.x - pose.x_m * kMm_per_m;
@@ -35,7 +35,7 @@ double distance_mm(const Sheet& sheet, Vec2 page_mm) {
                       std::max({-page_mm.y, page_mm.y - sheet.height_mm, 0.0}));
 }
 
-/// Returns the offset of a point on the page from the first intersection, in grid spacings.
+/// Returns the offset, in grid spacings, of a point on the page from the first intersection.
 Vec2 from_origin(const SheetEntry& entry, Vec2 page_mm) {
     const Sheet& sheet = entry.sheet;
     return {(page_mm.x - sheet.origin_x_mm) / (sheet.pattern.spacing_mm * entry.print_scale_x),
@@ -50,7 +50,7 @@ PageArea page_area(const SheetEntry& entry) {
             (last.x - first.x) / 2, (last.y - first.y) / 2, 0};
 }
 
-/// Returns the radius of a circle around the image centre that contains the whole view, in mm.
+/// Returns the radius, in mm, of a circle around the image centre that contains the whole view.
 double reach_mm(const CameraModel& camera) {
     return std::hypot(camera.width_px, camera.height_px) / 2 * camera.mm_per_px;
 }

@@ -16,8 +16,8 @@ struct Character {
     std::size_t bytes = 0;
 };
 
-/// Decodes the first character of a text, which must not be empty. Accepts the sequences of table
-/// 3-7 of the Unicode standard: no overlong sequences, no surrogates, nothing above U+10FFFF.
+/// Decodes the first character of a text. The text must not be empty. Accepts the sequences of
+/// table 3-7 of the Unicode standard: no overlong sequences, no surrogates, nothing above U+10FFFF.
 Character first_of(std::string_view text) {
     const auto byte = [&text](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
     if (byte(0) < 0x80) return {byte(0), 1};

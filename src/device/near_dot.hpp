@@ -68,9 +68,9 @@ class ReadSymbol {
     std::int32_t bits_;
 };
 
-/// Reads the symbol of the dot at an intersection, from the darkest of its four places. Requires
-/// that the square around the intersection and a border of one pixel are stored. Not inlined,
-/// because small processors would otherwise not have enough registers.
+/// Reads the symbol of the dot at an intersection. The symbol is the darkest of the four places of
+/// the dot. Requires that the square around the intersection and a border of one pixel are stored.
+/// Not inlined, because small processors would otherwise not have enough registers.
 DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
                                                const FixedVec& intersection_q16) {
     const std::int32_t stride = tracking.stride_px;

@@ -110,8 +110,8 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
 }
 
-/// Returns the maximum position error of the prediction that the search covers, in px at the image
-/// centre. This is three standard deviations, but at most 3/5 of the spacing.
+/// Returns the maximum error of the predicted position that the search covers, in px at the image
+/// centre. The search covers three standard deviations, but at most 3/5 of the spacing.
 int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     const std::int64_t wanted_q16 = 3 * std::int64_t{prediction.sigma_q16};
     const auto shift_q16 =

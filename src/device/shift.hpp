@@ -23,8 +23,8 @@ class Shifts {
     bool next(FixedVec& shift_q8);
 
     int paper_level() const { return paper_; }
-    /// Returns the contrast between the paper and the middle of a dot, in grey levels, at the most
-    /// recently returned shift.
+    /// Returns the contrast in grey levels between the paper and the middles of dots, at the shift
+    /// that `next` returned most recently.
     int depth() const { return depth_; }
 
   private:

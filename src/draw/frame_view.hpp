@@ -90,7 +90,7 @@ class FrameView {
     Point reference_px_;
 };
 
-/// Returns the grid cell of the symbol at the top left of the window, as seen in the orientation of
+/// Returns the grid cell of the symbol that is at the top left of the window in the orientation of
 /// the pattern. Requires `Reached::place`.
 FixedVec window_corner(const Trace& trace);
 /// Returns the position of a grid cell in the code. Requires `Reached::place`.

@@ -1,4 +1,4 @@
-// Draws the distortion of a print as a map, with one enlarged arrow for each part of the page.
+// Draws the distortion of a print as a map. Each part of the page has one enlarged arrow.
 #include <algorithm>
 #include <cmath>
 #include <ostream>

@@ -32,8 +32,8 @@ constexpr double kMaxExtent_m = 1e7;
 constexpr const char* kCentred = R"(text-anchor="middle" fill="#17202a")";
 constexpr const char* kCentredQuiet = R"(text-anchor="middle" fill="#6b7885")";
 
-/// Returns the corners of a page with a pose, in metres in the world, clockwise from the top left
-/// corner.
+/// Returns the corners of a page that has a pose. They are in metres in the world, clockwise from
+/// the top left corner.
 std::array<Point, 4> corners_m(const SheetEntry& entry) {
     const auto corner = [&entry](double x_mm, double y_mm) {
         const WorldPlace place = world_place({&entry, x_mm, y_mm, 0, {}}).value();

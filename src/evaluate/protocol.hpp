@@ -39,7 +39,7 @@ struct Summary {
 using SpreadOf = std::function<Spread(const Station&)>;
 Summary summary_of(std::span<const Station> stations, const SpreadOf& spread);
 
-/// Draws figure 13, 14 or 15 of the paper with measured poses, as one panel.
+/// Draws figure 13, 14 or 15 of the paper from measured poses. The figure has one panel.
 void draw_measured_figure(std::ostream& out, int figure, std::span<const Station> stations,
                           bool is_in_world);
 

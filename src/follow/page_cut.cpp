@@ -108,8 +108,9 @@ class PixelsAmongDots {
     }
 
   private:
-    /// Returns the signed distance from a cell to the edge of the region, in cells, in the shorter
-    /// direction on the cyclic plane. The edge is half a cell before the first cell of the region.
+    /// Returns the signed distance, in cells, from a cell to the edge of the region. Chooses the
+    /// shorter direction on the cyclic plane. The edge is half a cell before the first cell of the
+    /// region.
     static double cells(std::uint32_t from, std::uint32_t first) {
         return std::remainder(double(first) - double(from), kPositionsPerAxis) - 0.5;
     }

@@ -47,7 +47,8 @@ struct BmpHeader {
     std::size_t palette_at;
     std::size_t palette_count;
     std::size_t palette_entry_bytes;
-    /// Bits of red, green, blue and opacity in pixels of 16 or 32 bits. 0 if there are none.
+    /// Bit masks of red, green, blue and opacity in a pixel of 16 or 32 bits. 0 if the pixel has no
+    /// such component.
     std::array<std::uint32_t, 4> masks;
 };
 

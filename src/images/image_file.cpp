@@ -106,8 +106,7 @@ void write_file(const std::filesystem::path& path, const Bytes& bytes) {
     File file(system::open_file(path, "wb"));
     const bool written =
         file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-    // Checks the result of fclose, because fclose flushes the buffer, which fails if the disk is
-    // full.
+    // Checks the result of fclose. It flushes the buffer, and fails if the disk is full.
     const bool closed = file && std::fclose(file.release()) == 0;
     if (!written || !closed) throw Error(system_reason());
 }

@@ -111,7 +111,7 @@ class McapFile::Writer {
         write_at_end(std::move(bytes));
     }
 
-    /// Writes `bytes` over the end of the file, followed by a new end, in one write. The file never
+    /// Writes `bytes` and a new end over the old end of the file, in one write. The file never
     /// becomes shorter, because the new end contains the contents of the old end.
     void write_at_end(Bytes bytes) {
         const std::size_t data_bytes = bytes.size();

@@ -21,7 +21,7 @@ namespace {
 // Amount of black ink in the content, 0 to 1, below which a black dot has enough contrast.
 constexpr double kHidingBlack = 0.1;
 
-/// The current colour. Content starts with device grey 0, which is black.
+/// The current colour. Content starts with black, device grey 0.
 struct Colour {
     ColourKind kind = ColourKind::grey;
     bool is_black = true;

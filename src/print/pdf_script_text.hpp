@@ -1,5 +1,5 @@
-/// Text in any script for the labels of a PDF page, set in fonts that are installed on the
-/// computer. Helvetica, which is not embedded, has only Latin letters.
+/// Typesets the labels of a PDF page that contain letters of any script. Uses the fonts that are
+/// installed on the computer, because Helvetica, which is not embedded, has only Latin letters.
 #pragma once
 
 #include <map>

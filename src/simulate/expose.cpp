@@ -335,7 +335,8 @@ std::vector<float> expose(const PageImage& page, const View& view,
 
 namespace {
 
-/// Returns the offset of a pixel of the simulated sensor, with the standard deviation 1.
+/// Returns the offset of a pixel of the simulated sensor. The offsets of all pixels have a standard
+/// deviation of 1.
 double offset_of_pixel(std::size_t index) {
     constexpr std::uint64_t kSensor = 0x5e4503;
     return Rng(kSensor, index).normal();

@@ -93,8 +93,8 @@ void add_dirt(Ink& ink, const View& view, double dot_mm, const Imperfections& im
 void check(const Page& page, const CameraModel& camera, const CameraPose& pose,
            const Imperfections& imperfections);
 
-/// Computes the grey levels of a frame before noise and rounding, row by row, from paper, light,
-/// ink, blur, motion and the area of the pixels.
+/// Computes the grey levels of a frame, row by row, before noise is added and levels are rounded.
+/// Simulates paper, light, ink, blur, motion and the area of the pixels.
 std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
                           const Imperfections& imperfections);
 /// Computes the grey levels of a frame of a page image before noise and rounding, row by row.

@@ -9,7 +9,7 @@
 namespace dotpose {
 namespace {
 
-/// Returns the points of the page at evenly spaced pixels of the image, in grid spacings.
+/// Returns the page coordinates, in grid spacings, of evenly spaced pixels of the image.
 std::vector<Vec2> sample_points(const Shot& shot) {
     constexpr int kColumns = 64;
     constexpr int kRows = 48;
@@ -83,7 +83,7 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     return area;
 }
 
-/// Draws a random rectangle inside the view with enough dots.
+/// Draws a random rectangle that is inside the view and contains enough dots.
 PageArea draw_island(const Shot& shot, Rng& rng) {
     constexpr double kMinDots = PartialView::kMinIslandDots * 1.05;
     PageArea area;

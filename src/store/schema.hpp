@@ -34,9 +34,8 @@ inline constexpr std::string_view kColumns =
     "time_us, number, x_nm, y_nm, robot, place, delay_us, theta_urad, deviation_nm, vx_um_s, "
     "vy_um_s, omega_urad_s, state, reason";
 inline constexpr int kColumnCount = 14;
-inline constexpr int kIntegerCount = 12;  ///< number of integer columns, which precede the text
-                                          ///< columns
-/// Number of integer columns with 64 bits, which precede the columns with 32 bits.
+inline constexpr int kIntegerCount = 12;  ///< number of integer columns; text columns follow
+/// Number of integer columns with 64 bits. They precede the columns with 32 bits.
 inline constexpr int kWideCount = 4;
 
 /// Values of the integer columns. nullopt represents null.

@@ -20,8 +20,8 @@ constexpr float kDeviations = 3;
 /// also prevents overflow of integer sums.
 constexpr float kMaxMotion = 2048;
 
-/// Converts a vector from the sighting's plane to the pattern frame. The angle of the image x axis
-/// is known in both frames, which gives the rotation between them.
+/// Converts a vector from the sighting's plane to the pattern frame. The rotation between the two
+/// frames follows from the angles of the image x axis in both frames.
 std::array<float, 2> in_pattern(float x, float y, const Fix& fix, const Sighting& seen) {
     const auto pattern_bam = static_cast<std::uint32_t>(fix.theta_bam);
     const auto plane_bam = static_cast<std::uint32_t>(seen.theta_bam);

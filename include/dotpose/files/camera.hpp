@@ -160,10 +160,9 @@ std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera
 /// as `validate` does, and if the crop exceeds the image.
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
-/// Sets the lens in `options`, and the reference point if the camera has one, for images of the
-/// given size. If the view of the camera is known, also sets `show_stages`, because `with_camera`
-/// needs the dots in the trace. Throws BadArgument if the given size is not the image size of the
-/// camera.
+/// Sets `options` for images of the given size: the lens, and the reference point if the camera has
+/// one. If the view of the camera is known, also sets `show_stages`, because `with_camera` needs
+/// the dots in the trace. Throws BadArgument if the given size is not the image size of the camera.
 void use_camera(const Camera& camera, int width_px, int height_px, DeviceOptions& options);
 
 }  // namespace dotpose

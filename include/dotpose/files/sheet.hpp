@@ -30,8 +30,7 @@ struct Pattern {
     double dot_mm = kDefaultSpacing_mm / 6;           ///< diameter of a dot
 };
 
-/// Returns the maximum distance, along x or y, between the ink of a dot and its intersection, in
-/// mm.
+/// Returns the maximum distance in mm, along x or y, between the ink of a dot and its intersection.
 inline double reach_mm(const Pattern& pattern) {
     return pattern.displacement_mm + pattern.dot_mm / 2;
 }

@@ -41,9 +41,9 @@ struct SheetPlace {
     PoseCovariance covariance{};
 };
 
-/// Returns the place of `fix`, which was read in the given code variant. Prefers a sheet whose
-/// region contains the fix to a sheet whose margins contain it. Returns none if the fix is not ok
-/// or is not on any sheet.
+/// Returns the place of `fix`. `code` is the code variant in which the fix was read. Prefers a
+/// sheet whose region contains the fix to a sheet whose margins contain it. Returns none if the fix
+/// is not ok or is not on any sheet.
 std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, CodeVariant code,
                                      const Fix& fix);
 

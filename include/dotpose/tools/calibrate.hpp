@@ -35,7 +35,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Returns frame `index` of the series, from 0. May throw Error.
+/// Returns frame `index` of the series. The first frame has index 0. May throw Error.
 using FrameAt = std::function<GreyImage(int index)>;
 
 /// Options that all calibrations have in common.

@@ -90,7 +90,7 @@ void draw_path(const std::filesystem::path& file, const Sheet& sheet,
 void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
 
 /// Residuals of a lens calibration, summed in square parts of the image, as `draw_calibration`
-/// draws them. For programs that draw the residuals themselves.
+/// draws them. Used by programs that draw the residuals themselves.
 struct ResidualField {
     struct Part {
         PixelPoint before;  ///< sum of the residuals before the calibration, in px

@@ -91,9 +91,9 @@ struct Followed {
     Track track;
 };
 
-/// Returns the sighting of a fix in the world of its sheet, for a Tracker of a robot that drives
-/// over several sheets. `place` is the place of the fix. Returns none if the sheet has no place in
-/// the world. The fix must be ok, and its `spacing_nm` must be known.
+/// Converts a fix to a sighting in the world of its sheet. Used by the Tracker of a robot that
+/// drives over several sheets. `place` is the place of the fix. Returns none if the sheet has no
+/// place in the world. The fix must be ok, and its `spacing_nm` must be known.
 std::optional<Sighting> world_sighting(const Fix& fix, const SheetPlace& place,
                                        std::int64_t time_us);
 

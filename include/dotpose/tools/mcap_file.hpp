@@ -52,7 +52,7 @@ class McapFile {
     McapFile(const McapFile&) = delete;
     McapFile& operator=(const McapFile&) = delete;
 
-    /// Adds a channel for messages of one type, in CDR.
+    /// Adds a channel for CDR messages of one type.
     McapChannel add_channel(const std::string& topic, const ros::MessageType& type,
                             const McapQuality& quality = {});
 

@@ -34,8 +34,8 @@ struct Optics {
     double turn_rpm = 60;        ///< maximum turn rate about the image centre
     double largest_blur_px = 1;  ///< maximum permitted motion in the image during the exposure
 
-    /// Measured values, which replace the values computed from the thin-lens model: size of a pixel
-    /// on the paper, and field of view after correction of distortion.
+    /// Measured size of a pixel on the paper, and measured field of view after correction of
+    /// distortion. Replace the values of the thin-lens model.
     std::optional<double> mm_per_px;
     std::optional<double> field_width_mm;
     std::optional<double> field_height_mm;

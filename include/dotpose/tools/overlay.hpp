@@ -52,7 +52,8 @@ struct OverlayOptions {
     std::optional<Paper> card_paper;
     bool under = false;    ///< true for dots below the content of the page instead of above
     std::string password;  ///< password of an encrypted file; the result is also encrypted
-    /// True to replace black ink, which is visible in infrared light, with the other inks.
+    /// True to replace black ink with the other inks, because black ink is visible in infrared
+    /// light.
     bool black_to_cmy = false;
     double lighten = 0;  ///< fraction of the ink that is removed from the document, 0 to below 1
     /// Maximum size of the uncompressed content of one page, in megabytes. The limit for all pages

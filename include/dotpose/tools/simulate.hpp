@@ -153,8 +153,8 @@ struct PageArea {
 struct Page {
     Pattern pattern;
     /// Seed of the printing errors and of the texture of the paper. The seed, the section and the
-    /// cell determine the jitter, the ink and the absence of a dot, which are therefore the same in
-    /// every frame.
+    /// cell determine the jitter, the ink and the absence of a dot. These properties are therefore
+    /// the same in every frame.
     std::uint64_t seed = 1;
     /// Printed intersections: `columns` x `rows`, starting at `origin`. The whole plane if
     /// `columns` is 0.
@@ -189,7 +189,7 @@ class Projection {
     /// Returns the pixel that shows the point at an offset. For a point that the camera cannot see,
     /// returns (1e9, 1e9), a pixel far outside the image.
     Vec2 pixel_from_offset(Vec2 offset_mm) const;
-    /// Returns the offset of the point that a pixel shows, in mm.
+    /// Returns the offset in mm of the point that a pixel shows.
     Vec2 offset_from_pixel(Vec2 pixel) const;
     /// Computes `offset_from_pixel` for adjacent pixels, from `first_pixel` to the right.
     void offsets_from_row(Vec2 first_pixel, std::span<Vec2> offsets_mm) const;

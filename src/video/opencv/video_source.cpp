@@ -206,7 +206,7 @@ class VideoFile : public capture::FrameSource {
     }
 
     /// Corrects the time of a packet in an AVI file with the index of the file. AVI stores no
-    /// times. FFmpeg counts packets instead, which gives wrong times after damage. The index
+    /// times. FFmpeg counts packets instead, so the times after damage are wrong. The index
     /// contains the positions of all frames.
     void correct_time() {
         if (std::string_view(file_->iformat->name) != "avi") return;

@@ -101,7 +101,7 @@ TEST(CheckPrint, finds_dots_that_run_together) {
 }
 
 TEST(CheckPrint, tells_other_print_from_faults) {
-    // Draws bars of 1 mm every 5 mm, as black as the dots, and a grey area.
+    // Draws a grey area, and bars that are 1 mm wide, 5 mm apart and as black as the dots.
     const Sheet sheet = small_sheet();
     ScanSettings settings;
     GreyImage scan = scan_page(sheet, settings);

@@ -122,7 +122,8 @@ inline RobotError robot_error(const Camera& camera, const CameraModel& model, st
 
 // ---- A table with four sheets ----
 
-/// Number of dots per side of a sheet. The pattern extends to the edge except for a margin.
+/// Number of dots per side of a sheet. A narrow margin is between the pattern and the edge of the
+/// sheet.
 inline constexpr int kSide_cells = 120;
 inline constexpr double kMargin_mm = 0.3;
 inline constexpr double kPage_mm = (kSide_cells - 1) * kDefaultSpacing_mm + 2 * kMargin_mm;

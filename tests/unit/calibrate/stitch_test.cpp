@@ -114,7 +114,7 @@ TEST(StitchSheets, FindsBothSheetsOfAPhotoWithWideMargins) {
     EXPECT_LT(off_mm(stitching.sheets[1].world.value(), table[1]), 0.05);
 }
 
-/// Returns frames over the upper seam only, which show the sheets a and b.
+/// Returns frames over the upper seam only. They show the sheets a and b.
 FrameAt upper_seam(const Table& table, const CameraModel& model) {
     return [&](int i) {
         return table_frame(table, model, 65, i, kPage_mm + 0.5, 8 + 2.0 * i, 0.7 * i);

@@ -135,7 +135,7 @@ inline Symbol symbol_of_letter(char c) {
     }
 }
 
-/// Returns the window at `place`, which may extend past position L.
+/// Returns the window at `place`. The window may extend past position L.
 inline Grid reference_window(CodeVariant code, const Place& place, int columns, int rows) {
     const auto rolls = [code](std::uint64_t start, int section, int count) {
         std::vector<int> result{reference_roll(code, start) + section};

@@ -1,5 +1,5 @@
-// Tests the origin of the grid computed from the phases of its dots, with displaced, missing and
-// spurious dots.
+// Tests the origin of the grid that is computed from the phases of the dots. Dots are displaced,
+// missing or spurious.
 #include "device/origin.hpp"
 
 #include <numeric>
@@ -27,8 +27,8 @@ Vec2 origin_of(const std::vector<DetectedDot>& dots, const Mesh& mesh, Vec2 near
     return real(lattice.origin_q16, 16);
 }
 
-/// Returns the larger of the distances of a point from the nearest intersection along the two axes
-/// of the grid, in spacings.
+/// Returns the distance, in spacings, between a point and the nearest intersection: the larger of
+/// its components along the axes of the grid.
 double off_intersection(const Mesh& mesh, Vec2 p) {
     const Vec2 g = mesh.inverse(p);
     return std::max(std::abs(g.x - std::round(g.x)), std::abs(g.y - std::round(g.y)));

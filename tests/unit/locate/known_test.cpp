@@ -75,7 +75,8 @@ TEST_F(Known, SmallFramesAreLocatedOnKnownSheetsOnly) {
         EXPECT_TRUE(is_right(fix, shot)) << "frame " << i;
     }
     EXPECT_GE(located, 19);
-    // Kernels must not read beyond the pixels of small images, which a sanitizer would report.
+    // Kernels must not read beyond the pixels of small images. A sanitizer would report such a
+    // read.
     for (int side = kMinKnownFrameSide_px; side < 40; ++side)
         static_cast<void>(locator_.locate({image.pixels.data(), side, side, image.width_px}));
     EXPECT_EQ(locator_.set_known({}), Status::ok);

@@ -14,8 +14,8 @@ constexpr double kPageHeight_mm = 12;
 constexpr double kFirst_mm =
     1.3;  // position of the first intersection, from the left and from the top edge
 
-/// Returns a page with discs of solid ink, painted with 4 x 4 samples per pixel, without
-/// src/simulate.
+/// Returns a page with discs of solid ink. Paints them with 4 x 4 samples per pixel, without code
+/// of src/simulate.
 GreyImage painted(const Page& page, double mm_per_px) {
     GreyImage image;
     image.width_px = static_cast<int>(kPageWidth_mm / mm_per_px);

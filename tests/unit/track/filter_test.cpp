@@ -229,7 +229,8 @@ TEST(Filter, DoesNotTrustErrorsThatAllSightingsShare) {
     EXPECT_GT(errors.normalised, 0.3);
 }
 
-/// Returns a tracker of a robot that was at rest at x = 0 for a second, with errors of 1 µm.
+/// Returns a tracker of a robot that was at rest at x = 0 for a second. The sightings have errors
+/// of 1 µm.
 Tracker standing(Rng& rng) {
     Tracker tracker;
     for (int frame = 0; frame < 200; ++frame) {

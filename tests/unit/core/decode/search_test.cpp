@@ -1,4 +1,4 @@
-// Tests the search for the position on an axis, from lines with wrong bits.
+// Tests the search for the position on an axis. The lines contain wrong bits.
 #include "core/decode/search.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct ScoredWindow {
     std::array<ScoredLine, kMaxLines> storage;
 };
 
-/// Returns the window of the code at a place, with a fraction of its bits flipped.
+/// Returns the window of the code at a place. A fraction of its bits is flipped.
 ScoredWindow window(CodeVariant code, const Place& place, int columns, int rows, double flipped,
                     Rng& rng) {
     ScoredWindow result(columns, rows);

@@ -97,7 +97,7 @@ inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequ
     return rolls;
 }
 
-/// Returns log2 of the sum of the odds, for both axes, of three kinds of alternatives: alternatives
+/// Returns log2 of the sum of the odds of three kinds of alternatives over both axes: alternatives
 /// that differ in one sequence and share a line, other sections, and chance. Uses the same odds per
 /// bit as the verdict.
 inline double exact_log2(const Block& block) {

@@ -27,8 +27,8 @@ RatiosCase random_case(Rng& rng) {
     return c;
 }
 
-/// Returns the odds of all places of one sequence except the place of the reading, at every shift
-/// that shares a line.
+/// Returns the sum of the odds of all other places of one sequence, at every shift that shares a
+/// line with the reading.
 double sum_of_singles(const RatiosCase& c) {
     const auto texts = code_test::secondary_texts(c.code);
     const std::size_t count = c.rolls.size();

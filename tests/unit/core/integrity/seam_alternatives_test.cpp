@@ -71,7 +71,7 @@ struct Sum {
     int terms = 0;
 };
 
-/// Returns the sum of the odds over all alternatives and borders, without negligible odds.
+/// Returns the sum of the odds over all alternatives and borders. Excludes negligible odds.
 Sum sum_of_all(const RatiosCase& c) {
     Sum sum;
     for (const Alternative& alternative : all_alternatives(c)) {

@@ -199,8 +199,8 @@ Reading troubled(Rng& rng, int turn) {
     return Reading(view, QuarterTurn{turn}, dots);
 }
 
-/// Returns the sum of the probabilities of chance and of all alternatives of both axes, from the
-/// exact sums.
+/// Returns the probability of a match by chance plus the odds of all alternatives on both axes.
+/// Uses the exact sums.
 double exact_p_wrong(const Reading& reading) {
     const Decoding truth = reading.truth();
     const CodeVariant code = reading.view.code;

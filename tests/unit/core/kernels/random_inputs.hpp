@@ -66,8 +66,8 @@ void expect_same(Run run) {
 
 inline constexpr std::uint64_t kPlainSeed = 20262;
 
-/// Calls `use(kernels, rng)` `times` times for each form. Each call has different random numbers,
-/// which are the same for all forms.
+/// Calls `use(kernels, rng)` `times` times for each form. The random numbers differ from call to
+/// call, but are the same for all forms.
 template <typename Use>
 void repeat_with_each_form(int times, Use use) {
     for (const core::Kernels* form : forms()) {

@@ -1,4 +1,5 @@
-// Tests the refinement of the grid over the whole image, from a rough estimate in the middle.
+// Tests the refinement of the grid over the whole image. It starts from a rough estimate in the
+// middle.
 #include "core/lattice/refine_grid.hpp"
 
 #include <gtest/gtest.h>

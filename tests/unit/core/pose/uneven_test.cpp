@@ -72,7 +72,8 @@ struct Sheet {
     }
 };
 
-/// Returns a function that displaces all places beyond `distance`, along a direction, by `by`.
+/// Returns a function that displaces by `by` all places whose coordinate along a direction exceeds
+/// `distance`.
 Shift slip(double distance, double direction_rad, Vec2 by) {
     return [=](Vec2 place) {
         const double t = std::cos(direction_rad) * place.x + std::sin(direction_rad) * place.y;
