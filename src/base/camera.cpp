@@ -163,7 +163,7 @@ CameraPoint on_paper(const Camera& camera, PixelPoint point) {
 
 PixelPoint on_image(const Camera& camera, CameraPoint point) {
     const PaperScale& paper = camera.paper.value();
-    // (a, b) = divisor * (flat_a, flat_b). The divisor is linear in a and b. Substituting it leaves
+    // (a, b) = divisor * (flat_a, flat_b). The divisor is linear in a and b. Its substitution gives
     // two linear equations.
     const double flat_b = point.y_mm / paper.mm_per_px_y;
     const double flat_a = point.x_mm / paper.mm_per_px_x - paper.skew * flat_b;

@@ -1,5 +1,5 @@
-// Sheet odds: an upper bound on the probability that a place on the known sheets is wrong, in
-// integers. docs/integrity.md, "Known sheets", derives the bound.
+// Sheet odds: computes, in integers, an upper bound on the probability that a place on the known
+// sheets is wrong. docs/integrity.md, "Known sheets", derives the bound.
 #pragma once
 
 #include <array>

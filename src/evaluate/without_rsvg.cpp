@@ -1,4 +1,4 @@
-// Replaces the renderer of plots in a build without librsvg.
+// Functions of raster.hpp for a build without librsvg. Figures are written only as SVG.
 #include "dotpose/files/error.hpp"
 #include "draw/svg.hpp"
 #include "evaluate/raster.hpp"

@@ -166,8 +166,8 @@ void UnpackedBytes::count(QPDFObjectHandle stream) {
     try {
         stream.pipeStreamData(&bytes, &attempted, 0, qpdf_dl_specialized, kSuppressWarnings);
     } catch (const std::runtime_error&) {
-        // Ignores the exception. If the document exceeds a limit, the count below detects this. If
-        // the stream is damaged, this is reported when the stream is read.
+        // Ignores the exception. The code below tests the count against the limits, and a damaged
+        // stream is reported when it is read.
     }
     page_ += bytes.bytes();
     document_ += bytes.bytes();

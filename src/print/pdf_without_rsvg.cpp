@@ -1,4 +1,4 @@
-// Replaces text in any script in a build without librsvg.
+// ScriptText for a build without librsvg. All functions that typeset text throw Error.
 #include "dotpose/files/error.hpp"
 #include "pdf_script_text.hpp"
 

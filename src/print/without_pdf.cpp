@@ -1,4 +1,4 @@
-// Replaces the PDF writer in a build without qpdf.
+// PDF writers for a build without qpdf. They throw Error.
 #include "writers.hpp"
 
 namespace dotpose::print {

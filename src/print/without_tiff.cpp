@@ -1,4 +1,4 @@
-// Replaces the TIFF writer in a build without libtiff.
+// TIFF writer for a build without libtiff. It throws Error.
 #include "writers.hpp"
 
 namespace dotpose::print {

@@ -1,4 +1,4 @@
-// Server for a program that was built without libwebsockets.
+// Server for a program that was built without libwebsockets. The constructor throws BadArgument.
 #include "dotpose/files/error.hpp"
 #include "serve/server.hpp"
 

@@ -123,8 +123,8 @@ TEST(SheetOdds, TooManyWrongBitsAreRefused) {
 }
 
 TEST(SheetOdds, MaximumOfWrongBitsFollowsFromChance) {
-    // 4 * 145 * 135 places are 2^16.3 hypotheses. 48 bits without an error leave a probability of
-    // 2^-31.7. One wrong bit of 48 leaves 2^-26.
+    // 4 * 145 * 135 places are 2^16.3 hypotheses. With 48 bits without an error, the probability is
+    // 2^-31.7. With one wrong bit of 48, it is 2^-26.
     EXPECT_EQ(core::max_wrong_bits(kOnly, kSheet.code, 24, 6, {}), 0);
     EXPECT_EQ(core::max_wrong_bits(kOnly, kSheet.code, 22, 6, {}), -1);
     EXPECT_EQ(core::max_wrong_bits(kOnly, kSheet.code, 200, 16, {}), 400);

@@ -104,8 +104,8 @@ TEST(QuickAlternatives, CountWhatSharesTheOnlyLinesThatSayMuch) {
 }
 
 TEST(QuickAlternatives, CountOthersThatLinesFitBetter) {
-    // Some lines show a random roll. If an alternative has this roll, it regains score that it lost
-    // in other lines.
+    // The bits of some lines belong to a random roll. An alternative with this roll has a higher
+    // score than the reading in these lines.
     Rng rng(kSeed);
     int told = 0;
     for (int i = 0; i < 300; ++i) {
@@ -155,7 +155,8 @@ TEST(QuickAlternatives, FewLinesOrWeakOddsDoNotTell) {
         c.storage.push_back(scored_line(own, 12, 0, 127, rng));
     c.odds_q8 = 8;
     EXPECT_EQ(quick_alternatives_log2_q8(c.ratios()), 0);
-    // With odds of 2^8 for a full bit, the same lines leave almost no odds.
+    // With odds of 2^8 for a bit of full weight, the alternatives in the same lines have almost no
+    // odds.
     c.odds_q8 = 8 * 256;
     EXPECT_LT(quick_alternatives_log2_q8(c.ratios()), -30 * 256);
 }

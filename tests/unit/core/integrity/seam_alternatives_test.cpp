@@ -106,7 +106,7 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
         RatiosCase c = at_random_place(rng, 6 + static_cast<int>(rng.below(12)));
         const double wrong = rng.uniform(0, 0.1);
         for (const int own : c.rolls) {
-            // Some lines have few bits, or show a random roll.
+            // Some lines have few bits, or bits that belong to a random roll.
             const int shown = rng.below(15) == 0 ? static_cast<int>(rng.below(63)) : own;
             const int bits = rng.below(3) == 0 ? 3 : 6 + static_cast<int>(rng.below(10));
             c.storage.push_back(scored_line(shown, bits, wrong, 127, rng));

@@ -306,7 +306,7 @@ TEST(KernelsWindows, PredictedDotsAreReadByTheDarkestPlace) {
         EXPECT_EQ(columns.bits[i], columns.valid[i]);
         EXPECT_EQ(rows.valid[j], std::uint64_t{1} << i);
         EXPECT_EQ(rows.bits[j], rows.valid[j]);
-        // No dot is seen if there is no ink near the prediction.
+        // No dot is found if there is no ink near the prediction.
         dots.x[0] = 20;
         EXPECT_EQ(kernels.read_levels(dot.view, view, 100, dots, nullptr, nullptr).seen, 0);
     });
