@@ -28,6 +28,8 @@ void Server::set_route(const std::string&, Route) {}
 
 void Server::publish(Topic&, Topic::Encode) {}
 
+void Server::publish_for_each(Topic&, Topic::EncodeFor) {}
+
 std::optional<Command> Server::take_command() {
     return std::nullopt;
 }

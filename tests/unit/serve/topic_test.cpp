@@ -43,6 +43,26 @@ TEST(Topic, ValueIsEmptyIfItsEncoderFails) {
     EXPECT_EQ(version, 1U);
 }
 
+TEST(Topic, ValueDependsOnTheRequest) {
+    Topic topic("rows", false);
+    const auto publish = [&topic](const std::string& value) {
+        topic.publish_for_each([value](const Command& request) {
+            return value + std::to_string(*request.argument<double>("first"));
+        });
+    };
+    const auto request = [](double first) { return Command{"subscribe", {{"first", first}}}; };
+    std::uint64_t version = 0;
+    publish("a");
+    EXPECT_EQ(*topic.message(version, request(1)), "rows\na" + std::to_string(1.0));
+    EXPECT_EQ(*topic.message(version, request(2)), "rows\na" + std::to_string(2.0));
+    EXPECT_EQ(version, 1U);
+    publish("b");
+    EXPECT_EQ(*topic.message(version, request(2)), "rows\nb" + std::to_string(2.0));
+    EXPECT_EQ(version, 2U);
+    topic.publish_for_each([](const Command&) -> std::string { throw std::runtime_error("no"); });
+    EXPECT_EQ(*topic.message(version), "rows\n");
+}
+
 TEST(Topic, IsWantedUntilTheNextPublication) {
     Topic topic("state", false);
     EXPECT_FALSE(topic.is_wanted());
@@ -75,6 +95,20 @@ TEST(Subscription, StuckClientReceivesTwoValues) {
     EXPECT_FALSE(client.is_ready(2));
     client.acknowledge();
     EXPECT_TRUE(client.is_due(3));
+}
+
+TEST(Subscription, AChangedRequestDoesNotAcknowledge) {
+    Subscription client;
+    client.begin();
+    client.sent(1);
+    client.begin({"subscribe", {{"first", 2.0}}});
+    EXPECT_TRUE(client.is_due(1));
+    EXPECT_EQ(*client.request.argument<double>("first"), 2.0);
+    client.sent(1);
+    client.begin();
+    EXPECT_FALSE(client.is_due(1));
+    client.acknowledge();
+    EXPECT_TRUE(client.is_due(1));
 }
 
 TEST(Subscription, AcknowledgementsDoNotAddUp) {
