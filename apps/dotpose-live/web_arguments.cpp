@@ -8,7 +8,7 @@ namespace dotpose::cli {
 void WebArguments::add_to(Command& command) {
     command
         .add_option("--web", address_,
-                    "Show the run in a browser; without ADDRESS, only on this computer")
+                    "Serve a page that shows the run; without ADDRESS, only on this computer")
         ->type_name("[ADDRESS:]PORT");
     command
         .add_option("--web-token-file", token_file_,

@@ -1,0 +1,168 @@
+#include "fleet_web.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "fleet_map_values.hpp"
+#include "serve/background_thread.hpp"
+#include "terminal_text.hpp"
+#include "web_pages.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kTick{33};
+constexpr milliseconds kListPeriod{500};
+constexpr milliseconds kRobotPeriod{200};
+constexpr milliseconds kTrailPeriod{1000};
+constexpr milliseconds kCheckPeriod{250};
+constexpr const char* kPrometheusText = "text/plain; version=0.0.4; charset=utf-8";
+
+serve::ServerOptions with_pages(serve::ServerOptions options) {
+    options.pages = fleet_pages();
+    return options;
+}
+
+publish::MqttOptions for_removals(publish::MqttOptions options) {
+    options.queue = FleetState::kMaxRobots;
+    options.qos = 1;
+    return options;
+}
+
+}  // namespace
+
+FleetWeb::FleetWeb(FleetWebOptions options, const FleetInput& input, const FleetMap& map)
+    : options_(std::move(options)),
+      input_(input),
+      map_(map),
+      publisher_(for_removals(options_.mqtt)),
+      counted_at_(Clock::now()),
+      server_(with_pages(options_.server)),
+      setup_(server_.add_topic("setup", serve::Format::text)),
+      summary_{server_.add_topic("summary", serve::Format::text), kListPeriod},
+      table_{server_.add_topic("table", serve::Format::text), kListPeriod},
+      robot_{server_.add_topic("robot", serve::Format::text), kRobotPeriod},
+      positions_{server_.add_topic("positions", serve::Format::binary), kTick},
+      trails_{server_.add_topic("trails", serve::Format::binary), kTrailPeriod} {
+    server_.start();
+    server_.set_route("/metrics", [this] {
+        const FleetState& fleet = input_.fleet();
+        return serve::Answer{
+            .type = kPrometheusText,
+            .body = metrics_text(fleet, fleet.robots(input_.now()), map_, options_.services())};
+    });
+    server_.publish(setup_, [text = setup_value(map_, options_.limits)] { return text; });
+    options_.server.tell("the page is at " + server_.url());
+    thread_ = std::thread([this] { run(); });
+}
+
+FleetWeb::~FleetWeb() {
+    constexpr auto kPatience = std::chrono::seconds(2);
+    ends_ = true;
+    thread_.join();
+    publisher_.flush(kPatience);
+}
+
+void FleetWeb::run() {
+    serve::run_in_background();
+    Clock::time_point next = Clock::now();
+    while (!ends_) {
+        // After a delay, ticks that were missed are not made up for.
+        next = std::max(next + kTick, Clock::now());
+        std::this_thread::sleep_until(next);
+        const Clock::time_point now = Clock::now();
+        snapshot_.reset();
+        obey();
+        note_alerts(now);
+        publish_lists(now);
+        publish_map(now);
+    }
+}
+
+bool FleetWeb::is_due(TimedTopic& timed, Clock::time_point now) {
+    if (now < timed.next || !timed.topic.is_wanted()) return false;
+    timed.next = now + timed.period;
+    return true;
+}
+
+const FleetWeb::Snapshot& FleetWeb::snapshot() {
+    if (!snapshot_) {
+        const Now now = input_.now();
+        snapshot_ =
+            std::make_shared<const FleetSnapshot>(FleetSnapshot{input_.fleet().robots(now), now});
+    }
+    return snapshot_;
+}
+
+/// Remembers the newest alerts, also while no browser is connected.
+void FleetWeb::note_alerts(Clock::time_point now) {
+    constexpr std::size_t kMaxRemembered = 2000;
+    if (now < next_check_) return;
+    next_check_ = now + kCheckPeriod;
+    for (RobotAlert& alert : watch_.changes(snapshot()->robots, snapshot()->now)) {
+        alert.sent_us = snapshot()->now.system_us;
+        alerts_.push_back(std::move(alert));
+        if (alerts_.size() > kMaxRemembered) alerts_.pop_front();
+    }
+}
+
+void FleetWeb::publish_lists(Clock::time_point now) {
+    const Delivery delivery = options_.services().delivery;
+    if (is_due(summary_, now)) {
+        const std::int64_t states = input_.fleet().counts().messages;
+        const std::chrono::duration<double> elapsed = now - std::exchange(counted_at_, now);
+        const auto added = static_cast<double>(states - std::exchange(counted_states_, states));
+        server_.publish(summary_.topic, [text = summary_value(
+                                             *snapshot(), input_.fleet(), map_, options_.services(),
+                                             added / elapsed.count(), alerts_)] { return text; });
+    }
+    if (is_due(table_, now)) {
+        server_.publish_for_each(
+            table_.topic, [this, delivery, shot = snapshot()](const serve::Command& request) {
+                return table_value(*shot, map_, delivery, request);
+            });
+    }
+    if (is_due(robot_, now)) {
+        server_.publish_for_each(robot_.topic, [this, delivery, shot = snapshot(),
+                                                alerts = alerts_](const serve::Command& request) {
+            return robot_value(*shot, input_.fleet(), map_, delivery, alerts, request);
+        });
+    }
+}
+
+void FleetWeb::publish_map(Clock::time_point now) {
+    if (is_due(positions_, now)) {
+        server_.publish_for_each(positions_.topic,
+                                 [this, shot = snapshot()](const serve::Command& request) {
+                                     return positions_value(*shot, map_, request);
+                                 });
+    }
+    if (is_due(trails_, now)) {
+        server_.publish_for_each(trails_.topic,
+                                 [this, shot = snapshot()](const serve::Command& request) {
+                                     return trails_value(*shot, input_.fleet(), map_, request);
+                                 });
+    }
+}
+
+void FleetWeb::obey() {
+    while (const std::optional<serve::Command> command = server_.take_command()) {
+        if (command->name == "remove") remove(*command);
+    }
+}
+
+/// Removes a robot as `dotpose fleet remove` does. Both number and name must agree, because numbers
+/// begin again when this program is restarted.
+void FleetWeb::remove(const serve::Command& command) {
+    const auto* id = command.argument<double>("robot");
+    const auto* name = command.argument<std::string>("name");
+    if (id == nullptr || name == nullptr) return;
+    const auto* robot = robot_with(snapshot()->robots, *id);
+    if (robot == nullptr || printable(robot->first) != *name) return;
+    publisher_.publish(topic_of(robot->first, Subject::connection), {}, true);
+    options_.server.tell("web: removed " + printable(robot->first));
+}
+
+}  // namespace dotpose::cli
