@@ -14,6 +14,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kTick{33};
+constexpr milliseconds kEachTick{0};
 constexpr milliseconds kListPeriod{500};
 constexpr milliseconds kRobotPeriod{200};
 constexpr milliseconds kTrailPeriod{1000};
@@ -44,7 +45,7 @@ FleetWeb::FleetWeb(FleetWebOptions options, const FleetInput& input, const Fleet
       summary_{server_.add_topic("summary", serve::Format::text), kListPeriod},
       table_{server_.add_topic("table", serve::Format::text), kListPeriod},
       robot_{server_.add_topic("robot", serve::Format::text), kRobotPeriod},
-      positions_{server_.add_topic("positions", serve::Format::binary), kTick},
+      positions_{server_.add_topic("positions", serve::Format::binary), kEachTick},
       trails_{server_.add_topic("trails", serve::Format::binary), kTrailPeriod} {
     server_.start();
     server_.set_route("/metrics", [this] {

@@ -4,7 +4,7 @@ import { surfaceOf } from "../draw/surface.js";
 import type { Connection, Value } from "../live/connection.js";
 import { element, make, show } from "../page/dom.js";
 import { listen } from "../page/gestures.js";
-import { drawChosen, drawNames, drawRobots, drawScale, drawTrailEnds, drawTrails } from "./marks.js";
+import { drawNames, drawPath, drawRing, drawRobots, drawScale, drawTrailEnds, drawTrails } from "./marks.js";
 import { positionsOf, trailsOf, type KnownMap, type Positions, type Robot, type Setup, type Trails } from "./messages.js";
 import { boundsOf, touches, union, Viewport, type Bounds_mm } from "./viewport.js";
 
@@ -262,17 +262,14 @@ export class FleetMap {
         const positions = this.#positions;
         if (positions !== null) {
             if (this.#trails !== null) drawTrailEnds(context, this.#trails, positions, this.#view);
-            if (this.#chosen?.map === this.#map) this.#drawChosen(context, positions, this.#chosen);
+            if (this.#chosen?.map === this.#map) drawPath(context, this.#chosen.path_mm, this.#view);
             drawRobots(context, positions, this.#view);
+            const i = positions.ids.indexOf(this.#chosen?.id ?? 0);
+            if (i >= 0) drawRing(context, positions.at_mm[2 * i]!, positions.at_mm[2 * i + 1]!, this.#view);
             drawNames(context, positions, this.#view);
         }
         if (this.#map !== "") drawScale(context, this.#view);
         this.#showCounts();
-    }
-
-    #drawChosen(context: CanvasRenderingContext2D, { ids, at_mm }: Positions, { id, path_mm }: Robot): void {
-        const i = ids.indexOf(id);
-        drawChosen(context, path_mm, i < 0 ? null : [at_mm[2 * i]!, at_mm[2 * i + 1]!], this.#view);
     }
 
     /** Shows the number of robots in view, and how often they are drawn. */

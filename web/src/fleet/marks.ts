@@ -29,10 +29,11 @@ function addMark(context: CanvasRenderingContext2D, condition: Condition, [x, y,
         context.lineTo(x + r, y - r);
     } else if (condition === "moving" && angle !== null) {
         const [cos, sin] = [r * Math.cos(angle), r * Math.sin(angle)];
+        // Chromium's closePath takes time proportional to the length of the path.
         context.moveTo(x + 1.5 * cos, y + 1.5 * sin);
         context.lineTo(x - cos - 0.9 * sin, y - sin + 0.9 * cos);
         context.lineTo(x - cos + 0.9 * sin, y - sin - 0.9 * cos);
-        context.closePath();
+        context.lineTo(x + 1.5 * cos, y + 1.5 * sin);
     } else {
         const radius = condition === "gone" ? r / 2 : r;
         context.moveTo(x + radius, y);
@@ -128,25 +129,29 @@ function addLine(context: CanvasRenderingContext2D, line_mm: ArrayLike<number>, 
     }
 }
 
-/** Draws the path of the chosen robot, and a ring around the robot. */
-export function drawChosen(
-    context: CanvasRenderingContext2D,
-    path_mm: ArrayLike<number>,
-    at_mm: readonly [number, number] | null,
-    view: Viewport,
-): void {
+/** Draws the path of the chosen robot. */
+export function drawPath(context: CanvasRenderingContext2D, path_mm: ArrayLike<number>, view: Viewport): void {
     context.strokeStyle = themed("--strong");
     context.lineWidth = 2;
     context.lineJoin = "round";
     context.beginPath();
     addLine(context, path_mm, view);
-    if (at_mm !== null && path_mm.length > 0) context.lineTo(view.x(at_mm[0]), view.y(at_mm[1]));
     context.stroke();
-    if (at_mm === null) return;
-    context.lineWidth = 3;
+}
+
+/** Draws a ring around the chosen robot. */
+export function drawRing(context: CanvasRenderingContext2D, x_mm: number, y_mm: number, view: Viewport): void {
+    const kRadius = 14;
     context.beginPath();
-    context.arc(view.x(at_mm[0]), view.y(at_mm[1]), 14, 0, 2 * Math.PI);
-    context.stroke();
+    context.arc(view.x(x_mm), view.y(y_mm), kRadius, 0, 2 * Math.PI);
+    for (const [width, ink] of [
+        [6, "--card"],
+        [3, "--strong"],
+    ] as const) {
+        context.lineWidth = width;
+        context.strokeStyle = themed(ink);
+        context.stroke();
+    }
 }
 
 /** Draws a bar of a round length in the lower left corner. */
