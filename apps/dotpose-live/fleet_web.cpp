@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fleet_map_values.hpp"
+#include "metrics_text.hpp"
 #include "serve/background_thread.hpp"
 #include "terminal_text.hpp"
 #include "web_pages.hpp"
@@ -19,7 +20,6 @@ constexpr milliseconds kListPeriod{500};
 constexpr milliseconds kRobotPeriod{200};
 constexpr milliseconds kTrailPeriod{1000};
 constexpr milliseconds kCheckPeriod{250};
-constexpr const char* kPrometheusText = "text/plain; version=0.0.4; charset=utf-8";
 
 serve::ServerOptions with_pages(serve::ServerOptions options) {
     options.pages = fleet_pages();
@@ -51,7 +51,7 @@ FleetWeb::FleetWeb(FleetWebOptions options, const FleetInput& input, const Fleet
     server_.set_route("/metrics", [this] {
         const FleetState& fleet = input_.fleet();
         return serve::Answer{
-            .type = kPrometheusText,
+            .type = kMetricsType,
             .body = metrics_text(fleet, fleet.robots(input_.now()), map_, options_.services())};
     });
     server_.publish(setup_, [text = setup_value(map_, options_.limits)] { return text; });

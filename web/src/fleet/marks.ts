@@ -78,8 +78,10 @@ function drawUnknown(context: CanvasRenderingContext2D, positions: Positions, pl
     context.stroke();
 }
 
+/** Draws the names, unless there are so many that they would cover each other. */
 export function drawNames(context: CanvasRenderingContext2D, { names, at_mm, count }: Positions, view: Viewport): void {
-    if (names === undefined) return;
+    const kArea_px = 6000;
+    if (names === undefined || count * kArea_px > view.width * view.height) return;
     context.font = "600 12px system-ui, sans-serif";
     context.textAlign = "left";
     context.textBaseline = "middle";

@@ -78,7 +78,7 @@ export class RobotPanel {
             "fleet-robot-age": age(robot.age_s),
             "fleet-robot-messages": String(robot.messages),
             "fleet-robot-missed": robot.missed === undefined ? kNothing : String(robot.missed),
-            "fleet-robot-camera": robot.camera === undefined ? kNothing : `${robot.camera.rate_hz.toFixed(1)} frames/s`,
+            "fleet-robot-camera": number(robot.camera?.rate_hz, 1),
             "fleet-robot-refused": refusedText(robot),
         });
         element("fleet-find", HTMLButtonElement).disabled = robot.map === undefined;
