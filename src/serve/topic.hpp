@@ -78,25 +78,32 @@ struct Subscription {
 
     bool is_on = false;
     int unacknowledged = 0;
-    std::uint64_t seen = 0;  ///< number of the last value that was sent
-    Command request;         ///< the command with which the client subscribed
+    std::uint64_t seen = 0;   ///< number of the last value that was sent
+    Command request;          ///< the command with which the client subscribed
+    bool is_changed = false;  ///< true if no value was sent for the request yet
 
-    /// Begins, or changes the request. The client then receives the newest value again.
+    /// Begins, or changes the request.
     void begin(Command command = {}) {
         is_on = true;
-        seen = 0;
+        is_changed = true;
         request = std::move(command);
     }
     void end() { *this = {}; }
     void acknowledge() { unacknowledged -= unacknowledged > 0 ? 1 : 0; }
     /// Returns true if the client may receive a value.
     bool is_open() const { return is_on && unacknowledged < kMaxUnacknowledged; }
-    /// Returns true if the client should receive the value with the number `version`.
-    bool is_due(std::uint64_t version) const { return is_open() && seen < version; }
+    /// Returns true if the client should receive the value with the number `version`. A client with
+    /// a changed request receives the same value again, but only if it is not behind. Otherwise,
+    /// a client that changes its request all the time would receive no newer values.
+    bool is_due(std::uint64_t version) const {
+        const bool is_answer_due = is_on && is_changed && unacknowledged == 0 && version > 0;
+        return is_answer_due || (is_open() && seen < version);
+    }
     /// Returns true if the client has received the newest value and may receive another one.
     bool is_ready(std::uint64_t version) const { return is_open() && seen == version; }
     void sent(std::uint64_t version) {
         seen = version;
+        is_changed = false;
         ++unacknowledged;
     }
 };

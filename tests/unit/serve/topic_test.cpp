@@ -97,18 +97,32 @@ TEST(Subscription, StuckClientReceivesTwoValues) {
     EXPECT_TRUE(client.is_due(3));
 }
 
-TEST(Subscription, AChangedRequestDoesNotAcknowledge) {
+TEST(Subscription, AChangedRequestIsAnsweredWithTheSameValue) {
     Subscription client;
     client.begin();
     client.sent(1);
+    client.acknowledge();
+    EXPECT_FALSE(client.is_due(1));
     client.begin({"subscribe", {{"first", 2.0}}});
     EXPECT_TRUE(client.is_due(1));
     EXPECT_EQ(*client.request.argument<double>("first"), 2.0);
-    client.sent(1);
+}
+
+TEST(Subscription, ChangedRequestsDoNotKeepAClientFromNewValues) {
+    Subscription client;
     client.begin();
-    EXPECT_FALSE(client.is_due(1));
-    client.acknowledge();
-    EXPECT_TRUE(client.is_due(1));
+    client.sent(1);
+    client.sent(2);
+    for (int i = 0; i < 10; ++i) {
+        client.begin();
+        EXPECT_FALSE(client.is_due(2));
+        client.acknowledge();
+        // The client is behind, so it waits for the next value, which the program should produce.
+        EXPECT_FALSE(client.is_due(2));
+        EXPECT_TRUE(client.is_ready(2));
+        EXPECT_TRUE(client.is_due(3));
+        ++client.unacknowledged;
+    }
 }
 
 TEST(Subscription, AcknowledgementsDoNotAddUp) {
