@@ -19,6 +19,7 @@
 #include "mqtt_options.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
+#include "robot_remover.hpp"
 #include "run_files.hpp"
 #include "web_arguments.hpp"
 
@@ -99,6 +100,21 @@ std::optional<store::QueueStatus> store_status(const std::optional<FleetStore>& 
     return store ? std::optional(store->status()) : std::nullopt;
 }
 
+/// Returns the options of the page without functions that depend on the run, or none without --web.
+std::optional<FleetWebOptions> web_options(const FleetArguments& arguments,
+                                           const publish::MqttOptions& mqtt) {
+    auto server = arguments.web.options();
+    if (!server) return std::nullopt;
+    server->tell = mqtt.tell;
+    FleetWebOptions options;
+    options.server = *server;
+    options.limits = limits_of(arguments);
+    options.remove = [remover = std::make_shared<RobotRemover>(mqtt)](const std::string& robot) {
+        remover->remove(robot);
+    };
+    return options;
+}
+
 void run(const FleetArguments& arguments) {
     constexpr auto kTick = std::chrono::milliseconds(50);
     constexpr double kBetweenAlerts_s = 0.25;
@@ -128,13 +144,14 @@ void run(const FleetArguments& arguments) {
     };
     const auto write_metrics = [&] {
         if (!metrics) return;
-        metrics->write(metrics_text(input.fleet(), input.fleet().robots(input.now()), view.map(),
-                                    services()));
+        metrics->write(
+            metrics_text(input.fleet(), input.fleet().robots(input.now()), view.map(), services()));
     };
     std::optional<FleetWeb> web;
-    if (auto server = arguments.web.options()) {
-        server->tell = mqtt->tell;
-        web.emplace(FleetWebOptions{*server, *mqtt, limits, services}, input, view.map());
+    if (auto options = web_options(arguments, *mqtt)) {
+        options->now = [&input] { return input.now(); };
+        options->services = services;
+        web.emplace(*options, input.fleet(), view.map());
     }
     Periodically refresh(arguments.every_s);
     Periodically alert(kBetweenAlerts_s);

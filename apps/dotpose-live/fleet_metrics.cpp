@@ -66,8 +66,10 @@ void add_frames(MetricsText& text, const CameraTotals& totals) {
 }
 
 void add_services(MetricsText& text, const FleetServices& services) {
-    text.gauge("dotpose_fleet_broker_connected", "1 if the broker is connected, otherwise 0.",
-               services.is_broker_connected ? 1 : 0);
+    if (services.is_broker_connected) {
+        text.gauge("dotpose_fleet_broker_connected", "1 if the broker is connected, otherwise 0.",
+                   *services.is_broker_connected ? 1 : 0);
+    }
     if (!services.store) return;
     text.gauge("dotpose_fleet_store_connected",
                "1 if the newest transaction of the database succeeded, otherwise 0.",

@@ -201,7 +201,8 @@ const FleetEntry* robot_with(const FleetRobots& robots, double id) {
     return found == robots.end() ? nullptr : &*found;
 }
 
-std::string setup_value(const FleetMap& map, const ConditionLimits& limits) {
+std::string setup_value(const FleetMap& map, const ConditionLimits& limits,
+                        const std::string& device) {
     nlohmann::json sheets = nlohmann::json::array();
     for (const draw::MapSheet& sheet : map.outlines) {
         nlohmann::json corners = nlohmann::json::array();
@@ -209,7 +210,8 @@ std::string setup_value(const FleetMap& map, const ConditionLimits& limits) {
             corners.push_back({corner.x, corner.y});
         sheets.push_back({{"name", printable(sheet.name)}, {"corners_mm", std::move(corners)}});
     }
-    return text_of({{"map", printable(map.id)},
+    return text_of({{"device", printable(device)},
+                    {"map", printable(map.id)},
                     {"sheets", std::move(sheets)},
                     {"silent_after_s", static_cast<double>(limits.silent_after_us) * 1e-6},
                     {"gone_after_s", static_cast<double>(limits.gone_after_us) * 1e-6}});
@@ -244,7 +246,7 @@ std::string summary_value(const FleetSnapshot& snapshot, const FleetState& fleet
         {"repeated", counts.repeated},
         {"bad", fleet.bad()},
         {"latency_ms", {latency.median_ms, latency.p99_ms}},
-        {"is_broker_connected", services.is_broker_connected},
+        {"is_broker_connected", services.is_broker_connected.value_or(true)},
         {"store", store_json(services.store)},
         {"maps", maps_json(snapshot.robots)},
         {"alerts", std::move(newest)}};

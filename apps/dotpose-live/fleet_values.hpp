@@ -27,8 +27,10 @@ inline constexpr std::size_t kMaxTableRows = 200;
 /// Maximum number of alerts that a client receives.
 inline constexpr std::size_t kMaxAlerts = 200;
 
-/// Returns the map, the sheets of the sheet file, and the limits of the conditions.
-std::string setup_value(const FleetMap& map, const ConditionLimits& limits);
+/// Returns the map, the sheets of the sheet file, and the limits of the conditions. `device` is the
+/// name of the robot of `dotpose listen`, or empty for a fleet.
+std::string setup_value(const FleetMap& map, const ConditionLimits& limits,
+                        const std::string& device);
 
 /// Returns the number of robots by state and map, the counts of messages, and the alerts.
 /// `alerts` is in the order of time.

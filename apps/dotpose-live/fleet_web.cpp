@@ -26,19 +26,12 @@ serve::ServerOptions with_pages(serve::ServerOptions options) {
     return options;
 }
 
-publish::MqttOptions for_removals(publish::MqttOptions options) {
-    options.queue = FleetState::kMaxRobots;
-    options.qos = 1;
-    return options;
-}
-
 }  // namespace
 
-FleetWeb::FleetWeb(FleetWebOptions options, const FleetInput& input, const FleetMap& map)
+FleetWeb::FleetWeb(FleetWebOptions options, const FleetState& fleet, const FleetMap& map)
     : options_(std::move(options)),
-      input_(input),
+      fleet_(fleet),
       map_(map),
-      publisher_(for_removals(options_.mqtt)),
       counted_at_(Clock::now()),
       server_(with_pages(options_.server)),
       setup_(server_.add_topic("setup", serve::Format::text)),
@@ -49,21 +42,20 @@ FleetWeb::FleetWeb(FleetWebOptions options, const FleetInput& input, const Fleet
       trails_{server_.add_topic("trails", serve::Format::binary), kTrailPeriod} {
     server_.start();
     server_.set_route("/metrics", [this] {
-        const FleetState& fleet = input_.fleet();
+        const FleetState& fleet = fleet_;
         return serve::Answer{
             .type = kMetricsType,
-            .body = metrics_text(fleet, fleet.robots(input_.now()), map_, options_.services())};
+            .body = metrics_text(fleet, fleet.robots(options_.now()), map_, options_.services())};
     });
-    server_.publish(setup_, [text = setup_value(map_, options_.limits)] { return text; });
+    server_.publish(setup_,
+                    [text = setup_value(map_, options_.limits, options_.device)] { return text; });
     options_.server.tell("the page is at " + server_.url());
     thread_ = std::thread([this] { run(); });
 }
 
 FleetWeb::~FleetWeb() {
-    constexpr auto kPatience = std::chrono::seconds(2);
     ends_ = true;
     thread_.join();
-    publisher_.flush(kPatience);
 }
 
 void FleetWeb::run() {
@@ -90,9 +82,8 @@ bool FleetWeb::is_due(TimedTopic& timed, Clock::time_point now) {
 
 const FleetWeb::Snapshot& FleetWeb::snapshot() {
     if (!snapshot_) {
-        const Now now = input_.now();
-        snapshot_ =
-            std::make_shared<const FleetSnapshot>(FleetSnapshot{input_.fleet().robots(now), now});
+        const Now now = options_.now();
+        snapshot_ = std::make_shared<const FleetSnapshot>(FleetSnapshot{fleet_.robots(now), now});
     }
     return snapshot_;
 }
@@ -112,12 +103,12 @@ void FleetWeb::note_alerts(Clock::time_point now) {
 void FleetWeb::publish_lists(Clock::time_point now) {
     const Delivery delivery = options_.services().delivery;
     if (is_due(summary_, now)) {
-        const std::int64_t states = input_.fleet().counts().messages;
+        const std::int64_t states = fleet_.counts().messages;
         const std::chrono::duration<double> elapsed = now - std::exchange(counted_at_, now);
         const auto added = static_cast<double>(states - std::exchange(counted_states_, states));
-        server_.publish(summary_.topic, [text = summary_value(
-                                             *snapshot(), input_.fleet(), map_, options_.services(),
-                                             added / elapsed.count(), alerts_)] { return text; });
+        server_.publish(summary_.topic,
+                        [text = summary_value(*snapshot(), fleet_, map_, options_.services(),
+                                              added / elapsed.count(), alerts_)] { return text; });
     }
     if (is_due(table_, now)) {
         server_.publish_for_each(
@@ -128,7 +119,7 @@ void FleetWeb::publish_lists(Clock::time_point now) {
     if (is_due(robot_, now)) {
         server_.publish_for_each(robot_.topic, [this, delivery, shot = snapshot(),
                                                 alerts = alerts_](const serve::Command& request) {
-            return robot_value(*shot, input_.fleet(), map_, delivery, alerts, request);
+            return robot_value(*shot, fleet_, map_, delivery, alerts, request);
         });
     }
 }
@@ -143,7 +134,7 @@ void FleetWeb::publish_map(Clock::time_point now) {
     if (is_due(trails_, now)) {
         server_.publish_for_each(trails_.topic,
                                  [this, shot = snapshot()](const serve::Command& request) {
-                                     return trails_value(*shot, input_.fleet(), map_, request);
+                                     return trails_value(*shot, fleet_, map_, request);
                                  });
     }
 }
@@ -159,10 +150,10 @@ void FleetWeb::obey() {
 void FleetWeb::remove(const serve::Command& command) {
     const auto* id = command.argument<double>("robot");
     const auto* name = command.argument<std::string>("name");
-    if (id == nullptr || name == nullptr) return;
+    if (id == nullptr || name == nullptr || !options_.remove) return;
     const auto* robot = robot_with(snapshot()->robots, *id);
     if (robot == nullptr || printable(robot->first) != *name) return;
-    publisher_.publish(topic_of(robot->first, Subject::connection), {}, true);
+    options_.remove(robot->first);
     options_.server.tell("web: removed " + printable(robot->first));
 }
 

@@ -1,4 +1,5 @@
-/// The page of `dotpose fleet --web`, and its metrics. docs/fleet.md describes its topics.
+/// The page of `dotpose fleet --web` and `dotpose listen --web`, and its metrics. docs/fleet.md
+/// describes its topics.
 #pragma once
 
 #include <atomic>
@@ -12,27 +13,28 @@
 #include <thread>
 
 #include "fleet_alerts.hpp"
-#include "fleet_input.hpp"
 #include "fleet_values.hpp"
-#include "publish/mqtt.hpp"
 #include "serve/server.hpp"
 
 namespace dotpose::cli {
 
 struct FleetWebOptions {
     serve::ServerOptions server;
-    publish::MqttOptions mqtt;  ///< broker from which the page removes robots
-    ConditionLimits limits;
-    /// Returns the state of the connections. Called on any thread.
+    ConditionLimits limits = {};
+    std::string device = {};  ///< the robot of `dotpose listen`; empty for a fleet
+    // The following functions are called on any thread.
+    std::function<Now()> now;
     std::function<FleetServices()> services;
+    /// Removes a robot from the broker; null if the page may not remove robots.
+    std::function<void(const std::string& robot)> remove = nullptr;
 };
 
 /// Serves the page from its own threads.
 class FleetWeb {
   public:
-    /// Starts the server, and reports its address. `input` and `map` must outlive the page. Throws
+    /// Starts the server, and reports its address. `fleet` and `map` must outlive the page. Throws
     /// BadArgument or Error.
-    FleetWeb(FleetWebOptions options, const FleetInput& input, const FleetMap& map);
+    FleetWeb(FleetWebOptions options, const FleetState& fleet, const FleetMap& map);
     ~FleetWeb();
     FleetWeb(const FleetWeb&) = delete;
     FleetWeb& operator=(const FleetWeb&) = delete;
@@ -59,9 +61,8 @@ class FleetWeb {
     void remove(const serve::Command& command);
 
     FleetWebOptions options_;
-    const FleetInput& input_;
+    const FleetState& fleet_;
     const FleetMap& map_;
-    publish::MqttPublisher publisher_;
     AlertWatch watch_;
     std::deque<RobotAlert> alerts_;
     Clock::time_point next_check_;

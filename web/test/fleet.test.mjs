@@ -1,4 +1,4 @@
-// Tests the page of `dotpose fleet --web` with robots on a real broker. A robot is a mosquitto_pub
+// Tests the page of `dotpose fleet --web` with robots on a real broker, and that of `dotpose listen --web`. A robot is a mosquitto_pub
 // with a last will, so it can be killed and stopped like the program of a robot.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
@@ -9,6 +9,7 @@ import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { after, afterEach, before, beforeEach, test } from "node:test";
 import { dotpose, kTool, launch, open } from "./browser.mjs";
+import { readCsv } from "./clip.mjs";
 
 const kAxe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 const kLoad = join(dirname(kTool), "dotpose_fleet_load");
@@ -316,6 +317,32 @@ test("a click on the map chooses a robot, and a restart forgets it", async () =>
     await untilState(page, "anna", "moving");
     await page.close();
     await again.stop();
+});
+
+test("the page of listen shows the device", async () => {
+    const drive = join(folder, "drive.mp4");
+    const packets = join(folder, "packets.bin");
+    const sheets = join(folder, "sheets.json");
+    dotpose("print", "-o", join(folder, "table.pdf"), "--sheets", sheets, "--name", "table");
+    dotpose("simulate", "--drive", "--sheets", sheets, "--frames", "100", "-o", drive, "--size", "320x240", "--mm-per-px", "0.03", "--seed", "11");
+    dotpose("watch", drive, "--packets", packets, "--no-window", "-o", "/dev/null");
+    const truth = readCsv(readFileSync(drive.replace(".mp4", "-truth.csv"), "utf8")).at(-1);
+    const device = run(kTool, "listen", "-", "--robot", "micro", "--web", "0", "-o", "/dev/null");
+    const url = await until(() => /the page is at (\S+)/.exec(device.messages)?.[1], "no page");
+    device.program.stdin.write(readFileSync(packets));
+    const { page, complaints } = await open(browser.context, url);
+    await page.waitForSelector("#fleet-robot", { state: "visible" });
+    assert.equal(await page.textContent("#fleet-title"), "micro");
+    const number = async (id) => Number(await page.textContent(`#fleet-robot-${id}`));
+    await until(async () => (await number("messages")) === 100, "100 messages");
+    const distance_mm = Math.hypot((await number("x")) - truth.x_mm, (await number("y")) - truth.y_mm);
+    assert.ok(distance_mm < 0.05, `${distance_mm} mm`);
+    assert.match(await page.textContent("#fleet-robot-place"), /^pattern-/);
+    assert.ok(await page.isHidden("#fleet-remove"));
+    assert.deepEqual(complaints, []);
+    await page.close();
+    device.program.stdin.end();
+    assert.equal(await device.ended, 0, device.messages);
 });
 
 test("axe finds no violation, and nothing is wider than the screen", async () => {

@@ -23,6 +23,8 @@ const panel: RobotPanel = new RobotPanel(connection, takeRobot, ({ map, x_mm, y_
 });
 const table = new RobotTable(connection, (id) => panel.choose(id));
 const fleet_map = new FleetMap(connection, (id) => panel.choose(id));
+/** True if the page is to choose the device of `dotpose listen`, the only robot, when it appears. */
+let awaits_device = false;
 const summary = new SummaryView(announce, (state) => {
     table.showOnly(state);
     element("fleet-table", HTMLElement).scrollIntoView({ block: "start" });
@@ -31,6 +33,14 @@ const summary = new SummaryView(announce, (state) => {
 function takeRobot(robot: Robot | null): void {
     table.takeChosen(robot?.id ?? null);
     fleet_map.takeChosen(robot);
+}
+
+function takeTable(value: Table): void {
+    table.take(value);
+    const only = value.rows[0];
+    if (!awaits_device || only === undefined) return;
+    awaits_device = false;
+    panel.choose(only.id);
 }
 
 function subscribe<T>(topic: string, take: (value: T) => unknown, request: Request = {}): void {
@@ -43,13 +53,17 @@ function subscribe<T>(topic: string, take: (value: T) => unknown, request: Reque
 
 subscribe<Setup>("setup", (value) => {
     fleet_map.setUp(value);
-    document.title = `${value.map === "" ? "Fleet" : value.map}: dotpose`;
+    awaits_device = value.device !== "";
+    element("fleet-remove", HTMLButtonElement).hidden = awaits_device;
+    const title = value.device || (value.map === "" ? "Fleet" : `Fleet of ${value.map}`);
+    show({ "fleet-title": title });
+    document.title = `${title}: dotpose`;
 });
 subscribe<Summary>("summary", (value) => {
     summary.take(value);
     fleet_map.takeMaps(value.maps);
 });
-subscribe<Table>("table", (value) => table.take(value), table.request());
+subscribe<Table>("table", takeTable, table.request());
 subscribe<Robot | null>("robot", (value) => panel.take(value), panel.request());
 connection.open();
 

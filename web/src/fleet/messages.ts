@@ -7,6 +7,8 @@ export const kConditions = ["moving", "still", "lost", "silent", "gone"] as cons
 export type Condition = (typeof kConditions)[number];
 
 export interface Setup {
+    /** Name of the robot of `dotpose listen`; empty for a fleet. */
+    device: string;
     /** Name of the map of the sheet file; empty without a file. */
     map: string;
     sheets: { name: string; corners_mm: Pair[] }[];
