@@ -351,7 +351,7 @@ test("axe finds no violation, and nothing is wider than the screen", async () =>
     for (const colorScheme of ["light", "dark"]) {
         for (const width of [1300, 390, 320]) {
             const { page } = await open(browser.context, url);
-            await page.emulateMedia({ colorScheme });
+            await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
             await page.setViewportSize({ width, height: 800 });
             await untilInView(page, 1);
             await page.click("#fleet-rows button");

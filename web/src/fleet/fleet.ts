@@ -21,7 +21,7 @@ const panel: RobotPanel = new RobotPanel(connection, takeRobot, ({ map, x_mm, y_
     const y = y_mm ?? path_mm.at(-1);
     if (map !== undefined && x !== undefined && y !== undefined) fleet_map.showPlace(map, x, y);
 });
-const table = new RobotTable(connection, (id) => panel.choose(id));
+const table = new RobotTable(connection, (id) => panel.choose(id, true));
 const fleet_map = new FleetMap(connection, (id) => panel.choose(id));
 /** True if the page is to choose the device of `dotpose listen`, the only robot, when it appears. */
 let awaits_device = false;

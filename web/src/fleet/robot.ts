@@ -9,7 +9,7 @@ function refusedText({ camera }: Robot): string {
     const refused = Object.entries(camera?.refused ?? {}).sort((a, b) => b[1] - a[1]);
     if (camera === undefined) return kNothing;
     if (refused.length === 0) return `none of ${camera.frames}`;
-    return refused.map(([reason, count]) => `${reason.replaceAll("_", " ")}: ${count}`).join(", ") + ` of ${camera.frames}`;
+    return `${refused.map(([reason, count]) => `${count} ${reason.replaceAll("_", " ")}`).join(", ")}, of ${camera.frames}`;
 }
 
 export function eventItem(event: Alert, ...name: (string | Node)[]): HTMLLIElement {
@@ -26,6 +26,7 @@ export class RobotPanel {
     #id: number | null = null;
     #robot: Robot | null = null;
     #listed = "";
+    #reveals = false;
 
     /** `changed` is called with each new state of the chosen robot; `find` when its place is to be shown. */
     constructor(connection: Connection, changed: (robot: Robot | null) => void, find: (robot: Robot) => void) {
@@ -46,8 +47,10 @@ export class RobotPanel {
         return this.#id === null ? {} : { robot: this.#id };
     }
 
-    choose(id: number | null): void {
+    /** Chooses a robot. `reveal` scrolls to the panel when it is shown. */
+    choose(id: number | null, reveal = false): void {
         this.#id = id;
+        this.#reveals = reveal;
         if (id === null) this.take(null);
         this.#connection.ask("robot", this.request());
     }
@@ -59,6 +62,8 @@ export class RobotPanel {
         this.#panel.hidden = robot === null;
         if (robot === null && this.#dialog.open) this.#dialog.close();
         if (robot !== null) this.#show(robot);
+        if (robot !== null && this.#reveals) this.#panel.scrollIntoView({ block: "nearest" });
+        if (robot !== null) this.#reveals = false;
         this.#changed(robot);
     }
 
