@@ -105,9 +105,9 @@ void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
     run.print_block("statuses", statuses);
 }
 
-/// Returns the limit of a condition: the hardest value such that at least the fraction `share` of
-/// the frames is located at this value and at all easier values. For the spacing, which has a lower
-/// and an upper limit, returns the range of values.
+/// Returns the limit of a condition. The limit is the hardest value up to which at least the
+/// fraction `share` of the frames is located at every value. For the spacing, which has a lower and
+/// an upper limit, returns the range of values.
 std::string reach(const Sweep& sweep, Decoder decoder, double share) {
     const auto located = [&](std::size_t i) {
         const SweepPoint& point = sweep.points[i];

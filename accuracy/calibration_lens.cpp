@@ -116,7 +116,7 @@ double field_mm(const CameraModel& model) {
 /// The error of a parameter, its name and unit in the table, and the key of its standard deviation.
 struct ParameterError {
     const char* title;
-    const char* sigma;  ///< key in `Camera::sigma`; empty if no standard deviation is reported
+    const char* sigma;  ///< key in `Camera::sigma`, or empty if no standard deviation is reported
     double error;
     double unit;
 };

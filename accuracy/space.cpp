@@ -30,8 +30,8 @@ namespace {
 constexpr double kDegree_rad = std::numbers::pi / 180;
 /// Print jitter of the preset `nominal`.
 constexpr double kJitter_mm = 0.010;
-/// Normalised squared error of the six coordinates above which a pose is wrong. By chance, a
-/// correct pose exceeds it once in 10^19.
+/// Limit of the normalised squared error of the six coordinates. Above the limit, a pose is wrong.
+/// A correct pose exceeds the limit by chance once in 10^19.
 constexpr double kWrong = 100;
 
 /// Errors of one method. Errors are relative to the bound.
@@ -70,7 +70,7 @@ struct SpaceTally {
 /// A camera with 640 x 480 px.
 struct Lens {
     const char* title;
-    double distance_mm;  ///< to the pose point
+    double distance_mm;  ///< distance from the camera to the pose point
     double k;
 };
 constexpr std::array kLenses = {Lens{"52 degrees", 30, -0.7e-6}, Lens{"28 degrees", 60, -0.2e-6}};
@@ -87,7 +87,7 @@ Shot shot_at(const Lens& lens, double tilt_deg, std::uint64_t seed, std::uint64_
     Rng rng(shot.seed, 1);
     const double azimuth_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
     const double tilt_rad = tilt_deg * kDegree_rad;
-    // The normal of the paper leans by the tilt in the direction of the azimuth.
+    // The normal of the paper is tilted towards the azimuth.
     shot.pose.tilt_y_rad = std::asin(std::sin(tilt_rad) * std::cos(azimuth_rad));
     shot.pose.tilt_x_rad =
         std::atan2(std::sin(tilt_rad) * std::sin(azimuth_rad), std::cos(tilt_rad));
@@ -113,7 +113,7 @@ SpaceMatrix matrix_of(const SpaceCovariance& covariance) {
 }
 
 #ifdef DOTPOSE_HAS_CALIB3D
-/// Returns the pose by OpenCV from the dots that `space_pose` uses.
+/// Returns the pose that OpenCV computes from the dots that `space_pose` uses.
 CameraInSpace opencv_pose(const GreyImage& image, const Fix& fix, const Camera& camera,
                           const Trace& trace) {
     const double mm = fix.spacing_mm();
@@ -158,7 +158,7 @@ void measure(const Shot& shot, SpaceTally& tally) {
 #endif
 }
 
-/// Returns two cells with the errors relative to the bound: of the position and of the rotation.
+/// Returns two table cells: the errors of position and rotation, relative to the bound.
 std::string ratios_text(const SpaceErrors& errors) {
     const auto& e = errors.coordinates;
     if (e[0].count == 0) return " - | - |";
@@ -195,7 +195,7 @@ bool space_table(TableRun& run) {
         "about x y z | all six | with a second pose | ambiguous | wrong | OpenCV, error / bound: "
         "x y z | about x y z |\n|--:|--:|--:|---|---|---|---|--:|--:|--:|--:|---|---|\n";
     bool is_right = true;
-    std::uint64_t row = 0;  // each row has other frames
+    std::uint64_t row = 0;  // each row uses different frames
     for (const Lens& lens : kLenses) {
         for (const double tilt_deg : tilts_deg) {
             const std::uint64_t seed = scramble(run.seed + row++);

@@ -118,10 +118,10 @@ class Board:
         self.middle = (width / 2, height / 2)
 
     def frame(self, truth, random):
-        """Renders with 4 x 4 samples a pixel, then blur, noise and rounding."""
+        """Renders a frame with 4 x 4 samples per pixel, and adds blur, noise and rounding."""
         fine = 4
         rotation, position = truth
-        # Pixel of a place (x, y, 1) on the paper.
+        # Pixels of the points (x, y, 1) on the paper.
         columns = numpy.column_stack(
             [rotation.T[:, 0], rotation.T[:, 1], -rotation.T @ position])
         to_fine = numpy.array([[fine, 0, (fine - 1) / 2], [0, fine, (fine - 1) / 2], [0, 0, 1]])

@@ -1,4 +1,4 @@
-// Poses in space by OpenCV, for comparison.
+// Computes poses in space with OpenCV, for comparison.
 #pragma once
 
 #include "calibrate/space_fit.hpp"

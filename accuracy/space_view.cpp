@@ -24,15 +24,14 @@ bool is_in_view(const Shot& shot, const Vec2& pixel) {
            pixel.y <= camera.height_px - 1 - radius_px;
 }
 
-/// Returns the length of a spacing in the image at a place, along the direction in which it is
-/// shortest.
+/// Returns the minimum length of a spacing in the image at a place, over all directions.
 double shortest_spacing_px(const Projection& projection, const Vec2& place_mm, double spacing_mm) {
     const auto step = [&](double x_mm, double y_mm) {
         const Vec2 to = projection.pixel_from_offset({place_mm.x + x_mm, place_mm.y + y_mm});
         const Vec2 from = projection.pixel_from_offset({place_mm.x - x_mm, place_mm.y - y_mm});
         return Vector2d((to.x - from.x) / 2, (to.y - from.y) / 2);
     };
-    // Difference quotients over a tenth of a spacing.
+    // Approximates the derivatives by difference quotients over a tenth of a spacing.
     Matrix2d by_spacing;
     by_spacing << 10 * step(spacing_mm / 10, 0), 10 * step(0, spacing_mm / 10);
     return by_spacing.jacobiSvd().singularValues()[1];
@@ -53,8 +52,8 @@ Eigen::Matrix<double, 2, 6> by_pose(const Matrix3d& rotation, const Vector3d& pl
     return result;
 }
 
-/// Returns the Cramer-Rao bound for the covariance of a dot's centre in the image, for known blur,
-/// contrast and paper. The image of the dot is treated as Gaussian.
+/// Returns the Cramer-Rao bound of the covariance of a dot's centre in the image, for known blur,
+/// contrast and paper level. Treats the image of the dot as a Gaussian.
 Matrix2d centre_bound(const Shot& shot, const Matrix2d& by_place) {
     const Imperfections& noise = shot.imperfections;
     const double radius_mm = shot.page.pattern.dot_mm / 2;
@@ -79,12 +78,12 @@ TrueSpacePose true_space_pose(const Shot& shot) {
     const CameraPose& pose = shot.pose;
     const double spacing_mm = shot.page.pattern.spacing_mm;
     // The paper is tilted about the image y axis, and then about the image x axis. Theta is the
-    // angle of the image x axis at the image centre, which is another direction on the paper if the
-    // paper is tilted about both axes.
+    // angle of the image x axis at the image centre. If the paper is tilted about both axes, this
+    // axis has another direction on the paper.
     const Matrix3d tilt = (Eigen::AngleAxisd(pose.tilt_x_rad, Vector3d::UnitX()) *
                            Eigen::AngleAxisd(pose.tilt_y_rad, Vector3d::UnitY()))
                               .toRotationMatrix();
-    // Place on the tilted paper of a point one unit to the right of the image centre.
+    // Place on the tilted paper that appears one unit to the right of the image centre.
     const Vector3d normal = tilt.col(2);
     const Vector3d right(1, 0, -normal.x() / normal.z());
     const Vector3d on_paper = tilt.transpose() * right;

@@ -8,7 +8,7 @@
 
 namespace dotpose::tables {
 
-/// Position in mm in the pattern frame, and camera-to-pattern rotation.
+/// Position in mm in the pattern frame, and rotation from the camera to the pattern.
 struct TrueSpacePose {
     Eigen::Vector3d position_mm;
     Eigen::Matrix3d rotation;
@@ -26,13 +26,13 @@ using SpaceMatrix = Eigen::Matrix<double, 6, 6>;
 /// Returns the error of a pose, in the coordinates of SpacePose::covariance.
 SpaceVector space_error(const CameraInSpace& camera, const TrueSpacePose& truth);
 
-/// Spacing in the image, along the direction in which it is shortest, below which the images of
-/// adjacent dots are not separate.
+/// Minimum spacing in the image, in the direction of the smallest spacing. Below the minimum, the
+/// images of adjacent dots overlap.
 inline constexpr double kResolvedSpacing_px = 4;
 
-/// Returns the Cramer-Rao bound for the covariance of a pose, from all dots that are completely in
-/// view and separate in the image, for errors of the print with the standard deviation `jitter_mm`
-/// along each axis, and for the noise of the image. Motion during the exposure is ignored.
+/// Returns the Cramer-Rao bound of the covariance of a pose. Uses all dots that are completely in
+/// view and separate in the image. `jitter_mm` is the standard deviation of the printing error
+/// along each axis. Includes the noise of the image, but not the motion during the exposure.
 SpaceMatrix space_bound(const Shot& shot, double jitter_mm);
 
 }  // namespace dotpose::tables

@@ -88,7 +88,7 @@ class TableRun {
 
     int argc_;
     const char* const* argv_;
-    std::string document_;  ///< path; empty if no document was named
+    std::string document_;  ///< path, or empty if no document was named
     Blocks blocks_;
 };
 

@@ -99,8 +99,8 @@ GreyImage scattered_dots(const Shot& shot, Rng& rng) {
 struct WrongClass {
     const char* name;
     Prediction (*predict)(const LocatedPair& views, Rng& rng);
-    /// Draws an image of the same camera without a valid code, for which every prediction is wrong.
-    /// Null if the class uses the image of the shot.
+    /// Draws an image of the same camera without a valid code. Every prediction is wrong for such
+    /// an image. Null if the class uses the image of the shot.
     GreyImage (*draw)(const Shot& shot, Rng& rng) = nullptr;
 };
 constexpr Prediction (*kRight)(const LocatedPair&, Rng&) = displaced<0, 0>;

@@ -15,16 +15,16 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns the number of frames to render. There are enough frames that branch prediction and
-/// caches do not adapt to individual frames, but few enough that they can be rendered quickly.
+/// Returns the number of frames to render. The number is large enough that branch prediction and
+/// caches do not adapt to individual frames, and small enough for quick rendering.
 int count_of(const CameraModel& camera) {
     constexpr int kMaxFrames = 20;
     constexpr int kPixels = 4'000'000;
     return std::clamp(kPixels / (camera.width_px * camera.height_px), 1, kMaxFrames);
 }
 
-/// Returns true if the first attempt and the attempt of DeviceLocator both find a pose. All other
-/// frames are excluded, because an attempt may end early and appear fast on them.
+/// Returns true if the first attempt and the attempt of DeviceLocator both find a pose. Other
+/// frames are excluded, because an attempt may end early on them and appear fast.
 bool is_located_by_first_attempt(const KnownFrame& frame) {
     const auto memory = std::make_unique<LargeMemory>();
     const auto locates = [&](Effort effort) {

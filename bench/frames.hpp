@@ -1,4 +1,4 @@
-/// Frames of the benchmarks. They are rendered before the measurement begins.
+/// Frames of the benchmarks, which are rendered before the measurement begins.
 #pragma once
 
 #include <functional>

@@ -27,8 +27,8 @@ extern "C" [[gnu::noinline]] void count_tracked_frame(const ImageView& image,
                                                       Locator& locator) {
     locator.locate(image, prediction);
 }
-/// Locates a frame without a given code. The difference from count_frame_in_code, which locates the
-/// same frame with its code given, is the cost of detecting the code.
+/// Locates a frame without a given code. count_frame_in_code locates the same frame with its code
+/// given. The difference between the two counts is due to the detection of the code.
 extern "C" [[gnu::noinline]] CodeReading count_frame_in_any_code(const ImageView& image,
                                                                  Locator& locator) {
     return locator.locate_in_any_code(image, {});

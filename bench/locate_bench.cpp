@@ -23,7 +23,7 @@ CameraModel camera_of(int width_px, int height_px) {
     return camera;
 }
 
-/// Returns a 12-megapixel phone camera that sees a whole page.
+/// Returns a 12-megapixel phone camera whose image shows a whole page.
 CameraModel phone_camera() {
     CameraModel camera = camera_of(4000, 3000);
     camera.mm_per_px = kDefaultSpacing_mm / 6;

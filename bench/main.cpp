@@ -38,8 +38,8 @@ struct Arguments {
 
 Arguments parse(int argc, char** argv) {
     Arguments arguments;
-    // Interleaves the repetitions of all benchmarks, so that a temporary load on the machine does
-    // not affect all repetitions of a single benchmark.
+    // Interleaves the repetitions of all benchmarks. A temporary load on the machine then affects
+    // repetitions of several benchmarks, and not all repetitions of one.
     for (const char* option : {"--benchmark_enable_random_interleaving=true",
                                "--benchmark_repetitions=9", "--benchmark_min_time=0.05"})
         arguments.library.emplace_back(option);

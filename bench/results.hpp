@@ -11,11 +11,11 @@ namespace dotpose::bench {
 
 struct Result {
     double us = 0;    ///< time of one call in the fastest repetition, in µs
-    double dots = 0;  ///< mean number of dots in the frames; 0 for benchmarks without frames
+    double dots = 0;  ///< mean number of dots in the frames, or 0 for benchmarks without frames
 };
 
 /// Prints and stores the fastest repetition of each benchmark. Other load on the machine can only
-/// slow a repetition down.
+/// make a repetition slower.
 class Results : public benchmark::ConsoleReporter {
   public:
     Results();

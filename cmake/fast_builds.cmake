@@ -1,8 +1,9 @@
-# With ccache, unchanged sources are not compiled again in a second checkout or after `make clean`, because
-# paths and precompiled headers are hashed relative to the checkout. Replaces a plain ccache launcher
-# (CMAKE_CXX_COMPILER_LAUNCHER in the environment), because without these settings ccache does not cache
-# sources that use precompiled headers. Comments are part of the hash. If a cached precompiled header were
-# made from files with different comments, GCC would include the files again in spite of `#pragma once`.
+# With ccache, unchanged sources are not compiled again in a second checkout or after `make clean`.
+# Paths and precompiled headers are hashed relative to the checkout. Replaces a plain ccache
+# launcher (CMAKE_CXX_COMPILER_LAUNCHER in the environment), because without these settings ccache
+# does not cache sources that use precompiled headers. Comments are part of the hash. If a cached
+# precompiled header were made from files with different comments, GCC would include the files again
+# in spite of `#pragma once`.
 find_program(DOTPOSE_CCACHE ccache)
 if(DOTPOSE_CCACHE AND (NOT CMAKE_CXX_COMPILER_LAUNCHER OR CMAKE_CXX_COMPILER_LAUNCHER MATCHES "(^|/)ccache$"))
     set(launcher ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
@@ -15,7 +16,7 @@ if(DOTPOSE_CCACHE AND (NOT CMAKE_CXX_COMPILER_LAUNCHER OR CMAKE_CXX_COMPILER_LAU
     endif()
 endif()
 
-# mold needs only a fifth of the time for linking.
+# mold links in a fifth of the time.
 find_program(DOTPOSE_MOLD mold)
 if(DOTPOSE_MOLD AND NOT CMAKE_CROSSCOMPILING AND NOT EMSCRIPTEN)
     include(CheckLinkerFlag)

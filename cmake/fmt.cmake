@@ -1,4 +1,5 @@
-# The library fmt. Wheels of Python contain it, because it is not on every system: they use only its headers.
+# Finds the library fmt. Python wheels compile fmt from its headers, because not every system has
+# the library.
 option(DOTPOSE_FMT_HEADER_ONLY "Compile fmt from its headers, so nothing needs libfmt at run time")
 if(DOTPOSE_FMT_HEADER_ONLY)
     find_path(DOTPOSE_FMT_HEADERS fmt/core.h)

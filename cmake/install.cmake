@@ -47,7 +47,7 @@ if(TARGET dotpose_c)
     install(FILES wrappers/c/dotpose.h TYPE INCLUDE)
 endif()
 
-# Each library has its own export set, so that users of the core alone do not need yaml-cpp or libpng.
+# Each library has its own export set. Users of the core alone then do not need yaml-cpp or libpng.
 set(libraries dotpose dotpose_c)
 list(TRANSFORM DOTPOSE_LIBRARIES PREPEND dotpose_ OUTPUT_VARIABLE libraries_of_parts)
 list(APPEND libraries ${libraries_of_parts})

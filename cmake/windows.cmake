@@ -10,7 +10,8 @@ set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
 # in .rdata for another.
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -Wl,--stack,8388608 -Wl,--allow-multiple-definition")
 set(CMAKE_CROSSCOMPILING_EMULATOR wine)
-# Libraries of the host cannot be linked. Those of Windows are in the folder of scripts/windows-libraries.
+# Libraries of the host cannot be linked. scripts/windows-libraries creates the folder of the
+# Windows libraries.
 set(libraries ${CMAKE_CURRENT_LIST_DIR}/../build/windows-libraries)
 set(CMAKE_FIND_ROOT_PATH ${libraries})
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)

@@ -13,9 +13,9 @@ TrackOptions PoseSender::device_tracking() {
     return options;
 }
 
-/// Begins a frame with the tracker's prediction. If the frame does not confirm the prediction, its
-/// rows are lost, because there is no frame buffer. Therefore, after a frame without a pose, the
-/// next frame begins without a prediction.
+/// Begins a frame with the tracker's prediction. There is no frame buffer, so the rows of a frame
+/// are lost if the frame does not confirm the prediction. After a frame without a pose, the next
+/// frame therefore begins without a prediction.
 Status PoseSender::begin(const board::Frame& frame) {
     if (seen_.status != Status::ok) return locator_.begin(frame.width_px, frame.height_px);
     const Prediction expected =

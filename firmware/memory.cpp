@@ -1,5 +1,5 @@
-// C library functions that compilers call implicitly. The programs do not link a C library, because
-// Debian's library for MIPS needs an FPU, and because the instruction counts would depend on the
+// C library functions that compilers call implicitly. The programs do not link a C library for two
+// reasons. Debian's library for MIPS needs an FPU, and the instruction counts would depend on the
 // version of the library.
 #include <cstddef>
 #include <cstdint>

@@ -63,8 +63,8 @@ struct Answer {
 struct AdversarialFrame {
     GreyImage image;
     DeviceOptions options;
-    std::vector<Answer>
-        answers;  ///< empty if every fix is wrong; otherwise, the first is the place at the centre
+    /// The first answer is the place at the centre. Empty if every fix is wrong.
+    std::vector<Answer> answers;
     Pattern printed;
 };
 
@@ -87,9 +87,8 @@ inline bool agrees(const Fix& fix, const Answer& answer) {
            std::abs(theta) < 0.1 && fix.section == answer.section;
 }
 
-/// Returns true if the code of the options at the fix agrees with the printed code at the answer in
-/// at least three quarters of the surrounding bits. In this case, nothing in the frame contradicts
-/// the fix.
+/// Returns true if nothing in the frame contradicts the fix. In the code of the options, at least
+/// three quarters of the bits around the fix then agree with the printed code around the answer.
 inline bool is_twin(const Fix& fix, const AdversarialFrame& frame) {
     if (frame.answers.empty() || frame.options.code == frame.printed.code) return false;
     const Answer& answer = frame.answers.front();

@@ -1,5 +1,6 @@
 /// A simulated robot that drives a figure eight over two sheets, rests, is lifted twice, and
-/// crosses printed graphics: the frames of its camera, and its true poses. World frame: mm, y up.
+/// crosses printed graphics. Provides the frames of its camera, and its true poses. World frame:
+/// mm, y up.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +42,8 @@ struct DrivePlan {
     double second_put_down = 3.55;  ///< displaced a little to the side
     double stop = 4.5;              ///< the robot slows down before this time, and rests after it
     double end = 5.5;
-    double speed_mm_s = 300;  ///< maximum speed, in the middle of the eight; 0 for a robot at rest
+    /// Maximum speed, in the middle of the figure eight. 0 for a robot at rest.
+    double speed_mm_s = 300;
 };
 
 class Drive {
@@ -185,7 +187,7 @@ class DriveCamera {
     GreyImage view_of(std::size_t sheet_index, const DriveState& state, std::uint64_t seed) const {
         constexpr double kExposure_s = 5e-5;
         Imperfections imperfections = base_;
-        // The robot drives along the image's x axis, so the scene moves in the opposite direction.
+        // The robot drives along the image's x axis. The scene moves in the opposite direction.
         const double speed_mm_s = std::hypot(state.vx_mm_s, state.vy_mm_s);
         imperfections.motion_px = {-speed_mm_s * kExposure_s / camera_.mm_per_px, 0};
         imperfections.graphics = state.has_graphics ? 2 : 0;

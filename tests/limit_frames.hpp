@@ -280,7 +280,7 @@ inline void add_partial(std::vector<Limit>& limits) {
     }
 }
 
-/// Returns the image of a sheet with inverted contrast: the dots have the grey level of the paper
+/// Returns the image of a sheet with inverted contrast. The dots have the grey level of the paper
 /// of `shot`, and the paper has the grey level of the ink.
 inline GreyImage white_on_black(const Shot& shot) {
     Shot blank = shot;

@@ -1,5 +1,5 @@
-/// Paths of the files that tests use. They are defined in a separate source, so that the object
-/// files of tests do not depend on the location of the checkout.
+/// Paths of the files that tests use. A separate source file defines them. The object files of
+/// tests therefore do not depend on the location of the checkout.
 #pragma once
 
 #include <string>

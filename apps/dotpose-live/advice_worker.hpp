@@ -1,5 +1,5 @@
-/// Finds out why a frame was refused, on a thread of its own, because the search takes up to a
-/// second.
+/// Finds the reason why a frame was refused. Runs in a separate thread, because the search takes up
+/// to a second.
 #pragma once
 
 #include <condition_variable>
@@ -33,7 +33,7 @@ class AdviceWorker {
     AdviceWorker(const AdviceWorker&) = delete;
     AdviceWorker& operator=(const AdviceWorker&) = delete;
 
-    /// Searches for the reason of a refusal. A waiting job is replaced.
+    /// Searches for the reason of a refusal. Replaces a job that has not started yet.
     void ask(Job job);
 
   private:

@@ -13,7 +13,7 @@ class AlertPublisher {
     /// Throws Error if the broker refuses the connection.
     explicit AlertPublisher(publish::MqttOptions options);
 
-    /// Publishes the changes since the previous call.
+    /// Publishes an alert for each change of a condition since the previous call.
     void check(const FleetRobots& robots, const Now& now);
 
     /// Waits up to 2 s until all alerts are sent, and reports their number.

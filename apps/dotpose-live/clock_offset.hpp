@@ -23,7 +23,7 @@ class ClockOffset {
         current_us_ = std::min(current_us_, offset_us);
     }
 
-    /// Forgets earlier messages, because the clock of the robot was set back.
+    /// Discards earlier messages. Called when the clock of the robot was set back.
     void reset() { *this = {}; }
 
     /// Returns the offset in us. Requires at least one message.

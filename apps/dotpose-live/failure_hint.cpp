@@ -32,8 +32,7 @@ std::string reason_with_advice(Record record, ImageView image, const DeviceOptio
 
 /// Counts a failed frame by its status. Keeps a copy of the first, second, fourth, eighth (and so
 /// on) frame with each status. A new copy replaces the previous copy. At the end of the run, the
-/// copy is therefore from the second half of the frames with this status, although few copies were
-/// made.
+/// copy shows a frame from the second half of the frames with this status.
 void FailureHint::remember(const Record& record, ImageView image, const DeviceOptions& options,
                            double bits_per_px) {
     ++frames_;

@@ -15,9 +15,9 @@ namespace dotpose::cli {
 class FailureHint {
   public:
     /// Takes the result of a frame that was located with `options`. Returns a sentence if this
-    /// frame and most frames of the last second failed, and at least three frames failed. Otherwise
-    /// returns an empty string. The sentence is returned again only after at least half of the
-    /// frames of a second were located. `bits_per_px` is the bit rate of the source
+    /// frame failed, most frames of the last second failed, and at least three frames failed.
+    /// Otherwise returns an empty string. Returns the sentence again only after at least half of
+    /// the frames of a second were located. `bits_per_px` is the bit rate of the source
     /// (capture/frame_source.hpp).
     std::string after(const Reading& reading, ImageView image, const DeviceOptions& options,
                       double bits_per_px);

@@ -13,7 +13,7 @@
 namespace dotpose::cli {
 
 struct SaveOptions {
-    std::string folder;  ///< folder of the saved frames; none are saved if empty
+    std::string folder;  ///< folder of the saved frames, or empty to save none
     /// Saves every n-th frame. If 0, saves the frames that show a new place.
     std::int64_t every = 0;
     ImageEncoding format = ImageEncoding::png;

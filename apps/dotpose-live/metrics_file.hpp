@@ -1,4 +1,4 @@
-/// A file of metrics for the textfile collector of Prometheus' node exporter.
+/// Writes metrics to a file for the textfile collector of Prometheus' node exporter.
 #pragma once
 
 #include <functional>
@@ -11,8 +11,8 @@ class MetricsFile {
     /// Throws Error if the file cannot be written.
     MetricsFile(std::string path, std::function<void(const std::string&)> tell);
 
-    /// Replaces the contents in one step, so no reader sees a part of them. Reports the first of
-    /// several failures and continues, because the next attempt may succeed.
+    /// Replaces the file in one step. A reader never sees an incomplete file. If writing fails,
+    /// reports the first failure and continues, because the next attempt may succeed.
     void write(const std::string& text);
 
   private:

@@ -1,4 +1,4 @@
-/// Connection to the broker that the command line names.
+/// Connection to the MQTT broker that the command line specifies.
 #pragma once
 
 #include <optional>

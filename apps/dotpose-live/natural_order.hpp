@@ -8,7 +8,8 @@
 namespace dotpose::cli {
 
 /// Compares byte by byte, except that runs of digits are compared as numbers of any length. Names
-/// that differ only in leading zeros are ordered as texts, so only equal names are equivalent.
+/// that differ only in leading zeros are compared as texts. Only equal names are therefore
+/// equivalent.
 struct NaturalOrder {
     using is_transparent = void;
 
@@ -30,8 +31,8 @@ struct NaturalOrder {
     }
 
   private:
-    /// Removes the digits at the beginning of a text. Returns them without leading zeros, but
-    /// returns at least one digit if there is one.
+    /// Removes the digits at the beginning of a text. Returns the digits without leading zeros, but
+    /// keeps at least one digit.
     static std::string_view take_number(std::string_view& text) {
         const std::size_t size = std::min(text.find_first_not_of("0123456789"), text.size());
         std::string_view number = text.substr(0, size);

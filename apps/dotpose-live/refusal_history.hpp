@@ -11,7 +11,7 @@ namespace dotpose::cli {
 
 class RefusalHistory {
   public:
-    /// Number of seconds that are kept.
+    /// Number of seconds to keep.
     static constexpr std::int64_t kSeconds = 120;
 
     struct Second {

@@ -13,7 +13,7 @@ namespace dotpose::cli {
 enum class Condition {
     moving,
     still,
-    lost,    ///< the robot does not know its pose, for example because it sees no pattern
+    lost,    ///< the pose is unknown, for example because no pattern is in view
     silent,  ///< no message for some time, or the connection broke
     gone,    ///< no message for a long time, or the robot disconnected
 };
@@ -22,7 +22,7 @@ inline constexpr int kConditionCount = 5;
 /// Returns the identifier of a condition, such as "moving".
 std::string_view name_of(Condition condition);
 
-/// Returns true if the robot knows its pose.
+/// Returns true if the pose of the robot is known.
 inline bool is_fine(Condition condition) {
     return condition == Condition::moving || condition == Condition::still;
 }
@@ -32,12 +32,12 @@ struct ConditionLimits {
     std::int64_t gone_after_us = 60'000'000;  ///< at least `silent_after_us`
 };
 
-/// Returns the condition of a robot with this newest state and connection, of which nothing was
-/// received for `silence_us`.
+/// Returns the condition of a robot. `newest` is its newest state, `presence` its connection, and
+/// `silence_us` the time since its last message.
 Condition condition_of(const RobotState& newest, publish::Presence presence,
                        std::int64_t silence_us, const ConditionLimits& limits);
 
-/// Returns the reason of a condition in a few words, or an empty string if there is none.
+/// Returns the reason of a condition in a few words, or an empty string if no reason is known.
 std::string reason_of(Condition condition, const RobotState& newest, publish::Presence presence);
 
 }  // namespace dotpose::cli

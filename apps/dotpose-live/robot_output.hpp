@@ -15,7 +15,7 @@
 namespace dotpose::cli {
 
 struct RobotOutputOptions {
-    std::string mcap;         ///< MCAP file to record; none if empty
+    std::string mcap;         ///< MCAP file to record, or empty for none
     bool has_images = false;  ///< true to record the images as well
     ImageEncoding image_format = ImageEncoding::png;
     std::optional<dds::PublisherOptions> dds;  ///< none if nothing is published over DDS

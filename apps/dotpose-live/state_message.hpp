@@ -50,7 +50,7 @@ std::optional<MessageTopic> parse_topic(std::string_view topic);
 /// Value of RobotState::reason if the frame was located, but its sheet has no place in the world.
 inline constexpr std::string_view kNoPlace = "no_place";
 
-/// Number of refused frames by Status. The last element counts Status::other.
+/// Number of refused frames, indexed by Status. The last element counts Status::other.
 using RefusedFrames = std::array<std::uint64_t, kStatusCount + 1>;
 
 /// Frames of the camera of a robot since its program started.
@@ -64,14 +64,14 @@ struct CameraReport {
 inline constexpr double kMm_per_m = 1000;
 
 struct RobotState {
-    std::string robot;            ///< name of the sender; empty in a parsed message
+    std::string robot;            ///< name of the sender, or empty in a parsed message
     std::uint64_t header_id = 0;  ///< sequence number of the message
     std::int64_t sent_us = 0;     ///< microseconds since 1970, system clock of the sender
     std::string state = "lost";   ///< lost, moving or stationary
     /// Why the robot is lost: the name of the Status of its newest frame, or kNoPlace. Empty if the
     /// robot is not lost or the reason is unknown.
     std::string reason;
-    std::string sheet;                   ///< name of the sheet in view; empty if unknown
+    std::string sheet;                   ///< name of the sheet in view, or empty if unknown
     std::optional<CameraReport> camera;  ///< about once per second
     bool is_localized = false;           ///< true if the members below are valid
     std::string map_id;                  ///< name of the map, the plane of x and y
@@ -92,7 +92,7 @@ std::string json_of(const RobotState& state);
 std::optional<RobotState> parse_state(std::string_view json);
 
 struct RobotConnection {
-    std::string robot;            ///< name of the sender; empty in a parsed message
+    std::string robot;            ///< name of the sender, or empty in a parsed message
     std::uint64_t header_id = 0;  ///< sequence number of the connection message
     /// Time of sending, in microseconds since 1970 on the system clock of the sender. In a last
     /// will, the time at which the robot connected.
@@ -106,15 +106,15 @@ std::string json_of(const RobotConnection& connection);
 /// Parses a message with the subject `connection`. Returns none if the message is invalid.
 std::optional<RobotConnection> parse_connection(std::string_view json);
 
-/// A change of a robot that requires attention, or its end.
+/// A change of the condition of a robot that requires attention, or the end of such a condition.
 struct RobotAlert {
     std::string robot;
     std::uint64_t header_id = 0;
     std::int64_t sent_us = 0;
     std::string_view condition;  ///< moving, still, lost, silent, gone or removed
-    std::string_view previous;   ///< condition before the change; empty for a new robot
+    std::string_view previous;   ///< condition before the change, or empty for a new robot
     std::string reason;          ///< may be empty
-    std::string map_id;          ///< newest known place; empty if unknown
+    std::string map_id;          ///< newest known place, or empty if unknown
     std::string sheet;
     double x_m = 0;
     double y_m = 0;

@@ -28,8 +28,8 @@ class StateNumbers {
     /// Takes a state and counts it. A state is news if its number is higher than all earlier
     /// numbers, regardless of its time. A state with a lower number but a later time is also news,
     /// because the robot was restarted. A state with a lower number and an earlier time is late.
-    /// However, if several late states are in ascending order of time, the robot was restarted with
-    /// its clock set back, and the states are news.
+    /// If several late states are in ascending order of time, the robot was restarted with its
+    /// clock set back. In this case, the states are news.
     Arrival take(const RobotState& state, StateCounts& counts);
 
   private:
@@ -46,8 +46,8 @@ class StateNumbers {
     bool is_first_ = true;
     Sent newest_;
     std::array<Sent, kRemembered> seen_{};  ///< each state is stored at its number modulo the size
-    /// Number of successive states that are older than `newest_` but in ascending order of time,
-    /// and the time of the last of these states.
+    /// Number of successive states that are older than `newest_` but in ascending order of time.
+    /// `doubted_us_` is the time of the last of these states.
     int doubts_ = 0;
     std::int64_t doubted_us_ = 0;
 };

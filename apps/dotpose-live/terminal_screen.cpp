@@ -20,7 +20,8 @@ constexpr std::string_view kTopLeft = "\033[H";
 constexpr std::string_view kEraseRight = "\033[K";
 constexpr std::string_view kEraseBelow = "\033[J";
 
-/// Bytes that terminals send for keys. A sequence precedes its own prefixes.
+/// Bytes that terminals send for keys. A longer sequence precedes the sequences that are its
+/// prefixes.
 constexpr std::array<std::pair<std::string_view, Key>, 22> kKeys = {{
     {"\033[5~", Key::page_up},
     {"\033[6~", Key::page_down},
@@ -49,7 +50,7 @@ constexpr std::array<std::pair<std::string_view, Key>, 22> kKeys = {{
 }  // namespace
 
 bool TerminalScreen::is_available() {
-    // A program in the background would be stopped when it changes the terminal.
+    // The system would stop a background program that changes the terminal.
     return isatty(STDOUT_FILENO) == 1 && tcgetpgrp(STDOUT_FILENO) == getpgrp();
 }
 

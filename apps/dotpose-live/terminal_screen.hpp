@@ -1,4 +1,4 @@
-/// Shows lines on the whole terminal and reads keys.
+/// Displays lines on the whole terminal, and reads keys.
 #pragma once
 
 #include <optional>
@@ -25,7 +25,7 @@ class TerminalScreen {
 
     ScreenSize size() const;
 
-    /// Returns the next key that was pressed, or none. Does not wait.
+    /// Returns the next key that was pressed, or nullopt if there is none. Does not wait.
     std::optional<Key> next_key();
 
     /// Replaces the contents of the screen. Longer lines are cut off.
@@ -34,7 +34,7 @@ class TerminalScreen {
   private:
     void read_input();
 
-    std::optional<termios> before_;  ///< settings of the terminal; none if no keys are read
+    std::optional<termios> before_;  ///< settings of the terminal, or none if no keys are read
     std::string input_;              ///< bytes that are not yet recognized as keys
 };
 

@@ -99,7 +99,7 @@ struct WatchArguments {
     bool lists_cameras = false;
     bool has_no_window = false;
     bool is_realtime = false;
-    std::int64_t frames = 0;  ///< number of frames to take; 0 means no limit
+    std::int64_t frames = 0;  ///< number of frames to take, or 0 for no limit
 };
 
 void report(const WatchOutputs& outputs, std::int64_t dropped) {
@@ -157,12 +157,12 @@ void save(FrameSaver& saver, GreyImage& image, const Fix& fix, const WatchArgume
     undo_or_redo();
 }
 
-/// Delays recorded frames until their recording time is reached.
+/// Delays each recorded frame until its recording time.
 class Pace {
   public:
     void wait_for(const capture::Frame& frame) {
         using namespace std::chrono;
-        // Live frames are due on arrival, and the first recorded frame immediately.
+        // A live frame is due on arrival. The first recorded frame is due immediately.
         if (frame.is_live) return;
         if (!begun_) begun_ = steady_clock::now() - microseconds(frame.time_us);
         const auto due = *begun_ + microseconds(frame.time_us);

@@ -55,8 +55,9 @@ class WatchOutputs {
     /// Throws Error if an output cannot be opened.
     WatchOutputs(const OutputOptions& options, const Follower& follower);
 
-    /// Writes the outputs of a frame. Returns false if the user closed the window or if no output
-    /// is left because all readers closed their ends. Throws Error if an output cannot be written.
+    /// Writes the outputs of a frame. Returns false if the user closed the window. Also returns
+    /// false if no output is left, because all readers closed their ends. Throws Error if an output
+    /// cannot be written.
     bool take(const capture::Frame& frame, const Reading& reading, const SourceState& source);
 
     /// Writes the map, completes the recording and sends the last states. Throws Error on failure.

@@ -304,7 +304,7 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
     } else {
         files.reads("--sheets", arguments.sheets);
     }
-    // -o may name the camera file given by --camera. Values that are not calibrated are then kept.
+    // -o and --camera may name the same file. Values that are not calibrated are then kept.
     const auto camera = identity_of(arguments.camera.path);
     if (camera && camera == identity_of(arguments.out) &&
         !is_camera_info(system::path_of(arguments.camera.path))) {

@@ -34,7 +34,7 @@ class CalibrationFrames {
 
   private:
     struct Frame {
-        std::string file;  ///< path of an image; empty for a frame in memory
+        std::string file;  ///< path of an image, or empty for a frame in memory
         GreyImage image;
     };
 

@@ -88,7 +88,7 @@ class Option {
     std::vector<std::string> get_snames() const;  ///< one-letter names, without the hyphen
     std::vector<std::string> get_lnames() const;  ///< long names, without the hyphens
     bool get_positional() const;
-    int get_items_expected_max() const;  ///< maximum number of values; 0 for a flag
+    int get_items_expected_max() const;  ///< maximum number of values, or 0 for a flag
     /// All values that the validators accept, or empty if the validators do not list them.
     const std::vector<std::string>& choices() const { return choices_; }
 

@@ -17,11 +17,11 @@ namespace dotpose::cli {
 
 /// Options for an evaluation with a sheet file.
 struct MeasuredArguments {
-    std::string sheets;      ///< sheet file; if empty, poses are in the pattern frame
+    std::string sheets;      ///< sheet file, or empty for poses in the pattern frame
     bool is_aligned = true;  ///< true to align the located places with the true places
     bool alignment_given = false;
-    std::string residuals;  ///< CSV file for the error of each frame; none if empty
-    std::string draw;       ///< folder for the figures; none if empty
+    std::string residuals;  ///< CSV file for the error of each frame, or empty for none
+    std::string draw;       ///< folder for the figures, or empty for none
 
     void add_to(Command& command);
     void add_files(RunFiles& files) const;

@@ -12,7 +12,7 @@
 namespace dotpose::cli {
 
 struct FollowerArguments {
-    std::string sheets;  ///< path of the sheet file; none if empty
+    std::string sheets;  ///< path of the sheet file, or empty for none
     CameraArgument camera;
     bool is_inverted = false;
     FollowerOptions options;  ///< without the contents of the sheet file and the camera file

@@ -55,8 +55,8 @@ constexpr const char* kLocateExamples =
 struct LocateArguments {
     SourceArguments sources;
     LineArguments lines;
-    std::optional<Columns> columns;  ///< columns of CSV; none if not specified
-    std::string draw;                ///< NAME.svg or a folder; no pictures if empty
+    std::optional<Columns> columns;  ///< columns of CSV, or none if not specified
+    std::string draw;                ///< NAME.svg or a folder, or empty for no pictures
     FollowerArguments follower;
     int threads = 1;
 };
@@ -309,7 +309,7 @@ class LocateRun {
     const LocateArguments& arguments_;
     Sources& sources_;
     std::unique_ptr<capture::SourceList> frames_;
-    std::int64_t images_;  ///< number of images of all sources; 0 if unknown
+    std::int64_t images_;  ///< number of images of all sources, or 0 if unknown
     ProgressLine progress_;
     int exit_code_ = 0;
 };

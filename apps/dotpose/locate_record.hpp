@@ -18,7 +18,7 @@ struct Record {
     Fix fix;
     CodeReading reading;         ///< code and alternative places, at the image centre like `fix`
     bool code_is_given = false;  ///< true if the user or the sheet file determines the code
-    double spacing_mm = 0;       ///< NaN if unknown; there are then no fields in mm
+    double spacing_mm = 0;       ///< NaN if unknown; the record then has no fields in mm
     /// Spacing computed from the fix and the camera file; see Located.
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
     /// Velocity of the camera during the readout of a rolling shutter; see Located.
@@ -26,9 +26,9 @@ struct Record {
     bool has_space = false;           ///< true if the record has the fields of a pose in space
     std::optional<SpacePose> space;   ///< pose of the camera in space; see Located
     bool has_sheets = false;          ///< true if the record has the fields of a sheet file
-    std::optional<SheetPlace> place;  ///< place of the fix; none if it is not on a sheet
+    std::optional<SheetPlace> place;  ///< place of the fix, or none if it is not on a sheet
     int min_side_px() const { return has_sheets ? kMinKnownFrameSide_px : kMinFrameSide_px; }
-    double elapsed_us = 0;  ///< time taken to locate the image; NaN if not measured
+    double elapsed_us = 0;  ///< time taken to locate the image, or NaN if not measured
     std::string advice;     ///< advice if there is no fix; may be empty
     int width_px = 0;
     int height_px = 0;
@@ -41,10 +41,12 @@ Record record_of(const Located& located, const Follower& follower);
 
 /// Number of kinds of warnings.
 inline constexpr std::size_t kWarnings = 4;
-/// Returns the warnings for a frame. An empty string means no warning. The warnings are, in order:
-/// another code than the given code explains the frame; the place is not on any sheet of the sheet
-/// file; the spacing implied by the camera file differs from the spacing of the sheet; the dots do
-/// not exclude the second pose in space.
+/// Returns the warnings for a frame. An empty string means no warning. The warnings are, in this
+/// order:
+/// - another code than the given code explains the frame,
+/// - the place is not on any sheet of the sheet file,
+/// - the spacing implied by the camera file differs from the spacing of the sheet,
+/// - the dots do not exclude the second pose in space.
 std::array<std::string, kWarnings> warnings(const Record& record);
 
 /// Explains why there is no fix, with the relevant numbers. Returns an empty string if there is a

@@ -13,9 +13,9 @@ namespace dotpose::cli {
 int edit_distance(std::string_view a, std::string_view b);
 
 /// Returns the name that was probably meant by `word`. This is the nearest name if the edit
-/// distance is at most a third of the length of the longer word, otherwise the only name that
-/// begins with `word`. Case and leading hyphens are ignored. Returns an empty string if no name is
-/// similar.
+/// distance is at most a third of the length of the longer word. Otherwise, it is the only name
+/// that begins with `word`. Case and leading hyphens are ignored. Returns an empty string if no
+/// name is similar.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
 
 /// Returns "; did you mean 'NAME'?" with the nearest name, or an empty string if no name is

@@ -12,10 +12,11 @@ namespace dotpose::cli {
 class NewPlaces {
   public:
     /// Returns true and stores the place if the frame is new. A frame is new if it differs from
-    /// each stored place of the same section in at least one of these properties: its centre, by a
-    /// quarter of the shorter side of the frame and at least two spacings; its direction, by 15
-    /// degrees; or its distance from the paper, by 10 %. `thin_out` increases these minimum
-    /// differences. Returns false for a frame without a fix.
+    /// each stored place of the same section in at least one of these properties:
+    /// - its centre, by a quarter of the shorter side of the frame and at least two spacings,
+    /// - its direction, by 15 degrees, or
+    /// - its distance from the paper, by 10 %.
+    /// `thin_out` increases these minimum differences. Returns false for a frame without a fix.
     bool take(const Fix& fix, ImageView image);
 
     std::size_t count() const { return places_.size(); }

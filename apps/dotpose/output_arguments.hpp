@@ -15,7 +15,7 @@ namespace dotpose::cli {
 
 /// Options of commands that write a line for each frame or packet.
 struct LineArguments {
-    std::string out;  ///< output file; empty or "-" for standard output
+    std::string out;  ///< output file, or empty or "-" for standard output
     RecordFormat format = RecordFormat::json;
     Units units = Units::mm;
 };
@@ -29,7 +29,7 @@ void add_line_options(Command& command, LineArguments& arguments, bool has_text 
 
 /// Options of commands that write one report.
 struct ReportArguments {
-    std::string out;  ///< output file; empty or "-" for standard output
+    std::string out;  ///< output file, or empty or "-" for standard output
     bool as_json = false;
 };
 
@@ -70,7 +70,7 @@ class DocumentOutput {
 
   private:
     std::filesystem::path path_;
-    std::filesystem::path folder_;  ///< temporary folder; empty if there is none
+    std::filesystem::path folder_;  ///< temporary folder, or empty if there is none
 };
 
 }  // namespace dotpose::cli

@@ -10,8 +10,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the fix of a packet. The covariance is unknown, because a packet contains only a part of
-/// it.
+/// Returns the fix of a packet. Leaves the covariance unknown, because a packet contains only a
+/// part of the covariance.
 Fix fix_of(const PosePacket& packet) {
     Fix fix;
     fix.status = packet.status;
@@ -28,8 +28,8 @@ Fix fix_of(const PosePacket& packet) {
 
 /// Sets a diagonal covariance from the deviation of a packet, in units of the spacing.
 void set_covariance(const PosePacket& packet, Fix& fix) {
-    // With 8 x 8 dots, the least number, the standard deviation of the angle is sqrt(6) / 8 of that
-    // of the position in spacings. More dots determine the angle better.
+    // For 8 x 8 dots, the minimum, the standard deviation of the angle is sqrt(6) / 8 of the
+    // standard deviation of the position in spacings. With more dots, the angle is more accurate.
     constexpr float kAngleFromPosition = 0.306F;
     constexpr float kThetaStep_rad = 9.6e-5F;  // of PosePacket::theta_bam16
     const float sigma = std::max<float>(packet.deviation_q12, 1) / 4096;
@@ -95,14 +95,15 @@ std::optional<Reading> PacketFollower::follow(const PosePacket& packet) {
     return reading;
 }
 
-/// Advances the time to that of a packet. Returns false if the packet is not newer.
+/// Advances the time to the time of a packet. Returns false if the packet is not newer than the
+/// previous packet.
 bool PacketFollower::advance(const PosePacket& packet) {
     constexpr std::int64_t kRestart_us = 1'000'000;
     if (newest_) {
         const int step = packets_since(newest_->sequence, packet.sequence);
         if (is_late(step)) return false;
         const auto elapsed_us = static_cast<std::int32_t>(packet.time_us - newest_->time_us);
-        // A clock that went back belongs to a restarted device. The time without packets is
+        // If the clock went back, the device was restarted. The time between the packets is then
         // unknown.
         time_us_ += elapsed_us > 0 ? elapsed_us : kRestart_us;
     }

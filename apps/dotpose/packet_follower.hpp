@@ -1,4 +1,4 @@
-/// Follows a robot by the pose packets of its device.
+/// Follows a robot from the pose packets of its device.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,9 @@
 
 namespace dotpose::cli {
 
-/// Returns the number of packets from an earlier packet to a later one, from their sequence
-/// numbers. The result is not positive for a repeated or late packet.
+/// Returns the number of packets from an earlier packet to a later packet, computed from their
+/// sequence numbers. The result is not positive if the later packet is a repetition or arrived
+/// late.
 inline int packets_since(std::uint16_t earlier, std::uint16_t later) {
     return static_cast<std::int16_t>(later - earlier);
 }
@@ -33,12 +34,12 @@ class PacketFollower {
 
     bool has_sheets() const { return !sheets_.empty(); }
 
-    /// Returns what a packet contains, with its place on the sheets.
+    /// Returns the record of a packet, with its place on the sheets.
     Record record_of(const PosePacket& packet) const;
 
-    /// Updates the track. Returns none if the packet was repeated or is older than the newest
-    /// packet. The times of the readings begin at 0 and increase, also when the clock of the device
-    /// wraps or the device is restarted.
+    /// Updates the track. Returns nullopt if the packet was repeated or is older than the newest
+    /// packet. The times of the readings begin at 0 and always increase, even if the clock of the
+    /// device wraps or the device is restarted.
     std::optional<Reading> follow(const PosePacket& packet);
 
   private:

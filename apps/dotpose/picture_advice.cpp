@@ -86,8 +86,7 @@ std::optional<double> too_small_spacing_px(ImageView image, const DeviceOptions&
     return std::nullopt;
 }
 
-/// Stretch of the image along one direction, to compensate for the foreshortening of a tilted
-/// sheet.
+/// Stretch of the image along one direction. Compensates for the foreshortening of a tilted sheet.
 struct Stretch {
     double angle_rad = 0;
     double by = 1;
@@ -152,9 +151,9 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
     return std::nullopt;
 }
 
-/// Returns the mean squared second difference of the grey levels: the difference between a pixel
-/// and the mean of the two pixels at a distance of `step_px` on opposite sides. Noise contributes
-/// equally at all distances. A linear brightness gradient contributes nothing.
+/// Returns the mean squared second difference of the grey levels. A second difference is the
+/// difference between a pixel and the mean of two opposite pixels at a distance of `step_px`. Noise
+/// contributes equally at all distances. A linear brightness gradient contributes nothing.
 double second_difference(ImageView image, int step_px) {
     std::int64_t squares = 0;
     for (int v = step_px; v + step_px < image.height_px; ++v) {
@@ -170,10 +169,10 @@ double second_difference(ImageView image, int step_px) {
 }
 
 /// Returns true if the image contains only coarse details. Compares the second difference over 2 px
-/// with the larger of the second differences over 8 and 16 px. The second difference over 1 px, an
-/// estimate of the noise, is subtracted from each. The ratio is at least 1/6 in a picture in focus,
-/// even at a tilt of 70 degrees, and less than 1/20 if the dots are too blurred to be read. Returns
-/// false if the image is too small for this comparison.
+/// with the larger of the second differences over 8 and 16 px. Subtracts the second difference over
+/// 1 px, an estimate of the noise, from each. In a focused picture, the ratio is at least 1/6, even
+/// at a tilt of 70 degrees. If the dots are too blurred to be read, the ratio is less than 1/20.
+/// Returns false if the image is too small for this comparison.
 bool is_out_of_focus(ImageView image) {
     constexpr double kMinDetail = 0.4;
     constexpr double kFocused = 0.06;

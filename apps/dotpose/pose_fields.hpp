@@ -21,7 +21,8 @@ struct PlanePose {
     double x_mm = 0;
     double y_mm = 0;
     double theta_rad = 0;
-    PoseCovariance covariance{};  ///< covariance of x, y and theta, in mm and rad; all 0 if unknown
+    /// Covariance of x, y and theta, in mm and rad. All elements are 0 if it is unknown.
+    PoseCovariance covariance{};
 };
 
 /// Returns the pose of a fix in the pattern frame. The fix must be ok.

@@ -26,7 +26,7 @@ namespace {
 
 struct PrintArguments {
     std::string out;
-    std::string ending;  ///< file extension of --format, such as ".pdf"; empty if not given
+    std::string ending;  ///< file extension of --format, such as ".pdf", or empty if not given
     std::string paper = "A4";
     bool landscape = false;
     SheetOptions sheet;

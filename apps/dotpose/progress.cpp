@@ -34,8 +34,8 @@ std::int64_t now_ns() {
 }
 
 /// Stores the first signal. A second signal ends the program immediately if it arrives more than
-/// 500 ms later. An earlier repetition is ignored, because `timeout` signals both the program and
-/// its process group.
+/// 500 ms after the first. An earlier second signal is ignored, because `timeout` signals both the
+/// program and its process group.
 void on_signal(int signal_number) {
     constexpr std::int64_t kTwice_ns = 500'000'000;
     if (signal_seen == 0) {

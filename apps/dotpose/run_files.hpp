@@ -29,7 +29,7 @@ Content content_of(const ReportArguments& report);
 struct FileIdentity {
     std::uint64_t device = 0;
     std::uint64_t file = 0;  ///< number of the file, or of its folder if the file does not exist
-    std::string new_name;    ///< file name in lower case; empty if the file exists
+    std::string new_name;    ///< file name in lower case, or empty if the file exists
     auto operator<=>(const FileIdentity&) const = default;
 };
 

@@ -78,7 +78,7 @@ struct LogRow {
     std::string events;  ///< names of events, separated by spaces
     std::string verdict;
     std::string state;  ///< lost, moving or stationary
-    std::string plane;  ///< pattern or world; empty while the robot is lost
+    std::string plane;  ///< pattern or world, or empty while the robot is lost
     int dots_seen = 0;
     std::optional<double> p_wrong;
     // Pose of the track in mm and degrees, and its speed in mm/s. There is no pose while the robot

@@ -35,9 +35,9 @@ std::vector<Point> path_of(const std::vector<LogRow>& rows) {
     return path;
 }
 
-/// Returns the offset in mm to subtract from the coordinates of an axis. If the labels of the axis
-/// would otherwise differ only in their last digits, as in the pattern frame, the offset is the
-/// centre of the axis in whole mm. Otherwise, the offset is 0.
+/// Returns the offset in mm to subtract from the coordinates of an axis. Coordinates in the pattern
+/// frame are large, and their labels would differ only in their last digits. In this case, the
+/// offset is the centre of the axis in whole mm. Otherwise, the offset is 0.
 double offset_mm(double middle_mm, double reach_mm) {
     constexpr double kMaxReaches = 1000;
     return std::abs(middle_mm) > kMaxReaches * reach_mm ? std::round(middle_mm) : 0;

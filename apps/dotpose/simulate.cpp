@@ -228,8 +228,8 @@ std::optional<SimulatedDrive> drive_of(SimulateArguments& arguments, bool has_le
     return drive;
 }
 
-/// Sets the size of the images and of the pixels, unless the command line does, to those of the
-/// sensor of a mouse: 36 x 36 px, six per spacing.
+/// Sets the size of the images and of the pixels to those of a mouse sensor: 36 x 36 px, and 6 px
+/// per spacing. Keeps sizes that the command line specifies.
 void use_mouse_sensor(const Command& command, Setup& setup) {
     constexpr int kSide_px = 36;
     constexpr double kSpacing_px = 6;
@@ -266,7 +266,7 @@ void run(SimulateArguments& arguments, const Command& command, int& exit_code) {
     int done = 0;
     {
         ProgressLine line("simulating " + arguments.out);
-        // Batches are short, so Ctrl-C takes effect quickly and the file of true poses is up to
+        // Uses small batches. Ctrl-C then takes effect quickly, and the file of true poses is up to
         // date.
         const int batch = 4 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
         while (done < arguments.frames && truth && !interrupted()) {

@@ -21,7 +21,7 @@ inline constexpr const char* kSourcesHelp =
 
 struct SourceArguments {
     std::vector<std::string> names;
-    std::string list;  ///< file with additional names; "-" for standard input; none if empty
+    std::string list;  ///< file with additional names, "-" for standard input, or empty for none
     capture::SourceOptions options;
 
     bool is_given() const { return !names.empty() || !list.empty(); }
@@ -48,7 +48,7 @@ struct SourceArguments {
 class Sources {
   public:
     /// If this program cannot read one of the sources (a camera or a video), replaces this process
-    /// with dotpose-live (live_sources.hpp). Therefore, no output may be open yet. Throws
+    /// with dotpose-live (live_sources.hpp). No output may therefore be open yet. Throws
     /// BadArgument if no source is given, or if standard input is given twice. Throws Error if the
     /// list, a folder or a glob cannot be read.
     explicit Sources(const SourceArguments& arguments);

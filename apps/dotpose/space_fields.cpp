@@ -32,7 +32,8 @@ struct OutputPose {
     SpaceCovariance covariance{};
 };
 
-/// Returns a pose in mm as it is, or in metres with y up and z out of the paper.
+/// Returns a pose in mm, with the axes unchanged, or in metres with y up and z out of the paper,
+/// depending on `units`.
 OutputPose in_units(Units units, const CameraInSpace& camera, const SpaceCovariance& covariance) {
     if (units == Units::mm)
         return {{camera.x_mm, camera.y_mm, camera.z_mm}, camera.rotation, covariance};
@@ -57,7 +58,7 @@ void append_rotation(const std::string& name, const Quaternion& q, std::vector<F
     }
 }
 
-/// Appends the 36 fields of a covariance. `angle` is the unit of the last three coordinates, per
+/// Appends the 36 fields of a covariance. `angle` is the number of output units of an angle per
 /// radian.
 void append_covariance(const std::string& name, double angle, const SpaceCovariance& covariance,
                        std::vector<Field>& fields) {
@@ -70,7 +71,7 @@ void append_covariance(const std::string& name, double angle, const SpaceCovaria
     }
 }
 
-/// Returns the fields, without their values unless `is_known` is true.
+/// Returns the fields. Clears their values if `is_known` is false.
 std::vector<Field> if_known(bool is_known, std::vector<Field> fields) {
     if (is_known) return fields;
     for (Field& field : fields)

@@ -15,8 +15,8 @@ inline constexpr const char* kHelpCommand = "help";
 std::string usage_error(const Command& app, const UsageError& error);
 
 /// Throws UsageError if an option that has a short form is written with a single hyphen, for
-/// example `-out sheet.pdf`. The parser would accept `-out` as `-o` with the file name "ut". `argc`
-/// and `argv` are the arguments of `main`.
+/// example `-out sheet.pdf`. The parser would read this as the option `-o` with the file name "ut".
+/// `argc` and `argv` are the arguments of `main`.
 void require_two_hyphens(const Command& command, int argc, const char* const* argv);
 
 /// Returns "dotpose COMMAND --help" for the parsed command, or "dotpose --help" if there is none.

@@ -1,12 +1,12 @@
 // Port for a Raspberry Pi Pico (RP2040) with the Pico SDK and an ADNS-3080, the sensor of an
-// optical mouse: 30 x 30 px, read by SPI. The port was compiled against stand-ins of the SDK, but
-// never run.
+// optical mouse with 30 x 30 px, which is read by SPI. The port was compiled against replacements
+// of the SDK, but never run.
 //
-// The sensor sees about 5 x 5 cells, so it is located on known sheets only, and rarely in one
-// frame: add `locator_.set_known(kSheets, OtherSheets::impossible)` to PoseSender, with the regions
-// of your sheets as constants. Build with -DDOTPOSE_FRAME_WIDTH_PX=36 -DDOTPOSE_FRAME_HEIGHT_PX=36.
-// A lens must show the pattern at 5 to 6 px per spacing (docs/hardware.md). Link with pico_stdlib
-// hardware_spi.
+// The sensor sees about 5 x 5 cells. This is sufficient for a fix on known sheets only, and a
+// single frame is rarely sufficient. Add `locator_.set_known(kSheets, OtherSheets::impossible)` to
+// PoseSender, with the regions of your sheets as constants. Build with -DDOTPOSE_FRAME_WIDTH_PX=36
+// -DDOTPOSE_FRAME_HEIGHT_PX=36. A lens must show the pattern at 5 to 6 px per spacing
+// (docs/hardware.md). Link with pico_stdlib hardware_spi.
 //
 //     ADNS-3080   SCLK   MOSI   MISO   NCS   RESET   NPD   line   TX
 //     Pico        GP18   GP19   GP16   GP17  GP20    3V3          GP0
@@ -80,8 +80,8 @@ void set_up() {
 }
 
 /// Reads the pixels of the captured frame, column by column from the lower left corner. Each byte
-/// has six bits of the level. The order was not verified on a sensor: if frames are `mirrored`,
-/// reverse the columns.
+/// contains six bits of the grey level. The order was not verified on a sensor. If frames have the
+/// status `mirrored`, reverse the columns.
 void read_pixels() {
     gpio_put(kSelect, false);
     transfer(kPixelBurst);
@@ -108,7 +108,7 @@ Frame start_frame(std::int64_t not_before_us) {
         sleep_until(from_us_since_boot(static_cast<std::uint64_t>(not_before_us)));
     write(kFrameCapture, kCapture);
     sleep_us(kCapture_us);
-    // The third frame after the command is captured, so its exposure ends about here.
+    // The sensor captures the third frame after the command, whose exposure ends about here.
     const auto time_us = static_cast<std::int64_t>(time_us_64());
     read_pixels();
     next = 0;

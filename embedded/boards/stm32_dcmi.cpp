@@ -23,8 +23,8 @@ constexpr std::uint32_t kCameraWidth_px = 376;
 constexpr std::uint32_t kCameraHeight_px = 240;
 constexpr std::uint32_t kWidth_px = board::kMaxWidth_px;
 constexpr std::uint32_t kHeight_px = board::kMaxHeight_px;
-/// Time from the end of VSYNC to the middle of the exposure. It is negative for global shutters,
-/// because they are read out after the exposure.
+/// Time from the end of VSYNC to the middle of the exposure. Negative for global shutters, because
+/// the readout follows the exposure.
 constexpr std::int64_t kMiddleOfExposure_us = -500;
 
 alignas(4) std::uint8_t rows[2][kWidth_px];

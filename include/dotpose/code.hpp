@@ -1,11 +1,11 @@
 /// Position code: returns the symbol printed at each grid intersection, and decodes windows of
 /// symbols.
 ///
-/// The code follows paper section II-A. Every column contains the same cyclic sequence, called
-/// *main*, which is read downwards. A column's *roll* is the index at which its sequence starts.
-/// Rolls of adjacent columns differ by 5 to 58, modulo 63. Each difference has four digits, taken
-/// from the cyclic sequences a1 to a4. The lengths of these sequences are coprime, so consecutive
-/// differences determine the column's position. Rows encode y in the same way.
+/// The code follows section II-A of the paper. Every column contains the same cyclic sequence,
+/// called *main*, read downwards. The *roll* of a column is the index in *main* of the bit in row
+/// 0. Rolls of adjacent columns differ by 5 to 58, modulo 63. Each difference has four digits,
+/// taken from the cyclic sequences a1 to a4. The lengths of these sequences are coprime, so
+/// consecutive differences determine the position of a column. Rows encode y in the same way.
 ///
 /// Coordinates: x points right and y points DOWN, as the printed page is read. All functions are
 /// pure and thread-safe, and do not allocate.
@@ -21,8 +21,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Positions per axis: 236 * 233 * 31 * 241. All four digit sequences repeat together after this
-/// length.
+/// Positions per axis: 236 * 233 * 31 * 241. The combination of places in the four sequences of
+/// digits repeats after this number of positions.
 inline constexpr std::uint32_t kPositionsPerAxis = 410'815'348;
 /// Length of the main sequence. Also the number of sections per axis.
 inline constexpr int kSections = 63;
@@ -49,7 +49,7 @@ struct Cell {
 };
 
 /// Section of the code plane: the rolls of column 0 (u) and row 0 (v). Both are in [0, 63). The
-/// paper calls a section a "sector".
+/// paper uses the term "sector".
 struct Section {
     std::uint8_t u = 0;
     std::uint8_t v = 0;
@@ -72,11 +72,11 @@ constexpr int x_bit(Symbol symbol) {
 constexpr int y_bit(Symbol symbol) {
     return static_cast<int>(symbol) >> 1 & 1;
 }
-/// Returns the dot's displacement along x, in displacement lengths: -1, 0 or 1.
+/// Returns the displacement of a dot along x, in displacement lengths: -1, 0 or 1.
 constexpr int dx(Symbol symbol) {
     return y_bit(symbol) - x_bit(symbol);
 }
-/// Returns the dot's displacement along y (down), in displacement lengths: -1, 0 or 1.
+/// Returns the displacement of a dot along y (down), in displacement lengths: -1, 0 or 1.
 constexpr int dy(Symbol symbol) {
     return x_bit(symbol) + y_bit(symbol) - 1;
 }
@@ -90,8 +90,8 @@ constexpr char letter(Symbol symbol) {
 int delta(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns the roll of column (or row) p in section 0, in O(1). The result is in [0, 63). `p` may
-/// exceed kPositionsPerAxis. Rolls are not periodic: p and p + kPositionsPerAxis have different
-/// rolls.
+/// exceed kPositionsPerAxis. Rolls do not repeat with this period: p and p + kPositionsPerAxis have
+/// different rolls.
 int roll(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns one bit of the cyclic main sequence. Any index is valid.
@@ -109,7 +109,8 @@ struct SymbolWindow {
     int rows = 0;
 };
 
-/// Place in the code: a cell in a section. A window's place is the place of its top left symbol.
+/// Place in the code: a cell in a section. The place of a window is the place of its top left
+/// symbol.
 struct Place {
     Cell cell;
     Section section;
@@ -130,8 +131,7 @@ Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noe
 Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexcept;
 
 /// Computes the position of the first column (or row) from 6 to 32 consecutive rolls. Each roll
-/// must be in [0, 63). All rolls must be counted from the same row (or column). Returns the same
-/// errors as `decode`.
+/// must be in [0, 63). All rolls must refer to the same row (or column). Errors: as for `decode`.
 Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 

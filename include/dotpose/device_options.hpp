@@ -13,15 +13,15 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Radial lens distortion (paper, eq. 1-2): p_u = m + r_d / (1 + k |r_d|^2). Here, p_u is the
-/// undistorted point, m is the distortion centre, and r_d is the vector from m to the image point.
+/// Radial lens distortion (paper, eq. 1-2): p_u = m + r_d / (1 + k |r_d|^2). p_u is the undistorted
+/// point, m is the distortion centre, and r_d is the vector from m to the image point.
 struct FixedLens {
     /// Coefficient k, in units of 2^-40 / px^2. Negative for barrel distortion. Default 0: no
     /// distortion. [any]
     std::int32_t k_q40 = 0;
     /// Distortion centre m relative to the image centre, in px times 256. Default: the image
-    /// centre, as in the paper. In real lenses, m is a few pixels off the image centre. [-1024 to
-    /// 1024 px]
+    /// centre, as in the paper. The distortion centre of real lenses is a few pixels off the image
+    /// centre. [-1024 to 1024 px]
     std::int32_t centre_dx_q8 = 0;
     std::int32_t centre_dy_q8 = 0;
 
@@ -41,8 +41,8 @@ struct ThresholdOptions {
     /// much darker than the paper. Smaller values merge neighbouring dots. Larger values lose
     /// blurred dots. [1 to 256]
     int low_q8 = 120;
-    /// High threshold, in 1/256 of the local contrast. A blob's darkest pixel must be at least this
-    /// much darker than the paper. Larger values reject more noise. [1 to 256]
+    /// High threshold, in 1/256 of the local contrast. The darkest pixel of a blob must be at least
+    /// this much darker than the paper. Larger values reject more noise. [1 to 256]
     int high_q8 = 155;
     /// Contrast below which an image tile counts as blank, in grey levels. The effective limit is
     /// clamp(c / 6, min_contrast, 2 * min_contrast), where c is the largest contrast in the frame
@@ -97,8 +97,8 @@ enum class Effort : std::uint8_t {
 
 /// Dots used to read the position.
 enum class Decoder : std::uint8_t {
-    /// The clearest window of 8 x 8 symbols, as in the paper. Intended for comparison. `locate`
-    /// skips the first attempt, and makes the second attempt with every Effort except `device`.
+    /// The clearest window of 8 x 8 symbols, as in the paper. Intended for comparison. Skips the
+    /// first attempt, and makes the second attempt with every Effort except `device`.
     window,
     all,  ///< all dots in view
 };
@@ -115,14 +115,14 @@ struct DeviceOptions {
     IntegrityOptions integrity;
 
     /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast gets the
-    /// status no_contrast. If a DeviceLocator only tracks the frame, the status is not_tracked.
-    /// Default 0: any readable contrast. [0 to 255]
+    /// status no_contrast, or not_tracked if a DeviceLocator only tracks it. Default 0: any
+    /// readable contrast. [0 to 255]
     int min_contrast = 0;
 
     /// Maximum number of dots in the pose fit, for the first and the tracked attempt. The fit uses
     /// dots spread evenly over the frame. The pose error is proportional to 1 / sqrt(max_dots), and
-    /// the time to max_dots. The default includes all dots in a VGA frame at 9 px per spacing.
-    /// [any; clamped to the range from 64 to the memory's capacity]
+    /// the time to max_dots. The default includes all dots of a VGA frame at 9 px per spacing.
+    /// [any; clamped to the range from 64 to the capacity of the memory]
     int max_dots = 4096;
 
     /// Spacing of the printed grid, in nm. Used to convert a fix to millimetres. Default: 0.508 mm,
@@ -130,8 +130,8 @@ struct DeviceOptions {
     std::int32_t spacing_nm = 508'000;
 
     /// If true, the first and the tracked attempt store dots, grid and bits in the trace. Drawing
-    /// and calibration need these results. Storing takes time. The other attempts always store
-    /// dots, grid and bits.
+    /// and calibration need these results, but storing them takes time. The other attempts always
+    /// store them.
     bool show_stages = false;
 
     /// Reference point: the image point whose pose is reported. Relative to the image centre, in px

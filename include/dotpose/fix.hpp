@@ -19,9 +19,9 @@ namespace dotpose {
 /// src/device.
 enum class Attempt : std::uint8_t {
     tracked,  ///< dots were measured where a prediction expected them
-    first,    ///< without a prediction, from patches of the image
-    second,   ///< on the filtered image, after the first attempt failed
-    device,   ///< in integer arithmetic, as on a microcontroller
+    first,    ///< the grid was found in patches of the image, without a prediction
+    second,   ///< the grid was found in the filtered image
+    device,   ///< the frame was located in integer arithmetic, as on a microcontroller
 };
 /// Returns the identifier, such as "tracked".
 const char* name(Attempt attempt) noexcept;
@@ -49,7 +49,7 @@ const char* name(Prior prior) noexcept;
 /// Result of Locator::locate or DeviceLocator::locate. If `status` is not ok, only `status`,
 /// `dots_seen` and the counts from completed stages are valid.
 ///
-/// The pattern point under the reference point is `cell + fraction`, in spacings. The reference
+/// `cell + fraction` is the pattern point under the reference point, in spacings. The reference
 /// point is the image centre by default. `theta` is the angle of the image x axis in the pattern
 /// frame, from +x towards +y. On the paper, this direction is clockwise, because y points down.
 struct Fix {
@@ -68,8 +68,8 @@ struct Fix {
     /// Spacing of the printed grid, from the options. 0 if unknown.
     std::int32_t spacing_nm = 508'000;
 
-    /// Number of frames whose bits were combined to find the position. More than 1 only if the
-    /// camera motion between frames was given.
+    /// Number of frames whose bits were combined to find the position. The number exceeds 1 only if
+    /// the camera motion between the frames was given.
     int frames = 1;
     int dots_seen = 0;  ///< number of dot-sized blobs
     int dots_used = 0;  ///< number of dots in the pose fit
@@ -80,15 +80,15 @@ struct Fix {
     /// Root mean square distance between the dots and their fitted places, along each axis.
     float residual_px = 0;
 
-    /// Map from the image to the pattern, in spacings relative to `place`. The pose is the map's
-    /// value and orientation at the reference point. `Prediction` uses this map.
+    /// Map from the image to the pattern, in spacings relative to `place`. The pose is the value
+    /// and orientation of the map at the reference point. `Prediction` uses this map.
     PlaneFromImage pattern_from_image;
     Place place;                        ///< origin of `pattern_from_image`
     std::int32_t displacement_q16 = 0;  ///< typical distance of a dot from its intersection, in
                                         ///< 2^-16 spacing
     /// Change of theta during the readout of a rolling shutter, from the first to the last row. 0
-    /// if the frame shows no significant rotation. The pose and `pattern_from_image` are those of
-    /// the middle row.
+    /// if the frame shows no significant rotation. The pose and `pattern_from_image` apply to the
+    /// middle row.
     float readout_turn_rad = 0;
 
     /// Covariance of (x, y, theta), with x and y in spacings and theta in radians.
@@ -100,7 +100,7 @@ struct Fix {
     /// Returns true if the frame was located.
     explicit operator bool() const { return status == Status::ok; }
 
-    // Only the functions below use double precision. They are not part of the core's object code.
+    // Only the functions below use double precision. They are not in the object code of the core.
     double x_grid() const { return cell.x + fraction_x_q16 / 65536.0; }
     double y_grid() const { return cell.y + fraction_y_q16 / 65536.0; }
     /// Position in the pattern frame, in mm. NaN if the grid spacing is unknown.

@@ -22,9 +22,9 @@ namespace dotpose {
 
 /// Criteria for movement, and frame periods.
 struct PacerOptions {
-    /// Time without movement after which the device counts as stationary. A longer time costs
-    /// energy. With a shorter time, brief stops also count as stationary and delay the detection of
-    /// the next movement.
+    /// Time without movement after which the device counts as stationary. A longer time uses more
+    /// energy. With a shorter time, brief stops count as stationary and delay the detection of the
+    /// next movement.
     std::int64_t stationary_after_us = 5'000'000;
     /// Frame period while stationary. A longer period saves energy but delays the detection of
     /// movement.
@@ -32,18 +32,18 @@ struct PacerOptions {
     /// Frame period while moving. Default 0: as fast as possible.
     std::int64_t moving_period_us = 0;
     /// Movement threshold along either axis, in units of 2^-16 spacings. The distance is measured
-    /// from where the device came to rest. The threshold must be well above the noise at rest.
-    /// Default: a tenth of a spacing.
+    /// from the place where the device came to rest. The threshold must be well above the noise at
+    /// rest. Default: a tenth of a spacing.
     std::int32_t moved_q16 = 6554;
     /// Movement threshold for rotations, as a binary angle: 2^31 is half a turn. Default: one
     /// degree.
     std::int32_t turned_bam = 11'930'465;
-    /// If true, a stationary device that loses the pattern counts as moved, for example because the
-    /// device was lifted. Set this to false if frames also fail at rest.
+    /// If true, a stationary device that loses the pattern counts as moved. It may have been
+    /// lifted. Set this to false if frames also fail at rest.
     bool lost_is_moved = true;
 };
 
-/// The device's state of motion, as determined from the frames so far.
+/// The state of motion of the device, determined from the frames so far.
 enum class Motion : std::uint8_t { moving, stationary };
 
 /// Schedules frames. Reduces the frame rate while the device is stationary.
@@ -51,8 +51,8 @@ class FramePacer {
   public:
     explicit FramePacer(const PacerOptions& options = {}) : options_(options) {}
 
-    /// Processes the result of a frame, with or without a fix. `time_us` is the frame's time on any
-    /// monotonic clock. Returns the earliest time for the next frame.
+    /// Processes the result of a frame, with or without a fix. `time_us` is the time of the frame
+    /// on any monotonic clock. Returns the earliest time for the next frame.
     std::int64_t next_frame_us(const Fix& fix, std::int64_t time_us);
 
     /// Returns the current state of motion. Initially `moving`.

@@ -24,11 +24,11 @@ struct KnownRegion {
     std::uint32_t rows = 0;
 };
 
-/// Minimum number of dots required to search for a grid if regions are known. A lower `min_dots` in
-/// the options takes precedence. The smallest views that can be certain have about 25 dots.
+/// Minimum number of dots required to search for a grid on known regions. The options may set a
+/// lower `min_dots`. The smallest views that can be certain have about 25 dots.
 inline constexpr int kMinKnownDots = 16;
 
-/// Whether sheets other than the known ones may be in view.
+/// Whether sheets other than the known sheets may be in view.
 enum class OtherSheets : std::uint8_t {
     possible,    ///< other sheets are also located, but need more dots in view
     impossible,  ///< only places on known sheets are possible

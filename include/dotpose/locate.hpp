@@ -52,7 +52,7 @@ class RowLocator {
     void set_options(const DeviceOptions& options);
 
     /// Returns the results of each stage for the last frame. The stages of a DeviceLocator share
-    /// memory, so only the results of the last stage that ran are complete.
+    /// memory, so only the results of its last stage are complete.
     Trace trace() const;
 
   protected:
@@ -64,11 +64,11 @@ class RowLocator {
     Status note_begin(Status status, int height_px);
     /// Counts a row. Returns false if all rows of the frame were already pushed.
     bool takes_row();
-    /// Returns true if a frame was begun. Otherwise sets the status of the fix to the status of
+    /// Returns true if a frame was begun. Otherwise, sets the status of the fix to the status of
     /// `begin`, or to bad_argument if `begin` was not called.
     bool has_rows();
     /// Ends the frame. Sets the spacing of the printed grid in the fix of the frame, and returns
-    /// this fix.
+    /// the fix.
     Fix finished();
 
     core::Workspace* workspace_;
@@ -96,8 +96,8 @@ class Locator : public RowLocator {
         : Locator(memory.workspace_, options) {
         detects_code_ = !options.code;
     }
-    // Overloads for fixed-point options, in which the code is always given. The overloads are
-    // templates because `Locator(memory, {...})` must select LocatorOptions.
+    // Overloads for fixed-point options, which always contain the code. The overloads are templates
+    // because `Locator(memory, {...})` must select LocatorOptions.
     template <std::same_as<DeviceOptions> Fixed>
     explicit Locator(const Fixed& options) : Locator(new LargeMemory, options) {}
     template <std::same_as<DeviceOptions> Fixed>
@@ -107,7 +107,7 @@ class Locator : public RowLocator {
     ~Locator() { delete owned_; }
 
     /// Sets the options for the following frames. Drops a frame that was begun but not finished.
-    /// Unless the code is given, restarts the detection of the code.
+    /// Restarts the detection of the code, unless the options contain the code.
     void set_options(const LocatorOptions& options) {
         set_fixed_options(options);
         detects_code_ = !options.code;
@@ -119,14 +119,14 @@ class Locator : public RowLocator {
 
     /// Sets the regions of the code plane on the printed sheets that may be in view. With known
     /// regions, views of about 30 dots suffice. `regions` must remain valid while the locator uses
-    /// it. An empty span of regions makes all places possible again. Returns bad_argument, and
-    /// keeps the previous regions, if a region is empty, extends beyond the plane, or has a code or
-    /// section that does not exist. Effort::device does not use the regions.
+    /// it. An empty span makes all places possible again. If a region is empty, extends beyond the
+    /// plane, or has an invalid code or section, keeps the previous regions and returns
+    /// bad_argument. Effort::device does not use the regions.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 
-    /// Locates the pattern in an image. If the options do not set the code, the code is detected
-    /// from all images so far, and `options().code` becomes the code of the fix. The fix is
+    /// Locates the pattern in an image. If the options do not contain the code, detects the code
+    /// from all images so far, and sets `options().code` to the code of the fix. The fix is
     /// bit-identical on every processor, except for the covariance and the residual.
     Fix locate(const ImageView& image);
 
@@ -138,17 +138,17 @@ class Locator : public RowLocator {
     /// Locates an image of a camera that has moved by `since_last` since the previous image. If the
     /// previous image was located, first searches near the place that the motion predicts. If the
     /// position from this image alone is not certain, reads the image together with the previous
-    /// images of the series. Views that are too small or too dirty therefore become certain as the
-    /// camera moves. `Fix::frames` is the number of images read together. The series may include
-    /// images without a pattern, and ends if another function locates an image. If the options do
-    /// not contain the spacing of the printed grid, or if the motion is not usable, locates the
-    /// image alone.
+    /// images of the series. Views that are too small or too dirty can therefore become certain as
+    /// the camera moves. `Fix::frames` is the number of images read together. The series may
+    /// include images without a pattern. The series ends if another function locates an image. If
+    /// the options do not contain the spacing of the printed grid, or if the motion is not usable,
+    /// locates the image alone.
     Fix locate(const ImageView& image, const MeasuredMotion& since_last);
 
     /// Locates an image whose code variant is not known. Considers places in all code variants,
-    /// weighted with the odds in `evidence`. If places of two code variants explain the frame about
-    /// equally well, the status is ambiguous_code. Afterwards `options().code` is the code variant
-    /// of the result, `CodeReading::code`.
+    /// weighted by the odds in `evidence`. If places of two code variants explain the frame about
+    /// equally well, the status is ambiguous_code. Sets `options().code` to the code variant of the
+    /// result, `CodeReading::code`.
     CodeReading locate_in_any_code(const ImageView& image, const CodeEvidence& evidence);
 
     /// Locates an image whose code variant is not known, and tries the predicted place first. The
@@ -170,18 +170,18 @@ class Locator : public RowLocator {
     ///   image with few wrong bits.
     CodeReading locate_in_code(const ImageView& image);
 
-    /// Starts an image that is pushed row by row, with or without a prediction. The locator keeps
-    /// the rows. Errors: bad_argument, image_too_small, image_too_large. image_too_large means that
-    /// the image is wider than the memory supports, or has more pixels than the memory can store:
-    /// 188 x 188 for a SmallMemory, 1280 x 1024 for a LargeMemory.
+    /// Starts an image that is pushed row by row, with or without a prediction. The locator stores
+    /// the rows. Errors: bad_argument, image_too_small, image_too_large. An image is too large if
+    /// it is wider than the memory supports, or has more pixels than the memory can store: 188 x
+    /// 188 for a SmallMemory, 1280 x 1024 for a LargeMemory.
     Status begin(int width_px, int height_px);
     Status begin(int width_px, int height_px, const Prediction& prediction);
     /// Appends the next row of `width_px` pixels. Ignores rows beyond the height of the image, and
     /// all rows if no image was begun.
     void push_row(const std::uint8_t* pixels);
     /// Locates the image whose rows were pushed, as `locate` does. Missing rows count as white
-    /// paper. Errors: the status of `begin` if `begin` failed; bad_argument if `begin` was not
-    /// called.
+    /// paper. If `begin` failed, the fix has the status of `begin`. If `begin` was not called, the
+    /// status is bad_argument.
     Fix finish();
 
   private:
@@ -207,8 +207,8 @@ class Locator : public RowLocator {
 };
 
 /// A locator for microcontrollers with a camera that looks straight at the paper. Uses only integer
-/// arithmetic, and the time per frame is short and bounded. The options `effort` and `decoder` have
-/// no effect. Computes neither covariance nor residual. Computes only a fast upper bound on the
+/// arithmetic. The time per frame is short and bounded. The options `effort` and `decoder` have no
+/// effect. Computes neither covariance nor residual. Computes only a fast upper bound on the
 /// probability that a position is wrong, and refuses the position as not_certain if this bound
 /// exceeds IntegrityOptions::max_p_wrong_log2. A program that uses only this class does not link
 /// the desktop attempts.
@@ -217,11 +217,11 @@ class DeviceLocator : public RowLocator {
     /// The rules for memory and options are the same as for Locator.
     explicit DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options = {});
 
-    /// Sets the regions of the code plane that are printed on the sheets that may be in view, as
-    /// Locator::set_known does. Searches the regions first, and the rest of the plane only if other
-    /// sheets are possible. Regions in another code than `options().code` have no effect. A search
-    /// needs no memory, and takes time in proportion to the columns and rows of the regions: use
-    /// it for a few sheets.
+    /// Sets the regions of the code plane on the printed sheets that may be in view, as
+    /// Locator::set_known does. Searches the regions first, and the other parts of the plane only
+    /// if other sheets are possible. Regions in a code other than `options().code` have no effect.
+    /// A search needs no additional memory. Its time is proportional to the number of columns and
+    /// rows of all regions, so there should be few regions.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 
@@ -237,16 +237,16 @@ class DeviceLocator : public RowLocator {
 
     /// Starts a frame whose dots are measured at their predicted places, as the rows arrive.
     /// Returns not_tracked if the prediction cannot be used. If the frame does not confirm the
-    /// prediction, the fix of `finish` has the status not_tracked. A caller that still has the rows
-    /// can then push the rows again without a prediction.
+    /// prediction, the fix of `finish` has the status not_tracked. The caller can then push the
+    /// rows again without a prediction, if it still has them.
     Status begin(int width_px, int height_px, const Prediction& prediction);
 
     /// Processes the next row of `width_px` pixels. The pixels need not remain valid afterwards.
     /// Ignores rows beyond the height of the frame, and all rows if no frame was begun.
     void push_row(const std::uint8_t* pixels);
 
-    /// Locates the frame whose rows were pushed. Errors: the status of `begin` if `begin` failed;
-    /// bad_argument if `begin` was not called.
+    /// Locates the frame whose rows were pushed. If `begin` failed, the fix has the status of
+    /// `begin`. If `begin` was not called, the status is bad_argument.
     Fix finish();
 
   private:

@@ -1,6 +1,6 @@
-/// LocatorOptions: options for a Locator, in millimetres, pixels and ratios. The defaults suit any
-/// camera. Ranges are in [brackets]. If a value is out of range, every frame gets
-/// Status::bad_argument, and `bad_option` returns the option's name.
+/// LocatorOptions: options for a Locator, in millimetres, pixels and ratios. The defaults are
+/// suitable for any camera. Ranges are in [brackets]. If a value is out of range, every frame gets
+/// Status::bad_argument, and `bad_option` returns the name of the option.
 #pragma once
 
 #include <cmath>
@@ -53,7 +53,7 @@ struct LocatorOptions {
     Effort effort = Effort::twice;
     Decoder decoder = Decoder::all;
     /// If true, every attempt stores dots, grid and bits in the trace. Drawing and calibration need
-    /// these results. Storing takes time.
+    /// these results, but storing them takes time.
     bool show_stages = false;
 
     /// Returns the same options in fixed point. If any option is out of range, the result causes
@@ -90,7 +90,7 @@ inline const char* bad_option(const LocatorOptions& options) {
     return nullptr;
 }
 
-// Only headers use double precision, so the core's object code contains none.
+// Double precision is used only in headers, not in the object code of the core.
 inline LocatorOptions::operator DeviceOptions() const {
     DeviceOptions fixed;
     if (bad_option(*this) != nullptr) {

@@ -1,7 +1,6 @@
-/// Memory of fixed size for a Locator or DeviceLocator. The locator reuses the memory for each
-/// frame. The memory belongs to the caller, unless a Locator allocates it. The memory may be
-/// static, on the heap or, if small enough, on the stack. The content of the memory is private to
-/// the core.
+/// Memory of fixed size for a Locator or DeviceLocator. A locator reuses its memory for each frame.
+/// The memory belongs to the caller, unless a Locator allocates it. It may be static, on the heap
+/// or, if small enough, on the stack. Its content is private to the core.
 #pragma once
 
 #include <array>
@@ -19,7 +18,7 @@ struct DeviceWorkspace;
 struct DesktopWorkspace;
 }  // namespace core
 
-/// Base class of the memories of a DeviceLocator.
+/// Base class of DeviceMemoryFor, independent of the frame size.
 class AnyDeviceMemory {
   public:
     AnyDeviceMemory(const AnyDeviceMemory&) = delete;
@@ -47,7 +46,7 @@ class AnyDeviceMemory {
 
 /// Memory of a DeviceLocator on a small microcontroller, with a sensor of Width x Height px. The
 /// end of this header lists the supported sizes. Frames may be smaller. The memory for 36 x 36 px
-/// is for the sensors of optical mice, which can be located on known sheets only
+/// is for the sensors of optical mice, whose frames can be located only on known sheets
 /// (DeviceLocator::set_known). The memories for a width of 160 or 188 px also support frames that
 /// are taller than Height.
 template <int Width, int Height>

@@ -7,9 +7,9 @@
 ///     PacketReader reader;
 ///     for (std::uint8_t byte : received) if (reader.push(byte)) use(reader.packet());
 ///
-/// The reader always refuses packets with one to four wrong bits. With five or more wrong bits, the
-/// reader accepts about 1 in 65536 packets. After a damaged packet, the reader continues with the
-/// next packet. No heap, no double, no globals. Different objects may be used concurrently.
+/// The reader refuses all packets with one to four wrong bits. It accepts about 1 in 65536 packets
+/// with five or more wrong bits. After a damaged packet, the reader continues with the next packet.
+/// No heap, no double, no globals. Different objects may be used concurrently.
 #pragma once
 
 #include <array>
@@ -48,7 +48,7 @@ struct PosePacket {
     /// 255 means 255 or more, or unknown.
     std::uint8_t deviation_q12 = 0;
 
-    // Only the functions below use double precision. They are not part of the embedded object code.
+    // Only the functions below use double precision. They are not in the object code for devices.
     double x_grid() const { return cell.x + fraction_x_q16 / 65536.0; }
     double y_grid() const { return cell.y + fraction_y_q16 / 65536.0; }
     /// Angle of the image x axis in the pattern frame, in [-pi, pi).
@@ -82,7 +82,7 @@ class PacketReader {
 
   private:
     std::array<std::uint8_t, 31> bytes_{};  ///< bytes since the last end mark
-    /// Number of bytes since the last end mark. 32 means that these bytes were too many for a
+    /// Number of bytes since the last end mark. 32 means that these are too many bytes for a
     /// packet.
     std::size_t count_ = 0;
     std::uint32_t damaged_ = 0;

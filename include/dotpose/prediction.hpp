@@ -1,7 +1,7 @@
-/// Prediction: where the pattern is expected in the next frame. With a prediction, a Locator
-/// computes the next fix in a fraction of the time. The Locator measures the dots at their expected
-/// places and compares their bits with the code. A prediction never makes a fix less certain. A
-/// frame that does not confirm the prediction is located without a prediction.
+/// Prediction: the expected place of the pattern in the next frame. With a prediction, a Locator
+/// computes the next fix in a fraction of the time. It measures the dots at their expected places
+/// and compares their bits with the code. A prediction never makes a fix less certain. A frame that
+/// does not confirm the prediction is located without it.
 ///
 ///     Fix fix = locator.locate(image);
 ///     for (;;) fix = locator.locate(image, Prediction::like(fix));
@@ -33,7 +33,7 @@ struct Prediction {
     /// Standard deviation of the angle, as a binary angle: 2^31 is half a turn. Default: 1.4
     /// degrees. The search ignores this value and always covers rotations of up to 4 degrees.
     std::int32_t sigma_theta_bam = 1 << 24;
-    /// Change of theta during the readout of a rolling shutter; see Fix. A DeviceLocator ignores
+    /// Change of theta during the readout of a rolling shutter (see Fix). A DeviceLocator ignores
     /// this value.
     float readout_turn_rad = 0;
 

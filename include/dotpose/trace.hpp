@@ -1,6 +1,6 @@
 /// Trace: results from each stage of `Locator::locate` for the last frame, for drawing, evaluation
-/// and calibration. The trace is read-only. The trace is not a stable interface, because its
-/// members change with the stages.
+/// and calibration. The trace is read-only. It is not a stable interface, because its members
+/// change with the stages.
 ///
 ///     DeviceOptions options;
 ///     options.show_stages = true;  // otherwise the first and the tracked attempt store little
@@ -36,8 +36,8 @@ struct DetectedDot {
     std::uint16_t area_px = 0;
 };
 
-/// Connection between two seeds, the dots from which the lattice is found. Each of these two seeds
-/// is among the four nearest neighbours of the other seed.
+/// Connection between two seeds, the dots from which the lattice is found. Each seed is among the
+/// four nearest neighbours of the other seed.
 struct SeedEdge {
     std::int16_t from = 0;  ///< index of a seed
     std::int16_t to = 0;
@@ -102,12 +102,12 @@ struct GridRegion {
 struct Decoding {
     GridRegion window;  ///< the clearest window of 8 x 8 cells
     GridRegion region;  ///< all decoded cells: at most kMaxLines x kMaxLines
-    /// Agreement of the lines with the main sequence, at the likeliest quarter turn. Only lines
-    /// that vote on the quarter turn are included.
+    /// Agreement of the voting lines with the main sequence, at the likeliest quarter turn.
     std::int32_t agreement = 0;
     QuarterTurn pattern_from_grid;
     Place place;  ///< place of grid cell (0, 0) in the code; the cell may be out of view
-    /// True if the workspace contains the region's line scores, rotated by `pattern_from_grid`.
+    /// True if the workspace contains the line scores of the region, rotated by
+    /// `pattern_from_grid`.
     bool lines_are_scored = false;
     int bits = 0;  ///< number of bits compared with the code at `place`, two per dot
     /// Upper bounds on the probability that the position is wrong along x and y, as log2 times 256.

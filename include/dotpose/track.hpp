@@ -10,11 +10,11 @@
 ///         const Track& track = tracker.update(time_us, ok ? &sighting : nullptr);
 ///     }
 ///
-/// `predict` returns where the pattern is expected in the next frame. See the loop in
+/// `predict` returns the expected place of the pattern in the next frame. See the loop in
 /// examples/follow_robot.cpp.
 ///
 /// Coordinates: all poses are in the same plane as the sightings. This plane is the pattern frame
-/// or the world of a sheet file, where a robot may drive from sheet to sheet. Positions are
+/// or the world of a sheet file, in which a robot may drive from sheet to sheet. Positions are
 /// integers in nanometres, which cover the whole pattern plane (2.1e14 nm). Angles are binary, from
 /// +x towards +y; 2^31 is half a turn. Velocities are in mm/s along x and y. Angular velocities are
 /// in rad/s.
@@ -53,26 +53,26 @@ struct Sighting {
     /// is *weak* if this value exceeds TrackOptions::max_p_wrong_log2.
     int p_wrong_log2 = 0;
     std::int32_t spacing_nm = 508'000;  ///< spacing of the pattern in view
-    /// True if the plane's y axis points up on the paper. Angles then have the opposite sign to
-    /// angles in the pattern.
+    /// True if the y axis of the plane points up on the paper. Angles then have the opposite sign
+    /// to angles in the pattern.
     bool is_y_up = false;
 };
 
-/// Returns a fix as a sighting in the pattern frame. The plane ID is the fix's section. The fix
-/// must be ok, and its spacing must be known and at most 20 mm.
+/// Returns a fix as a sighting in the pattern frame. The plane ID is the section of the fix. The
+/// fix must be ok, and its spacing must be known and at most 20 mm.
 Sighting sighting_of(const Fix& fix, std::int64_t time_us);
 
 /// Limits on the robot's motion, and criteria for accepting sightings.
 struct TrackOptions {
     /// Standard deviation of the robot's acceleration while manoeuvring. During steady motion, the
-    /// filter estimates a lower acceleration. With a larger value of this option, the filter
-    /// follows sudden changes faster. The default suits a table-top robot.
+    /// filter estimates a lower acceleration. With a larger value, the filter follows sudden
+    /// changes faster. The default is suitable for a table-top robot.
     float acceleration_mm_s2 = 600;
     float angular_acceleration_rad_s2 = 6;
 
     /// Maximum possible acceleration, for example in a collision. If this acceleration does not
-    /// explain a sighting, further sightings must confirm this sighting before the tracker accepts
-    /// it.
+    /// explain a sighting, the tracker accepts the sighting only after further sightings have
+    /// confirmed it.
     float max_acceleration_mm_s2 = 10'000;
     float max_angular_acceleration_rad_s2 = 200;
     /// Maximum speed. Limits how far the robot can have moved since its last sighting.
@@ -99,9 +99,9 @@ struct TrackOptions {
     float still_rad = 0.02F;
     std::int64_t stationary_after_us = 500'000;
 
-    /// Standard deviations of printing errors. Their squares are added to each sighting's
-    /// covariance. Printing errors at one place are the same in every frame, so printing errors do
-    /// not average out.
+    /// Standard deviations of printing errors. The squares of these values are added to the
+    /// covariance of each sighting. Printing errors at one place are the same in every frame, so
+    /// they do not average out.
     float min_sigma_mm = 0.0002F;
     float min_sigma_rad = 0.00002F;
 
@@ -128,20 +128,20 @@ struct TrackedPose {
     float turn_rad_s = 0;
     Covariance6 covariance{};
 
-    // Only the functions below use double precision. They are not part of the embedded object code.
+    // Only the functions below use double precision. They are not in the object code for devices.
     double x_mm() const { return static_cast<double>(x_nm) * 1e-6; }
     double y_mm() const { return static_cast<double>(y_nm) * 1e-6; }
     /// Angle in [-pi, pi).
     double theta_rad() const { return theta_bam * (std::numbers::pi / 2147483648.0); }
 };
 
-/// The tracker's verdict on a frame's sighting.
+/// The tracker's verdict on the sighting of a frame.
 enum class Verdict : std::uint8_t {
     none,  ///< there was no sighting
-    /// Certain enough without the prior, and possible or confirmed. A sighting is possible if it is
-    /// inside the gate. While the robot is lost, a sighting is possible if the robot can have
-    /// reached the place of the sighting. The first sighting is always possible. A sighting is
-    /// confirmed after TrackOptions::confirmations sightings that are consistent with each other.
+    /// Certain enough without the prior, and possible or confirmed. A sighting inside the gate is
+    /// possible. While the robot is lost, a sighting is possible at every place that the robot can
+    /// have reached. The first sighting is always possible. A sighting is confirmed after
+    /// TrackOptions::confirmations sightings that are consistent with each other.
     accepted,
     /// Weak, but certain enough together with the prior.
     with_prior,
@@ -219,19 +219,19 @@ class Tracker {
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
     /// Updates the state with a frame and the odometry motion since the previous update. `right_mm`
-    /// is along the sightings' direction theta. This direction is the image x axis or, with a
-    /// camera file, the robot's heading. Without a sighting, the motion moves the pose, and the
-    /// uncertainty of the motion increases the pose covariance.
+    /// is along the direction theta of the sightings. This is the image x axis or, with a camera
+    /// file, the robot's heading. Without a sighting, the motion moves the pose, and its
+    /// uncertainty increases the pose covariance.
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion& motion);
 
     /// Returns the state after the newest frame.
     const Track& track() const { return track_; }
 
-    /// Predicts where the pattern is in the frame at `time_us`. `newest` must be a fix with status
-    /// ok, and `seen` must be its sighting. Moves the map of `newest` to the pose predicted by the
-    /// filter, and adds the uncertainty of that pose. If `seen` is not accepted yet, the prediction
-    /// is based on the consistent sightings that end with `seen`.
+    /// Predicts the place of the pattern in the frame at `time_us`. `newest` must be a fix with
+    /// status ok, and `seen` must be its sighting. Moves the map of `newest` to the pose predicted
+    /// by the filter, and adds the uncertainty of that pose. If `seen` is not accepted yet, the
+    /// prediction uses the consistent sightings that end with `seen`.
     ///
     /// Returns Prediction::like(newest) if no prediction is possible:
     /// - `seen` is not the newest sighting of a motion estimate,
@@ -240,7 +240,7 @@ class Tracker {
     /// - the spacing is not known, or
     /// - the predicted motion along x or y is 2048 spacings or more.
     ///
-    /// `options` are the Locator's options.
+    /// `options` are the options of the Locator.
     Prediction predict(std::int64_t time_us, const Fix& newest, const Sighting& seen,
                        const DeviceOptions& options) const;
 
@@ -258,7 +258,7 @@ class Tracker {
     /// motion.
     Verdict judge(const track::MotionEstimate& prediction, const Sighting& sighting, float dt_s);
     bool is_confirmed(const Sighting& sighting);
-    /// Returns true if the last accepted sighting or motion is too old, or the position too
+    /// Returns true if the last accepted sighting or motion is too old, or if the position is too
     /// uncertain.
     bool is_stale() const;
     void restart(const track::MotionEstimate& motion);
@@ -272,8 +272,8 @@ class Tracker {
     std::int64_t newest_us_ = 0;  ///< time of the newest frame
     /// State after the newest accepted sighting or measured motion.
     track::MotionEstimate last_;
-    /// Estimate from the newest sightings that contradict the track. These sightings are filtered
-    /// like accepted sightings, because the robot may have been put down elsewhere.
+    /// Estimate from the newest sightings that contradict the track. They are filtered like
+    /// accepted sightings, because the robot may have been put down elsewhere.
     track::MotionEstimate candidate_;
     int agreeing_ = 0;  ///< number of sightings in `candidate_`
     TrackedPose rest_;  ///< pose from which movement is measured

@@ -16,7 +16,7 @@ class ByteSink {
     virtual ~ByteSink() = default;
 
     /// Appends bytes. Never throws, because C libraries call this function. Stores the first
-    /// failure for `require_good` and drops all later bytes.
+    /// failure for `require_good`, and ignores all later bytes.
     virtual void write(const void* data, std::size_t size_bytes) noexcept = 0;
     void write(std::string_view text) noexcept { write(text.data(), text.size()); }
 

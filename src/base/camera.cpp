@@ -1,4 +1,5 @@
-// The geometry of a camera, and its use in `locate`.
+// Implements the geometry of a camera: checks, lens distortion, scale on the paper, crops, and the
+// options of `locate`.
 #include "dotpose/files/camera.hpp"
 
 #include <algorithm>
@@ -14,8 +15,8 @@ namespace dotpose {
 namespace {
 
 constexpr double kMaxCentre_px = 1000;
-/// Maximum distance of the reference point from the image centre: far outside any image, and well
-/// within the range of the fixed-point pose.
+/// Maximum distance of the reference point from the image centre. This distance is far outside any
+/// image, and well within the range of the fixed-point pose.
 constexpr double kMaxReference_px = 10'000;
 constexpr double kMaxFocal_px = 1e6;
 constexpr double kMinStretch = 0.5;
@@ -52,7 +53,7 @@ void require_lens(const Camera& camera) {
 }
 
 void require_paper(const PaperScale& paper, const Camera& camera) {
-    // The range extends from microscopes to cameras above a hall.
+    // The limits cover microscopes as well as cameras below the ceiling of a hall.
     const auto is_length = [](double mm) { return mm >= 1e-6 && mm <= 1e3; };
     require(is_length(paper.mm_per_px_x) && is_length(paper.mm_per_px_y), "mm_per_px",
             "must be from 0.000001 to 1000");
@@ -140,7 +141,7 @@ PixelPoint undistorted(const Camera& camera, PixelPoint pixel) {
 PixelPoint distorted(const Camera& camera, PixelPoint point) {
     const double du = point.u - camera.centre_px.u;
     const double dv = point.v - camera.centre_px.v;
-    // Solution of eq. 2 for r_d. The chosen root approaches r_u as k approaches 0.
+    // Solves eq. 2 for r_d. The chosen root approaches r_u as k approaches 0.
     const double root = std::sqrt(std::max(1 - 4 * camera.k_per_px2 * (du * du + dv * dv), 0.0));
     const double stretch = 2 / (1 + root);
     return {camera.centre_px.u + stretch * du, camera.centre_px.v + stretch * dv};
@@ -162,8 +163,8 @@ CameraPoint on_paper(const Camera& camera, PixelPoint point) {
 
 PixelPoint on_image(const Camera& camera, CameraPoint point) {
     const PaperScale& paper = camera.paper.value();
-    // (a, b) = divisor * (flat_a, flat_b). The divisor is linear in a and b, so it can be
-    // eliminated.
+    // (a, b) = divisor * (flat_a, flat_b). The divisor is linear in a and b. Substituting it leaves
+    // two linear equations.
     const double flat_b = point.y_mm / paper.mm_per_px_y;
     const double flat_a = point.x_mm / paper.mm_per_px_x - paper.skew * flat_b;
     const double divisor = 1 / (1 - paper.perspective_u * flat_a - paper.perspective_v * flat_b);
@@ -216,8 +217,8 @@ Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int 
     if (camera.pinhole) part.pinhole->centre_px = moved(camera.pinhole->centre_px);
     part.reference_px = moved(camera.reference_px.value_or(image_centre(camera)));
     if (camera.paper) {
-        // The heading is relative to the image x axis at the image centre, and the part has a
-        // different image centre.
+        // The heading is relative to the image x axis at the image centre, and the cropped image
+        // has a different centre.
         part.theta_offset_rad +=
             image_axis_rad(camera, image_centre(camera)) - image_axis_rad(part, image_centre(part));
     }

@@ -27,8 +27,8 @@ OutputFile::OutputFile(const fs::path& target) : target_(without_links(target)) 
     if (fs::exists(status) && !fs::is_regular_file(status)) {
         throw Error(fmt::format("cannot write {}: it is not a regular file", target_.string()));
     }
-    // Renaming onto a file does not require write permission for that file, so without this check
-    // it would replace a write-protected file.
+    // Renaming a file onto the target does not require write permission for the target. A read-only
+    // target is therefore rejected here.
     if (fs::exists(status) && !system::is_writable(target_)) {
         throw_system("write", target_, errno);
     }

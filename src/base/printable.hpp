@@ -11,9 +11,10 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::base {
 
-/// Returns the text with U+FFFD in place of every byte that is not valid UTF-8, and of every
-/// character that moves the cursor, starts a terminal command, breaks the line or changes the
-/// writing direction. The result can neither control a terminal nor imitate another line of output.
+/// Returns the text with U+FFFD in place of unsafe bytes and characters. These are all bytes that
+/// are not valid UTF-8, and all characters that move the cursor, start a terminal command, break
+/// the line or change the writing direction. The result can neither control a terminal nor imitate
+/// another line of output.
 std::string printable(std::string_view text);
 
 /// Returns JSON text in which \u escapes replace the control characters U+007F to U+009F. JSON

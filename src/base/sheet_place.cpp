@@ -33,7 +33,8 @@ std::optional<Offset> offset_on(const Sheet& sheet, const Fix& fix) {
     return Offset{dx + fix.fraction_x_q16 / 65536.0, dy + fix.fraction_y_q16 / 65536.0};
 }
 
-/// Returns true if a position is on the sheet: within half a spacing of one of its intersections.
+/// Returns true if a position is on the sheet, that is, within half a spacing of one of its
+/// intersections.
 bool in_region(const Sheet& sheet, Offset offset) {
     return offset.x >= -0.5 && offset.x < sheet.columns - 0.5 && offset.y >= -0.5 &&
            offset.y < sheet.rows - 0.5;

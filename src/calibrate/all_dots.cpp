@@ -9,8 +9,8 @@ namespace dotpose::calibrate {
 namespace {
 
 /// Maximum distance of a dot from its expected place: kReach_sigmas standard deviations of the fit,
-/// clamped to [kMinReach, kMaxReach] spacings. The limit exceeds the errors of print and fit, so
-/// only the next fit rejects outliers. All other dots are at least 2/3 of a spacing from the
+/// clamped to [kMinReach, kMaxReach] spacings. The limit exceeds the errors of print and fit. The
+/// fit that follows rejects outliers. All other dots are at least 2/3 of a spacing from the
 /// expected place.
 constexpr double kReach_sigmas = 6;
 constexpr double kMinReach = 0.1;

@@ -24,25 +24,27 @@ constexpr double kFitRadius = 0.36;
 /// Maximum distance of a dot from its expected place, in spacings.
 constexpr double kMaxOffset = 0.25;
 constexpr int kPasses = 4;
-/// First value of the variance due to blur and pixels, in px^2, and the range of its estimate.
+/// Initial value of the variance due to blur and pixels, in px^2. The two constants below are the
+/// limits of the fitted value.
 constexpr double kUsualBlur_px2 = 0.5;
 constexpr double kMinBlur_px2 = 0.1;
 constexpr double kMaxBlur_px2 = 4;
 /// Minimum contrast of a dot relative to the median of all dots.
 constexpr double kMinContrast = 0.4;
 
-/// The image of a dot: level - contrast * exp(-d^T shape^-1 d / 2), where d is the distance from
-/// the centre.
+/// Model of the image of a dot: level - contrast * exp(-d^T shape^-1 d / 2). d is the vector from
+/// the centre, in px. shape is the covariance of the dot and the blur in the image (see sums_of).
 struct DotImage {
     double contrast = 0;
     double level = 0;
     Vector2d centre;
-    Matrix2d covariance;  ///< of the centre, for noise of one grey level
+    Matrix2d covariance;  ///< covariance of the centre, for noise of one grey level
     bool is_valid = false;
 };
 
-/// Light on the paper: a polynomial of second degree in the place in the image, fitted to the
-/// levels of the dots. Without it, the dots would be pulled towards the darker side.
+/// Light on the paper: a polynomial of second degree in the image position, fitted to the paper
+/// levels around the dots. Without this polynomial, the fitted centres would be biased towards the
+/// darker side.
 class Light {
   public:
     explicit Light(const ImageView& image)
@@ -80,8 +82,8 @@ class Light {
     std::vector<double> values_;
 };
 
-/// Sums of the normal equations for the parameters of one dot (contrast, level, centre) and for the
-/// variance of the blur, which all dots share.
+/// Sums of the normal equations of one dot. The parameters of the dot are contrast, level and
+/// centre. All dots share one further parameter, the variance of the blur.
 struct DotSums {
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Vector4d right = Vector4d::Zero();
@@ -131,7 +133,8 @@ DotSums sums_of(const ImageView& image, const ExpectedDot& expected, const DotIm
     return sums;
 }
 
-/// Returns the first estimate: the darkest and the lightest pixel near the expected place.
+/// Returns the first estimate of a dot, from the darkest and the lightest pixel near the expected
+/// place.
 DotImage first_image(const ImageView& image, const ExpectedDot& expected) {
     DotImage dot;
     dot.centre = expected.pixel;
@@ -204,7 +207,7 @@ std::vector<std::optional<DotCentre>> measured_centres(const ImageView& image,
             dot.is_valid = sums.pixels >= kMinPixels && step.allFinite() && dot.contrast > 0 &&
                            offset.norm() < kMaxOffset;
             if (!dot.is_valid) continue;
-            // Eliminates the parameters of the dot from the equation of the blur.
+            // Eliminates the parameters of the dot from the equation of the blur variance.
             normal += sums.blur_normal - sums.with_blur.dot(factors.solve(sums.with_blur));
             right += sums.blur_right - sums.with_blur.dot(step);
         }

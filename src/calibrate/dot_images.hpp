@@ -1,5 +1,6 @@
-// Dot images: measures the centres of expected dots by least squares over their pixels. Dots at the
-// border of the image, and dots that a tilted view foreshortens, are measured without bias.
+// Dot images: measures the centres of expected dots by least squares over their pixels. The
+// measurement is unbiased for dots at the border of the image, and for dots that a tilted view
+// foreshortens.
 #pragma once
 
 #include <optional>
@@ -11,15 +12,15 @@
 
 namespace dotpose::calibrate {
 
-/// A dot that is expected in an image.
+/// A dot that the code predicts in an image.
 struct ExpectedDot {
     Eigen::Vector2d pixel;
     /// Derivative of the pixel with respect to the place on the paper, per spacing.
     Eigen::Matrix2d px_per_spacing;
 };
 
-/// Minimum length of a spacing in the image, in px, along the direction in which it is shortest.
-/// Images of neighbouring dots with smaller spacings overlap.
+/// Minimum spacing in the image, in px, along the direction of the smallest spacing. At smaller
+/// spacings, the images of neighbouring dots overlap.
 inline constexpr double kMinSpacing_px = 4;
 
 /// Returns true if a dot is completely in the image and its spacing is long enough.
@@ -32,8 +33,8 @@ struct DotCentre {
     Eigen::Matrix2d covariance;
 };
 
-/// Returns the centres of measurable dots. Returns none for a dot that is missing or much paler
-/// than the others.
+/// Returns the centres of measurable dots. The centre is nullopt if the dot is missing, or if it is
+/// much paler than the other dots.
 std::vector<std::optional<DotCentre>> measured_centres(const ImageView& image,
                                                        const std::vector<ExpectedDot>& dots);
 

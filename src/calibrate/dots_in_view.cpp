@@ -42,7 +42,8 @@ struct Cells {
     FixedVec last{INT32_MIN, INT32_MIN};
 
     void add(double x, double y) {
-        // Dots are displaced from their intersections, and the border of the image is curved.
+        // The margin contains dots that are displaced into the image, and cells beyond the corners
+        // where the border of the image is curved on the paper.
         constexpr int kMargin = 2;
         const auto i = static_cast<std::int32_t>(std::lround(x));
         const auto j = static_cast<std::int32_t>(std::lround(y));
@@ -78,7 +79,7 @@ Cells cells_in_view(const PatternView& view, const SpaceState& state) {
     return cells;
 }
 
-/// A dot of the code, and where it is expected.
+/// A dot of the code, with its expected image.
 struct CodedDot {
     FixedVec step;
     Symbol symbol;
@@ -111,7 +112,7 @@ std::vector<CodedDot> coded_dots(const ImageView& image, const PatternView& view
                 intersection + state.displacement * (dx(symbol) * right + dy(symbol) * down);
             ExpectedDot expected;
             expected.pixel = pixel_of(view, state, at);
-            // Difference quotients over the width of a dot.
+            // Approximates the derivatives by difference quotients over the width of a dot.
             constexpr double kPart = 1.0 / 6;
             expected.px_per_spacing.col(0) = (pixel_of(view, state, at + kPart / 2 * right) -
                                               pixel_of(view, state, at - kPart / 2 * right)) /
@@ -166,7 +167,7 @@ std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& 
         read.push_back(space_dot(view, dot.step, dot.symbol, dot.pixel));
     if (read.size() < kMinDots) return std::nullopt;
     const Eigen::Vector2d focal_px(view.pinhole.focal_u_px, view.pinhole.focal_v_px);
-    // A part of these dots is sufficient to predict all dots.
+    // Maximum number of dots for the first fit. This number is sufficient to predict all dots.
     constexpr std::size_t kPart = 300;
     std::vector<SpaceDot> part;
     for (std::size_t i = 0; i < read.size(); i += 1 + read.size() / kPart)
@@ -174,7 +175,8 @@ std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& 
     const auto first = fit_space(part, focal_px);
     if (!first) return std::nullopt;
     const std::vector<SpaceDot> all = dots_in_view(image, view, trace, first->state);
-    // The dots cannot be measured if they are small in the image.
+    // If few dots were measured, the dots are too small in the image. In this case, the fit uses
+    // the dots of `locate`.
     return fit_space(2 * all.size() < read.size() ? read : all, focal_px);
 }
 

@@ -1,4 +1,4 @@
-// Dots in view: measures all dots of a frame whose pose in space is approximately known.
+// Dots in view: measures all dots of a frame, given an approximate pose of the camera in space.
 #pragma once
 
 #include <optional>
@@ -22,13 +22,14 @@ struct PatternView {
 /// Returns the dot of the code at a step from `trace.decoding.place`, seen at an undistorted pixel.
 SpaceDot space_dot(const PatternView& view, FixedVec step, Symbol symbol, PixelPoint undistorted);
 
-/// Measures the dots that `state` predicts in the image. If there are more than
-/// `trace.options.max_dots`, measures that number, evenly over the image.
+/// Measures the dots that `state` predicts in the image. Measures at most `trace.options.max_dots`
+/// dots, evenly spread over the image.
 std::vector<SpaceDot> dots_in_view(const ImageView& image, const PatternView& view,
                                    const Trace& trace, const SpaceState& state);
 
-/// Fits the pose to the dots in the trace, and then to all dots that this pose predicts. Places are
-/// in mm from `trace.decoding.place`. Returns none if the trace has fewer than 12 dots.
+/// Fits the pose to the dots in the trace. Then measures all dots that this pose predicts, and fits
+/// the pose to these dots. Places are in mm from `trace.decoding.place`. Returns nullopt if the
+/// trace has fewer than 12 dots.
 std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& view,
                                      const Trace& trace);
 

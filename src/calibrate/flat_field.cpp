@@ -1,5 +1,5 @@
-// Finds the flat field of a camera from the mean of many frames. In the mean of frames of a moving
-// camera, dots darken all pixels alike.
+// Finds the flat field of a camera from the mean of many frames. If the camera moves between the
+// frames, dots darken all pixels of the mean equally.
 #include <cmath>
 #include <optional>
 
@@ -16,8 +16,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr int kMinFrames = 20;
-/// Number of intervals between the values of a flat field along the longer side of the image. The
-/// interpolation error of vignetting that darkens the corners by half is then about 1 %.
+/// Number of intervals between the values of a flat field along the longer side of the image. For
+/// vignetting that darkens the corners by half, the interpolation error is then about 1 %.
 constexpr double kIntervals = 10;
 
 /// Returns the mean of the frames, relative to white: one row of the matrix per row of the image.
@@ -41,8 +41,8 @@ MatrixXd mean_of(int frames, const FrameAt& frame_at, const std::optional<Camera
     return sum / (255.0 * frames);
 }
 
-/// Returns the weights of the values of a flat field in each pixel along one axis: linear
-/// interpolation between values at equal distances, from the first to the last pixel.
+/// Returns the weights of the values of a flat field in each pixel along one axis. The weights are
+/// those of linear interpolation between equidistant values, from the first to the last pixel.
 MatrixXd interpolation(Index pixels, Index longer_side) {
     const double distance_px = std::max(static_cast<double>(longer_side - 1) / kIntervals, 1.0);
     const auto values = std::max(
@@ -77,7 +77,8 @@ FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
     const Index longer_side = std::max(mean.rows(), mean.cols());
     const MatrixXd by_row = interpolation(mean.rows(), longer_side);
     const MatrixXd by_column = interpolation(mean.cols(), longer_side);
-    // The fit of a product of two interpolations is the product of two fits.
+    // The weights are a product of column weights and row weights. The fit is therefore one fit
+    // along the columns, followed by one along the rows.
     MatrixXd field = fitted(by_column, fitted(by_row, mean).transpose()).transpose();
     const MatrixXd smooth = by_row * field * by_column.transpose();
 
@@ -91,8 +92,8 @@ FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
                         "of the brightest part: light the paper more evenly",
                         100 * kMinFlatField));
     }
-    // The dots of one frame cover a tenth of the paper. They deviate by 25 % from the mean of one
-    // frame, and by 6 % from the mean of 20 frames.
+    // Dots cover a tenth of the paper. They cause an rms deviation of 25 % in one frame, and of 6 %
+    // in the mean of 20 frames.
     constexpr double kMaxResidual = 0.08;
     if (!(result.residual <= kMaxResidual)) {
         throw Error(

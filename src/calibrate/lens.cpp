@@ -1,6 +1,7 @@
 // Calibrates a lens in three rounds. The first round locates the frames and fits a lens. The second
 // round locates the frames again with this lens. The third round adds all dots that the second fit
-// predicts. Then sets the camera and the verdict.
+// predicts. Then sets the camera and the verdict. Unlike the paper, which uses calibration images,
+// dotpose calibrates with frames of any printed sheet.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,8 +26,8 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// Maximum distance between the places of two frames, in spacings, at which the frames count as
-/// views of the same dots.
+/// Maximum distance between the places of two frames, in spacings. Closer frames count as views of
+/// the same dots.
 constexpr double kSamePlace = 1.5;
 
 /// Reads the frames given to `calibrate_lens`. Rejects frames of different sizes and detects
@@ -76,9 +77,9 @@ class Series {
     std::vector<std::uint64_t> hashes_;
 };
 
-/// Returns by how much the sum of the squared residuals of one frame decreases if the frame is
-/// fitted with its own scale, shear and perspective. The decrease is divided by the variance of the
-/// residuals. The decrease expected by chance is 5, the number of these parameters.
+/// Returns the decrease of a frame's sum of squared residuals if the frame is fitted with its own
+/// scale, shear and perspective. The decrease is divided by the variance of the residuals. By
+/// chance, the expected decrease is 5, the number of these parameters.
 double gain_of_own_view(const LocatedFrame& frame,
                         const std::vector<std::array<double, 2>>& residuals,
                         const std::vector<char>& is_outlier, const FitSetting& setting,
@@ -313,7 +314,7 @@ LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
         places.push_back(frame.place);
     result.spacing_mm = printed_spacing_mm(options, reader.code(), places);
     const FitSetting setting{series.width_px, series.height_px, result.spacing_mm};
-    // The reader finds dots in the corners only with a known lens.
+    // The reader finds dots in the corners of the image only if the lens is known.
     reader.use_lens(lens_of(camera_of(fit_all(first, setting).after, setting)));
     auto located = read_again(first, series, reader);
     take_all_dots(fit_all(located, setting).after, setting, reader.code(), located);

@@ -16,10 +16,10 @@ constexpr double kOutlier_sigmas = 4;
 /// Assumed standard deviation of the residuals before the first fit.
 constexpr double kFirstSigma_px = 0.3;
 /// Prior standard deviations of the camera. The distortion centre is within about 5 % of the image
-/// diagonal from the image centre, the field of view is about 55 degrees, and pixels are square to
-/// within 2 %. The priors only matter for parameters that the frames do not determine: the centre
-/// of a lens without distortion, the focal length without tilt, and the shape of the pixels if the
-/// tilt never changes.
+/// diagonal from the image centre. The field of view is about 55 degrees. Pixels are square to
+/// within 2 %. The priors only matter for parameters that the frames do not determine. These are
+/// the centre of a lens without distortion, the focal length without tilt, and the shape of the
+/// pixels if the tilt never changes.
 constexpr double kCentrePrior = 0.1;  // in reaches (half diagonals)
 constexpr double kReachPerFocal = 0.5;
 constexpr double kReachPerFocalPrior = 0.5;
@@ -153,8 +153,8 @@ Seen seen_of(const LocatedDot& dot, const LocatedFrame& frame, const FitSetting&
             mm / frame.spacing_px};
 }
 
-/// Returns the initial pose of a frame: the best-fitting similarity transform from undistorted px
-/// to mm. The elements are place, rotation, mm per px, and two tilts of 0.
+/// Returns the initial pose of a frame, which is the best-fitting similarity transform from
+/// undistorted px to mm. The elements are place, rotation, mm per px, and two tilts of 0.
 std::array<double, 6> first_pose(const LocatedFrame& frame, const FitSetting& setting,
                                  const SharedModel& camera) {
     using Complex = std::complex<double>;

@@ -17,8 +17,8 @@ enum class Stand {
     by_hand,  ///< individual height and tilt in each frame
 };
 
-/// Parameters that all frames share. The stand determines which parameters are fitted. Lengths in
-/// the image are in px from the image centre. `reach` is half the diagonal of the image.
+/// Parameters that all frames share. The member of `Stand` determines which parameters are fitted.
+/// Lengths in the image are in px from the image centre. `reach` is half the diagonal of the image.
 struct SharedModel {
     std::array<double, 3> lens{};  ///< k reach^2, and the distortion centre in px
     /// Members of PaperScale, with the perspective multiplied by `reach`.

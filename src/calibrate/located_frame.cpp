@@ -10,8 +10,8 @@ namespace {
 /// Lenses to try if the lens is not known, as values of k r^2 in the corner of the image.
 constexpr std::array kCornerStretches = {0.0, -0.06, -0.12, -0.18, -0.25, 0.06, 0.12};
 
-/// Returns the radius, in spacings, at which the mean radial profile of all dots is halfway between
-/// the level at the centre and the level at kReach.
+/// Returns the half width of the dots, in spacings. This is the radius at which the mean radial
+/// profile of all dots is halfway between its values at the centre and at kReach.
 double half_width(const ImageView& image, const std::vector<LocatedDot>& dots, double spacing_px) {
     constexpr int kBins = 10;
     // Maximum distance from the centre, in spacings. The next dot is at least 2/3 of a spacing

@@ -27,8 +27,9 @@ using Eigen::Vector2d;
 constexpr int kMinSpinFrames = 3;
 constexpr double kMinTurn_rad = std::numbers::pi / 6;
 constexpr double kMinDrive_mm = 5;
-/// Maximum angle by which the robot may turn, and by which its path may deviate from the mean line,
-/// in a straight drive.
+/// Maximum angle by which the robot may turn during a straight drive. Also the maximum angle
+/// between the mean line of the drive and the direction of a place, as seen from the middle of the
+/// drive.
 constexpr double kMaxSwerve_rad = std::numbers::pi / 36;
 /// Probability that noise is mistaken for a drift if the robot stays on the spot.
 constexpr double kFalseDrift = 1e-3;
@@ -147,8 +148,8 @@ PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
 }
 
 /// Returns the standard deviation of the position of a point, per axis, due to the lens
-/// calibration. It includes the errors of the place and direction of the image centre. `offset_mm`
-/// is relative to the image centre.
+/// calibration. The standard deviation includes the errors of the place and direction of the image
+/// centre. `offset_mm` is relative to the image centre.
 double sigma_of_lens_mm(const Camera& camera, const Vector2d& offset_mm) {
     const auto sigma = [&](const char* key) {
         const auto found = camera.sigma.find(key);
@@ -212,8 +213,8 @@ SpotTurn fit_turn(const std::vector<Station>& stations, bool has_drift) {
 }
 
 /// Returns the error of the offset, per axis, that a drift of the robot causes. Returns 0 if noise
-/// explains the drift. The drift has two parameters, so the p-value of the F test with 2 and m = 2
-/// n - 6 degrees of freedom is (squares with drift / squares without drift) ^ (m / 2).
+/// explains the drift. The drift has two parameters. The F test therefore has 2 and m = 2 n - 6
+/// degrees of freedom, and its p-value is (squares with drift / squares without drift) ^ (m / 2).
 double bias_of_drift_mm(const std::vector<Station>& stations, const SpotTurn& on_the_spot) {
     if (stations.size() < kMinDriftFrames) return 0;
     const SpotTurn drifting = fit_turn(stations, true);
@@ -244,8 +245,8 @@ void require_spin(const SpinCalibration& spin, double spacing_mm) {
                     spin.sigma_mm, spacing_mm / 2, why));
 }
 
-/// Returns the direction of the best-fitting line through the places: the major axis of their
-/// scatter, pointing forwards along `drive`.
+/// Returns the direction of the best-fitting line through the places. This is the major axis of
+/// their scatter, pointing forwards along `drive`.
 Vector2d direction_of_line(const std::vector<Station>& stations, const Vector2d& mean,
                            const Vector2d& drive) {
     double difference = 0;  // scatter along x minus scatter along y

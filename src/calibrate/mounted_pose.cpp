@@ -22,15 +22,14 @@ using namespace dotpose::calibrate;
 
 constexpr std::size_t kMinPoseDots = 12;
 
-/// Number of parameters in the equation of a dot:
-/// printed + displacement * displaced = place + (c, -s; s, c) (x, y) + t v.
-/// (x, y) is in mm from `middle`. All other lengths are in spacings, corrected for the print scale.
-/// The parameters are place, c, s and the displacement. The displacement is fitted because ink and
-/// blur change it. For a rolling shutter, the motion v and the turn of the camera during the
-/// readout are also fitted. t is the time at which the row of the dot is read, relative to the
-/// middle of the readout, as a fraction of the readout time, from -1/2 to 1/2. With a turn, (x, y)
-/// is rotated by t turn about the reference point, and v, the motion of this point, by t turn / 2:
-/// it is the chord of an arc.
+/// Number of parameters in the equation of a dot: printed + displacement * displaced = place + (c,
+/// -s; s, c) (x, y) + t v. (x, y) is in mm from `middle`. All other lengths are in spacings,
+/// corrected for the print scale. The parameters are place, c, s and the displacement. The
+/// displacement is fitted because ink and blur change it.
+/// For a rolling shutter, the fit also includes the motion v and the turn of the camera during the
+/// readout. t is the time at which the row of the dot is read, as a fraction of the readout time,
+/// from -1/2 to 1/2. With a turn, (x, y) is rotated about the reference point by t times the turn.
+/// The reference point moves along an arc. v, the chord of this arc, is rotated by half this angle.
 constexpr int kParameters = 5;
 constexpr int kMovingParameters = 7;
 constexpr int kTurningParameters = 8;
@@ -80,7 +79,7 @@ PoseFit fit_pose(const std::vector<LocatedDot>& dots, const Camera& camera, cons
             const double way = half == 0 ? t : t * std::sin(half) / half;
             const double way_x = way * std::cos(half);
             const double way_y = way * std::sin(half);
-            // Derivative of the place of the dot with respect to the turn.
+            // Derivative of the dot's place with respect to the turn.
             double turn_x = 0;
             double turn_y = 0;
             if (!p.empty()) {
@@ -143,8 +142,9 @@ void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& p
 /// Returns the velocity during the readout of a rolling shutter, from the last three parameters.
 ReadoutVelocity velocity_of(const PoseFit& pose, double readout_ms, const AxisScale& print) {
     constexpr int kFirst = kParameters;
-    // Factors that convert the motion during the readout, along x and y, to a velocity in nominal
-    // spacings per second, and the turn to rad per second.
+    // Factors that convert the motion during the readout to velocities. The motion along x and y
+    // becomes a velocity in nominal spacings per second, and the turn a turn rate in rad per
+    // second.
     const std::array per_s{1000 / (readout_ms * print.x), 1000 / (readout_ms * print.y),
                            1000 / readout_ms};
     ReadoutVelocity velocity{per_s[0] * pose.parameters[kFirst],

@@ -60,9 +60,9 @@ void set_block(const Optics& o, OpticsReport& r) {
     r.block_fits_anywhere = shorter_mm >= r.block_anywhere_mm;
 }
 
-/// Computes the limits of motion (paper III-A.2). Blur is measured along the image axes. In a turn
-/// about the image centre, the middle of the farthest edge of the image moves fastest along an
-/// axis.
+/// Computes the limits of motion (paper III-A.2). Blur is measured along the image axes. If the
+/// camera turns about the image centre, the middle of the farthest edge of the image moves fastest
+/// along an axis.
 void set_motion(const Optics& o, OpticsReport& r) {
     const double blur_mm = o.largest_blur_px * r.mm_per_px;
     const double radius_mm = std::max(r.field_width_mm, r.field_height_mm) / 2;

@@ -14,14 +14,14 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Direction of view, and its derivative with respect to the place on the paper, at one place.
+/// Direction of view at one place on the paper, and its derivative with respect to the place.
 struct LocalView {
     Vector2d place_mm;
     Vector2d ray;  ///< (x, y) of the direction (x, y, 1) in the camera frame
     Matrix2d per_mm;
 };
 
-/// Fits a homography from the paper to the directions of view, and returns its value and derivative
+/// Fits a homography from the paper to the directions of view. Returns its value and its derivative
 /// at the middle of the dots.
 LocalView local_view(const std::vector<SpaceDot>& dots, const Vector2d& focal_px) {
     const double displacement = SpaceState().displacement;
@@ -56,22 +56,22 @@ std::optional<std::array<SpaceState, 2>> plane_starts(const std::vector<SpaceDot
                                                       const Vector2d& focal_px) {
     const LocalView view = local_view(dots, focal_px);
     if (!view.per_mm.allFinite() || !view.ray.allFinite()) return std::nullopt;
-    // In a camera that is turned to look at the middle of the dots, the derivative is the upper
-    // left part of the rotation of the paper, divided by the distance.
+    // Rotates the camera to look at the middle of the dots. In this camera, the derivative is the
+    // upper left part of the rotation of the paper, divided by the distance.
     const Matrix3d turn =
         Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), view.ray.homogeneous())
             .toRotationMatrix();
     Eigen::Matrix<double, 2, 3> project;
     project << 1, 0, -view.ray.x(), 0, 1, -view.ray.y();
     const Matrix2d local = (project * turn).leftCols<2>().inverse() * view.per_mm;
-    // The larger singular value is 1 / distance along the optical axis.
+    // The larger singular value is 1 / distance, where the distance is along the optical axis.
     const Matrix2d squares = local.transpose() * local;
     const double mean = squares.trace() / 2;
     const double root = std::sqrt(std::max(mean * mean - squares.determinant(), 0.0));
     const double per_mm = std::sqrt(mean + root);
     if (!(per_mm > 0) || !(local.determinant() > 0)) return std::nullopt;
     const Matrix2d upper = local / per_mm;
-    // The columns of the rotation have length 1 and are at right angles.
+    // The columns of a rotation matrix have length 1 and are perpendicular.
     const double z_x = std::sqrt(std::max(1 - upper.col(0).squaredNorm(), 0.0));
     const double z_y = std::copysign(std::sqrt(std::max(1 - upper.col(1).squaredNorm(), 0.0)),
                                      -upper.col(0).dot(upper.col(1)));

@@ -10,9 +10,9 @@
 namespace dotpose::calibrate {
 
 /// Returns the two poses whose projections have the same first derivatives at the middle of the
-/// dots as the homography of the dots: infinitesimal plane-based pose estimation (T. Collins and A.
-/// Bartoli, International Journal of Computer Vision 109, 2014). Returns none if the dots do not
-/// determine a homography.
+/// dots as the homography of the dots. The method is infinitesimal plane-based pose estimation (T.
+/// Collins and A. Bartoli, International Journal of Computer Vision 109, 2014). Returns nullopt if
+/// the dots do not determine a homography.
 std::optional<std::array<SpaceState, 2>> plane_starts(const std::vector<SpaceDot>& dots,
                                                       const Eigen::Vector2d& focal_px);
 

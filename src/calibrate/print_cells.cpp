@@ -49,8 +49,8 @@ bool is_nearest(const LocatedTile& view, const SeenCell& cell,
     });
 }
 
-/// Returns a grid without measurements that covers the cells of all tiles of a field, according to
-/// the maps of the tiles, plus a margin of two cells.
+/// Returns a grid without measurements. According to the maps of the tiles, the grid covers the
+/// cells of all tiles of a field, plus a margin of two cells.
 CellGrid empty_grid(const Tiling& tiling, const Field& field) {
     Vector2d low = Vector2d::Constant(1e18);
     Vector2d high = -low;
@@ -119,8 +119,8 @@ class Trimmer {
 
   private:
     /// Removes the worst outer line that does not belong to the field. Returns false if all four
-    /// outer lines belong to the field. Removes only one line at a time, because a column of the
-    /// field has many wrong dots as long as it includes rows beside the field.
+    /// outer lines belong to the field. Removes only one line at a time, because rows beside the
+    /// field contribute wrong dots to its columns.
     bool remove_worst_line() {
         struct Outer {
             Coverage line;
@@ -172,8 +172,8 @@ class Trimmer {
     static bool is_long(const Coverage& line, int longest) {
         return line.right > kMinLength * longest;
     }
-    /// Returns true if a line belongs to the field. A few correct cells in a cropped line or in
-    /// other print are not enough.
+    /// Returns true if a line belongs to the field. A line with only a few correct cells does not,
+    /// because it may be cropped or contain other print.
     static bool is_enough(const Coverage& line, int longest) {
         return line.right >= kMinLineShare * line.seen &&
                line.right >= kMinRightShare * line.dots && is_long(line, longest);

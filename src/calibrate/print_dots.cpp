@@ -22,8 +22,8 @@ constexpr double kFloorShare = 0.15;
 /// dot.
 constexpr double kReach = 1.0 / 3;
 /// Minimum darkness of other print, such as text or pictures, on the border of a cell. The first
-/// limit is relative to the darkness of a dot, the second is in standard deviations of blank paper.
-/// The larger limit applies. The second limit is at most the darkness of a dot.
+/// limit is relative to the darkness of a dot. The second limit is in standard deviations of blank
+/// paper, and is at most the darkness of a dot. The larger limit applies.
 constexpr double kOtherPrintShare = 0.35;
 constexpr double kOtherPrint_sigmas = 6;
 /// Displacement for the measurement of levels, in spacings. It need not be exact.
@@ -158,10 +158,10 @@ class Meter {
         return offset;
     }
 
-    /// Returns true if the border of a cell is not blank, that is, if the darkness of the border
-    /// differs from paper by more than `min_darkness` in either direction. A border is lighter than
-    /// `paper_` if most of the tile is filled with grey. The middles of the four sides are not
-    /// checked, because swollen dots may merge there.
+    /// Returns true if the border of a cell is not blank, that is, if its darkness differs from the
+    /// paper by more than `min_darkness` in either direction. A border is lighter than `paper_` if
+    /// grey print fills most of the tile. The middles of the four sides are not checked, because
+    /// swollen dots may merge there.
     bool is_covered(const Vector2d& intersection_px, double min_darkness) const {
         const Vector2d x = map_.px_per_cell.col(0);
         const Vector2d y = map_.px_per_cell.col(1);
@@ -188,7 +188,7 @@ class Meter {
 
   private:
     /// Visits the pixels within reach of a point, with their darkness and weight. The weight
-    /// decreases to 0 over the last pixel, so sums are continuous functions of the point.
+    /// decreases to 0 over the last pixel. Sums are therefore continuous functions of the point.
     template <typename Visit>
     void visit_around(const Vector2d& p, Visit visit) const {
         const auto first = [&](double centre) {
@@ -247,7 +247,7 @@ Symbol nearest_symbol(const Vector2d& offset) {
 
 /// Reads the symbols of the dots from their offsets in spacings. First subtracts the mean error of
 /// the offsets, ignoring large errors. A renderer or scanner that rounds dots to whole pixels
-/// displaces all dots equally, and the map of a fix does not include this displacement.
+/// displaces all dots equally. The map of a fix does not include this displacement.
 void read_symbols(const std::vector<Vector2d>& offsets, double displacement,
                   std::vector<SeenCell>& cells) {
     constexpr double kMaxError = 0.25;

@@ -45,7 +45,7 @@ struct SeenCell {
 
 /// Brightness of paper and dots in a part of a scan.
 struct PrintLevels {
-    double paper = 0;  ///< grey level of the blank paper between dots; 0 if no paper is visible
+    double paper = 0;  ///< grey level of the blank paper between dots, or 0 if no paper is visible
     double noise = 0;  ///< standard deviation of the darkness of blank paper
     double dot = 0;    ///< median darkness around the centre of a dot
 };

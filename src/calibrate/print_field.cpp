@@ -10,9 +10,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Maximum difference, in cells, between the positions that the maps of two tiles of one field
-/// predict for the same pixel: kAgree_cells plus kAgreeShare times the distance between the centres
-/// of the tiles, in cells. The difference is not 0 because paper stretches and a camera adds
+/// Maximum difference between the positions that the maps of two tiles of one field predict for the
+/// same pixel, in cells. The maximum is kAgree_cells plus kAgreeShare times the distance between
+/// the centres of the tiles. The difference is not 0, because paper stretches and a camera adds
 /// perspective.
 constexpr double kAgree_cells = 1.5;
 constexpr double kAgreeShare = 0.05;

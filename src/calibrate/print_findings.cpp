@@ -14,9 +14,10 @@ namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
 
-/// Limits of the deviation of the mean scale from 1. A deviation above kDriverScale is attributed
-/// to the printer driver, because printers and paper deviate less. Deviations above kNotableScale
-/// are reported.
+/// Limits of the deviation of the mean scale from 1. Deviations above kNotableScale are reported. A
+/// deviation above kDriverScale is attributed to the printer driver, because printers and paper
+/// cause smaller deviations. If the scales along the two axes differ by more than kUnevenScale, the
+/// difference is reported.
 constexpr double kDriverScale = 0.015;
 constexpr double kNotableScale = 0.002;
 constexpr double kUnevenScale = 0.002;
@@ -336,8 +337,8 @@ class Findings {
     std::optional<std::size_t> field_;  ///< index of the field being judged
 };
 
-/// Returns the difference between the size of the printed dots and the optimum, a sixth of the
-/// spacing, on a logarithmic scale.
+/// Returns the difference between the size of the printed dots and the optimum, on a logarithmic
+/// scale. The optimum is a sixth of the spacing.
 double dot_error(const PrintField& field) {
     const double wanted_mm = field.pattern.spacing_mm / 6;
     return std::abs(std::log(std::max(field.dot_mm, 1e-6) / wanted_mm));

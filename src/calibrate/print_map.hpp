@@ -12,9 +12,12 @@
 
 namespace dotpose::calibrate {
 
-/// Map between the scan, in px, and the code plane, in cells, valid in and around one tile: cell =
-/// centre_cell + cells_per_px q / (1 + perspective_per_px . q + lens_per_px2 q^2), where q = pixel
-/// - centre_px. This is the map of a fix (PlaneFromImage), converted to pixels of the scan.
+/// Map from the scan, in px, to the code plane, in cells. The map is valid in and around one tile:
+///
+///   cell = centre_cell + cells_per_px q / (1 + perspective_per_px . q + lens_per_px2 q^2)
+///
+/// where q = pixel - centre_px. The map is that of a fix (PlaneFromImage), converted to pixels of
+/// the scan.
 struct TileMap {
     Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
     Eigen::Vector2d centre_cell = Eigen::Vector2d::Zero();

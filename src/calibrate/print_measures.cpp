@@ -19,8 +19,8 @@ constexpr double kInch_mm = 25.4;
 constexpr double kMergedShare = 0.6;
 /// Minimum number of dots in a part of the page for which distortion is reported.
 constexpr int kMinBinDots = 60;
-/// Quantile of the darkness of the dots. The darkness at this quantile is used as the darkness of
-/// ink if it exceeds the expected darkness.
+/// Quantile of the darkness of the dots. If the darkness at this quantile exceeds the expected
+/// darkness, it replaces the expected darkness of ink.
 constexpr double kDarkest = 0.98;
 constexpr double kSigmaPerDeviation = 1.4826;
 
@@ -130,7 +130,7 @@ void measure_distortion(const Measuring& m, const Fitted& fitted, PrintField& re
     }
 }
 
-/// Returns true if two dots are merged: the point halfway between them is dark.
+/// Returns true if two dots are merged, that is, if the point halfway between them is dark.
 bool have_merged(const Measuring& m, const SeenCell& a, const SeenCell& b) {
     if (!a.has_dot || !b.has_dot || a.is_covered || b.is_covered) return false;
     const double paper = 0.5 * (double(a.paper) + double(b.paper));

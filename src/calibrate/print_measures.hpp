@@ -15,7 +15,7 @@ struct Measuring {
     const ImageView& scan;
     const Field& field;
     const CellGrid& grid;
-    std::optional<Resolution> resolution;  ///< resolution of a scan; empty for photos
+    std::optional<Resolution> resolution;  ///< resolution of a scan, or empty for photos
     double ink_reflectance = 0;
 };
 

@@ -205,8 +205,8 @@ PlanePose SheetGraph::image_centre(const SheetView& view) const {
                                       print_scale(view.sheet));
 }
 
-/// Sets initial poses of the sheets by a breadth-first search from the fixed sheet. Each pose comes
-/// from the frame in which the smaller of the numbers of dots on the two sheets is largest.
+/// Sets initial poses of the sheets by a breadth-first search from the fixed sheet. For two sheets,
+/// the search uses the frame in which the sheet with fewer dots has the most dots.
 void SheetGraph::spread_from_fixed() {
     const auto start = [this](std::size_t sheet, const PlanePose& pose) {
         const AxisScale scale = sheets_[sheet].print_scale();
@@ -294,7 +294,7 @@ void SheetGraph::pin_sheets(ceres::Problem& problem) {
         }
         if (i == fixed_ && !has_scale()) {
             // The views from parts of frames would determine the aspect, but all these views have
-            // the same error. Therefore the aspect is fixed to its value in the sheet file.
+            // the same error. The aspect is therefore fixed to its value in the sheet file.
             pin<5>(problem, node, {0, 0, 0, 1, -1}, logs[0] - logs[1], kPinned);
         }
         if (i == fixed_ && reference_.by == By::fixed_sheet) {

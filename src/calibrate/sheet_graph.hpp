@@ -25,7 +25,7 @@ struct PlanePose {
     PlanePose inverse() const;
 };
 
-/// Graph of sheets and frames, solved by least squares.
+/// Graph of sheets and frames. Least squares determine the poses.
 class SheetGraph {
   public:
     /// `fixed` is the index of the fixed sheet. The corner and the upper edge of its page define

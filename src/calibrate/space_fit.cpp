@@ -20,20 +20,22 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Parameters: position, rotation vector in the camera frame, displacement of the dots.
+/// Number of parameters: position (3), rotation vector in the camera frame (3), displacement of the
+/// dots (1).
 constexpr int kParameters = 7;
 using Parameters = Eigen::Matrix<double, kParameters, 1>;
 using Information = Eigen::Matrix<double, kParameters, kParameters>;
 using Derivative = Eigen::Matrix<double, 2, kParameters>;
 
-/// A dot that the fit uses, with the transform of its residual to independent errors of equal
+/// A dot that the fit uses. `whitening` transforms its residual to independent errors of equal
 /// variance.
 struct WeightedDot {
     SpaceDot dot;
     Matrix2d whitening = Matrix2d::Identity();
 };
 
-/// Residual of a dot in the image, seen minus predicted, and the derivatives of the prediction.
+/// Residual of a dot in the image (measured minus predicted), and the derivatives of the
+/// prediction.
 struct Prediction {
     Vector2d residual_px;
     Derivative by_parameters;
@@ -55,7 +57,8 @@ Prediction predict(const SpaceState& state, const SpaceDot& dot, const Vector2d&
         0, focal_px.y() / depth, -focal_px.y() * seen.y() / (depth * depth);
     const Eigen::Matrix<double, 2, 3> by_place = by_seen * state.rotation.transpose();
     result.px_per_mm = by_place.leftCols<2>();
-    // A rotation of the camera by a small vector r adds `seen` x r to the place in its frame.
+    // A rotation of the camera by a small vector r adds `seen` x r to the place in the camera
+    // frame.
     for (int i = 0; i < 3; ++i)
         result.by_parameters.col(3 + i) = by_seen * seen.cross(Vector3d::Unit(i));
     result.by_parameters.leftCols<3>() = -by_place;
@@ -69,7 +72,7 @@ SpaceState moved(const SpaceState& state, const Parameters& step) {
     SpaceState result = state;
     result.position_mm += step.head<3>();
     if (angle > 0) {
-        // The quaternion remains a rotation in spite of rounding errors.
+        // The quaternion is normalized against the accumulation of rounding errors.
         const Eigen::Quaterniond rotation(state.rotation * Eigen::AngleAxisd(angle, turn / angle));
         result.rotation = rotation.normalized().toRotationMatrix();
     }
@@ -133,8 +136,8 @@ Minimum minimum_from(const SpaceState& start, const std::vector<WeightedDot>& do
     return now;
 }
 
-/// Returns the dots whose squared whitened residuals are within four standard deviations, which
-/// are estimated from the median.
+/// Returns the dots whose whitened residuals are within four standard deviations. The standard
+/// deviation is estimated from the median of the squared residuals.
 std::vector<WeightedDot> inliers(const SpaceState& state, const std::vector<WeightedDot>& dots,
                                  const Vector2d& focal_px) {
     constexpr double kMaxResidual_sigmas = 4;
@@ -153,8 +156,8 @@ std::vector<WeightedDot> inliers(const SpaceState& state, const std::vector<Weig
     return kept;
 }
 
-/// Errors of the dots: a fraction of their variance is due to the print, which has equal variances
-/// along all directions on the paper. The rest is due to the measurement of their centres.
+/// Error model of the dots. A fraction of the variance is due to the print, whose variance is equal
+/// in all directions on the paper. The other part is due to the measurement of the centres.
 class NoiseModel {
   public:
     NoiseModel(const SpaceState& state, const std::vector<WeightedDot>& dots,
@@ -180,7 +183,8 @@ class NoiseModel {
     }
 
   private:
-    /// Divides the covariances by their harmonic mean, which single large ones do not change.
+    /// Divides the covariances by their harmonic mean. A few large covariances do not change this
+    /// mean.
     static void normalize(std::vector<Matrix2d>& covariances) {
         double sum = 0;
         for (const Matrix2d& covariance : covariances)
@@ -204,7 +208,7 @@ class NoiseModel {
         return 2 * static_cast<double>(residuals_.size()) * std::log(squares) + log_determinants;
     }
     double likeliest_fraction() const {
-        // Golden-section search. At the upper end, the covariances of a plane seen from the side
+        // Golden-section search. At the fraction 1, the covariances of a plane seen from the side
         // would be singular.
         constexpr double kMaxFraction = 0.999;
         constexpr double kTolerance = 0.02;
@@ -236,13 +240,14 @@ class NoiseModel {
     std::vector<Vector2d> residuals_;
 };
 
-/// The first and the second solution, with the dots and weights of the first.
+/// The first and the second solution. The dots and their weights come from the first solution.
 struct Solutions {
     std::vector<WeightedDot> dots;
     Minimum first;
     std::optional<Minimum> second;
 
-    /// Exchanges the solutions if the second has smaller residuals. Returns true if it has.
+    /// Exchanges the solutions if the second solution has smaller residuals. Returns true if the
+    /// solutions were exchanged.
     bool put_better_first() {
         if (!second || !(second->sums.squares < first.sums.squares)) return false;
         std::swap(first, *second);
@@ -257,7 +262,7 @@ bool is_same(const SpaceState& a, const SpaceState& b) {
            kSame_rad;
 }
 
-/// Returns the solutions for a part of the dots, which takes less time.
+/// Returns the solutions for a subset of the dots, to save time.
 Solutions rough_solutions(const std::array<SpaceState, 2>& starts,
                           const std::vector<WeightedDot>& all, const Vector2d& focal_px) {
     constexpr std::size_t kDots = 300;
@@ -271,8 +276,8 @@ Solutions rough_solutions(const std::array<SpaceState, 2>& starts,
     return result;
 }
 
-/// Improves the first solution with outliers rejected and weights estimated, and then the second
-/// solution with the same dots and weights.
+/// Refines both solutions. First rejects outliers and estimates the weights with the first
+/// solution. The second solution then uses the same dots and weights.
 void refine(const std::vector<WeightedDot>& all, const Vector2d& focal_px, Solutions& solutions) {
     constexpr int kRounds = 2;
     solutions.first = minimum_from(solutions.first.state, all, focal_px);
@@ -317,7 +322,7 @@ std::optional<SpaceFit> fit_space(const std::vector<SpaceDot>& dots, const Vecto
     fit.covariance = first.sums.squares / (count - kParameters) * inverse.topLeftCorner<6, 6>();
     if (solutions.second && std::isfinite(solutions.second->sums.squares)) {
         fit.second = solutions.second->state;
-        // Likelihood ratio of Gaussian errors whose variance is unknown.
+        // Likelihood ratio of the two solutions, for Gaussian errors with an unknown variance.
         const double ratio = solutions.second->sums.squares / first.sums.squares;
         fit.second_odds_log2 = std::min(-count / 2 * std::log2(ratio), 0.0);
     }

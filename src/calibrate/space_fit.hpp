@@ -1,5 +1,5 @@
-// Space fit: maximum likelihood of the pose of a camera over a plane of dots, and the second
-// solution of such a view.
+// Space fit: the maximum-likelihood pose of a camera over a plane of dots. A view of a plane may
+// have a second solution.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,9 @@ struct SpaceDot {
     /// Undistorted pixel minus the pixel on the optical axis.
     Eigen::Vector2d pixel;
     Eigen::Vector2d intersection_mm;  ///< place of its intersection on the paper
-    Eigen::Vector2d direction_mm;     ///< its displacement, if this is 1 spacing
-    /// Covariance of the measured pixel, up to a factor that all dots share.
+    Eigen::Vector2d direction_mm;     ///< displacement of the dot for a displacement length of 1
+                                      ///< spacing
+    /// Covariance of the measured pixel, up to a common factor of all dots.
     Eigen::Matrix2d centre_covariance = Eigen::Matrix2d::Identity();
 };
 
@@ -39,7 +40,7 @@ struct SpaceFit {
     double second_odds_log2 = 0;
 };
 
-/// Fits the pose of a camera with the given focal lengths in px. Returns none if the dots do not
+/// Fits the pose of a camera with the given focal lengths in px. Returns nullopt if the dots do not
 /// determine a pose.
 std::optional<SpaceFit> fit_space(const std::vector<SpaceDot>& dots,
                                   const Eigen::Vector2d& focal_px);

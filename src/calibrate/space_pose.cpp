@@ -1,4 +1,5 @@
-// Poses in space: from a trace to the fit, and conversions between frames.
+// Poses in space: fits a pose to the trace of a frame, and converts poses between coordinate
+// frames.
 #include "dotpose/tools/space_pose.hpp"
 
 #include <cmath>
@@ -40,7 +41,8 @@ CameraLean lean_of(const Quaternion& rotation) {
     // Rotation = (rotation by the tilt about an axis in the paper) * (turn about the optical axis).
     const auto [w, x, y, z] = rotation;
     const double turn = 2 * std::atan2(z, w);
-    // The optical axis in the frame of the paper. The camera leans to the opposite side.
+    // The optical axis in the coordinate frame of the paper. The camera leans towards the opposite
+    // side.
     const Vector3d axis = eigen_of(rotation) * Vector3d::UnitZ();
     return {std::atan2(axis.head<2>().norm(), axis.z()), std::atan2(-axis.y(), -axis.x()),
             turn > std::numbers::pi ? turn - 2 * std::numbers::pi : turn};
@@ -94,7 +96,7 @@ CameraInSpace on_sheet(const CameraInSpace& camera, const SheetEntry& entry) {
 
 CameraInWorld in_world(const CameraInSpace& camera, const SpaceCovariance& covariance,
                        const WorldPose& page) {
-    // From z into the paper to z out of the paper: half a turn about x.
+    // Turns a z axis into the paper to a z axis out of the paper: half a turn about x.
     const Quaterniond turn =
         Eigen::AngleAxisd(page.yaw_rad, Vector3d::UnitZ()) * Quaterniond(0, 1, 0, 0);
     const Vector3d position = turn * Vector3d(camera.x_mm, camera.y_mm, camera.z_mm) / 1000 +

@@ -20,7 +20,7 @@ struct Frame {
     GreyImage image;           ///< empty while the camera delivers no frames
     std::int64_t time_us = 0;  ///< time on the clock of the source; increases from frame to frame
     std::int64_t index = 0;    ///< number of the frame from 0, including dropped frames
-    std::string file;          ///< path of an image; empty for other sources
+    std::string file;          ///< path of an image, or empty for other sources
     bool is_live = false;      ///< true if `time_us` is on the monotonic clock of this computer
 };
 
@@ -56,7 +56,7 @@ class FrameSource {
 };
 
 struct SourceOptions {
-    /// Size of raw frames (required), or size requested from a camera; 0 if not given.
+    /// Size of raw frames (required), or size requested from a camera. 0 if not given.
     int width_px = 0;
     int height_px = 0;
     /// Frame rate requested from a camera. For other sources, the frame rate from which the times
@@ -66,13 +66,13 @@ struct SourceOptions {
     std::optional<double> gain;      ///< in the unit of the driver
     /// True to flip frames left to right. The flip precedes the crop to `region`.
     bool flip = false;
-    std::optional<Region> region;  ///< part of each frame to keep; the whole frame if empty
+    std::optional<Region> region;  ///< part of each frame to keep, or empty for the whole frame
     /// Required size of frames before cropping. Set if `region` refers to the images of a camera
     /// file.
     std::optional<std::pair<int, int>> whole_size_px;
     /// Maximum number of pixels. A larger image throws ImageTooLarge before it is decoded.
     int max_pixels = kMaxFrameSide_px * kMaxFrameSide_px;
-    /// Called periodically. The source ends if the function returns true.
+    /// Called periodically. If the function returns true, the source ends.
     std::function<bool()> stop = [] { return false; };
     /// Called with messages for the user, for example if a camera was unplugged. The source
     /// continues afterwards.

@@ -41,8 +41,8 @@ Places find(const code::Secondary& a, std::size_t digit, std::span<const std::ui
     Places places;
     if (first == code::kAbsent) return places;
     if (!a.has_twins) {
-        // The first kOrder digits occur only at `first`. Only the remaining digits need to be
-        // compared.
+        // Compares only the digits after the first kOrder digits, because the first kOrder digits
+        // occur only at `first`.
         std::uint32_t next = first + std::uint32_t{code::kOrder};
         if (next >= a.length) next -= a.length;
         return {first, matches_at(a, digit, deltas.subspan(code::kOrder), next) ? 1 : 0};

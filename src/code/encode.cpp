@@ -14,10 +14,12 @@ int delta(CodeVariant code, std::uint32_t p) noexcept {
 
 int roll(CodeVariant code, std::uint32_t p) noexcept {
     // The roll is the sum of all differences before p, modulo 63:
+    //
     //     roll = 5 p + sum over a1 to a4 of (periods * rolls[length] + rolls[place])
     //     periods = (p - place) / length
-    // `period_roll` is rolls[length] times the inverse of `length` modulo 63. The extra 4 * 63
-    // keeps `lines - place` positive.
+    //
+    // `period_roll` is rolls[length] times the inverse of `length` modulo 63. Adding 4 * 63 keeps
+    // `lines - place` positive.
     const std::uint32_t lines = code::modulo_sections(p) + 4 * kSections;
     std::uint32_t sum = code::kMinDelta * lines;
     for (const code::Secondary& a : code::basis(code)) {
@@ -46,15 +48,16 @@ int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
 
 namespace {
 
-/// A place along one axis. `own` is this axis's section, and `cross` is the other axis's section.
+/// A place along one axis. `own` is the section of this axis, and `cross` is the section of the
+/// other axis.
 struct AxisPlace {
     std::uint32_t position;
     std::uint8_t own;
     std::uint8_t cross;
 };
 
-/// Moves a place by `distance` positions. Not inlined, because there are two calls and most of the
-/// code is rarely executed.
+/// Moves a place by `distance` positions. Inlining the two calls would duplicate code that is
+/// rarely executed.
 [[gnu::noinline]] AxisPlace moved(CodeVariant code, AxisPlace place, std::int32_t distance) {
     const std::int64_t target = std::int64_t{place.position} + distance;
     const bool is_before = target < 0;
@@ -64,7 +67,8 @@ struct AxisPlace {
     }
     // The target is outside [0, L), where L = kPositionsPerAxis. Along x, the columns p and p + L
     // differ by roll(L), so the column section changes by roll(L). The rows begin L cells later, so
-    // the row section changes by L modulo 63. Along y, columns and rows are exchanged.
+    // the row section changes by L modulo 63. Along y, the same holds with columns and rows
+    // exchanged.
     const auto shifted = [&](int section, int by) {
         const int sum = section + (is_before ? kSections - by : by);
         return static_cast<std::uint8_t>(sum % kSections);

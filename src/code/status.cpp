@@ -65,19 +65,19 @@ constexpr bool in_order() {
 }
 static_assert(in_order(), "kTexts has one row per Status, in the order of the values");
 
-/// Returns the index of a status in kTexts. Unknown values get the last index, which is that of
-/// `other`.
+/// Returns the index of a status in kTexts. For an unknown value, returns the index of `other`,
+/// which is the last index.
 constexpr std::size_t row_of(Status status) {
     return std::min<std::size_t>(static_cast<std::size_t>(status), kStatusCount);
 }
 
-/// Names, stored apart from the messages. Device programs that print only names then link no
-/// messages.
+/// Names, stored separately from the messages. A device program that prints only names then links
+/// no messages.
 constexpr auto kNames = [] {
     std::array<std::array<char, 16>, kTexts.size()> names{};
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::string_view name = kTexts[i].name;
-        // Copies the terminating zero, too.
+        // Also copies the terminating zero.
         std::copy_n(name.data(), name.size() + 1, names[i].begin());
     }
     return names;

@@ -1,5 +1,5 @@
-// Tables: lookup tables that are computed from the sequences at compile time. Roll tables serve
-// encoding, and place tables serve decoding.
+// Tables: lookup tables that are computed from the sequences at compile time. Encoding uses roll
+// tables, and decoding uses place tables.
 #pragma once
 
 #include <array>
@@ -11,20 +11,20 @@
 
 namespace dotpose::code {
 
-/// Marks a string of digits that does not occur in a sequence.
+/// Index of a string of digits that does not occur in a sequence.
 inline constexpr std::uint8_t kAbsent = 255;
 /// Number of consecutive roll differences that determine a place in a secondary sequence. Each
-/// difference contributes one digit. In the a4 of `libdots`, some strings of this length occur
-/// twice (see `Secondary::has_twins`).
+/// difference contains one digit of the sequence. In the a4 of `libdots`, some strings of this
+/// length occur twice (see `Secondary::has_twins`).
 inline constexpr int kOrder = 5;
 
-/// Table entries beyond the end of a sequence. With these entries, loops over adjacent lines need
-/// not wrap around. kLinesAhead entries cover a view whose first line is at the last place.
-/// kVectorAhead more entries cover a vector load from the view's last line.
+/// Numbers of table entries beyond the end of a sequence, for loops over adjacent lines that do not
+/// wrap around. kLinesAhead entries are for a view whose first line is at the last place.
+/// kVectorAhead further entries are for a vector load from the last line of the view.
 inline constexpr std::size_t kLinesAhead = 64;
 inline constexpr std::size_t kVectorAhead = 32;
 
-/// Returns n modulo 63 for n < 4095. Needs no division, because 64 modulo 63 is 1.
+/// Returns n modulo 63 for n < 4095. Uses no division, because 64 modulo 63 is 1.
 constexpr std::uint32_t short_modulo_sections(std::uint32_t n) {
     n = (n & 63) + (n >> 6);
     return n < kSections ? n : n - kSections;
@@ -44,7 +44,7 @@ struct Secondary {
     /// 63. Has kLinesAhead + kVectorAhead entries beyond the end.
     const std::uint8_t* rolls;
     /// First place of each 5-digit string, or kAbsent if the string does not occur. The index is
-    /// the string's `key`.
+    /// the `key` of the string.
     const std::uint8_t* first_place_of;
     /// One bit set per digit: bit i is 1 if place i contains the digit. Place 0 is the lowest bit
     /// of the first word. The sets repeat cyclically up to 256 + kLinesAhead bits.
@@ -57,7 +57,7 @@ struct Secondary {
     std::uint8_t weight;  ///< weight of the digits in a roll difference
     bool has_twins;       ///< true if some string of 5 digits occurs twice
 
-    /// Returns the place of a position, which is `position` modulo `length`. Needs no division.
+    /// Returns the place of a position, which is `position` modulo `length`. Uses no division.
     constexpr std::uint32_t place_of(std::uint32_t position) const {
         // n is less than 2^24, so the product fits in 32 bits.
         const std::uint32_t n = (position >> 16) * rest_of_65536 + (position & 0xFFFF);
@@ -67,8 +67,8 @@ struct Secondary {
         return rest;
     }
     /// Returns a bit set for the places 32 * word to 32 * word + 31. A bit is 1 if the next `count`
-    /// digits at this place equal those at `place`. Indices wrap around. Bits beyond the end of the
-    /// sequence are 0.
+    /// digits at its place equal the digits at `place`. Indices wrap around. Bits beyond the end of
+    /// the sequence are 0.
     constexpr std::uint32_t equal_places(std::uint32_t place, int count, std::uint32_t word) const {
         const std::uint32_t rest = length - 32 * word;
         std::uint32_t places = rest < 32 ? ~(~std::uint32_t{0} << rest) : ~std::uint32_t{0};
@@ -112,7 +112,7 @@ consteval std::uint8_t period_roll(std::size_t length, unsigned roll_of_period) 
 }
 
 /// Returns the first place of each string with `Order` digits, or kAbsent if the string does not
-/// occur. The index is the string's `key` in base `Base`.
+/// occur. The index is the `key` of the string in base `Base`.
 template <unsigned Base, int Order, std::size_t Length>
 constexpr auto first_places(const Digits<Length>& sequence) {
     constexpr std::size_t kKeys = [] {

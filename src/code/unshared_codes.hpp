@@ -14,8 +14,8 @@ namespace dotpose::code {
 
 /// Minimum numbers of unshared lines. Indices: code that was read, other code, row of
 /// `kUnsharedOf`. Digit p of a string applies to lines that begin at place p in a4. The minimum is
-/// over all places in the other code's a4, at all shifts. Between anoto and libdots, the minimum
-/// excludes place p at shift 0, because most of a4 is equal in these codes.
+/// over all places in the a4 of the other code, at all shifts. Between anoto and libdots, the
+/// minimum excludes place p at shift 0, because most of a4 is equal in these codes.
 inline constexpr std::array<std::array<std::array<std::string_view, 3>, kCodeVariantCount>,
                             kCodeVariantCount>
     kUnsharedInOther{{

@@ -13,7 +13,7 @@ namespace dotpose::code {
 /// Number of consecutive lines that each table row covers.
 inline constexpr std::array<int, 3> kUnsharedOf{10, 13, 16};
 
-/// Index of each sequence's first entry in `kUnshared`. Order: a1, a2, a3, restored a4.
+/// Index of the first entry of each sequence in `kUnshared`. Order: a1, a2, a3, restored a4.
 inline constexpr std::array<std::size_t, 4> kUnsharedFrom{0, 236, 469, 500};
 
 /// Minimum numbers of unshared lines, packed. The index is kUnsharedFrom[sequence] plus the place
@@ -86,9 +86,9 @@ inline constexpr std::array<std::uint16_t, 741> kUnshared{
 /// Maximum number of unshared lines that `kMaxPositionsWith` covers.
 inline constexpr std::size_t kMaxCounted = 7;
 
-/// Upper bounds on the number of positions with exactly n unshared lines. Indices: row, sequence, n
-/// - 1. The positions differ from the decoded position only in the sequence of the second index. A
-/// position counts once for each shift where it shares a line. Each bound holds for all decoded
+/// Upper bounds on the number of positions with exactly n unshared lines, at the index
+/// [row][sequence][n - 1]. The positions differ from the decoded position only in this sequence. A
+/// position counts once for each shift where it shares a line. The bounds hold for all decoded
 /// positions and all codes.
 inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>, 3>
     kMaxPositionsWith{{

@@ -9,9 +9,8 @@
 
 namespace dotpose::core {
 
-/// Range of positions for the first of `lines` adjacent lines, along one axis. If the first line is
-/// in this range, at least one of the lines is on the region. The region begins at `region_first`
-/// and has `region_size` positions.
+/// Range of first positions at which a block of `lines` adjacent lines overlaps a region, along one
+/// axis. The region begins at `region_first` and has `region_size` positions.
 struct PositionRange {
     std::uint32_t first;
     std::uint32_t count;
@@ -25,8 +24,7 @@ struct PositionRange {
     friend bool operator==(const PositionRange&, const PositionRange&) = default;
 };
 
-/// Returns true if a region is not empty, is inside the plane, and has a code and a section that
-/// exist.
+/// Returns true if a region is not empty, is inside the plane, and has a valid code and section.
 inline bool is_valid(const KnownRegion& region) {
     const auto is_in_plane = [](std::uint32_t first, std::uint32_t size) {
         return size > 0 && first < kPositionsPerAxis && size <= kPositionsPerAxis - first;

@@ -1,7 +1,6 @@
 #pragma once
 
-/// Prevents inlining on processors with few registers, where the caller would run out of registers.
-/// On other processors, inlining is faster.
+/// Prevents inlining on processors with few registers. On other processors, inlining is faster.
 #if defined(__thumb__) && !defined(__thumb2__)
 #define DOTPOSE_NOINLINE [[gnu::noinline]]
 #else

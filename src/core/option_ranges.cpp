@@ -1,4 +1,4 @@
-// Reports the first option that is out of range.
+// Option ranges: reports the first option that is out of range.
 #include "core/option_ranges.hpp"
 
 #include "dotpose/option_fault.hpp"

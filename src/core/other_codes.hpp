@@ -1,5 +1,5 @@
-// Other codes: how well a frame agrees with each code variant except the one that was read. The
-// attempts compute this agreement, and `Locator` evaluates it.
+// Other codes: how well a frame agrees with each code variant other than the variant that was read.
+// The attempts compute this agreement, and `Locator` compares the variants.
 #pragma once
 
 #include <array>
@@ -9,27 +9,30 @@
 
 namespace dotpose::core {
 
-/// Likelihood ratios in another code variant, along one axis. The ratios are relative to the place
-/// that was read in its own code variant. A place with ratio 1 is as likely as that place.
+/// Likelihood ratios in another code variant, along one axis. A ratio is the likelihood of a place
+/// in the other variant divided by the likelihood of the place that was read.
 struct OtherAxis {
-    float here = 1;  ///< ratio of the place that was read
-    /// Upper bound on the summed ratios of all places other than the place that was read.
+    float here = 1;  ///< ratio of the same place in the other variant
+    /// Upper bound on the summed ratios of all other places.
     float elsewhere = 0;
-    float best = 0;              ///< largest ratio of any examined place other than the place that
-                                 ///< was read
-    std::uint32_t position = 0;  ///< position of the first line at the place of `best`
-    std::uint8_t roll = 0;       ///< roll of that line, minus the roll that was read
+    /// Largest ratio of any examined place, except for the place that was read.
+    float best = 0;
+    std::uint32_t position = 0;  ///< position of the first compared line at the place with the
+                                 ///< ratio `best`
+    std::uint8_t roll = 0;       ///< roll of the first compared line at this place, minus its roll
+                                 ///< in the reading
 };
 
-/// Likelihood ratios in one other code variant.
+/// Likelihood ratios in one other code variant, along both axes.
 struct OtherCode {
     OtherAxis x;
     OtherAxis y;
 
-    /// Returns the likelihood ratio of the place that was read, with both axes combined.
+    /// Returns the likelihood ratio of the same place in the other variant, with both axes
+    /// combined.
     float here() const { return x.here * y.here; }
-    /// Returns an upper bound on the summed likelihood ratios of all places other than the place
-    /// that was read, with both axes combined.
+    /// Returns an upper bound on the summed likelihood ratios of all other places, with both axes
+    /// combined.
     float elsewhere() const { return x.here * y.elsewhere + x.elsewhere * (y.here + y.elsewhere); }
 };
 
@@ -38,13 +41,13 @@ struct OtherCodes {
     bool are_wanted = false;
     /// Value of `log2_in_question_q8` if the code variant is given.
     static constexpr int kNoneInQuestion = -1;
-    /// Upper bound on the number of possible code variants, as log2 in units of 2^-8. Each variant
-    /// is weighted by its odds relative to the variant that was read.
+    /// Upper bound on the weighted number of possible code variants, as log2 in units of 2^-8. The
+    /// weight of a variant is its odds relative to the variant that was read.
     int log2_in_question_q8 = 0;
     /// Positions of the first compared column and row, in the code variant that was read.
     Cell first;
-    std::array<OtherCode, kCodeVariantCount>
-        of;  ///< indexed by code variant; the entry for the variant that was read is unused
+    /// Indexed by code variant. The entry for the variant that was read is unused.
+    std::array<OtherCode, kCodeVariantCount> of;
 };
 
 }  // namespace dotpose::core

@@ -9,11 +9,11 @@
 namespace dotpose::core {
 
 /// Dots in a patch, in px of the image. Coordinates are relative to the middle of the patch, or to
-/// the origin that `move_origin_to_densest` chooses.
+/// an origin chosen by `move_origin_to_densest`.
 struct PatchDots {
     static constexpr int kMax = 2048;
     int count = 0;
-    // Padded to whole vectors. In the last vector, unused elements are far outside the patch.
+    // Padded to whole vectors. Unused elements of the last vector are far outside the patch.
     alignas(64) std::array<float, kMax + 16> x;
     alignas(64) std::array<float, kMax + 16> y;
 };
@@ -42,8 +42,8 @@ struct Patch {
     int width_px = 0;
     int height_px = 0;
     int stride = 0;
-    int dot_contrast_q8 =
-        0;  ///< darkness of a typical dot after smoothing, in 1/256 of the paper level
+    /// Darkness of a typical dot after smoothing, in 1/256 of the paper level.
+    int dot_contrast_q8 = 0;
     alignas(64) std::array<std::uint8_t, kMaxPixels> pixels;
     alignas(64) std::array<std::uint8_t, kMaxPixels> smoothed;
     alignas(64) std::array<std::uint8_t, kTiles> brightest;
@@ -60,7 +60,7 @@ struct Patch {
 /// measurement, `x` is kNoDot_px in the padding.
 struct MeasuredDots {
     int count = 0;
-    std::span<float> column;  ///< column of the cell, in the current plane
+    std::span<float> column;  ///< column of the cell, in coordinates of the current plane
     std::span<float> row;
     /// Bits of the cell in the code: x bit + 2 * y bit.
     std::span<std::int32_t> bits;

@@ -1,5 +1,4 @@
-// Steps: the processing steps that desktops and devices share, in integer arithmetic. All steps
-// appear in Fig. 1 of the paper.
+// Steps: the steps of the paper's Fig. 1 that desktops and devices share, in integer arithmetic.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +22,7 @@ FixedVec image_centre_q8(const AdaptiveThreshold& threshold);
 FixedVec reference_q8(FixedVec centre_q8, const DeviceOptions& options);
 
 /// Returns ok if the options are valid and the workspace accepts frames of this size. Otherwise,
-/// returns the reason for refusal. The second overload also requires pixels.
+/// returns the reason. The second overload also requires pixels.
 Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w);
 Status check(const ImageView& image, const DeviceOptions& options, const Workspace& w);
 
@@ -49,7 +48,7 @@ inline void detect_row(const std::uint8_t* pixels, const DeviceOptions& options,
 /// Detects all blobs in an image.
 void detect_image(const ImageView& image, const DeviceOptions& options, Workspace& w);
 
-/// Returns the minimum number of dots of a grid. On known sheets, fewer dots determine a place.
+/// Returns the minimum number of dots of a grid. Known sheets need fewer dots.
 inline int min_dots(const DeviceOptions& options, const Workspace& w) {
     return w.known.any() ? std::min(options.lattice.min_dots, kMinKnownDots)
                          : options.lattice.min_dots;

@@ -1,6 +1,7 @@
 // Workspace: the memory of a locator. After a frame, the workspace contains the results of all
 // stages. All capacities are fixed. The caller provides the memory as a DeviceMemory, SmallMemory
-// or LargeMemory. The workspace is constructed once in this memory, and reused for each frame.
+// or LargeMemory. A locator constructs the workspace once in this memory, and reuses it for each
+// frame.
 #pragma once
 
 #include <array>
@@ -28,7 +29,7 @@ struct Workspace {
     /// True if stages do not share memory. The results of every stage then remain available.
     bool keeps_every_stage = false;
     KnownSheets known;
-    // detect
+    // Stage `detect`.
     AdaptiveThreshold threshold;
     OpenBlobs open;
     std::span<DetectedDot> dots;  ///< size: maximum number of dots
@@ -36,7 +37,7 @@ struct Workspace {
     /// Maximum distance of stored dots from the image centre, along each axis. Decreases when
     /// `dots` is full.
     int dots_kept_within_px = 0;
-    // lattice
+    // Stage `lattice`.
     std::span<std::uint16_t> seeds;  ///< indices of dots
     int seed_count = 0;
     std::span<BucketedSeed> buckets;  ///< size: number of seeds plus 1
@@ -47,12 +48,12 @@ struct Workspace {
     std::span<std::int32_t> edge_values;  ///< size: two per edge
     Lattice lattice;
     PlaneFromImage grid_from_image;
-    // decode
+    // Stage `decode`.
     Grid grid;
     /// Column scores in the first half, row scores in the second half.
     std::span<ScoredLine> line_scores;
     Decoding decoding;
-    // pose
+    // Stage `pose`.
     PlaneFromImage pattern_from_image;  ///< in spacings relative to `Decoding::place`
     Fix fix;
 

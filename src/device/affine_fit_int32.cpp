@@ -13,7 +13,8 @@ int excess_bits(std::int64_t value, int bits) {
     return std::max(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value))) - bits, 0);
 }
 
-/// Returns n / d. If n fits in 32 bits, divides in 32 bits, which takes a fifth of the time.
+/// Returns n / d. Divides in 32 bits if n fits in 32 bits, because small processors divide 32-bit
+/// numbers five times as fast as 64-bit numbers.
 std::int64_t quotient(std::int64_t n, std::int32_t d) {
     const auto small = static_cast<std::int32_t>(n);
     return small == n ? small / d : n / d;
@@ -47,8 +48,8 @@ bool AffineFitInt32::solve(int bits, PlaneFromImage& plane) {
                                           myy >> shift};
     const std::int64_t determinant = spread.determinant();
     const std::int64_t trace = spread.xx + spread.yy;
-    // Dots are collinear if their standard deviation across the line is less than about 1/32 of the
-    // standard deviation along it.
+    // Dots are treated as collinear if their standard deviation across the line is less than about
+    // 1/32 of the standard deviation along it.
     if (determinant <= 0 || determinant >> 8 < trace * trace >> 18) return false;
 
     const auto solve_one = [&](std::int32_t sum, std::int64_t of_x, std::int64_t of_y,

@@ -15,8 +15,8 @@ class AffineFitInt32 {
         Int xx = 0, xy = 0, yy = 0;
         Int ix = 0, iy = 0, jx = 0, jy = 0;
 
-        /// Adds a point p and its target. `weighted` is p times its weight, which is 1 or -1.
-        /// `target` must also be multiplied by the weight.
+        /// Adds a point p and its target, with a weight of 1 or -1. `weighted` is p times the
+        /// weight. The caller passes `target` already multiplied by the weight.
         [[gnu::always_inline]] void add(const FixedVec& p, const FixedVec& weighted,
                                         const FixedVec& target) {
             xx += weighted.x * p.x;
@@ -30,7 +30,8 @@ class AffineFitInt32 {
     };
 
     AffineFitInt32() = default;
-    /// Starts from given sums. `count` is the number of points, or the sum of their weights.
+    /// Starts from sums computed elsewhere. `count` is the number of points, or the sum of their
+    /// weights.
     AffineFitInt32(std::int32_t count, const FixedVec& p, const FixedVec& target,
                    const Products<std::int32_t>& sums)
         : changes_(count), p_(p), target_(target), recent_(sums) {}

@@ -16,13 +16,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of dots used to search for the grid. Determines the time of the search
+/// Maximum number of dots used to search for the grid. Bounds the duration of the search
 /// (docs/firmware.md).
 constexpr int kSeeds = 64;
 
 /// Returns the point at which the search for the grid starts. This is the image centre, or the
-/// centroid of the dots if the centroid is far from the centre, for example because the edge of a
-/// sheet is in view.
+/// centroid of the dots if it is far from the image centre. The centroid is far away if, for
+/// example, the edge of a sheet is in view.
 FixedVec start_q8(const Workspace& w) {
     const FixedVec centre_q8 = image_centre_q8(w.threshold);
     FixedVec sum_q4;

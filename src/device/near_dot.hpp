@@ -14,9 +14,10 @@
 
 namespace dotpose::core {
 
-/// Distance, in px, from the middle of a square to its outermost pixels. kHalf_px is for the square
-/// around an intersection. This square contains the dot at any of its four places. kDotHalf_px is
-/// for the square around the centre of a dot. Valid for spacings of 7 to 13 px.
+/// Half sides of the squares of pixels that are read: distance from the middle pixel to the
+/// outermost pixels, in px. The squares of kHalf_px and kFineHalf_px are around an intersection,
+/// and contain the dot at any of its four places. kHalf_px is for spacings of 7 to 13 px, and
+/// kFineHalf_px for smaller spacings. The square of kDotHalf_px is around the centre of a dot.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kFineHalf_px = 2;
 inline constexpr int kDotHalf_px = 2;
@@ -77,7 +78,7 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
         kept_row(tracking, intersection_q16.y >> 16) + (intersection_q16.x >> 16);
     const int quarter = (intersection_q16.x >> 15 & 1) + (intersection_q16.y >> 14 & 2);
     const std::int16_t* offset = tracking.dot_pixels[static_cast<std::size_t>(quarter)].data();
-    // `darkest` and `second` are four times the sum of four pixels, plus the symbol.
+    // `darkest` and `second` are four times a sum of four pixels, plus the symbol.
     std::int32_t darkest = INT32_MAX;
     std::int32_t second = INT32_MAX;
 #pragma GCC unroll 4

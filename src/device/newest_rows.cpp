@@ -14,7 +14,7 @@ void keep_row(const std::uint8_t* pixels, Tracking& tracking) {
 void make_room(int rows, Tracking& tracking) {
     const int kept = tracking.rows_taken - tracking.first_kept;
     if (kept + rows <= tracking.rows_kept) return;
-    // Copies at most half of the stored rows, so source and destination do not overlap.
+    // At most half of the stored rows are needed, so source and destination do not overlap.
     tracking.first_kept = tracking.rows_taken - tracking.rows_needed;
     std::memcpy(tracking.rows.data(),
                 tracking.rows.data() + (kept - tracking.rows_needed) * tracking.stride_px,

@@ -1,4 +1,4 @@
-// On sheets: reads the bits of a frame as a place on a known sheet.
+// Reads the bits of a frame as a place on a known sheet.
 #pragma once
 
 #include "dotpose/device_options.hpp"

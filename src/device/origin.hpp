@@ -1,7 +1,7 @@
-// Origin: finds the origin of the first grid (paper, section II-B.2). Unlike the paper, this does
-// not need a dot that is connected to all eight neighbours. Such dots are rare if dots are
-// displaced or missing. The origin follows from the mean phase of all dots near the centre, as in a
-// Fourier transform.
+// Origin: finds the origin of the first grid (paper, section II-B.2). The paper requires a dot that
+// is connected to all eight neighbours, but such dots are rare if dots are displaced or missing.
+// Here, the origin follows from the mean phase of all dots near the centre, as in a Fourier
+// transform.
 #pragma once
 
 #include "dotpose/trace.hpp"

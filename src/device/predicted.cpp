@@ -8,8 +8,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Range of grid spacings, in px, that can be tracked. In this range, dots fit in the squares that
-/// are read. Spacings below kFine_px are tracked on known sheets only.
+/// Range of grid spacings that can be tracked, in px. At these spacings, the square that is read
+/// around an intersection contains the dot. Spacings below kFine_px are tracked on known sheets
+/// only.
 constexpr int kFinest_px = 5;
 constexpr int kFine_px = 7;
 constexpr int kCoarsest_px = 13;
@@ -17,7 +18,7 @@ constexpr int kCoarsest_px = 13;
 constexpr std::int32_t kMinDisplacement_q16 = 65536 / 12;
 constexpr std::int32_t kMaxDisplacement_q16 = 65536 / 3;
 
-/// Returns true if the values of the prediction are in the range in which no stage overflows.
+/// Returns true if no stage overflows with the values of the prediction.
 bool is_sane(const Prediction& prediction) {
     const PlaneFromImage& plane = prediction.pattern_from_image;
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
@@ -85,8 +86,8 @@ int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
     }
 }
 
-/// Sets the members that depend on the spacing. Returns false if the memory, or the part of the
-/// image whose cells fit in the memory, is too small.
+/// Sets the members that depend on the spacing. Returns false if the memory is too small, or if the
+/// part of the image whose cells fit in the memory is too small.
 bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     const int cells = leave_out_edges(spacing_q8, tracking);
     const int width_px = tracking.width_px - 2 * tracking.left_out_px;
@@ -100,7 +101,8 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     tracking.corners_apart = 2 * tracking.half_px * tracking.stride_px;
     tracking.rows_needed = 2 * tracking.half_px + 3;
     if (2 * tracking.rows_needed + kRowsAtOnce > tracking.rows_kept) return false;
-    // If there is room for all rows, the whole frame determines the error of the prediction.
+    // If the memory has room for all rows, the error of the prediction is measured from the whole
+    // frame.
     const bool keeps_frame = tracking.height_px <= tracking.rows_kept;
     tracking.first_rows =
         keeps_frame ? tracking.height_px
@@ -108,8 +110,8 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
 }
 
-/// Returns the maximum error of the prediction that the search covers, in px at the image centre:
-/// three standard deviations, but at most 3/5 of the spacing.
+/// Returns the maximum position error of the prediction that the search covers, in px at the image
+/// centre. This is three standard deviations, but at most 3/5 of the spacing.
 int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     const std::int64_t wanted_q16 = 3 * std::int64_t{prediction.sigma_q16};
     const auto shift_q16 =

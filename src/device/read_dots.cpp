@@ -27,9 +27,9 @@ TrackedView view_of(const Tracking& tracking) {
         displaced_q16 = std::max(displaced_q16, larger_component(displaced));
     // The square around the pixel of an intersection must be in the image.
     const int half_px = tracking.half_px;
-    // The place of a dot is rounded to a pixel, so kDotHalf_px pixels on each side of this pixel
-    // must also be in the image. In fine grids, the bits are also read at places where the dot
-    // cannot be measured.
+    // The place of a dot is rounded to a pixel, and kDotHalf_px pixels on each side of this pixel
+    // must also be in the image. In fine grids, bits are also read at places where the dot cannot
+    // be measured.
     const std::int32_t of_dot_q16 =
         half_px == kHalf_px ? kDotHalf_px * 65536 - 32768 + displaced_q16 : 0;
     const std::int32_t min_q16 = std::max<std::int32_t>(half_px * 65536, of_dot_q16);
@@ -45,7 +45,7 @@ TrackedView view_of(const Tracking& tracking) {
 
 /// Finds the first visible cell of each row of cells, from row `j` in steps of `j_step`, until a
 /// row has no visible cell. The visible cells of a row are contiguous and close to those of the
-/// previous row, so each search starts at the result of the previous search.
+/// previous row. Each search therefore starts at the previous result.
 void lay_rows(Tracking& tracking, int j, int j_step) {
     const TrackedView view = tracking.view;
     const RowDirection direction = row_direction(tracking);
@@ -92,9 +92,9 @@ DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
     return false;
 }
 
-/// Adds the dot at the next intersection of a row to the sums, if its mass is plausible and its
-/// centre is near the predicted place. The symbol of the dot must agree with the code. Masses are
-/// below 2^12, and offsets are at most 2 px, so the sums over a row of 32 dots are below 2^30.
+/// Adds the next dot of a row to the sums, if its mass is plausible and its centre is near the
+/// predicted place. The symbol of the dot must agree with the code. Masses are below 2^12, and
+/// offsets are at most 2 px. The sums over a row of 32 dots are therefore below 2^30.
 DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& row) {
     const auto symbol = static_cast<std::size_t>(read.symbol());
     const FixedVec place_q16 = row.next_q16 + tracking.displaced_q16[symbol];
@@ -138,9 +138,9 @@ bool begin_reading(Tracking& tracking) {
 
 void read_ready_dots(Tracking& tracking) {
     const RowDirection direction = row_direction(tracking);
-    // The pixels of a dot may extend one row below the square around its intersection, so one more
-    // row must be stored. After the last row of the image, no further row is needed, because all
-    // pixels of dots in view are inside the image.
+    // The pixels of a dot may extend one row below the square around its intersection. One more row
+    // must therefore be stored. After the last row of the image, no further row is needed, because
+    // all pixels of visible dots are inside the image.
     const int ahead = tracking.rows_taken == tracking.height_px ? 1 : 2;
     const std::int32_t ready_q16 = (tracking.rows_taken - ahead - tracking.half_px) * 65536 + 32767;
     TrackedRow* row = &tracking.grid_rows[static_cast<std::size_t>(tracking.first_cell)];

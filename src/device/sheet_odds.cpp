@@ -22,7 +22,7 @@ int log2_of_places_q8(std::uint64_t n) {
     return log2_at_most_q8(static_cast<std::uint32_t>(n)) + 256 * halvings;
 }
 
-/// The lines of one axis, the first of which is at a position, and the section of the axis.
+/// Consecutive lines of one axis, at a place in the code.
 struct PlacedLines {
     HardLines lines;
     std::uint32_t position;
@@ -30,22 +30,22 @@ struct PlacedLines {
     int wrong;  ///< number of bits that contradict the code
 };
 
-/// Returns the number that is added to the rolls in section 0 of the lines of an axis: the section
-/// plus the position on the other axis, modulo 63.
+/// Returns the offset of an axis's rolls from its rolls in section 0: the section plus the position
+/// on the other axis, modulo 63.
 std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_across) {
     return code::modulo_sections(section + code::modulo_sections(position_across));
 }
 
-/// Sum of the odds of the places whose lines on one axis are those of a place, with the same rolls,
-/// so that only the lines of the other axis distinguish the places.
+/// Sum of the odds of places that have the same lines and rolls on one axis as a given place. Only
+/// the lines of the other axis distinguish these places.
 class OddsOfOthers {
   public:
     OddsOfOthers(CodeVariant code, int odds_per_bit_q8)
         : code_(code), odds_per_bit_q8_(odds_per_bit_q8) {}
 
-    /// Adds the places of a region whose lines on the axis of `same` are those of the place.
-    /// `same_section` and `section` are the sections of the region, along the axis of `same` and
-    /// along the other axis, and `same_range` and `range` are its positions.
+    /// Adds the places of a region that have the lines of the given place on the axis of `same`.
+    /// `same_section` and `same_range` are the section and the positions of the region along this
+    /// axis. `section` and `range` are those along the other axis.
     void add(const PlacedLines& same, std::uint32_t same_section, const PositionRange& same_range,
              const PlacedLines& other, std::uint32_t section, const PositionRange& range) {
         if (!same_range.contains(same.position)) return;
@@ -71,10 +71,10 @@ class OddsOfOthers {
     int log2_q8_ = kNever_q8;
 };
 
-/// Returns log2 of the number of places that a view may show, in units of 2^-8: the places in each
-/// of the four orientations on the regions in a code, including the places at which the block
-/// extends beyond a region. A tracked attempt tests only one place, but chooses among up to 2^10
-/// planes.
+/// Returns log2 of the number of places that a view may show, in units of 2^-8. Counts all four
+/// orientations at each place of the regions in the code `code`. Also counts places at which the
+/// block extends beyond a region. Returns at least log2 of 2^10, because a tracked attempt tests
+/// only one place, but chooses among up to 2^10 planes.
 int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int rows) {
     std::uint64_t places = 0;
     for (const KnownRegion& region : sheets.regions) {
@@ -85,9 +85,9 @@ int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int
     return log2_of_places_q8(std::max<std::uint64_t>(4 * places, 1024));
 }
 
-/// Returns log2 of an upper bound on the probability that an unknown sheet has the columns, or the
-/// rows, of a known sheet and agrees on the other axis, in units of 2^-8. Then the other axis can
-/// only have the positions of one class modulo 63.
+/// Returns log2 of an upper bound on the probability of an accidental match with an unknown sheet,
+/// in units of 2^-8. The unknown sheet has the same columns or rows as a known sheet, and agrees on
+/// the other axis by chance. Its rolls leave only every 63rd position on the other axis.
 int unknown_sheet_log2_q8(const KnownSheets& sheets, CodeVariant code, const PlacedLines& x,
                           const PlacedLines& y, int bits, int odds_per_bit_q8) {
     std::uint32_t columns = 0;
@@ -109,7 +109,8 @@ int unknown_sheet_log2_q8(const KnownSheets& sheets, CodeVariant code, const Pla
 
 int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
                    const IntegrityOptions& options) {
-    // Places with more wrong bits are found in large views only, and are not excluded here.
+    // Maximum number of wrong bits to test. Only large views have certain places with more wrong
+    // bits. For these views, the function returns the number of all bits, which excludes no place.
     constexpr int kMaxTested = 8;
     const int trials_q8 = trials_log2_q8(sheets, code, lines, lines);
     for (int wrong = 0; wrong <= std::min(kMaxTested, 2 * dots); ++wrong) {

@@ -11,14 +11,15 @@
 
 namespace dotpose::core {
 
-/// Returns the maximum number of wrong bits, on both axes together, of a place that may be certain.
-/// `dots` is the number of bits of each axis, and `lines` the number of columns or rows, whichever
-/// is larger. Returns -1 if no place of so few bits is certain.
+/// Returns the maximum number of wrong bits, in both axes together, of a place that may be certain.
+/// `dots` is the number of bits per axis. `lines` is the number of columns or rows, whichever is
+/// larger. Returns -1 if no place can be certain with this number of bits.
 int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
                    const IntegrityOptions& options);
 
-/// Returns true if a place on the known sheets is certain: the bound is within the limit, and not
-/// too many bits contradict the place. `columns` and `rows` are the lines of the upright block, and
+/// Returns true if a place on the known sheets is certain. The bound must be at most
+/// IntegrityOptions::max_p_wrong_log2, and the fraction of wrong bits on each axis at most
+/// IntegrityOptions::max_bit_error_q8. `columns` and `rows` are the lines of the upright block, and
 /// `corner` is the place where the first column and the first row cross. Sets `bit_errors` and
 /// `p_wrong_log2` of the fix, and `prior` if the result is true.
 bool is_certain_place(const KnownSheets& sheets, CodeVariant code, const HardLines& columns,

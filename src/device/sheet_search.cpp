@@ -9,12 +9,12 @@ namespace dotpose::core {
 namespace {
 
 constexpr int kTurns = 4;
-/// Maximum number of pairs of lines, on each axis, that are tried. Pairs are disjoint, so a bit
-/// error spoils only one pair of each axis.
+/// Maximum number of pairs of lines that the search tries on each axis. Pairs are disjoint, so a
+/// bit error affects only one pair of each axis.
 constexpr int kMaxPairs = 3;
 
-/// The rolls at which all bits of a line agree with the main sequence: one roll for a line of at
-/// least six bits in a row without error.
+/// The rolls at which all bits of a line agree with the main sequence. A line with at least six
+/// correct bits in a row has one such roll.
 class AgreeingRolls {
   public:
     AgreeingRolls() = default;
@@ -22,7 +22,7 @@ class AgreeingRolls {
         for (std::size_t roll = 0; roll < kSections; ++roll) {
             if (((code::kMainWords[roll] ^ line.bits) & line.seen) != 0) continue;
             if (count_ == rolls_.size()) {
-                // The line has too few bits to be useful.
+                // The line has too few bits to restrict the roll.
                 count_ = 0;
                 return;
             }
@@ -48,9 +48,9 @@ struct LinePair {
     AgreeingRolls second;
 };
 
-/// Returns the first line of the pair of adjacent lines whose shorter line has the most bits. Skips
-/// the lines in the bit set `tried`, and adds the lines of the pair to it. Returns nullopt if no
-/// pair is left.
+/// Returns the first line of the pair of adjacent lines with the most bits. The number of bits of a
+/// pair is that of its line with fewer bits. Skips the lines in the bit set `tried`, and adds the
+/// lines of the pair to it. Returns nullopt if no pair is left.
 std::optional<int> longest_pair(const HardLines& lines, std::uint32_t& tried) {
     std::optional<int> longest;
     int most_bits = 0;
@@ -135,14 +135,15 @@ class SheetSearch {
     /// roll. `step` is the difference to the roll of the next line.
     void test_pair(const KnownRegion& region, const PairsOfLines& pairs, int quarters,
                    const Rolls& rolls, std::uint32_t position, std::uint32_t step);
-    /// Tests the places at which the first line of an axis is at `position` and `wrong` of its bits
-    /// contradict the code. The roll of each line is its roll in section 0 plus `added`.
+    /// Tests the places at which the first line of an axis is at `position`, and `wrong` bits of
+    /// this axis contradict the code. The roll of each line is its roll in section 0 plus `added`.
     void test_crossing(const KnownRegion& region, Axis axis, int quarters, std::uint32_t position,
                        std::uint32_t added, int wrong);
 
     const HardBlock& block_;
     CodeVariant code_;
-    int max_wrong_;  ///< on both axes together; less than the number at the best place so far
+    int max_wrong_;  ///< maximum number of wrong bits on both axes together; less than at the best
+                     ///< place so far
     std::optional<SheetPlace> best_;
 };
 
@@ -150,7 +151,7 @@ void SheetSearch::search(const KnownRegion& region, const PairsOfLines& pairs) {
     const RegionAxis along(region, pairs.axis());
     const auto margin = static_cast<std::uint32_t>(
         std::max(block_.lines(pairs.axis(), 0).count, block_.lines(pairs.axis(), 1).count));
-    // Positions of the first line of a pair, if any line of the block is on the region.
+    // Positions of the first line of a pair for which part of the block is on the region.
     const std::uint32_t begin = along.first < margin ? 0 : along.first - margin;
     const std::uint32_t end = along.first + along.size + margin;
     Rolls rolls;

@@ -29,7 +29,7 @@ Shifts::Shifts(const Tracking& tracking) {
     left_ = std::max(tracking.width_px / 2 - half, margin);
     right_ = std::min(tracking.width_px / 2 + half, tracking.width_px - margin);
     measure_paper(tracking);
-    // The dots of fine grids are hardly larger than a pixel, and pale.
+    // The dots of fine grids are pale, and hardly larger than a pixel.
     cut_ = paper_ - paper_ / (is_fine ? 16 : 4);
     add_dots(tracking);
     divide_by_dots();
@@ -57,9 +57,9 @@ void Shifts::measure_paper(const Tracking& tracking) {
 
 void Shifts::add_dots(const Tracking& tracking) {
     const int reach = step_px_ * steps_.y;
-    // Maximum distance of the cells visited from the middle cell, along each axis. These cells
-    // contain all dots within two spacings of the middle column, and all dots that a shift may move
-    // into the first rows, at any rotation of the grid.
+    // Maximum distance of the visited cells from the middle cell, along each axis. The visited
+    // cells contain all dots within two spacings of the middle column. They also contain all dots
+    // that a shift may move into the first rows, at any rotation of the grid.
     constexpr int kAround = 5;
     const FixedVec middle = middle_cell(tracking);
     const auto around = [&](int cell) {
@@ -98,8 +98,8 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 }
 
 void Shifts::divide_by_dots() {
-    // Minimum divisor. A mean over fewer dots is unreliable, so the larger divisor reduces this
-    // mean.
+    // Minimum divisor of a sum of darkness. A mean over fewer dots is unreliable, so the minimum
+    // divisor reduces it.
     constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);
@@ -110,8 +110,8 @@ void Shifts::divide_by_dots() {
     }
 }
 
-/// Clears the means around a shift that was returned, so `next` does not return a neighbouring
-/// shift.
+/// Clears the means around a shift that `next` returned, to exclude neighbouring shifts from
+/// further results.
 void Shifts::forget_around(FixedVec at) {
     constexpr int kFar = 2;
     for (int y = std::max<std::int32_t>(at.y - kFar, 0);
@@ -128,7 +128,7 @@ bool Shifts::next(FixedVec& shift_q8) {
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const std::uint16_t* here = row_of(y);
         for (int x = 0; x <= 2 * steps_.x; ++x, ++here) {
-            // A weighted sum with the neighbours has less noise than the value alone.
+            // The weighted sum of a value and its neighbours has less noise than the value alone.
             const int around = 4 * here[0] + here[-1] + here[1] + here[-kPerRow] + here[kPerRow];
             if (around <= best) continue;
             best = around;

@@ -17,9 +17,9 @@ class Shifts {
     /// `tracking`.
     explicit Shifts(const Tracking& tracking);
 
-    /// Sets `shift_q8` to the shift with the largest mean darkness among the shifts that are more
-    /// than two steps away, along at least one axis, from each previously returned shift. Returns
-    /// false if there is no such shift.
+    /// Sets `shift_q8` to the shift with the largest mean darkness, and returns true. Excludes
+    /// shifts within two steps of an earlier result along both axes. Returns false if no shift is
+    /// left.
     bool next(FixedVec& shift_q8);
 
     int paper_level() const { return paper_; }
@@ -51,7 +51,7 @@ class Shifts {
     int cut_ = 0;
     int depth_ = 0;
     std::array<std::uint8_t, kMaxPerSide> dots_{};  ///< number of dots summed in each row of steps
-    /// Sums of darkness; means after `divide_by_dots`.
+    /// Sums of darkness. Contains means after `divide_by_dots`.
     std::array<std::uint16_t, kPerRow * kPerRow> sums_{};
 };
 

@@ -16,8 +16,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of shifts that are tried. The correct shift is almost always the first or the
-/// second shift.
+/// Maximum number of shifts to try. The correct shift is almost always the first or the second
+/// shift.
 constexpr int kMaxShifts = 4;
 
 /// Shifts and rotates the cells to fit the dots in the first rows. Error: not_tracked.

@@ -87,7 +87,7 @@ class Rounds {
     void recentre(FixedVec middle);
     /// Measures the dot of a cell and, if it agrees with the code, adds it to the fit.
     void measure(int i, int j);
-    /// Moves the cells according to the fit.
+    /// Moves the cells to the fitted place.
     void lay_cells() {
         similarity_ = fit_.solve();
         tracking_.cells = changed(before_, middle_q16_, similarity_);
@@ -165,8 +165,8 @@ void visit_round(const Tracking& tracking, FixedVec middle, int round, Use use) 
     }
 }
 
-/// Adapts the slopes of the plane, which is the inverse of the map of the cells, to a small stretch
-/// s and rotation t of the cells. For each pattern coordinate, subtracts s du + t dv from du, and s
+/// Adapts the slopes of the plane to a small stretch s and rotation t of the cells. The plane is
+/// the inverse of the cell map. For each pattern coordinate, subtracts s du + t dv from du, and s
 /// dv - t du from dv.
 void turn_back(const SimilarityFit::Similarity& s, Tracking& tracking) {
     FixedVec& du = tracking.du_q20;
@@ -190,8 +190,8 @@ bool find_turn(Tracking& tracking) {
         visit_round(tracking, middle, round, [&](int i, int j) { rounds.measure(i, j); });
         agree = rounds.seen() < kMinMeasured ||
                 8 * rounds.agreeing() >= kMinFraction_q3 * rounds.seen();
-        // The cells are moved after rings 1, 2 and 4. Ring 0 is the middle dot, which `recentre`
-        // has already used. Ring 3 adds few dots to ring 2.
+        // Moves the cells after rings 1, 2 and 4. Ring 0 is the middle dot, which `recentre` has
+        // already used. Ring 3 adds few dots to ring 2.
         const bool moves_cells = round % 2 == 0 ? round > 0 : round == 1;
         if (moves_cells && rounds.agreeing() > before) rounds.lay_cells();
     }

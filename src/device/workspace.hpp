@@ -37,18 +37,18 @@ struct DeviceCapacity {
     int height_px = kMaxFrameSide_px;
     int dots = 0;
     int grid_side = 0;
-    /// Maximum number of lines of each axis that are compared with the whole plane; 0 if only known
-    /// sheets are read. -1 stands for all lines of the grid.
+    /// Maximum number of lines of each axis that are compared with the whole code. The number is 0
+    /// if only known sheets are read, and -1 if all lines of the grid are compared.
     int scored_lines = -1;
     /// Maximum number of dots from which the axes of the grid are found.
     int seeds = 64;
-    // Maximum numbers of runs and blobs of one row. Both far exceed the number of dots in a row.
-    // Any further runs and blobs are noise or graphics.
+    // Maximum numbers of runs and blobs in one row, far above the number of dots in a row. Runs and
+    // blobs beyond the maximum are noise or graphics.
     int runs = 0;
     int blobs = 0;
-    // Maximum number of runs of a whole frame. The maximum bounds the time. The dots of a frame of
-    // 188 x 120 px have about 500 runs. Noisy frames of this size that were located had up to 1,900
-    // runs.
+    // Maximum number of runs of a whole frame, which bounds the time. The dots of a frame of 188 x
+    // 120 px have about 500 runs. Noisy frames of this size had up to 1,900 runs and were still
+    // located.
     int max_runs = 0;
 };
 
@@ -82,7 +82,7 @@ inline constexpr DeviceCapacity kDeviceCapacity<320, 240>{.width_px = 320,
 
 /// Workspace of a DeviceLocator on a small microcontroller, for frames of one size: about 12 KB for
 /// 188 x 120 px. Stages share memory, so only the results of the last stage remain. Only this class
-/// depends on the size. The stages use spans, so they are compiled once for all sizes.
+/// depends on the size. The stages use spans and are compiled once for all sizes.
 template <DeviceCapacity kCapacity>
 class DeviceWorkspaceOf : public DeviceWorkspace {
   public:
@@ -92,8 +92,8 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
                       kCapacity.height_px <= kMaxSideWithLowTiles_px,
                   "the workspace has memory for low tiles only");
 
-    // With braces, one call clears all members. Code that stores to each member would be 800 bytes
-    // longer.
+    // The braces clear all members in one call. Separate stores to each member take 800 bytes more
+    // code.
     DeviceWorkspaceOf() : DeviceWorkspace{} {
         max_width_px = kCapacity.width_px;
         if constexpr (kCapacity.height_px != kMaxFrameSide_px) max_height_px = kCapacity.height_px;

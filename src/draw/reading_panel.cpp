@@ -67,8 +67,8 @@ class Reading {
     void draw_symbol(int i, int j, const GridCell& cell) const;
     void draw_points() const;
     /// Calls `draw` with the column, row and cell of each dot that was read. Returns the centres of
-    /// the other dots: dots far from all intersections, and dots near an intersection to which a
-    /// dot of higher quality is assigned.
+    /// the other dots. These dots are far from all intersections, or a dot of higher quality is
+    /// assigned to their intersection.
     std::vector<Point> for_each_read_dot(
         const std::function<void(int, int, const GridCell&)>& draw) const;
     /// Draws a line of the grid as several strokes, because lens distortion may bend it.

@@ -14,8 +14,8 @@
 
 namespace dotpose::draw {
 
-/// A 2D point or vector. Variable names carry a suffix for the unit, such as _px or _mm, where it
-/// matters.
+/// A 2D point or vector. The names of variables end with their unit, such as _px or _mm, where the
+/// unit matters.
 struct Point {
     double x = 0;
     double y = 0;

@@ -23,8 +23,8 @@ struct MapRobot {
     std::vector<std::vector<Point>> strokes_mm;
     /// The last known position.
     Point place_mm;
-    std::optional<double> heading_rad;  ///< from +x towards +y of the plane; empty if unknown
-    std::string problem;  ///< shown after the name, such as "lost"; empty if there is none
+    std::optional<double> heading_rad;  ///< from +x towards +y of the plane, or empty if unknown
+    std::string problem;  ///< shown after the name, such as "lost", or empty if there is none
 };
 
 struct Map {

@@ -143,9 +143,10 @@ MeasuredError error_of(const MeasuredFrame& frame, const std::optional<Similarit
     return error;
 }
 
-/// Marks a frame as wrong if its position error exceeds both kWrongFrom_medians times the median
-/// and kWrongFrom_grid spacings, or if its angle error exceeds both kWrongFrom_medians times the
-/// median and kWrongFrom_deg degrees. The medians are over all frames that are not marked yet.
+/// Marks the frames with wrong positions or angles. A position is wrong if its error exceeds both
+/// kWrongFrom_medians times the median and kWrongFrom_grid spacings. An angle is wrong if its error
+/// exceeds both kWrongFrom_medians times the median and kWrongFrom_deg degrees. The medians are
+/// over all frames that are not marked yet.
 void mark_wrong(const std::vector<MeasuredFrame>& frames,
                 std::vector<std::optional<MeasuredError>>& errors) {
     constexpr double kWrongFrom_medians = 10;

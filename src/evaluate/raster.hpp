@@ -12,9 +12,8 @@ namespace dotpose::draw {
 /// written, or if dotpose was built without librsvg.
 void write_png(const std::filesystem::path& path, const std::string& svg);
 
-/// Writes NAME.svg and NAME.png into a folder; only NAME.svg if dotpose was built without librsvg.
-/// `draw` writes the SVG. Throws Error if a file cannot
-/// be written.
+/// Writes NAME.svg and NAME.png into a folder. Writes only NAME.svg if dotpose was built without
+/// librsvg. `draw` writes the SVG. Throws Error if a file cannot be written.
 void write_figure(const std::filesystem::path& folder, const std::string& name,
                   const std::function<void(std::ostream&)>& draw);
 

@@ -63,8 +63,8 @@ void cover(GreyImage& image, double share, double direction_rad) {
 
 KnownFrame sweep_frame(SweepKind kind, double value, const Setup& setup, std::uint64_t index) {
     Shot shot = draw_shot(setup, index);
-    // A separate random generator keeps all other random values of the shot the same for all values
-    // of the condition.
+    // A separate random generator draws the condition. All other random values of the shot are then
+    // equal for all values of the condition.
     Rng rng(setup.seed ^ shot.seed);
     const double direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
     switch (kind) {

@@ -11,7 +11,7 @@
 namespace dotpose::files {
 namespace {
 
-/// Maximum undistorted coordinate. Larger values come from an iteration that does not converge.
+/// Maximum undistorted coordinate. A larger coordinate shows that the iteration did not converge.
 constexpr double kMaxUndistorted_px = 1e6;
 
 /// Number of parameters: k, the two coordinates of the centre, and an affine map. The affine map is
@@ -27,7 +27,8 @@ struct Pair {
     PixelPoint wanted;
 };
 
-/// Residual of a pair, affine(eq. 2(seen)) - wanted, and its derivatives.
+/// Residual of a pair with its derivatives. The residual is the difference between the point
+/// undistorted by eq. 2 and mapped by the affine map, and the wanted point.
 struct Misfit {
     double u = 0;
     double v = 0;
@@ -43,7 +44,7 @@ struct Misfit {
         const double y = shrink * b;
         u = p[3] + p[4] * x + p[5] * y - pair.wanted.u;
         v = p[6] + p[7] * x + p[8] * y - pair.wanted.v;
-        // Derivatives of x and y with respect to k and to both coordinates of the centre.
+        // Derivatives of x and y with respect to k and to the coordinates of the centre.
         const double by_k = -shrink * r2;
         const double bend = 2 * p[0] * shrink;
         const std::array dx = {by_k * x, bend * x * a - shrink, bend * x * b};
@@ -86,8 +87,7 @@ Parameters step_of(const std::vector<Pair>& pairs, const Parameters& parameters,
     return fit.solve();
 }
 
-/// Improves the parameters until the steps are below rounding errors. Returns the sum of squared
-/// residuals.
+/// Iterates until the steps are smaller than rounding errors. Returns the sum of squared residuals.
 double minimise(const std::vector<Pair>& pairs, Parameters& parameters) {
     constexpr int kMaxSteps = 500;
     constexpr double kMaxDamping = 1e9;

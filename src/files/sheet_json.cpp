@@ -51,8 +51,8 @@ class Node {
     std::int64_t whole(const char* key, std::int64_t min, std::int64_t max) const {
         const json& value = member(key);
         if (!value.is_number_integer()) fail(path_of(key), "must be a whole number");
-        // nlohmann-json stores numbers of 2^63 and above as unsigned integers. Converted to signed
-        // integers, these numbers would overflow.
+        // nlohmann-json stores numbers of 2^63 and above as unsigned integers. Conversion to a
+        // signed integer would overflow.
         const bool is_huge =
             value.is_number_unsigned() &&
             value.get<std::uint64_t>() > std::uint64_t{std::numeric_limits<std::int64_t>::max()};

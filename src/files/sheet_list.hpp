@@ -15,8 +15,8 @@ void check_beside(const SheetEntry& entry, const std::vector<SheetEntry>& sheets
 /// Appends `entry` to `sheets`. Throws BadArgument like `check_beside`.
 void append(const SheetEntry& entry, std::vector<SheetEntry>& sheets);
 
-/// Returns the top left cell of a free region of the given size, chosen like in
-/// SheetFile::allocate. Throws BadArgument if there is no free region.
+/// Returns the top left cell of a free region of the given size. Chooses the region as
+/// SheetFile::allocate does. Throws BadArgument if there is no free region.
 Cell free_origin(const std::vector<SheetEntry>& sheets, int columns, int rows);
 
 }  // namespace dotpose::files

@@ -59,13 +59,15 @@ SheetReservation::~SheetReservation() {
 }
 
 void SheetReservation::confirm() {
-    // Without entries, the destructor releases nothing. If this function fails, the entries remain
-    // in the file, marked as reserved, and their regions are not assigned to other sheets.
+    // The destructor releases only entries that are still in `entries_`. If this function fails,
+    // the entries remain marked as reserved in the file, and their regions are not assigned to
+    // other sheets.
     const std::vector<SheetEntry> entries = std::move(entries_);
     entries_.clear();
     SheetFile file(path_, wait_);
     for (SheetEntry entry : entries) {
-        // Reads the entry again, because a world pose may have been added in the meantime.
+        // Reads the entry again, because another program may have added a world pose in the
+        // meantime.
         const SheetEntry* now = find(file, entry.name);
         if (now != nullptr && !is_same_region(now->sheet, entry.sheet)) {
             throw Error(

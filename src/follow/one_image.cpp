@@ -10,7 +10,8 @@ using namespace follow_detail;
 Located Follower::locate(const GreyImage& image) {
     use_options_for(image.width_px, image.height_px);
     image_ = as_located(image.view());
-    // A camera file requires images of its size, so images are reduced only without a camera file.
+    // A camera file requires images of its own size. Images are therefore reduced only without a
+    // camera file.
     const int by = options_.camera ? 1 : reduction_of(image.width_px, image.height_px);
     if (by > 1) {
         used_ = reduced(used_, image_, by);
@@ -59,7 +60,7 @@ Follower::Found Follower::read_in(CodeVariant code) {
 
 /// If bits contradict a fix on a known sheet, masks the area beside the dots of the sheet and
 /// locates the image again. Labels and the table in this area are not evidence against the fix.
-/// Returns the new fix if fewer bits contradict it and it uses nearly as many dots. Otherwise
+/// Returns the new fix if fewer bits contradict it and if it uses nearly as many dots. Otherwise
 /// returns `fix`.
 Fix Follower::without_surroundings(const Fix& fix, const SheetPlace& place) {
     if (fix.bit_errors == 0) return fix;

@@ -1,4 +1,4 @@
-/// Masks the part of a frame beyond the edge of a page. Without the mask, `locate` would confuse
+/// Masks the part of a frame beyond the edge of a page. Without the mask, `locate` would combine
 /// the dots of an adjacent sheet with the dots of this sheet.
 #pragma once
 

@@ -33,9 +33,8 @@ GreyImage reduced(ImageView image, int by) {
 }
 
 DeviceOptions reduced(const DeviceOptions& options, ImageView image, int by) {
-    // Positions are measured from the corner of the image instead of the centre of its first pixel,
-    // so a division by `by` converts these positions. The image centre moves by half of the dropped
-    // pixels.
+    // Positions relative to the corner of the image can be divided by `by`. Positions relative to
+    // the centre of the first pixel cannot. The image centre moves by half of the dropped pixels.
     const auto offset_q8 = [by](std::int32_t whole_q8, int side_px) {
         const double from_corner_px = side_px / 2.0 + whole_q8 / 256.0;
         return static_cast<std::int32_t>(

@@ -26,8 +26,8 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
     Found found = find(options_.track.max_p_wrong_log2, predict(time_us));
     const Fix strict = found.fix;
     if (strict.status == Status::not_certain && tracker_.has_prior()) {
-        // Locates the image without a prediction. The tracker then applies its prior to the result.
-        // The result must therefore not depend on the prior already.
+        // Locates the image without a prediction, because the tracker applies its prior to the
+        // result. The result must not already depend on the prior.
         found = find(options_.track.max_weak_p_wrong_log2, {});
     }
     const auto sighting = sighting_of(found, time_us);

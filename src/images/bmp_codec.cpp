@@ -1,5 +1,6 @@
-// Reads BMP: the headers of Windows 3 to 5 and of OS/2; palettes of 1, 4 and 8 bits; 16, 24 and 32
-// bits without compression. Microsoft documents the layout under BITMAPV5HEADER.
+// Reads BMP files with the headers of Windows 3 to 5 and of OS/2. Supports palettes of 1, 4 and 8
+// bits, and 16, 24 and 32 bits per pixel without compression. Microsoft documents the layout under
+// BITMAPV5HEADER.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -46,8 +47,8 @@ struct BmpHeader {
     std::size_t palette_at;
     std::size_t palette_count;
     std::size_t palette_entry_bytes;
-    std::array<std::uint32_t, 4>
-        masks;  ///< bits of red, green, blue and opacity, with 16 or 32 bits per pixel; 0 if none
+    /// Bits of red, green, blue and opacity in pixels of 16 or 32 bits. 0 if there are none.
+    std::array<std::uint32_t, 4> masks;
 };
 
 /// Reads an unsigned little-endian integer. `bytes` must be long enough.

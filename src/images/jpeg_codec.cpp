@@ -22,8 +22,8 @@ constexpr int kExifMarker = JPEG_APP0 + 1;
 // pixels, so without a limit a small file could occupy the decoder for hours.
 constexpr int kMaxScans = 100;
 
-/// Collects the messages of libjpeg. The error handler must not return to libjpeg, so it jumps to
-/// `leave`. Each call that may fail is therefore preceded by setjmp(leave), and no objects with
+/// Collects the messages of libjpeg. The error handler must not return to libjpeg, and therefore
+/// jumps to `leave`. Each call that may fail is preceded by setjmp(leave). No objects with
 /// destructors may be created in between.
 struct Report : jpeg_error_mgr {
     std::jmp_buf leave;

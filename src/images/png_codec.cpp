@@ -31,7 +31,8 @@ class PngReader {
         if (info_ == nullptr) throw std::bad_alloc();
         png_set_read_fn(png_, this, on_read);
         guarded([&] {
-            // Raises the limits of libpng to let `require_size` report the size.
+            // libpng's own limits would hide the size of the image. `require_size` checks and
+            // reports the size instead.
             png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
             png_read_info(png_, info_);
         });

@@ -62,8 +62,8 @@ class Reader {
         return value;
     }
 
-    /// Skips the line feed at the end of a header whose lines end with a carriage return and a line
-    /// feed. The line feed is present if more than `pixel_bytes` bytes are left.
+    /// Skips the line feed after the header, if the lines of the header end with a carriage return
+    /// and a line feed. The line feed is present if more than `pixel_bytes` bytes are left.
     void finish_line_break(std::size_t pixel_bytes) {
         if (ended_by_return_ && rest_.size() > pixel_bytes && rest_.front() == '\n') byte();
     }

@@ -1,6 +1,6 @@
-// Encodes a fixed number of arbitrary bytes as bytes without zeros, protected by a CRC. The CRC
-// covers the encoded bytes, not the plain bytes. An error in a code byte of COBS shifts all
-// following bytes, and a CRC of the plain bytes would not always detect this error.
+// Encodes a fixed number of arbitrary bytes as bytes without zeros, and appends a CRC. The CRC is
+// computed from the encoded bytes, because an error in a code byte of COBS shifts all following
+// bytes, and a CRC of the plain bytes would not always detect such an error.
 #pragma once
 
 #include <array>
@@ -23,9 +23,9 @@ using Plain = std::array<std::uint8_t, kPlainBytes>;
 using Framed = std::array<std::uint8_t, kFramedBytes>;
 
 /// Returns the CRC-16 with the polynomial 0x5935 and the initial value 0xFFFF, most significant bit
-/// first. Among all 16-bit polynomials, it detects the most errors at this length: all errors of up
-/// to 4 bits in up to 241 bits of data (Koopman and Chakravarty, DSN 2004, where it is written as
-/// 0xAC9A).
+/// first. At this length, this polynomial detects the most errors of all 16-bit polynomials: all
+/// errors of up to 4 bits in up to 241 bits of data (Koopman and Chakravarty, DSN 2004). Their
+/// notation for it is 0xAC9A.
 std::uint16_t crc16(std::span<const std::uint8_t> bytes);
 
 Framed frame(const Plain& plain);

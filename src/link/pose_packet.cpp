@@ -102,8 +102,8 @@ std::int16_t rounded_bam16(std::int32_t theta_bam) {
 std::uint8_t deviation_q12(const Fix& fix) {
     const float variance = std::max(fix.covariance[0][0], fix.covariance[1][1]);
     const float deviation = std::sqrt(std::max(variance, 0.0F)) * 4096.0F;
-    // The code 255 means that the deviation is unknown, for example without a covariance, or too
-    // large for the other codes.
+    // The code 255 means an unknown deviation, or a deviation too large for the other codes. A fix
+    // without a covariance has an unknown deviation.
     if (!(deviation > 0) || deviation >= 254) return 255;
     return static_cast<std::uint8_t>(static_cast<int>(deviation) + 1);
 }

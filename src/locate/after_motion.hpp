@@ -1,5 +1,5 @@
-// After a motion: predicts where the pattern is in the next frame, from the last fix and the
-// measured camera motion.
+// After a motion: predicts the plane in the next frame from the last fix and the measured camera
+// motion.
 #pragma once
 
 #include "dotpose/device_options.hpp"

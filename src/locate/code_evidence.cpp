@@ -19,8 +19,8 @@ bool is_near(std::uint32_t a, std::uint32_t b) {
     return std::min(apart, kPositionsPerAxis - apart) < kSamePlace_cells;
 }
 
-/// Returns the log odds relative to the likeliest code, but at least -`max_log2` bits. `log2_q8` is
-/// in units of 2^-8 bits.
+/// Returns the log odds relative to the most likely code, clamped to at least -`max_log2` bits.
+/// `log2_q8` is in units of 2^-8 bits.
 CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int32_t max_log2) {
     const std::int32_t likeliest = *std::max_element(log2_q8.begin(), log2_q8.end());
     for (std::int32_t& log2 : log2_q8)
@@ -33,8 +33,8 @@ CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int3
 CodeEvidence::LogOdds CodeEvidence::sum() const {
     LogOdds sum = before_log2_q8_;
     if (frames_here_ == 0) return sum;
-    // Markov's inequality: for the true code, the mean factor at one place is m or more with a
-    // probability of at most 1/m. This also holds if the frames are not independent.
+    // Markov's inequality: for the true code, the probability of a mean factor of m or more at one
+    // place is at most 1/m. This also holds if the frames are not independent.
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const float mean = factors_here_[i] / static_cast<float>(frames_here_);
         sum[i] +=

@@ -31,7 +31,7 @@ float half_side_px(const ImageView& image) {
 }
 
 /// Returns true if all of these conditions hold:
-/// - At least `min_dots` dots were read, and at least half of the dots seen.
+/// - At least `min_dots` dots were read, and at least half of the seen dots were read.
 /// - Dots were seen in at least a quarter of the listed cells, or the view is partial.
 /// - On each axis, at most max_bit_error_q8 / 256 of the bits contradict the code.
 bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOptions& options,
@@ -45,7 +45,7 @@ bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOp
 }
 
 /// Returns true if the bits need no second reading. At least kClear_percent of the dots seen must
-/// be clear. Of n dots read, at most max(kMaxWrong, n / kDotsPerWrong) bits may be wrong.
+/// be clear. If n dots were read, at most max(kMaxWrong, n / kDotsPerWrong) bits may be wrong.
 bool is_clean(const BitsRead& bits) {
     return 100 * bits.read >= tuned::kClear_percent * bits.seen &&
            bits.wrong_x + bits.wrong_y <=
@@ -57,8 +57,8 @@ std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
             Confidence::of_hard_bits(bits.read, bits.wrong_y)};
 }
 
-/// Returns true if `block` makes the place of the hypothesis certain. `block` contains only bits of
-/// the current frame.
+/// Returns true if `block` makes the place of the hypothesis certain. `block` contains only the
+/// bits of the current frame.
 bool is_certain_alone(const Kernels& kernels, const DeviceOptions& options,
                       const Hypothesis& hypothesis, const CellsInView& view, const BitBlock& block,
                       const BitsRead& bits, DesktopWorkspace& w) {
@@ -81,12 +81,13 @@ bool is_certain_alone(const Kernels& kernels, const DeviceOptions& options,
     return is_certain(kernels, evidence, options.code, options.integrity, w.fix, others);
 }
 
-/// Returns true if `block` makes the place certain together with the bits of earlier frames.
+/// Returns true if `block` and the bits of earlier frames together make the place certain.
 /// `grid_from_image` is relative to the image centre.
 bool is_certain_together(const Kernels& kernels, const DeviceOptions& options, const Place& place,
                          const FloatPlane& grid_from_image, const BitBlock& block,
                          DesktopWorkspace& w) {
-    // A wrong match of the grids and a wrong place each get half of the permitted probability.
+    // There are two possible errors: a wrong match of the grids and a wrong place. Each of them may
+    // have half of the permitted probability.
     DeviceOptions half = options;
     --half.integrity.max_p_wrong_log2;
     const auto joined = w.earlier.join(block, grid_from_image);
@@ -106,8 +107,8 @@ bool is_certain_together(const Kernels& kernels, const DeviceOptions& options, c
     return true;
 }
 
-/// Returns ok if the bits make the place of the hypothesis certain, and uncertain otherwise. If
-/// frames are read together, also uses the bits of earlier frames.
+/// Returns ok if the bits make the place of the hypothesis certain, and uncertain otherwise. Also
+/// uses the bits of earlier frames if frames are read together.
 Confirmation confirm_place(const Kernels& kernels, const DeviceOptions& options,
                            const Hypothesis& hypothesis, const CellsInView& view,
                            const BitBlock& block, const BitsRead& bits, DesktopWorkspace& w) {
@@ -124,13 +125,14 @@ Confirmation confirm_place(const Kernels& kernels, const DeviceOptions& options,
     return is_certain ? Confirmation::ok : Confirmation::uncertain;
 }
 
-/// Returns true if the image shows fewer cells than any position needs to be certain, because
-/// random bits would agree with some position. Uses the list of dots.
+/// Returns true if the image shows fewer cells than any certain position needs. With so few cells,
+/// random bits would agree with some position. Overwrites the list of dots.
 bool shows_too_few_cells(const Kernels& kernels, const DeviceOptions& options, CellsInView view,
                          MeasuredDots& dots) {
     view.margin_px = 0;
     kernels.list_cells(view, dots);
-    // A second attempt may use another plane, which may show a few more cells.
+    // Adds a margin of 1/kTolerance, because a second attempt may find a plane with a few more
+    // cells in view.
     constexpr int kTolerance = 16;
     const int cells = dots.count + dots.count / kTolerance + 1;
     const Confidence axis = Confidence::of_hard_bits(cells, 0);
@@ -204,7 +206,7 @@ bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRea
                      hypothesis.displacement, hypothesis.pattern_from_image, fit);
 }
 
-/// Corrects pixel bias and neighbour bias if the biases matter, then fits the plane again. Returns
+/// Corrects pixel bias and neighbour bias if they matter, and then fits the plane again. Returns
 /// the variance of the mean centre due to the remaining pixel bias, along u and v, in px^2. Returns
 /// 0 if nothing was corrected, or if the new fit failed.
 FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const CellsInView& view,
@@ -214,7 +216,7 @@ FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const
     if (!reader.correct_neighbour_bias(hypothesis, fit) && !has_pixel_bias) return {};
     FloatPlane better = hypothesis.pattern_from_image;
     PoseFit better_fit;
-    // The correction drops dots at the border, so too few may remain.
+    // The fit fails if the correction has dropped too many dots at the border.
     if (!fit_plane(kernels, reader.dots(), static_cast<int>(half_side_px(image)) + 1,
                    tuning::fit::kOutlier * fit.variance, fit.displacement, better, better_fit)) {
         return {};
@@ -267,8 +269,8 @@ void write_fix(const ImageView& image, const DeviceOptions& options, const Hypot
 }
 
 /// Returns true if the fit moved the plane by more than kFar spacings along an axis, in a corner of
-/// the measured part. This part is within `reach_px` of the image centre. Small centroid windows do
-/// not capture such offsets completely.
+/// the measured part. The measured part is within `reach_px` of the image centre. Small centroid
+/// windows do not measure such offsets accurately.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);
@@ -288,12 +290,12 @@ FloatVec reference_px(const DeviceOptions& options, const Hypothesis& hypothesis
             static_cast<float>(options.reference_dy_q8) / 256 - hypothesis.from_centre.y};
 }
 
-/// Distance from `Hypothesis::from_centre` within which dots are read, in px along each axis. Grows
-/// from round to round.
+/// Distance from `Hypothesis::from_centre` within which dots are read, in px along each axis. The
+/// distance grows from round to round.
 struct Reach {
     float full;  ///< distance that includes the whole image
-    /// Distance within which the bits must make the position certain. Bits beyond this distance are
-    /// not evidence for the position.
+    /// Distance within which the bits must make the position certain. Bits beyond this distance do
+    /// not count as evidence for the position.
     float deciding;
     float now;  ///< distance of the current round
 
@@ -304,8 +306,8 @@ struct Reach {
           deciding(full <= tuned::kDenseAtMost * spacing_px ? full : tuned::kDense * spacing_px),
           now(deciding) {
         if (!hypothesis.is_partial_view) return;
-        // A partial view may end anywhere, so the first round only reads nearby dots. The nearby
-        // dots may be too few for a certain position, so the deciding distance is larger.
+        // A partial view may end anywhere, so the first round reads only nearby dots. These may be
+        // too few for a certain position, so the deciding distance is larger.
         deciding = std::min(full, tuned::kDecidingOfPart * spacing_px);
         now = std::min(full, tuned::kDenseOfPart * spacing_px);
     }
@@ -351,8 +353,8 @@ Confirmation finish(const Kernels& kernels, const ImageView& image, const Device
 }
 
 /// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose. An
-/// exact hypothesis is implausible if its bits are not clean, or if its plane still moves after
-/// kMaxLooks rounds (see `is_far_from`).
+/// exact hypothesis is implausible if its bits are not clean, or if the fit still moves its plane
+/// after kMaxLooks rounds (see `is_far_from`).
 Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
                                  const DeviceOptions& options, Hypothesis hypothesis,
                                  DesktopWorkspace& w) {

@@ -1,5 +1,5 @@
-// Confirm: the common last step of the first and the tracked attempt. Measures the dots of a
-// hypothesis, compares their bits with the code, and fits the pose.
+// Confirm: the last step of the first and the tracked attempt. Measures the dots of a hypothesis,
+// compares their bits with the code, and fits the pose.
 #pragma once
 
 #include "core/kernels/select.hpp"
@@ -12,7 +12,7 @@
 namespace dotpose::core {
 
 /// Returns true if the plane is a plausible view of paper over the whole image (see
-/// `is_within_reason`). All stages that use a plane require such a plane.
+/// `is_within_reason`). All stages require a plausible plane.
 bool is_plausible(const ImageView& image, const FloatPlane& plane);
 
 /// Result of `confirm`.
@@ -21,7 +21,7 @@ enum class Confirmation : std::uint8_t {
     implausible,   ///< the plane is not plausible, or the dots or their bits contradict the
                    ///< hypothesis
     uncertain,     ///< the hypothesis is plausible, but its position is not certain
-    too_few_bits,  ///< as `uncertain`, but all bits are clear and agree with the code
+    too_few_bits,  ///< same as `uncertain`, but all bits are clear and agree with the code
 };
 
 /// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose.
@@ -30,7 +30,7 @@ enum class Confirmation : std::uint8_t {
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      Hypothesis hypothesis, DesktopWorkspace& w);
 
-/// Returns true if the residuals of a fix are large. A second attempt may then be better.
+/// Returns true if the residuals of a fix are large. A second attempt may then give a better fix.
 bool is_rough(const Fix& fix);
 
 }  // namespace dotpose::core

@@ -13,8 +13,9 @@ namespace {
 
 namespace tuned = tuning::confirm;
 
-/// Prefetches the pixels in view if these pixels take kMinFetched_bytes to kMaxFetched_bytes. A new
-/// camera image is not in the cache, and the order of reading defeats hardware prefetching.
+/// Prefetches the pixels in view if they occupy kMinFetched_bytes to kMaxFetched_bytes. A new
+/// camera image is not in the cache, and hardware does not prefetch pixels that are read in this
+/// order.
 void fetch_pixels(const ImageView& image, const CellsInView& view) {
     constexpr std::ptrdiff_t kLine_bytes = 64;
     const auto range = [&](float centre, int size_px) {
@@ -35,8 +36,8 @@ void fetch_pixels(const ImageView& image, const CellsInView& view) {
 }
 
 /// Drops windows that are much darker than the paper. Such windows are on the table beyond the
-/// sheet, where noise can resemble dots. `paper` is the mean level around dots. The first call,
-/// with `paper` = 0, only sets this level.
+/// sheet, where noise can look like dots. `paper` is the mean level around dots. If `paper` is 0,
+/// only sets this level.
 void drop_table(MeasuredDots& dots, float& paper) {
     float sum = 0;
     float count = 0;
@@ -67,8 +68,8 @@ float window_radius_px(const Hypothesis& hypothesis) {
 }
 
 /// Returns true if all dots of a row, or all dots of a column, have nearly the same sub-pixel
-/// phase. Along u and v, the step between cells must be within `max_off_px` of a whole number of
-/// pixels.
+/// phase. This is the case if the step between cells is within `max_off_px` of a whole number of
+/// pixels, along u and v.
 bool has_common_phase(const FloatPlane& p, float max_off_px) {
     const float by = 1 / (p.du_x * p.dv_y - p.dv_x * p.du_y);
     const auto is_whole = [&](float px) {
@@ -89,7 +90,7 @@ bool can_sample_directly(const Hypothesis& hypothesis) {
 
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px) {
     if (variance_px2 > tuned::kMaxVariance_px2) return false;
-    // Maximum phase drift per grid step.
+    // Phase drift per grid step that adds up to kDriftInView_px across the view.
     const float drift_px = tuned::kDriftInView_px * spacing_px(plane) / static_cast<float>(side_px);
     return has_common_phase(plane, drift_px);
 }
@@ -105,7 +106,7 @@ BitsRead DotReader::read(const CellsInView& view, Hypothesis& hypothesis, BitBlo
     if (hypothesis.is_exact)
         return kernels_.read_levels(image_, view, hypothesis.depth_q8, dots_, columns, rows);
     WindowOptions window = window_options(hypothesis);
-    // In a partial view, most windows of later rounds may be empty. These rounds use the typical
+    // In later rounds of a partial view, most windows may be empty. These rounds use the typical
     // mass of the first round.
     if (hypothesis.is_partial_view) window.typical_mass = typical_mass_;
     typical_mass_ = hypothesis.typical_mass = kernels_.measure_windows(image_, view, window, dots_);
@@ -129,9 +130,9 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
         FloatPlane& plane = hypothesis.pattern_from_image;
         const auto points = static_cast<float>(found.points);
         bits.right = found.points;
-        // Offsets from the intersections along the displacement directions, summed over all dots.
-        // The sum is the predicted displacement plus the measured offset, converted from px to
-        // spacings.
+        // Sum over all dots of the vector from the intersection to the dot, projected onto the
+        // direction of the coded displacement. This projection is the predicted displacement plus
+        // the projected offset from the predicted point, converted from px to spacings.
         bits.projected = points * hypothesis.displacement + plane.du_x * found.of_x[0] +
                          plane.dv_x * found.of_x[1] + plane.du_y * found.of_y[0] +
                          plane.dv_y * found.of_y[1];
@@ -146,8 +147,9 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
 
 bool DotReader::correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                                    const PoseFit& fit, FloatVec& remaining_px2) const {
-    // The bias averages out if the dots have different sub-pixel phases. The phases differ for
-    // directly sampled dots (see `can_sample_directly`), and with lens distortion.
+    // The bias averages out if the dots have different sub-pixel phases. Directly sampled dots have
+    // different phases (see `can_sample_directly`), and so do dots seen through a lens with
+    // distortion.
     if (hypothesis.is_exact || view.lens.k != 0) return false;
     const float variance_px2 =
         fit.variance * spacing_px_ * spacing_px_ / static_cast<float>(fit.dots);

@@ -9,13 +9,13 @@
 namespace dotpose::core {
 
 /// Returns true if the dots of a predicted hypothesis can be sampled directly. Direct sampling
-/// takes one sample at each of a cell's four places, and measures centres in small centroid
+/// takes one sample at each of the four places of a cell, and measures centres in small centroid
 /// windows.
 bool can_sample_directly(const Hypothesis& hypothesis);
 
-/// Returns true if the pixel bias matters. The bias matters if all dots of a row or column have
-/// nearly the same sub-pixel phase, and other errors are small. `variance_px2` is the variance of
-/// the mean centre along one axis. `side_px` is the longer image side.
+/// Returns true if the pixel bias matters: all dots of a row or column have nearly the same
+/// sub-pixel phase, and other errors are small. `variance_px2` is the variance of the mean centre
+/// along one axis. `side_px` is the longer image side.
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px);
 
 /// Reads and measures the listed dots. If the hypothesis is exact, samples the four places of each
@@ -31,21 +31,21 @@ class DotReader {
     /// Reads the bits of the measured dots again, with the new plane of the hypothesis. Overwrites
     /// `block`.
     BitsRead read_again(const Hypothesis& hypothesis, BitBlock& block) const;
-    /// Measures the dot centres in centroid windows. If the hypothesis is not exact, measures only
-    /// if `is_last` is true. If the hypothesis is exact, also fits its plane to the centres, and
-    /// sets `projected`, `squares` and `right` of `bits`. `right` is then the number of dots found.
-    /// If fewer than kMinFound dots are found, only sets `right` to 0.
+    /// Measures the dot centres in centroid windows. If the hypothesis is not exact, does nothing
+    /// unless `is_last` is true. If the hypothesis is exact, also fits its plane to the centres,
+    /// and sets `projected`, `squares` and `right` of `bits`. `right` is then the number of dots
+    /// found. If fewer than kMinFound dots are found, only sets `right` to 0.
     void find_centres(const CellsInView& view, Hypothesis& hypothesis, bool is_last,
                       BitsRead& bits) const;
     /// Measures the centres again and subtracts the pixel bias, if the bias matters (see
-    /// `may_be_biased`). The plane must have been fitted to the current centres, and must be fitted
-    /// again afterwards. Sets `remaining_px2` to the variance of the mean centre due to the
-    /// remaining bias. Returns false without any change if the bias does not matter.
+    /// `may_be_biased`). Before the call, the plane must be fitted to the current centres. After
+    /// the call, it must be fitted again. Sets `remaining_px2` to the variance of the mean centre
+    /// due to the remaining bias. Returns false without any change if the bias does not matter.
     bool correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                             const PoseFit& fit, FloatVec& remaining_px2) const;
-    /// Corrects the bias of facing dots if the centroid windows reach the neighbouring dot. The
-    /// plane must be fitted again afterwards. Returns false without any change if the windows do
-    /// not reach that far, or if the bias is not significant.
+    /// Corrects the bias of facing dots if the centroid windows extend to the neighbouring dot. The
+    /// plane must be fitted again afterwards. Returns false without any change if the windows are
+    /// too small or the bias is not significant.
     bool correct_neighbour_bias(const Hypothesis& hypothesis, const PoseFit& fit) const;
     const MeasuredDots& dots() const { return dots_; }
 

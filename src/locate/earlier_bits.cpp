@@ -41,7 +41,7 @@ BitBlock shifted(const BitBlock& block, FixedVec by) {
     return {shifted(block.columns, by.x, by.y), shifted(block.rows, by.y, by.x)};
 }
 
-/// Number of bits that two blocks share, and number of shared bits that differ.
+/// Number of common bits of two blocks, and number of common bits that differ.
 struct Overlap {
     int shared = 0;
     int different = 0;
@@ -57,15 +57,15 @@ void count_overlap(const BitLines& a, const BitLines& b, int across, int along, 
     }
 }
 
-/// Returns log2 of the likelihood ratio between two cases: the blocks match, or the blocks show
+/// Returns log2 of the likelihood ratio of two hypotheses: the blocks match, or the blocks are from
 /// unrelated parts of the pattern.
 float log2_ratio(const Overlap& overlap) {
     return tuned::kEqualBit_log2 * static_cast<float>(overlap.shared - overlap.different) +
            tuned::kDifferentBit_log2 * static_cast<float>(overlap.different);
 }
 
-/// Adds the cells of `more` to a block. Drops a cell if the two blocks have different x bits or
-/// different y bits for this cell.
+/// Adds the cells of `more` to a block. Drops a cell if its x bits or its y bits differ between the
+/// blocks.
 void add_cells(const BitBlock& more, BitBlock& block) {
     std::array<std::uint64_t, BitBlock::kSide> contradicted{};  // by column
     for (std::size_t i = 0; i < BitBlock::kSide; ++i) {
@@ -218,8 +218,8 @@ std::optional<JoinedBits> EarlierBits::join(const BitBlock& block,
         const float off_rad = std::remainder(
             angle_of(grid_from_image) - angle_of(before) - motion_.turn_rad, 2 * kPi);
         if (std::abs(off_rad) > tuned::kReach_sigmas * std::sqrt(variance_rad2)) continue;
-        // The paper that is now at the reference point was at this image point in the earlier
-        // frame.
+        // Image point, in the earlier frame, of the spot of paper that is now at the reference
+        // point.
         const float scale = spacing_px(before) / spacing_mm_;
         const FloatVec reached{reference_px_.x + scale * motion_.right_mm,
                                reference_px_.y + scale * motion_.down_mm};

@@ -1,7 +1,6 @@
 // Earlier bits: the bits of earlier frames, in the grid of the newest earlier frame. A measured
-// motion relates this grid to the current grid. Frames that are not certain alone can then be
-// certain together. docs/integrity.md, "Frames read together", derives the bound on the probability
-// of a wrong grid match.
+// motion relates this grid to the current grid. Frames that are not certain alone can be certain
+// together. See docs/integrity.md, "Frames read together".
 #pragma once
 
 #include <optional>
@@ -31,18 +30,17 @@ struct JoinedBits {
 
 class EarlierBits {
   public:
-    /// Forgets all frames.
+    /// Removes all frames.
     void clear();
     /// Begins a frame. `motion` is the motion since the previous frame. The options must contain
     /// the spacing.
     void begin_frame(const MeasuredMotion& motion, const DeviceOptions& options);
-    /// Ends the frame. Keeps the bits of the frame, joined with the earlier bits if the grids
+    /// Ends the frame. Stores the bits of the frame, joined with the earlier bits if the grids
     /// match.
     void end_frame();
 
-    /// Stores bits of the current frame, between `begin_frame` and `end_frame`. The last block with
-    /// a confirmed place replaces all other blocks of the frame. Without a confirmed place, the
-    /// largest block is kept.
+    /// Stores bits of the current frame. Must be called between `begin_frame` and `end_frame`.
+    /// Keeps the last block with a confirmed place, or the largest block if no place is confirmed.
     void note(const BitBlock& block, const FloatPlane& grid_from_image, bool is_confirmed);
 
     /// True while an attempt reads the current frame together with earlier frames.
@@ -52,8 +50,7 @@ class EarlierBits {
     bool has_earlier() const { return is_in_frame_ && earlier_.frames > 0; }
     /// Joins a block of the current frame with the earlier bits. Drops cells in which the frames
     /// contradict each other. Returns nullopt if there are no earlier bits, or if a wrong grid
-    /// match is too probable. The limit for this probability is half of the accepted probability of
-    /// a wrong fix.
+    /// match is too probable. The limit is half of the accepted probability of a wrong fix.
     std::optional<JoinedBits> join(const BitBlock& block, const FloatPlane& grid_from_image) const;
 
   private:

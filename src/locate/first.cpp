@@ -24,7 +24,7 @@ constexpr int kPatchHeight_px = tuned::kPatchHeight_px;
 
 /// Sets `is_mirrored` of the workspace if the dots of a patch around the image centre show the
 /// mirrored code. A grid counts as mirrored only if adjacent lines without wrong bits determine a
-/// place (`find_place_exactly`). Mirrors the dots of the patch and does not restore them.
+/// place (`find_place_exactly`). Leaves the dots of the patch mirrored.
 void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, DesktopWorkspace& w) {
     if (w.is_mirrored) return;
     Patch& patch = *w.patch;
@@ -41,15 +41,15 @@ void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, Des
 }
 
 /// Returns true if the patch predicts all dots in the image to within a fraction of a pixel. The
-/// patch must cover the whole image, so its grid was fitted to all dots. The spacing must be at
-/// least kMinSpacingForPrediction_px.
+/// patch must cover the whole image, because only such a patch has a grid that is fitted to all
+/// dots. The spacing must be at least kMinSpacingForPrediction_px.
 bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane& plane) {
     return patch.width_px == image.width_px && patch.height_px == image.height_px &&
            spacing_px(plane) >= tuned::kMinSpacingForPrediction_px;
 }
 
 /// Finds the grid in the patch at the image centre, and tests its hypothesis. If `is_skewed` is
-/// true, cells may be any parallelograms. Otherwise, cells must be about square.
+/// true, cells may be arbitrary parallelograms. Otherwise, cells must be about square.
 Confirmation locate_grid(const Kernels& kernels, const ImageView& image,
                          const DeviceOptions& options, bool is_skewed, DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -67,9 +67,9 @@ Confirmation locate_grid(const Kernels& kernels, const ImageView& image,
     return confirm(kernels, image, options, hypothesis, w);
 }
 
-/// Searches the patch at the image centre for a square grid. Without a plausible hypothesis,
-/// searches again for any parallelograms, because a rolling shutter shears and stretches moving
-/// scenes.
+/// Searches the patch at the image centre for a square grid. If there is no plausible hypothesis,
+/// also searches for a grid of arbitrary parallelograms, because a rolling shutter shears and
+/// stretches moving scenes.
 Confirmation locate_in_middle(const Kernels& kernels, const ImageView& image,
                               const DeviceOptions& options, DesktopWorkspace& w) {
     Patch& patch = *w.patch;
@@ -81,9 +81,9 @@ Confirmation locate_in_middle(const Kernels& kernels, const ImageView& image,
 }
 
 /// Finds a hypothesis in a patch around an image point. Sets `densest_px` to the point where the
-/// dots are densest. The densest point is also the origin of the hypothesis. Returns false if there
-/// is no hypothesis. Leaves `densest_px` unchanged if the patch is too small, or has no contrast or
-/// too few dots.
+/// dots are densest, which is also the origin of the hypothesis. Returns false if there is no
+/// hypothesis. Leaves `densest_px` unchanged if the patch is too small, has no contrast, or has too
+/// few dots.
 bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
                             const DeviceOptions& options, FixedVec around_px, int scale,
                             DesktopWorkspace& w, FixedVec& densest_px, Hypothesis& hypothesis) {
@@ -115,8 +115,8 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
 
 /// Searches a patch around an image point. If there is no hypothesis and the dots are densest far
 /// from the middle, also searches a patch around the densest point. `tries_left` is the number of
-/// uncertain hypotheses that are still allowed. Each uncertain hypothesis increases the probability
-/// of a wrong fix.
+/// uncertain hypotheses that are still permitted. Each uncertain hypothesis increases the
+/// probability of a wrong fix.
 Confirmation locate_around(const Kernels& kernels, const ImageView& image,
                            const DeviceOptions& options, FixedVec around_px, int scale,
                            int& tries_left, DesktopWorkspace& w) {
@@ -156,14 +156,16 @@ Confirmation locate_elsewhere(const Kernels& kernels, const ImageView& image,
     return tries_left < tuned::kMaxTries ? Confirmation::uncertain : Confirmation::implausible;
 }
 
-/// Searches patches of increasing size around the image centre, then patches all over the image.
+/// Searches patches of increasing size around the image centre. Then searches patches that cover
+/// the whole image.
 Confirmation locate_outwards(const Kernels& kernels, const ImageView& image,
                              const DeviceOptions& options, DesktopWorkspace& w) {
     for (const int scale : {1, 2, 4}) {
         if (!place_patch(image, {image.width_px / 2, image.height_px / 2}, scale, w)) break;
         const Confirmation confirmation = locate_in_middle(kernels, image, options, w);
         if (confirmation == Confirmation::ok) return confirmation;
-        // Other patches of the same dots give the same bits.
+        // If the patch covers the whole image, other patches contain the same dots and give the
+        // same bits.
         const bool is_whole_image =
             w.patch->width_px == image.width_px && w.patch->height_px == image.height_px;
         if (confirmation == Confirmation::too_few_bits && is_whole_image) return confirmation;

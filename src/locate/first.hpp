@@ -1,5 +1,5 @@
-// First attempt: locates an image without a prediction, starting with a patch around the image
-// centre.
+// First attempt: locates an image without a prediction. Unlike the paper, this attempt finds the
+// grid in a part of the image, starting with a patch around the image centre.
 #pragma once
 
 #include "core/kernels/select.hpp"
@@ -9,8 +9,8 @@
 
 namespace dotpose::core {
 
-/// Finds the grid in a part of the image, then measures the dots of the whole image. Stores the fix
-/// in the workspace, and returns true if there is one. Otherwise, stores the status no_contrast,
+/// Finds the grid in a part of the image, then measures the dots of the whole image. Returns true
+/// if there is a fix, which is then in the workspace. Otherwise, sets the status to no_contrast,
 /// too_few_dots, no_grid or not_certain.
 bool locate_first(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                   DesktopWorkspace& w);

@@ -8,15 +8,15 @@
 
 namespace dotpose::core {
 
-/// Returns true if the position does not explain the frame well. This is the case if the
-/// displacement is not positive, or if
+/// Returns true if the position does not explain the frame well: the displacement is not positive,
+/// or
 ///
 ///     sqrt(variance) / displacement + bit_errors / bits > kMaxImplausible.
 ///
-/// Two nearly aligned patterns that overlap can look like a third pattern, with the columns of one
-/// pattern and the rows of the other pattern. In such a frame, a quarter of the cells have no dot
-/// at the expected place. Half of the dots are next to their places, and the typical displacement
-/// is too small. For the numbers, see docs/integrity.md.
+/// Two overlapping patterns that are nearly aligned can look like a third pattern, with the columns
+/// of one pattern and the rows of the other. In such a frame, a quarter of the cells have no dot at
+/// the expected place, and half of the dots are at another place of their cell. docs/integrity.md
+/// contains the measurements.
 bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
 /// Measures the dots that the code predicts at the decoded position, and fits the map from image to

@@ -14,8 +14,8 @@ struct Extent {
     int count = 0;
 };
 
-/// Returns the integers from `min` to `max`, rounded outwards, with a margin of 1 on each side.
-/// Clamps the range to the `room` integers around 0.
+/// Returns the range of integers from `min` to `max`, rounded outwards, with a margin of 1 on each
+/// side. Clamps the range to the `room` integers around 0.
 Extent extent(float min, float max, int room) {
     const int half = room / 2;
     const int first = std::max(static_cast<int>(std::floor(std::max(min, -4096.0F))) - 1, -half);
@@ -24,7 +24,8 @@ Extent extent(float min, float max, int room) {
     return {first, std::max(last - first + 1, 0)};
 }
 
-/// Writes the rolls of the lines in view into the workspace, and points the view to these rolls.
+/// Writes the rolls of the lines in view into the workspace, and sets the pointers of the view to
+/// these rolls.
 void follow_code(CodeVariant code, const Place& place, CellsInView& view, DesktopWorkspace& w) {
     const Place corner = moved(code, place, view.first_column, view.first_row);
     const auto follow = [&](std::uint32_t position, int section, std::uint32_t cross, int count,
@@ -68,7 +69,7 @@ CellsInView cells_in_view(const ImageView& image, const DeviceOptions& options,
     view.displacement = hypothesis.displacement;
     // A dot that touches the image border is incomplete.
     view.margin_px = std::max(1.7F, 0.15F * spacing_px(hypothesis.pattern_from_image));
-    // In small views of known sheets, dots closer to the border are also needed.
+    // Small views of known sheets also need the dots closer to the border.
     const auto shorter_px = static_cast<float>(std::min(image.width_px, image.height_px));
     if (w.known.any() &&
         shorter_px < tuning::known::kSmallView * spacing_px(hypothesis.pattern_from_image)) {

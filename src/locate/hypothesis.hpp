@@ -1,5 +1,5 @@
-// Hypothesis: a plane and a place in the code, to be tested by an attempt. Also determines which
-// cells are in view.
+// Hypothesis: a plane and a place in the code that an attempt tests. Also determines the cells in
+// view.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -25,13 +25,13 @@ struct Hypothesis {
     bool is_partial_view = false;
     /// Contrast of a typical dot after a 1-2-1 filter along both axes, in 1/256 of the paper level.
     int depth_q8 = 0;
-    /// Mass of a typical dot: its darkness beyond the threshold, relative to the paper level,
-    /// summed over its pixels. 0 if unknown.
+    /// Mass of a typical dot: the darkness beyond the threshold, relative to the paper level,
+    /// summed over the pixels of the dot. 0 if unknown.
     float typical_mass = 0;
 };
 
-/// Threshold of windows, in 1/256 of a typical dot's contrast. Pixels with more contrast belong to
-/// a dot.
+/// Threshold for dark pixels in a window, in 1/256 of the contrast of a typical dot. Pixels with
+/// more contrast belong to a dot.
 inline constexpr int kCutOfDepth_q8 = 160;
 
 /// Returns the image centre, in px relative to the first pixel.

@@ -1,11 +1,11 @@
-// Chooses the attempts for a frame on a desktop, and the codes to try. Decides whether a fix is
-// accepted.
+// Locate: chooses the attempts for a frame on a desktop, and the codes to try. Decides whether a
+// fix is accepted. Unlike the paper, dotpose makes up to three attempts:
 //
 //   tracked    measures the dots where a prediction expects them    locate/tracked.hpp
 //   first      finds the grid in a part of the image                locate/first.hpp
 //   second     filters the image and uses all its dots              locate/second.hpp
 //
-// A known code is treated as the only possible code.
+// A known code is treated as a list of possible codes with one element.
 #include "locate/locate.hpp"
 
 #include <algorithm>
@@ -36,11 +36,11 @@ namespace {
 namespace tuned = tuning::cascade;
 
 /// Steps of the cascade. `resampled` is a second attempt that samples the bits again if the
-/// position is doubtful. This step takes three times as long as `second`.
+/// position is doubtful. It takes three times as long as `second`.
 enum class Step : std::uint8_t { tracked, first, turning, second, resampled, device };
 
-/// Returns true if there is a grid of dots that could not be read in this code. Another code may
-/// succeed.
+/// Returns true if the status means that there is a grid of dots, but that its bits do not give a
+/// certain position in this code. Another code may succeed.
 bool leaves_code_open(Status status) {
     return status == Status::not_in_code || status == Status::ambiguous ||
            status == Status::not_certain;
@@ -58,7 +58,7 @@ class Cascade {
           w_(w),
           second_(image, w) {}
 
-    /// Returns the fix, and leaves the fix and the results of the stages in the workspace.
+    /// Returns the fix. The workspace contains the fix and the results of the stages.
     CodeReading locate(const Prediction* prediction) {
         if (options_.effort == Effort::device) return make({Step::device});
         prediction_ = prediction;
@@ -94,11 +94,11 @@ class Cascade {
         return make({Step::first, Step::turning, Step::second, Step::resampled});
     }
 
-    /// Runs the steps in order, each in all codes worth trying, until a fix is certain. A step
-    /// other than `first` ends early if it fails for a reason that does not depend on the code. If
-    /// the first doubtful fix is ambiguous between codes, skips the remaining steps. Without a
-    /// certain fix, returns the first doubtful fix. Without a doubtful fix, returns the last
-    /// failure in the likeliest code.
+    /// Runs the steps in order until a fix is certain. Tries each step in all codes worth trying. A
+    /// step after `turning` ends early if it fails for a reason that does not depend on the code.
+    /// Skips the remaining steps if the first doubtful fix is ambiguous between codes, or if the
+    /// image shows too few cells for a certain fix. Without a certain fix, returns the first
+    /// doubtful fix. Without a doubtful fix, returns the last failure in the most likely code.
     CodeReading make(std::initializer_list<Step> steps) {
         std::optional<CodeReading> doubtful;
         std::optional<Fix> failure;
@@ -107,7 +107,7 @@ class Cascade {
             for (const CodeVariant code : worth_trying(step)) {
                 if (!attempt(step, code)) {
                     shows_too_few_cells |= w_.shows_too_few_cells;
-                    // The failure of a search for a rotation says nothing about the frame.
+                    // A failed search for a rotation does not determine the status of the frame.
                     if (code == codes_.likeliest() && step != Step::turning) failure = w_.fix;
                     if (step > Step::turning && !leaves_code_open(w_.fix.status)) break;
                     continue;
@@ -125,8 +125,8 @@ class Cascade {
         return *doubtful;
     }
 
-    /// Returns the codes to try in a step, likeliest first. If several codes are possible,
-    /// `resampled` is tried in at most one code. That code has the fewest bit errors among the
+    /// Returns the codes to try in a step, most likely code first. If several codes are possible,
+    /// returns at most one code for `resampled`: the code with the fewest bit errors among the
     /// codes in which `second` was not certain.
     std::span<const CodeVariant> worth_trying(Step step) const {
         if (step == Step::resampled && !codes_.is_known())
@@ -141,8 +141,8 @@ class Cascade {
         OtherCodes& others = w_.other_codes;
         others.of = {};
         // The bounds on the probability of a wrong position apply to a single code. If several
-        // codes are possible, each bound is multiplied by the number of codes. In this number, each
-        // code is weighted by its odds.
+        // codes are possible, each bound is multiplied by the number of codes, weighted by their
+        // odds.
         if (!codes_.is_known()) others.log2_in_question_q8 = log2_of_odds_q8(codes_.number(code));
         switch (step) {
             case Step::tracked:
@@ -183,9 +183,9 @@ class Cascade {
         return codes_.judge(read, w_.other_codes, w_.fix, options_.integrity.max_p_wrong_log2);
     }
 
-    /// Returns the certain fix, unless a better fix is found. Reads the frame again in another code
-    /// if the other code is more likely. Makes a second attempt if a first attempt has large
-    /// residuals.
+    /// Returns the certain fix, or a better fix if there is one. Reads the frame again in another
+    /// code if the other code is more likely. If the residuals of a first attempt show a rotation,
+    /// searches for the rotation. If the residuals are large, makes a second attempt.
     CodeReading best_of(Step step, CodeVariant code, Judgement judgement) {
         const auto remake = [&](Step other_step, CodeVariant other) {
             if (!attempt(other_step, other)) return false;
@@ -225,8 +225,8 @@ class Cascade {
     }
 
     /// Adds the evidence of the frame if the frame is certain in another code without the earlier
-    /// evidence. Otherwise, strong evidence for one code would prevent certain fixes on any sheet
-    /// in another code.
+    /// evidence. Without this addition, strong evidence for one code would prevent certain fixes on
+    /// all sheets in other codes.
     void add_evidence_of_another_sheet(CodeReading& reading) {
         if (options_.effort == Effort::device || codes_.is_known() || codes_.are_equal()) return;
         const PossibleCodes before = codes_;
@@ -261,8 +261,8 @@ CodeReading locate_checked(const ImageView& image, const DeviceOptions& options,
                            const CodeEvidence& evidence, DesktopWorkspace& w) {
     w.is_mirrored = false;
     CodeReading reading = Cascade(image, options, codes, evidence, w).locate(prediction);
-    // An earlier attempt may have found the mirrored code before a later attempt failed for another
-    // reason.
+    // Reports `mirrored` if any attempt found the mirrored code, even if a later attempt failed for
+    // another reason.
     if (reading.fix.status != Status::ok && w.is_mirrored)
         reading.fix.status = w.fix.status = Status::mirrored;
     if (reading.fix.status == Status::ok && is_pale(image, options, reading.code, reading.fix)) {
@@ -274,10 +274,9 @@ CodeReading locate_checked(const ImageView& image, const DeviceOptions& options,
     return reading;
 }
 
-/// Sets the other place of `reading` to the place of `any`. `any` is a reading of the same frame in
-/// any code. If `any` and `reading` are in the same code, copies the other place of `any` instead.
-/// Does nothing if `any` has no place, or if `any` has more than one bit error per kBitsPerError
-/// dots.
+/// Sets the other place of `reading` to the place of `any`, a reading of the same frame in any
+/// code. If both readings are in the same code, copies the other place of `any` instead. Does
+/// nothing if `any` has no place, or if `any` has more than one bit error per kBitsPerError dots.
 void note_other_reading(const CodeReading& any, CodeReading& reading) {
     const bool is_read = any.fix.status == Status::ok || any.fix.status == Status::ambiguous_code;
     if (!is_read || tuned::kBitsPerError * any.fix.bit_errors > any.fix.dots_seen) return;
@@ -330,7 +329,8 @@ CodeReading locate_in_code(const ImageView& image, const DeviceOptions& options,
         name_code_that_explains(w.other_codes, reading);
     } else if (leaves_code_open(reading.fix.status)) {
         note_other_reading(locate_in_any_code(image, options, nullptr, {}, w), reading);
-        locate(image, options, nullptr, w);  // the workspace must match the returned fix
+        locate(image, options, nullptr, w);  // restores the results of the returned fix in the
+                                             // workspace
     }
     return reading;
 }

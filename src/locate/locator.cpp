@@ -1,5 +1,5 @@
-// Members of Locator: memory, options, evidence for the codes, and pushed rows. locate/locate.cpp
-// contains the attempts.
+// Locator: memory, options, evidence for the codes, and pushed rows. locate/locate.cpp contains the
+// attempts.
 #include <algorithm>
 #include <optional>
 #include <span>

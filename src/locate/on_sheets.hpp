@@ -10,12 +10,12 @@
 
 namespace dotpose::core {
 
-/// Returns true if the decoded region may be in view. The region must be at least partly on a known
-/// sheet, unless other sheets may be in view.
+/// Returns true if the decoded region may be in view. If no other sheets are possible, the region
+/// must be at least partly on a known sheet.
 bool is_possible(CodeVariant code, const DesktopWorkspace& w);
 
-/// Returns the likeliest place of a block on the known sheets. Returns nullopt if this place is not
-/// in the code of the options, or if too many bits contradict the place.
+/// Returns the most likely place of a block on the known sheets. Returns nullopt if this place is
+/// in a code other than the code of the options, or if too many bits contradict the place.
 std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const DeviceOptions& options,
                                                const BitBlock& block, const KnownSheets& known);
 

@@ -27,7 +27,7 @@ Line here(CodeVariant read, CodeVariant other, std::uint32_t position, int roll_
     return {position, roll_read + roll(other, position) - roll(read, position)};
 }
 
-/// Returns the likeliest line in the other code, apart from the line that was read.
+/// Returns the most likely line in the other code, except for the line that was read.
 Line elsewhere(const OtherAxis& axis, int roll_read) {
     return {axis.position, roll_read + axis.roll};
 }
@@ -37,8 +37,8 @@ std::uint8_t section(CodeVariant code, const Line& line, const Line& crossing) {
     return static_cast<std::uint8_t>(section_of(code, roll, line.position, crossing.position));
 }
 
-/// Returns the largest likelihood ratio of a place that differs from the fix along one axis or
-/// along both axes.
+/// Returns the largest likelihood ratio of a place that differs from the fix along at least one
+/// axis.
 float best_odds(const OtherCode& there) {
     return std::max(
         {there.x.best * there.y.here, there.x.here * there.y.best, there.x.best * there.y.best});

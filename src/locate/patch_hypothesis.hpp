@@ -1,4 +1,5 @@
-// Patch hypothesis: the common part of the searches that find a grid in a patch of the image.
+// Patch hypothesis: finds the grid in a patch and its place in the code. Shared by the first
+// attempt and the search for a rotation.
 #pragma once
 
 #include "core/kernels/select.hpp"
@@ -21,8 +22,8 @@ FloatVec middle_of(const Patch& patch, const ImageView& image);
 /// grid.
 bool place_patch(const ImageView& image, FixedVec around_px, int scale, DesktopWorkspace& w);
 
-/// Finds the dots of the patch, and sets the status of the fix for the case that no patch contains
-/// a grid. Returns false, without setting the status, if the patch has no contrast.
+/// Finds the dots of the patch, and sets the status of the fix to the status that applies if no
+/// patch contains a grid. Returns false, without setting the status, if the patch has no contrast.
 bool find_patch_dots(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                      DesktopWorkspace& w);
 
@@ -31,8 +32,8 @@ bool find_patch_dots(const Kernels& kernels, const ImageView& image, const Devic
 bool read_grid(const Kernels& kernels, const DeviceOptions& options, const PatchGrid& grid,
                FloatVec from_centre, DesktopWorkspace& w, Hypothesis& hypothesis);
 
-/// Finds a grid in the dots of a patch, and its place in the code, as `read_grid` does. Returns
-/// false if no grid or no place is found.
+/// Finds a grid in the dots of a patch, and its place in the code (see `read_grid`). Returns false
+/// if no grid or no place is found.
 bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const PatchView& view,
                      FloatVec from_centre, DesktopWorkspace& w, Hypothesis& hypothesis);
 

@@ -41,8 +41,8 @@ void detect_filtered(const ImageView& image, const DeviceOptions& filtered, Desk
         detect_row(next_smooth_row(image, w.smoothing), filtered, w);
 }
 
-/// Finds the grid, including perspective and lens distortion. Takes longer than `find_grid`, the
-/// function for devices.
+/// Finds the grid, including perspective and lens distortion. Takes longer than `find_grid` in
+/// device/attempt.cpp.
 Status find_grid_thoroughly(const DeviceOptions& options, DesktopWorkspace& w) {
     const FixedVec centre_q8 = image_centre_q8(w.threshold);
     Status status = find_axes(centre_q8, kMaxSeeds, w);
@@ -87,8 +87,8 @@ Status read_position(const DeviceOptions& options, DesktopWorkspace& w) {
     return status == Status::ok ? status : refused(status, w);
 }
 
-/// Reads the bits again with a grid that is fitted to the dots of a doubtful position. If the
-/// position is correct, the new grid makes more bits clear.
+/// Reads the bits again, with a grid fitted to the dots of a doubtful position. If the position is
+/// correct, more bits are clear in the new grid.
 Status resample(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
     PoseFit fit;
     if (!fit_pattern(options, image, w, fit)) return Status::not_certain;
@@ -98,8 +98,8 @@ Status resample(const ImageView& image, const DeviceOptions& options, DesktopWor
     return shows_one_pattern(image, options, w) ? read_position(options, w) : Status::not_certain;
 }
 
-/// Measures the dots again if the pixel bias matters. Uses the method of the tracked attempt, which
-/// corrects this bias.
+/// Measures the dots again if the pixel bias matters. Uses the tracked attempt, because it corrects
+/// the bias.
 void measure_again_if_biased(const ImageView& image, const DeviceOptions& options,
                              DesktopWorkspace& w) {
     const float variance_px2 =
@@ -125,8 +125,8 @@ Status read_filtered_with(const DeviceOptions& filtered, const ImageView& image,
 }
 
 /// Finds dots and grid, and reads the bits. If there is too little contrast or there are too few
-/// dots, tries again with a lower threshold. The second try requires a maximum contrast that is
-/// high enough for pale dots.
+/// dots, tries again with a lower minimum contrast, but only if the largest contrast in the image
+/// reaches this minimum.
 Status read_filtered(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
     DeviceOptions filtered = for_filtered(options);
     filtered.lattice.min_dots = min_dots(options, w);
@@ -138,8 +138,8 @@ Status read_filtered(const ImageView& image, const DeviceOptions& options, Deskt
     const Fix seen = w.fix;
     filtered.threshold.min_contrast = pale;
     if (read_filtered_with(filtered, image, w) == Status::ok) return Status::ok;
-    // The lower threshold found no pattern, so the additional dots are noise. Keeps the first
-    // result.
+    // Keeps the first result. The second try found no readable grid, so its additional dots are
+    // noise.
     w.fix = seen;
     w.dot_count = 0;
     return status;

@@ -9,24 +9,25 @@
 namespace dotpose::core {
 
 /// Makes second attempts on one image, in several codes. The filtered image, its dots and its grid
-/// do not depend on the code. The image, dots and grid are computed only once, unless an attempt
-/// overwrites these results.
+/// do not depend on the code. They are computed once, and again only after an attempt has
+/// overwritten them.
 class SecondAttempt {
   public:
     enum class Resampling : std::uint8_t { never, if_doubtful };
 
     SecondAttempt(const ImageView& image, DesktopWorkspace& w) : image_(image), w_(w) {}
 
-    /// Locates the image in the code of the options. Returns true if there is a fix. Stores the fix
-    /// in the workspace or, without a fix, the status. `Resampling::if_doubtful` handles positions
-    /// that are not certain. In this mode, the attempt fits the grid to the dots of such a
-    /// position, and then reads and decodes the bits again.
+    /// Locates the image in the code of the options. Returns true if there is a fix. The workspace
+    /// then contains the fix, or otherwise the status. If the position is not certain,
+    /// `Resampling::if_doubtful` fits the grid to the dots of the position, and reads and decodes
+    /// the bits again.
     bool read(const DeviceOptions& options, Resampling resampling);
 
   private:
     const ImageView& image_;
     DesktopWorkspace& w_;
-    bool is_seen_ = false;  ///< true if the workspace contains the filtered image's dots and cells
+    bool is_seen_ = false;  ///< true if the workspace contains the dots and cells of the filtered
+                            ///< image
     Fix seen_;              ///< the fix after the bits were read, before decoding
 };
 

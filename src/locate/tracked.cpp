@@ -48,9 +48,8 @@ int max_shift_px(const Prediction& prediction, float spacing_px) {
     return static_cast<int>(std::ceil(off * spacing_px));
 }
 
-/// Corrects the plane with the centroids of the listed dots. At least kMinNear dots, and three
-/// quarters of all listed dots, must have offsets of at most kMaxOffset_px. Otherwise, returns
-/// false.
+/// Corrects the plane with the centroids of the listed dots. Returns false unless at least kMinNear
+/// dots, and at least three quarters of all listed dots, have offsets of at most kMaxOffset_px.
 bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsInView view,
                           FloatPlane& plane, MeasuredDots& dots) {
     const float far_px = std::max(view.width_px, view.height_px) / 2;
@@ -64,7 +63,8 @@ bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsI
         if (found.points < tuned::kMinNear || 4 * found.points < 3 * dots.count) return false;
         const Similarity motion = similarity_of(found);
         plane = moved(plane, motion);
-        // Centroid windows underestimate large offsets, such as those due to a rotation.
+        // Measures the dots again if the scale and rotation of the correction move dots at the
+        // image border by kTurned_px or more, because centroid windows underestimate large offsets.
         const float moved_far_px =
             far_px * std::max(std::abs(motion.scale), std::abs(motion.turn_rad));
         if (moved_far_px < tuned::kTurned_px) break;
@@ -83,10 +83,10 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Devic
     CellsInView view = cells_in_view(image, options, hypothesis, reach, dots.capacity(), w);
     view.windows = Windows::on_dots;
     const bool by_centroids = can_sample_directly(hypothesis);
-    // The image must contain the centroid windows at every shift that the search may find.
+    // The image must contain the centroid windows at every shift of the search.
     if (by_centroids) view.margin_px = kPredictedCentroidRadius_px + static_cast<float>(max_px + 1);
     kernels.list_cells(view, dots);
-    // The search tests at most thirteen shifts along each axis, in steps of about max_px / 6.
+    // Tests at most thirteen shifts along each axis, in steps of about max_px / 6.
     const int step_px = std::max((max_px + 3) / 6, 1);
     FixedVec shift;
     if (!kernels.find_shift(image, dots, max_px, step_px, shift, hypothesis.depth_q8)) return false;
@@ -104,7 +104,8 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Devic
             return true;
         }
     }
-    // Windows around intersections can measure larger offsets than centroid windows.
+    // Uses windows around intersections, because they can measure larger offsets than centroid
+    // windows.
     kernels.list_cells(view, dots);
     kernels.measure_windows(image, view, {spacing, 0.3F, hypothesis.depth_q8 * kCutOfDepth_q8 >> 8},
                             dots);

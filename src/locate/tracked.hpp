@@ -1,5 +1,5 @@
-// Tracked attempt: locates an image near a predicted pose, by measuring the dots where the
-// prediction expects them.
+// Tracked attempt: locates an image near a predicted pose. Unlike the paper, this attempt measures
+// the dots only where a prediction expects them.
 #pragma once
 
 #include "core/kernels/select.hpp"
@@ -16,7 +16,7 @@ bool locate_tracked(const Kernels& kernels, const ImageView& image, const Device
                     const Prediction& prediction, DesktopWorkspace& w);
 
 /// Measures the dots of the fix in the workspace again, as the tracked attempt does. The fix must
-/// be certain. If the dots do not confirm the fix, the fix remains unchanged.
+/// be certain. It remains unchanged if the dots do not confirm it.
 void measure_again(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                    DesktopWorkspace& w);
 

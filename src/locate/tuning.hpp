@@ -1,6 +1,6 @@
 // Tuning: empirical constants of the attempts. Comments give the purpose and, where known, the
-// measured effect of each constant. Constants of the second attempt were tuned on the hard frames
-// listed in decode/tuning.hpp.
+// measured effect of each constant. The constants of the second attempt were determined on the hard
+// frames listed in decode/tuning.hpp.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -20,60 +20,65 @@ inline constexpr float kMinSpacingForPrediction_px = 9.5F;
 /// increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
 /// Wave search away from the image centre: numbers of central dots, and factors for the estimated
-/// spacing. Large displacements weaken the waves, and only some combinations find the grid. The
-/// search therefore tries all combinations.
+/// spacing. The search tries all combinations, because large displacements weaken the waves, and
+/// then only some combinations find the grid.
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
-/// Factors for the estimated spacing if sheets are known. A strip of three rows may then be
-/// certain. The spacing of such a strip is overestimated, because the estimate counts the dots
-/// around a dot.
+/// Factors for the estimated spacing if sheets are known. A strip of three rows can then be
+/// certain. The spacing of such a strip is overestimated, because the estimate assumes that the
+/// nearest dots around a dot fill a disc.
 inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F};
 }  // namespace first
 
-/// Constants of images in which the scene rotates during the readout (locate/turning).
+/// Search for a rotation of the scene during the readout (locate/turning).
 namespace turning {
-/// Maximum rotation during the readout, and maximum distance by which the scene moves down at the
-/// side of the image while a row is read, in rows.
+/// Maximum rotation during the readout. kMaxFall is the maximum distance by which the rotation
+/// moves the scene down at the side of the image while a row is read, in rows.
 inline constexpr float kMaxTurn_rad = 1.2F;
 inline constexpr float kMaxFall = 0.95F;
 /// Maximum motion of the scene while a row is read, in rows.
 inline constexpr float kMaxDrift = 0.9F;
-/// Step of the search for the rotation: the distance by which the dots in the corners of the patch
-/// move, in spacings. Fraction of this step at which the search ends.
+/// kStep is the first step of the search for the rotation: the distance by which the dots in the
+/// corners of the patch move, in spacings. The search ends at steps of kStep / kStepParts.
 inline constexpr float kStep = 0.4F;
 inline constexpr float kStepParts = 32;
-/// Minimum ratio of the agreements of a better grid and of the best grid so far.
+/// Minimum factor by which the agreement of a better grid exceeds the agreement of the best grid so
+/// far.
 inline constexpr float kBetter = 1.0005F;
-/// Minimum ratio of the squared residuals that the rotation explains to the squared residuals that
-/// remain, if the remaining residuals of neighbouring dots are not correlated, and otherwise.
+/// Minimum ratio of the squared residuals that the rotation explains, summed over both axes, to the
+/// number of dots times the remaining variance along one axis. The two values correspond to a fifth
+/// and to three fifths of all squared residuals. kMinGainIfEven applies if the remaining residuals
+/// of neighbouring dots are not correlated, and kMinGain otherwise.
 inline constexpr float kMinGainIfEven = 0.5F;
 inline constexpr float kMinGain = 3;
-/// Maximum variance of the offsets of the dots from the places of their cells, per axis, in
-/// spacings^2. In a false grid, the offsets are evenly distributed over circles with a radius of
-/// 0.18 spacings, which have a variance of 0.008.
+/// Maximum variance of the offset between a dot and the nearest place of its cell, per axis, in
+/// spacings^2. In a false grid, the offsets are evenly distributed over discs with a radius of 0.18
+/// spacings, so their variance is 0.008.
 inline constexpr float kMaxVariance = 0.002F;
-/// Maximum number of grids whose place is searched. A grid without a place in the code is found
-/// again from the next rotations.
+/// Maximum number of grids whose bits are searched for in the code. If these grids have no place in
+/// the code, further rotations often lead to the same grids again.
 inline constexpr int kMaxClimbs = 3;
-/// Correction of the rotation below which the image is not measured again: the distance by which
-/// the dots in the corners move. Smaller corrections are applied to the measured dots.
+/// Correction of the rotation below which the image is not measured again. The correction is
+/// measured as the distance by which the dots in the corners move. Smaller corrections are applied
+/// to the measured dots. kMaxRounds is the maximum number of measurements.
 inline constexpr float kSettled_px = 0.5F;
 inline constexpr int kMaxRounds = 5;
-/// Minimum fraction of the dots that `keep_isolated` keeps. Frames with less are not searched for a
-/// rotation, because noise and dirt explain why they were not located: of 400 frames of rotating
-/// scenes, at least 0.9 is kept, of most hard frames less than 0.8.
+/// Minimum fraction of the dots that `keep_isolated` must keep before a search for a rotation. If
+/// it keeps fewer dots, noise and dirt explain the failure of the first attempt. The fraction was
+/// at least 0.9 in 400 frames of rotating scenes, and less than 0.8 in most hard frames.
 inline constexpr float kMinIsolated = 0.88F;
 }  // namespace turning
 
-/// Constants of the tracked attempt (locate/tracked).
+/// Tracked attempt (locate/tracked).
 namespace tracked {
-/// Maximum distance along each axis, in spacings, of the dots that correct a prediction. The
-/// distance is small enough that an angular error does not match a dot to the wrong intersection.
+/// Dots within this distance of the point where a prediction is corrected are used for the
+/// correction, in spacings along each axis. At this distance, an angular error of the prediction
+/// does not yet assign a dot to the wrong intersection.
 inline constexpr float kNear = 2.6F;
 /// Minimum number of dots for a correction.
 inline constexpr int kMinNear = 10;
-/// Maximum prediction error that the search covers, in spacings. A larger maximum would be useless.
-/// Beyond half a spacing, a neighbouring dot is closer than the correct dot.
+/// Maximum prediction error that the search covers, in spacings. Beyond half a spacing, a
+/// neighbouring dot is closer than the correct dot.
 inline constexpr float kMaxOff = 0.6F;
 /// Range of spacings that can be tracked.
 inline constexpr float kFinest_px = 5;
@@ -86,10 +91,10 @@ inline constexpr float kFirstOff = 0.30F;
 inline constexpr float kSecondOff = 0.15F;
 /// Maximum offset at which a dot is measured in a centroid window.
 inline constexpr float kMaxOffset_px = 1.5F;
-/// Offset of a typical dot at a moment-to-weight ratio of 1, accurate to 20 %.
+/// Offset of a typical dot, in px, at a moment-to-weight ratio of 1. Accurate to 20 %.
 inline constexpr float kWeight_px = 0.84F;
-/// Shift at the image border above which the dots are measured again. The shift is due to the scale
-/// or rotation of a correction.
+/// Motion of the dots at the image border, due to the scale and rotation of a correction, above
+/// which the dots are measured again.
 inline constexpr float kTurned_px = 2;
 /// Maximum number of measurements in one correction.
 inline constexpr int kMaxLooks = 3;
@@ -101,9 +106,9 @@ inline constexpr FloatVec kPoints[] = {
 
 /// Measurement of dots at known places (locate/confirm, locate/dot_reader).
 namespace confirm {
-/// Reading distance in the first round, in spacings, if the pattern fills a large image. All dots
-/// within this distance of `Hypothesis::from_centre` are measured, and their bits must make the
-/// position certain.
+/// Reading distance in the first round for images that the pattern fills and that exceed
+/// kDenseAtMost, in spacings. The first round measures all dots within this distance of
+/// `Hypothesis::from_centre`. The bits of these dots must make the position certain.
 inline constexpr float kDense = 10;
 /// Maximum half side of an image that is measured in a single round, in spacings.
 inline constexpr float kDenseAtMost = 17;
@@ -113,51 +118,52 @@ inline constexpr float kDenseOfPart = 6;
 /// Distance within which the bits of a partial view must make the position certain, in spacings.
 inline constexpr float kDecidingOfPart = 32;
 /// Maximum growth factor of the reading distance from round to round. The plane fitted in one round
-/// predicts the dots of the next round.
+/// must predict the dots of the next round.
 inline constexpr float kFarther = 3.5F;
-/// Limits for clean bits, which need no second reading. At least kClear_percent of the dots are
-/// clear. Of n dots read, at most max(kMaxWrong, n / kDotsPerWrong) bits are wrong. kMaxWrong is
-/// the number of bits in one dot.
+/// Limits for clean bits, which need no second reading. At least kClear_percent of the dots must be
+/// clear. If n dots were read, at most max(kMaxWrong, n / kDotsPerWrong) bits may be wrong.
+/// kMaxWrong is the number of bits of one dot.
 inline constexpr int kClear_percent = 97;
 inline constexpr int kMaxWrong = 2;
 inline constexpr int kDotsPerWrong = 200;
 /// Outlier limit: squared residual divided by the mean squared residual. The limit is four standard
 /// deviations of one coordinate.
 inline constexpr float kOutlier = 8.3F;
-/// Maximum distance by which a fit moves the plane, in spacings, in a corner of the measured part.
-/// Small centroid windows do not capture larger offsets completely, so the dots are measured again.
+/// Maximum distance by which a fit may move the plane, in spacings, in a corner of the measured
+/// part. After a larger motion, the dots are measured again, because small centroid windows do not
+/// measure large offsets accurately.
 inline constexpr float kFar = 0.055F;
-/// Maximum number of measurements for an exact hypothesis. If a fit then still moves the plane by
-/// more than kFar, the hypothesis is implausible. docs/accuracy.md, "Dots with the same sub-pixel
-/// phase", lists the remaining errors.
+/// Maximum number of measurements for an exact hypothesis. The hypothesis is implausible if the
+/// last fit still moves the plane by more than kFar. docs/accuracy.md, "Dots with the same
+/// sub-pixel phase", lists the remaining errors.
 inline constexpr int kMaxLooks = 3;
 /// Fraction of the paper level below which windows are dropped. Such windows are on the table
-/// beyond the sheet, where noise can resemble dots.
+/// beyond the sheet, where noise can look like dots.
 inline constexpr float kTable = 0.4F;
-/// Range of spacings for direct sampling. Below kMaxSpacingForSmallWindow_px, a dot fits in a small
-/// centroid window at any blur. Below kMinSpacingForDirectSampling_px, one sample per place cannot
-/// separate the four places of a cell.
+/// Range of spacings for direct sampling. Below kMaxSpacingForSmallWindow_px, a dot with any blur
+/// fits in a small centroid window. Below kMinSpacingForDirectSampling_px, one sample per place
+/// cannot separate the four places of a cell.
 inline constexpr float kMaxSpacingForSmallWindow_px = 13;
 inline constexpr float kMinSpacingForDirectSampling_px = 8;
-/// Radius of a centroid window, in dot radii. The window then includes the edge of the dot, and the
-/// result is nearly independent of the sub-pixel phase (`dotpose_tables alike`).
+/// Radius of a centroid window, in dot radii. With this radius, the window includes the edge of the
+/// dot, and the result is nearly independent of the sub-pixel phase (`dotpose_tables alike`).
 inline constexpr float kWindowRadii = 2.4F;
 /// Minimum radius of a centroid window.
 inline constexpr float kMinWindowRadius_px = 3.3F;
-/// Window radius above which facing dots bias each other, as a fraction of the distance between
-/// facing dots.
+/// Window radius above which facing dots bias each other's centroids, as a fraction of the distance
+/// between the two dots. Facing dots are adjacent dots that are displaced towards each other. See
+/// pose/facing_dots.hpp.
 inline constexpr float kFacing = 0.55F;
-/// Maximum deviation of a grid step from whole pixels at which dots share a sub-pixel phase. Up to
-/// this deviation, the dots of a row or column have about the same phase. At larger deviations, the
-/// phases in view are evenly distributed.
+/// Maximum deviation of a grid step from whole pixels at which the dots of a row or column have
+/// about the same sub-pixel phase. At larger deviations, the phases in view are evenly distributed.
 inline constexpr float kDrift_px = 0.05F;
 /// Maximum phase drift across the view at which the pixel bias is corrected. The correction takes
-/// several times as long as the rest of the frame.
+/// several times as long as all other steps of a frame.
 inline constexpr float kDriftInView_px = 0.35F;
 /// Maximum variance of the mean centre, along one axis, at which the pixel bias matters.
 inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
-/// Size range of image parts that are prefetched. Smaller parts are already in the cache. Larger
-/// parts would evict their own first rows.
+/// Minimum and maximum size of image parts that are prefetched. Smaller parts are already in the
+/// cache. Larger parts would evict their own first rows.
 inline constexpr int kMinFetched_bytes = 32 << 10;
 inline constexpr int kMaxFetched_bytes = 1 << 20;
 /// Minimum number of dots for `DotReader::find_centres`.
@@ -165,7 +171,7 @@ inline constexpr int kMinFound = 8;
 /// Maximum distance between a dot and its predicted place.
 inline constexpr float kMaxOff_px = 1;
 /// Maximum of sqrt(variance) / displacement + bit_errors / bits (`is_implausible`). Positions above
-/// this maximum do not explain the frame well. For the numbers, see docs/integrity.md.
+/// this maximum do not explain the frame well. docs/integrity.md contains the measurements.
 inline constexpr float kMaxImplausible = 0.57F;
 /// Minimum residual at which a second attempt may be better: kRough_px or kRough spacings,
 /// whichever is larger. Residuals due to noise are constant in px. Residuals due to bad printing
@@ -178,25 +184,26 @@ inline constexpr float kRough = 0.027F;
 namespace known {
 /// Shorter image side, in spacings, below which dots are read up to kMargin_px from the border. In
 /// 300 views of 36 x 36 px at 6 px per spacing, a margin of 1.0 px locates 97 %. The usual margin
-/// of 1.7 px locates 88 %. The errors are equal (`dotpose_tables known`).
+/// of 1.7 px locates 88 %, with equal errors (`dotpose_tables known`).
 inline constexpr float kSmallView = 9;
 inline constexpr float kMargin_px = 1;
-/// Minimum weight of both bits of a cell, in 1/127, for the second attempt to use the cell.
+/// Minimum weight of a bit, in 1/127. The second attempt uses a cell only if each of its two bits
+/// has at least this weight.
 inline constexpr int kMinWeight = 48;
 }  // namespace known
 
-/// Frames that are read together (locate/earlier_bits). For the numbers, see docs/integrity.md,
-/// "Frames read together".
+/// Frames that are read together (locate/earlier_bits). See docs/integrity.md, "Frames read
+/// together".
 namespace joined {
-/// log2 of the likelihood ratios for equal and for different bits, where two frames overlap. If one
-/// bit in 16 is wrong, the values are log2(2 * 15 / 16) and log2(2 * 1 / 16).
+/// log2 of the likelihood ratios for equal and for different bits where two frames overlap. The
+/// values are log2(2 * 15 / 16) and log2(2 * 1 / 16), for an error rate of 1 bit in 16.
 inline constexpr float kEqualBit_log2 = 0.907F;
 inline constexpr float kDifferentBit_log2 = -3;
-/// log2 of the weight of a blunder: the measured motion is wrong by far more than its standard
-/// deviation.
+/// log2 of the weight of a blunder, in which the measured motion is wrong by far more than its
+/// standard deviation.
 inline constexpr float kBlunder_log2 = -36;
-/// Standard deviations of the errors in a grid's angle and place. The angle also depends on the
-/// camera tilt. The place error is in spacings.
+/// Standard deviations of the errors in the angle and the place of a grid. The angle also depends
+/// on the camera tilt. The place error is in spacings.
 inline constexpr float kGridAngle_rad = 0.035F;
 inline constexpr float kGridPhase = 0.06F;
 /// Maximum deviation of a match from the prediction, in standard deviations and in spacings.
@@ -207,34 +214,34 @@ inline constexpr float kMaxReach = 24;
 /// Second attempt (locate/second).
 namespace second {
 /// Factors for the thresholds of a filtered image. Filtering reduces noise to a third, and makes
-/// dots paler and wider. With dirt on 5 % of the area, 93 % of 200 frames are located with these
-/// factors, and 80 % with the original thresholds (docs/limits.md).
+/// dots paler and wider. With dirt on 5 % of the area, these factors locate 93 % of 200 frames, and
+/// the original thresholds locate 80 % (docs/limits.md).
 inline constexpr int kLow_3rds = 2;
 inline constexpr int kHigh_10ths = 9;
-/// Divisor of the minimum contrast for a second detection, if an image has too few dots. Filtering
-/// reduces noise to a third, so the contrast can be lower. The second detection finds dots that are
-/// 6 grey levels darker than the paper (`dotpose_tables alike --spacings 8 --dots 0.10 --blurs
-/// 1.5`).
+/// Divisor of the minimum contrast for a second detection if an image has too few dots. The
+/// contrast can be lower because filtering reduces noise to a third. The second detection finds
+/// dots that are 6 grey levels darker than the paper (`dotpose_tables alike --spacings 8 --dots
+/// 0.10 --blurs 1.5`).
 inline constexpr int kPaleParts = 3;
-/// Maximum rotations of the grid that the periodogram search tries, relative to the first grid
-/// estimate, in degrees. The search uses these limits in order. Printed text can rotate the first
-/// estimate by 26 degrees.
+/// Maximum rotations of the grid in the periodogram search, relative to the first grid estimate, in
+/// degrees. The search tries these limits in order. Printed text can rotate the first estimate by
+/// 26 degrees.
 inline constexpr int kMaxTurns_deg[] = {12, 45};
 }  // namespace second
 
 /// Choice of attempts and codes (locate/locate, locate/other_place).
 namespace cascade {
-/// Minimum odds of another code at which a frame is read again in that code. Odds are relative to
-/// the code of the fix.
+/// Minimum odds of another code, relative to the code of the fix, at which a frame is read again in
+/// the other code.
 inline constexpr float kBetterOdds = 2;
 /// Minimum number of dots per wrong bit at which a reading in another code is reported. Dots have
-/// two bits, so at most one bit in a hundred is wrong. Misreading can cause this fraction.
+/// two bits, so at most one bit in a hundred is wrong. Misread bits can cause this error rate.
 inline constexpr int kBitsPerError = 50;
-/// Minimum odds at which a place in another code is reported next to a certain fix, if this place
-/// differs from the place of the fix. Odds are relative to the fix.
+/// Minimum odds at which a different place in another code is reported with a certain fix. Odds are
+/// relative to the fix.
 inline constexpr float kNamedElsewhere = 0.99F;
-/// Minimum odds at which the place of the fix in another code is reported next to a certain fix.
-/// Odds are relative to the fix.
+/// Minimum odds at which the place of the fix in another code is reported with a certain fix. Odds
+/// are relative to the fix.
 inline constexpr float kNamedHere = 1024;
 }  // namespace cascade
 

@@ -23,24 +23,24 @@ bool has_room(const ImageView& image, const DesktopWorkspace& w) {
            w.rolling.memory.size();
 }
 
-/// Returns the centre of the rotation that is removed from an image. A rotation about the
-/// distortion centre does not change the distortion of a point. A rotation about any other point
-/// differs by a motion, which is part of the drift.
+/// Returns the centre of the rotation that is removed from an image. This is the distortion centre,
+/// because a rotation about the distortion centre does not change the distortion of a point. A
+/// rotation about any other point differs by a translation, which is part of the drift.
 FloatVec axis_of(const FixedLens& lens) {
     if (lens.k_q40 == 0) return {};
     return {static_cast<float>(lens.centre_dx_q8) / 256,
             static_cast<float>(lens.centre_dy_q8) / 256};
 }
 
-/// Returns the maximum rotation, in rad per row. At faster rotations, the scene moves down nearly
-/// as fast as the rows are read.
+/// Returns the maximum rotation, in rad per row. At faster rotations, the scene would move down
+/// nearly as fast as the rows are read.
 float max_rad_per_row(const ImageView& image) {
     return std::min(tuned::kMaxTurn_rad / static_cast<float>(image.height_px),
                     tuned::kMaxFall / (static_cast<float>(image.width_px) / 2));
 }
 
-/// Returns the distance by which a rotation of 1 rad per row moves the dots in the corners of an
-/// area around the image centre, in px.
+/// Returns the motion of the dots in the corners of an area around the image centre, in px, for a
+/// rotation of 1 rad per row.
 float corner_px_per_turn(int width_px, int height_px) {
     const float half_width = static_cast<float>(width_px) / 2;
     const float half_height = static_cast<float>(height_px) / 2;
@@ -51,7 +51,8 @@ float distance(FloatVec a, FloatVec b) {
     return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y));
 }
 
-/// Returns true if rotation and drift are in range. Returns false if either is NaN.
+/// Returns true if the rotation and the drift (see ReadoutTurn) are in range. Returns false if
+/// either is NaN.
 bool is_possible(const ReadoutTurn& turn, const ImageView& image) {
     return std::abs(turn.rad_per_row) <= max_rad_per_row(image) &&
            std::abs(turn.drift.x) <= tuned::kMaxDrift && std::abs(turn.drift.y) <= tuned::kMaxDrift;
@@ -75,11 +76,11 @@ class TurnSearch {
     }
 
     float step() const { return step_; }
-    /// Accepts cells that are any parallelograms, or only cells that are about square.
+    /// Sets whether cells may be arbitrary parallelograms. Otherwise, cells must be about square.
     void accept_skewed(bool is_skewed) { view_.is_skewed = is_skewed; }
 
-    /// Searches from a rotation in ever smaller steps. Returns false if the dots form no grid at
-    /// the first rotation.
+    /// Searches from a rotation in decreasing steps. Returns false if the dots do not form a grid
+    /// at the first rotation.
     bool climb(float rad_per_row, FloatVec drift) {
         turn_.rad_per_row = rad_per_row;
         turn_.drift = drift;
@@ -88,7 +89,7 @@ class TurnSearch {
         for (float step = step_; step > finest;) {
             if (!improves(step) && !improves(-step) && !improves(0)) step /= 2;
         }
-        // The dots of the patch become those of the best rotation.
+        // Removes the best rotation from the dots of the patch.
         PatchGrid last;
         return fits(turn_, last);
     }
@@ -106,7 +107,8 @@ class TurnSearch {
         return find_grid(kernels_, patch_, view_, grid);
     }
 
-    /// Tries a rotation that is larger by `step`, with the drift of the best grid so far.
+    /// Tries a rotation that is larger by `step`, with the drift of the best grid so far. Returns
+    /// true if the grid is better.
     bool improves(float step) {
         ReadoutTurn turn = turn_;
         turn.rad_per_row += step;
@@ -131,7 +133,7 @@ class TurnSearch {
     PatchGrid grid_;
 };
 
-/// Writes the rotation into the fix. The dots of the trace become those of the original image.
+/// Writes the rotation into the fix. Converts the dots of the trace to the original image.
 void write_turn(const ReadoutTurn& turn, const ImageView& image, const FixedLens& lens,
                 DesktopWorkspace& w) {
     w.fix.readout_turn_rad = -turn.rad_per_row * static_cast<float>(image.height_px);
@@ -146,17 +148,19 @@ void write_turn(const ReadoutTurn& turn, const ImageView& image, const FixedLens
     }
 }
 
-/// Returns true if the rotation explains the residuals that the dots would have without it: a third
-/// of their squares or, if the remaining residuals are correlated, three quarters. A wrinkled sheet
-/// may have residuals that are partly those of a rotation.
+/// Returns true if the rotation explains enough of the squared residuals that the dots have without
+/// the rotation: about a fifth, or three fifths if the remaining residuals are correlated (see
+/// kMinGainIfEven and kMinGain). The residuals of a wrinkled sheet may be similar to those of a
+/// rotation.
 bool is_significant(const TurnFit& fit, int dots, Surface surface) {
     const float min_gain = surface == Surface::even ? tuned::kMinGainIfEven : tuned::kMinGain;
     return fit.turn.rad_per_row * fit.turn.rad_per_row >=
            min_gain * static_cast<float>(dots) * fit.variance;
 }
 
-/// Calls `locate(view)` with the image without the rotation, and fits the rotation to the measured
-/// dots. Repeats both until the rotation no longer changes. Sets `turn` to the rotation.
+/// Calls `locate(view)` with the image from which the rotation is removed. Then fits the rotation
+/// to the measured dots. Repeats both steps until the rotation no longer changes. Sets `turn` to
+/// the rotation.
 template <typename Locate>
 Confirmation settle(const ImageView& image, DesktopWorkspace& w, ReadoutTurn& turn, Locate locate) {
     RollingImage& rolling = w.rolling;
@@ -179,7 +183,7 @@ Confirmation settle(const ImageView& image, DesktopWorkspace& w, ReadoutTurn& tu
     return Confirmation::implausible;
 }
 
-/// Measures the dots of a hypothesis of the image without the rotation.
+/// Measures the dots of a hypothesis in the image from which the rotation is removed.
 Confirmation confirm_turning(const Kernels& kernels, const ImageView& image,
                              const DeviceOptions& options, Hypothesis hypothesis, ReadoutTurn turn,
                              DesktopWorkspace& w) {
@@ -197,9 +201,9 @@ Confirmation confirm_turning(const Kernels& kernels, const ImageView& image,
     return Confirmation::ok;
 }
 
-/// Searches for a grid, first at the rotation `turn` and then at rotations of increasing size,
-/// until a grid has a place in the code. Sets `turn` to the rotation of this grid. Returns false if
-/// there is no such grid.
+/// Searches for a grid with a place in the code, first at the rotation `turn` and then at rotations
+/// of increasing size. Sets `turn` to the rotation of this grid. Returns false if there is no such
+/// grid.
 bool find_turning_hypothesis(const Kernels& kernels, const ImageView& image,
                              const DeviceOptions& options, TurnSearch& search, DesktopWorkspace& w,
                              ReadoutTurn& turn, Hypothesis& hypothesis) {
@@ -223,7 +227,7 @@ bool find_turning_hypothesis(const Kernels& kernels, const ImageView& image,
     return false;
 }
 
-/// Searches the dots of the patch for a grid of square cells, and then for a grid of any
+/// Searches the dots of the patch for a grid of square cells, and then for a grid of arbitrary
 /// parallelograms. Confirms the hypothesis.
 Confirmation locate_turning_in_patch(const Kernels& kernels, const ImageView& image,
                                      const DeviceOptions& options, DesktopWorkspace& w,
@@ -248,10 +252,10 @@ bool shows_turn(const Kernels& kernels, const ImageView& image, const DeviceOpti
                 DesktopWorkspace& w) {
     const Fix& fix = w.fix;
     if ((fix.surface == Surface::even && !is_rough(fix)) || !has_room(image, w)) return false;
-    // If the dots were measured around another point than the image centre, only the search can
-    // show whether there is a rotation.
+    // If the dots were measured around a point other than the image centre, only the search can
+    // detect a rotation.
     if (!(fix.pattern_from_image.centre_q8 == w.pattern_from_image.centre_q8)) return is_rough(fix);
-    // The plane is fitted again, because the fix may be that of one side of a divided sheet.
+    // Fits the plane again, because the fix may use only one side of a divided sheet.
     const float displacement = static_cast<float>(fix.displacement_q16) / 65536;
     FloatPlane plane = float_plane(fix.pattern_from_image);
     PoseFit fit;
@@ -304,7 +308,7 @@ bool locate_tracked_turning(const Kernels& kernels, const ImageView& image,
     });
     if (confirmation != Confirmation::ok) return false;
     write_turn(turn, image, options.lens, w);
-    // The next frame is predicted without a rotation.
+    // Without a significant rotation, the next frame is predicted without a rotation.
     if (!is_significant(w.rolling.fit, w.fix.dots_used, w.fix.surface)) w.fix.readout_turn_rad = 0;
     return true;
 }

@@ -56,8 +56,8 @@ struct PushedImage {
     }
 };
 
-/// An image of a rolling shutter without the rotation of the scene during the readout, and the fit
-/// of this rotation.
+/// An image of a rolling shutter after removing the rotation of the scene, and the fit of this
+/// rotation.
 struct RollingImage {
     std::span<std::uint8_t> memory;
     bool is_fitted = false;  ///< true if `confirm` fits the rotation
@@ -77,19 +77,19 @@ struct DesktopWorkspace : DeviceWorkspace {
     PushedImage pushed;
     RollingImage rolling;
     bool is_mirrored = false;  ///< true if an attempt found the mirrored code
-    /// True if the first attempt found fewer cells than a position needs to be certain without
-    /// known sheets.
+    /// True if the first attempt found fewer cells than a certain position needs without known
+    /// sheets.
     bool shows_too_few_cells = false;
 
-    /// Sets the known sheets. With known sheets, smaller images and patches can be located.
+    /// Sets the known sheets. On known sheets, smaller images and patches can be located.
     void set_known(const KnownSheets& sheets) {
         DeviceWorkspace::set_known(sheets);
         patch->min_side_px = sheets.any() ? kMinKnownFrameSide_px : Patch::kMinSide_px;
     }
 };
 
-/// Returns the minimum number of dots in a grid. On known sheets, or together with other frames,
-/// fewer dots determine a place.
+/// Returns the minimum number of dots in a grid. Known sheets and frames that are read together
+/// need fewer dots.
 inline int min_dots(const DeviceOptions& options, const DesktopWorkspace& w) {
     return w.known.any() || w.earlier.is_in_series()
                ? std::min(options.lattice.min_dots, kMinKnownDots)
@@ -101,8 +101,8 @@ inline OtherCodes* wanted_codes(DesktopWorkspace& w) {
     return w.other_codes.are_wanted ? &w.other_codes : nullptr;
 }
 
-/// A workspace with its memory, for images up to `MaxWidth` px wide. Stores the `MaxDots` dots
-/// nearest to the image centre, and the middle `GridSide` x `GridSide` cells of the grid.
+/// A workspace with its memory, for images up to `MaxWidth` px wide. Stores at most `MaxDots` dots,
+/// those nearest to the image centre, and the middle `GridSide` x `GridSide` cells of the grid.
 template <int MaxWidth, int MaxDots, int GridSide>
 class WorkspaceOf : public DesktopWorkspace {
   public:

@@ -15,9 +15,9 @@ using namespace mcap;
 namespace {
 
 /// Returns the list of QoS profiles that rosbag2 stores with a channel, as YAML. Policies are
-/// written as the numbers of rmw, which all versions of rosbag2 can read: history 1 is keep last,
-/// reliability 1 is reliable, durability 1 is transient local and 2 is volatile, liveliness 1 is
-/// automatic.
+/// written as the numbers of rmw, which all versions of rosbag2 can read. History 1 is keep last,
+/// reliability 1 is reliable, and liveliness 1 is automatic. Durability 1 is transient local, and
+/// durability 2 is volatile.
 std::string offered_profiles(const McapQuality& quality) {
     const std::string durability = quality.is_transient_local ? "1" : "2";
     const std::string forever = "\n    sec: 9223372036\n    nsec: 854775807\n";
@@ -71,8 +71,9 @@ class McapFile::Writer {
         const auto id = static_cast<std::uint16_t>(channel);
         const std::uint64_t number = contents_.messages.at(id)++;
         chunk_.add_message(id, static_cast<std::uint32_t>(number), time_ns, cdr);
-        // A chunk is at least as long as the end of the file, because the end is rewritten after
-        // each chunk.
+        // A chunk that ends because of its duration is at least as long as the end of the file. The
+        // end is rewritten after each chunk, so short chunks would multiply the number of bytes
+        // written.
         const bool is_long =
             chunk_.duration_ns() >= static_cast<std::uint64_t>(options_.chunk_ns) &&
             chunk_.size() >= end_bytes_;

@@ -1,5 +1,5 @@
-// Records of an MCAP file. A record contains a type byte, the length of the rest, and the members,
-// in little-endian order without padding.
+// Records of an MCAP file. A record contains a type byte, the length of the members, and the
+// members, in little-endian order without padding.
 #pragma once
 
 #include <concepts>

@@ -19,7 +19,7 @@ struct Header {
     int width_px = 0;
     int height_px = 0;
     int bits_per_px = 8;  ///< 8 (0 is black), or 1 (1 is black, 8 pixels per byte)
-    double dpi = 0;       ///< resolution in dots per inch; 0 if unknown
+    double dpi = 0;       ///< resolution in dots per inch, or 0 if unknown
 };
 
 /// Receives one row of pixels.

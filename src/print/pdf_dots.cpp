@@ -21,8 +21,8 @@ constexpr int kDotsPerStream = 250'000;
 
 // --- glyphs -------------------------------------------------------------------------------------
 
-/// Number of font units per em. One em is one spacing of the grid, so the width of every glyph is a
-/// whole number and the text advances without rounding errors.
+/// Number of font units per em. One em is one spacing of the grid. The width of every glyph is
+/// therefore a whole number, and the text advances without rounding errors.
 constexpr double kUnitsPerEm = 1000;
 
 /// Returns a circle as four Bezier curves. The factor 0.5523 gives a radius error of 0.03 %.
@@ -131,8 +131,8 @@ WholeUnits whole_units(const Pattern& pattern) {
     return units;
 }
 
-// Number of columns of a tile. Deflate compresses small tiles well if equal tiles are written
-// identically, because it finds the dots of a tile in earlier rows.
+// Number of columns of a tile. Tiles with equal symbols are written as equal text, so deflate
+// encodes most tiles as references to earlier rows.
 constexpr int kTileColumns = 8;
 // Number of columns after which the absolute position is written again. Without this, the rounding
 // errors of a renderer would accumulate from tile to tile.

@@ -71,8 +71,8 @@ std::string beginning(const std::string& utf8, std::size_t max_characters) {
     return utf8.substr(0, end);
 }
 
-/// Returns the text in the encoding of Helvetica, or none if Helvetica lacks one of the letters. A
-/// missing letter becomes a question mark if no other font is available.
+/// Returns the text in the encoding of Helvetica, or nullopt if Helvetica lacks one of the letters.
+/// If no other font is available, replaces missing letters by question marks.
 std::optional<std::string> in_helvetica(const std::string& utf8) {
     std::string text;
     const bool has_all_letters = QUtil::utf8_to_win_ansi(utf8, text, '?');
@@ -190,8 +190,8 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
     }
     std::vector<std::string> lines = wrap(base::printable(text), fits);
     const std::vector<std::string> command = wrap(base::printable(options.command), fits);
-    // The command is omitted unless it fits completely, because an incomplete command would print
-    // another sheet.
+    // Prints the command only if it fits completely. An incomplete command would print another
+    // sheet.
     if (!options.command.empty() && lines.size() + command.size() <= max_lines) {
         lines.insert(lines.end(), command.begin(), command.end());
     }
@@ -243,8 +243,8 @@ std::string ruler_content(const Sheet& sheet, Side side) {
             (is_top ? arrows->x_of_y_arrow_mm : arrows->y_of_x_arrow_mm) - kArrowGap_mm / 2;
     }
     const double dots_begin_mm = has_ruler(sheet, other) ? free_margin_mm(sheet, other) : 0;
-    // Returns true if a tick or number would cross the other ruler. All marks of the other ruler
-    // are at least `nearest_mm` from the dots.
+    // Returns true if a tick or number would cross the other ruler. The marks of the other ruler
+    // are at a distance of at least `nearest_mm` from the dots.
     const auto is_crossed = [&](double from_mm, double to_mm, double nearest_mm) {
         return to_mm > crossing_mm && from_mm < dots_begin_mm - nearest_mm;
     };

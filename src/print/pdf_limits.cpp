@@ -166,8 +166,8 @@ void UnpackedBytes::count(QPDFObjectHandle stream) {
     try {
         stream.pipeStreamData(&bytes, &attempted, 0, qpdf_dl_specialized, kSuppressWarnings);
     } catch (const std::runtime_error&) {
-        // The cause is an exceeded limit, which the count below detects, or a damaged stream, which
-        // is reported when the stream is read.
+        // Either the document exceeds a limit, which the count below detects, or a stream is
+        // damaged, which is reported when the stream is read.
     }
     page_ += bytes.bytes();
     document_ += bytes.bytes();

@@ -42,8 +42,8 @@ Cell first_cell(int spacing, int dot) {
     return {at(spacing), at(dot)};
 }
 
-/// Returns the setting of the patch whose first cell is nearest to a coordinate. Returns 0 if there
-/// is no such setting. Includes coordinates slightly outside a patch, because the maps that
+/// Returns the setting of the patch whose first cell is nearest to a coordinate, or 0 if there is
+/// no such setting. Accepts coordinates slightly outside a patch, because the maps that
 /// `check_print` fits extend beyond the patch.
 int setting_at(std::uint32_t coordinate) {
     constexpr std::uint32_t kHalf = kTestPatchCells / 2;

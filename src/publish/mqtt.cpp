@@ -21,8 +21,8 @@ constexpr auto kPatience = 3s;
 /// Time between attempts to reach a broker that does not answer.
 constexpr auto kBetweenAttempts = 500ms;
 /// Maximum number of messages that libmosquitto has not sent (QoS 0) or the broker has not
-/// acknowledged (QoS 1). libmosquitto sends its messages in order, but the newest messages must be
-/// sent first. The number is therefore small.
+/// acknowledged (QoS 1). The number is small, because libmosquitto sends its messages in order,
+/// while the publisher sends the newest messages first.
 constexpr std::size_t kMaxUnderWay = 20;
 /// Quality of service of presence messages: at least once.
 constexpr int kPresenceQos = 1;
@@ -150,7 +150,7 @@ void MqttClient::set_up_security() {
 void MqttClient::start() {
     set_up_security();
     // Without this option, TCP may delay a small message by up to 40 ms to combine it with the next
-    // one.
+    // message.
     require(mosquitto_int_option(mosquitto_, MOSQ_OPT_TCP_NODELAY, 1), "cannot set the connection");
     if (!options_.presence_topic.empty()) {
         const std::string will = options_.presence(Presence::broken);
@@ -162,7 +162,8 @@ void MqttClient::start() {
     mosquitto_disconnect_callback_set(mosquitto_, Callbacks::on_disconnect);
     mosquitto_publish_callback_set(mosquitto_, Callbacks::on_publish);
     mosquitto_message_callback_set(mosquitto_, Callbacks::on_message);
-    // Reserves one more place than `publish` uses, because presence messages must not wait.
+    // Reserves one more place than `publish` uses. Presence messages use this place without
+    // waiting.
     mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMaxUnderWay + 1));
     // Messages are published by threads other than the thread of `run`.
     mosquitto_threaded_set(mosquitto_, true);

@@ -32,15 +32,16 @@ enum class Presence {
 struct MqttOptions {
     std::string host = "localhost";
     int port = 1883;
-    std::string user;  ///< empty: no user name
+    std::string user;  ///< user name, or empty for none
     std::string password;
     bool has_tls = false;
-    std::string ca_file;    ///< trusted certificates; empty: the certificates of the system
-    int qos = 0;            ///< 0: at most once, 1: at least once
-    std::string client_id;  ///< empty: the broker chooses an ID
+    /// File with trusted certificates, or empty to use the system's certificates.
+    std::string ca_file;
+    int qos = 0;            ///< 0 for at most once, 1 for at least once
+    std::string client_id;  ///< client ID, or empty to let the broker choose an ID
     /// Topic of the presence messages of a publisher, or empty if no presence messages are sent.
-    /// The broker retains the newest message for later subscribers. The last will is the message
-    /// for a broken connection.
+    /// The broker retains the newest message for later subscribers. The message for a broken
+    /// connection is the last will of the connection.
     std::string presence_topic;
     /// Returns a presence message. Two threads call this function, but never at the same time.
     std::function<std::string(Presence)> presence;
@@ -123,7 +124,7 @@ class MqttPublisher : public MqttClient {
 
     /// Sends a message, or queues it until there is a connection. Does not block. After an
     /// interruption, the newest messages are sent first. The broker keeps a retained message for
-    /// later subscribers; an empty retained message removes it.
+    /// later subscribers. An empty retained message removes the retained message.
     void publish(std::string topic, std::string payload, bool is_retained = false);
 
     /// Waits until all messages are sent, but at most for `patience`. Returns false on timeout.
@@ -132,8 +133,9 @@ class MqttPublisher : public MqttClient {
     std::int64_t sent() const;
     /// Returns the number of messages in the queue or being sent.
     std::int64_t unsent() const;
-    /// Returns the number of messages that were never sent: newer messages replaced them in the
-    /// queue, they were invalid, or the connection broke while they were being sent (QoS 0).
+    /// Returns the number of messages that were never sent. Such a message was replaced in the
+    /// queue by newer messages, was invalid, or was being sent with QoS 0 when the connection
+    /// broke.
     std::int64_t dropped() const;
 
   private:

@@ -1,5 +1,6 @@
-// Definitions of the message types as text in the format of the .msg files of ROS 2 (ros2msg): the
-// type itself, then each type that it contains, preceded by a line of equal signs.
+// Definitions of the message types as text in the format of the .msg files of ROS 2 (ros2msg). A
+// definition consists of the type itself and the types that it contains. A line of equal signs
+// precedes each contained type.
 #include <algorithm>
 #include <array>
 #include <sstream>

@@ -1,8 +1,8 @@
-// Computes grey levels from ink. Ink is drawn on sub-pixels, `kernel.per_pixel` per pixel and axis,
-// each with its exact covered fraction. Lens blur, motion and integration over the area of the
-// pixel are one weighted sum over sub-pixels, first along rows, then along columns. Sub-rows are
-// drawn in bands and added to the pixel rows that they contribute to, without storing an image
-// larger than the frame.
+// Computes grey levels from ink. Ink is drawn on sub-pixels, with the exact covered fraction of
+// each sub-pixel. A pixel has `kernel.per_pixel` sub-pixels per axis. One weighted sum over
+// sub-pixels represents lens blur, motion and integration over the area of the pixel. The sum is
+// computed first along rows, then along columns. Sub-rows are drawn in bands and added to the pixel
+// rows that they contribute to. No image larger than the frame is stored.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -115,8 +115,8 @@ class Sensor {
         }
     }
 
-    // The number of phases is a template parameter, so the compiler can unroll the loop over
-    // phases, and each pixel is loaded and stored only once.
+    // The number of phases is a template parameter to let the compiler unroll the loop over phases.
+    // Each pixel is then loaded and stored only once.
     template <std::size_t kPhases>
     void spread_phases(const Kernel::Weights& weights) {
         std::array<const float*, kPhases> of_phase;
@@ -161,7 +161,7 @@ class Sensor {
         const auto height = static_cast<std::size_t>(height_);
         const std::size_t reach = 2 * border_ + 1;
         const std::size_t stride = row_.size();
-        // The leading zeros are read by the taps to the left of the first pixel.
+        // The taps to the left of the first pixel read the leading zeros.
         std::vector<float> light(2 * border_ + stride);
         std::vector<float> along_rows(stride * (height + 2 * border_));
         for (const Kernel::Moment& moment : kernel_.moments) {
@@ -222,7 +222,8 @@ class Sensor {
     const std::vector<float>& paper_;
     std::vector<Raster::Spot> losses_;  // darkness times the light of bare paper
     std::vector<Reach> reaches_;        // disjoint, from left to right
-    // One sub-row after horizontal spreading, with two borders on each side.
+    // One sub-row after horizontal spreading, with at least 2 * border_ elements on each side of
+    // the image.
     std::vector<float> row_;
     std::vector<float> levels_;  // rows with the same length as row_
 };

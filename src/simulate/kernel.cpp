@@ -40,8 +40,8 @@ Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, 
     }
     Kernel::Weights result(per_pixel, std::vector<float>(kernel.taps));
     for (std::size_t i = 0; i < exact.size(); ++i) {
-        // The order is reversed, because light of a sub-pixel further right in the kernel
-        // contributes to a pixel further left.
+        // The order is reversed. Light of a sub-pixel further right in the kernel contributes to a
+        // pixel further left.
         result[i % per_pixel][pixels - 1 - i / per_pixel] =
             static_cast<float>(exact[i] * share / sum);
     }
@@ -64,9 +64,8 @@ Kernel make_kernel(const Imperfections& imperfections, double dot_px) {
     Kernel kernel;
     kernel.per_pixel =
         imperfections.sub_pixels > 0 ? imperfections.sub_pixels : sub_pixels_for(dot_px);
-    // Drawing on sub-pixels blurs like a triangle with a width of two sub-pixels. The variance of
-    // this triangle is 1/6 of a squared sub-pixel. The Gaussian adds the rest of the requested
-    // blur.
+    // Drawing on sub-pixels has the effect of a triangle filter that is two sub-pixels wide. The
+    // variance of this filter is 1/6 sub-pixel^2. The Gaussian adds the rest of the requested blur.
     const double raster_variance = 1.0 / (6.0 * kernel.per_pixel * kernel.per_pixel);
     const double sigma_px = std::sqrt(
         std::max(0.0, imperfections.blur_sigma_px * imperfections.blur_sigma_px - raster_variance));

@@ -94,8 +94,8 @@ class Texture {
     std::vector<double> nodes_;
 };
 
-/// The table, which is visible beyond the edge of the paper. Pixels on the edge mix paper and
-/// table.
+/// The table under the paper. It is visible beyond the edge of the paper. Pixels on the edge mix
+/// paper and table.
 class Table {
   public:
     Table(const Page& page, const View& view)

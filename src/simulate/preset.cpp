@@ -56,7 +56,8 @@ Imperfections draw_hard(Rng& rng) {
     return drawn;
 }
 
-/// The sensor of an optical mouse behind a simple lens: strong vignetting, and pixels that differ.
+/// The sensor of an optical mouse behind a simple lens. The lens has strong vignetting, and the
+/// pixels have different offsets.
 Imperfections draw_mouse(Rng& rng) {
     Imperfections drawn;
     drawn.paper_level = rng.uniform(140, 200);

@@ -82,9 +82,9 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
     if (depth_mm <= 0) return kInvisible;
     const Vec2 undistorted{focal_px_ * camera_mm(0) / depth_mm,
                            focal_px_ * camera_mm(1) / depth_mm};
-    // The scene moves while the rows are read, so the row at which a point is seen depends on the
-    // time, and the time depends on the row. Newton's method solves row = seen_at(row).y. Without
-    // motion and without distortion, the first step is exact.
+    // The scene moves while the rows are read. The row that shows a point depends on the time, and
+    // the time depends on the row. Newton's method solves row = seen_at(row).y. Without motion and
+    // without distortion, the first step is exact.
     const auto seen_at = [&](double row_px) {
         return distorted(moved(undistorted, row_px / height_px_), k_);
     };
@@ -97,7 +97,8 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
         constexpr double kStep_px = 1e-3;
         const double slope = (seen_at(row_px + kStep_px).y - seen.y) / kStep_px;
         row_px += (seen.y - row_px) / (1 - slope);
-        // Far beside the image, a turning point may cross several rows as they are read, or none.
+        // If the scene turns, a point far beside the image may cross several rows during the
+        // readout, or none.
         if (is_turning) row_px = std::clamp(row_px, -height_px_, height_px_);
         seen = seen_at(row_px);
     }

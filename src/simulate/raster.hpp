@@ -15,7 +15,7 @@ class Raster {
     struct Layout {
         int per_pixel = 1;
         int border_px = 0;
-        /// Sub-pixels per row, including the border; a multiple of `per_pixel`.
+        /// Number of sub-pixels per row, including the border. A multiple of `per_pixel`.
         int width = 0;
         int band_rows = 0;
     };
@@ -61,7 +61,8 @@ class Raster {
     double max_half_height_ = 0;     // maximum half height of all ellipses
     std::vector<Polygon> polygons_;
     int band_top_ = 0;
-    // A range of sub-pixels with ink. Most sub-pixels have no ink, and only the ranges are read.
+    // A range of sub-pixels with ink. Only these ranges are read, because most sub-pixels have no
+    // ink.
     struct Span {
         int from, to;
     };

@@ -1,5 +1,5 @@
-// Databases of the states of robots: SQLite files, and PostgreSQL servers. Both have the same
-// tables (schema.hpp). docs/fleet.md describes them.
+// Databases of robot states: SQLite files and PostgreSQL servers. Both kinds have the same tables
+// (schema.hpp), which docs/fleet.md describes.
 #pragma once
 
 #include <cstdint>
@@ -27,17 +27,19 @@ struct Place {
     auto operator<=>(const Place&) const = default;
 };
 
-/// A state of a robot. Texts must be valid UTF-8 without null characters. Few robots and places
-/// have many states, so states share their names.
+/// A state of a robot. Texts must be valid UTF-8 without null characters. Many states belong to the
+/// same robot and place, and share the objects that contain the names.
 struct State {
     std::shared_ptr<const std::string> robot;
     std::shared_ptr<const Place> place;
-    /// Microseconds since 1970 at which the robot sent the state. Determines the day.
+    /// Time at which the robot sent the state, in microseconds since 1970. Determines the day under
+    /// which the state is stored.
     std::int64_t time_us = 0;
     std::int64_t number = 0;       ///< sequence number
-    std::int32_t delay_us = 0;     ///< from sending to receiving
-    Motion motion = Motion::lost;  ///< if lost, the members after `reason` are not stored
-    Status reason = Status::ok;    ///< why the robot is lost; ok if it is not lost, or unknown
+    std::int32_t delay_us = 0;     ///< time from sending to receiving
+    Motion motion = Motion::lost;  ///< if `lost`, the members after `reason` are not stored
+    Status reason = Status::ok;    ///< reason why the robot is lost; `ok` if it is not lost or the
+                                   ///< reason is unknown
     std::int32_t theta_urad = 0;
     std::int64_t x_nm = 0;
     std::int64_t y_nm = 0;
@@ -51,7 +53,8 @@ struct State {
 struct Query {
     std::string robot;
     std::int64_t from_us = std::numeric_limits<std::int64_t>::min();
-    std::int64_t to_us = std::numeric_limits<std::int64_t>::max();  ///< excluded
+    std::int64_t to_us = std::numeric_limits<std::int64_t>::max();  ///< end of the time span,
+                                                                    ///< exclusive
 };
 
 /// Times of the first and the last state of a robot.
@@ -61,11 +64,11 @@ struct RobotSpan {
     std::int64_t last_us = 0;
 };
 
-/// Readers create neither a database nor tables.
+/// Access to a database. With `read`, neither a database nor tables are created.
 enum class Access { read, write };
 
-/// A connection to a database, which is opened when it is needed. After an Error, the next call
-/// opens it again. Not thread-safe.
+/// A connection to a database. The first call that needs the connection opens it. After an Error,
+/// the next call opens it again. Not thread-safe.
 class Database {
   public:
     Database() = default;
@@ -79,8 +82,9 @@ class Database {
     /// Opens the database, and creates the tables if they are missing. Throws Error.
     virtual void prepare() = 0;
 
-    /// Writes all states in one transaction. States that are already stored are skipped. Throws
-    /// Error. In this case, either all states or none are stored, and the call may be repeated.
+    /// Writes all states in one transaction. Skips states that are already stored. Throws Error if
+    /// the transaction fails. Either all states or none are then stored, and the call may be
+    /// repeated.
     virtual void write(std::span<const State> states) = 0;
 
     /// Removes the states of all days before the day of `time_us`. Throws Error.
@@ -93,11 +97,11 @@ class Database {
     virtual std::vector<RobotSpan> robots() = 0;
 };
 
-/// Returns true if the database is on a server, which may be away: postgresql:// or postgres://.
+/// Returns true if `where` is a URL of a database server (postgresql:// or postgres://).
 bool is_on_server(const std::string& where);
 
-/// Returns the database at a URL of PostgreSQL, or in a file of SQLite. Does not open it. Throws
-/// Error if this program was built without the library.
+/// Creates the object for a PostgreSQL URL or a SQLite file, without opening the database. Throws
+/// Error if this program was built without the required library.
 std::unique_ptr<Database> make_database(const std::string& where, Access access);
 
 std::unique_ptr<Database> make_sqlite(const std::string& path, Access access);

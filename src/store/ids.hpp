@@ -1,4 +1,4 @@
-// Numbers of robots and places in a database.
+// Caches the numbers of robots and places in a database.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,11 @@
 
 namespace dotpose::store {
 
-/// Remembers numbers that were looked up. The memory is bounded, because anyone who can publish can
-/// invent names.
+/// A cache of numbers. Its size is bounded, because any publisher can invent names.
 template <typename Key>
 class Ids {
   public:
-    /// Returns the number of a key. `look_up(key)` returns it if it is not remembered.
+    /// Returns the number of a key. Calls `look_up(key)` if the cache does not contain the key.
     template <typename LookUp>
     std::int64_t of(const Key& key, const LookUp& look_up) {
         const auto known = ids_.find(key);

@@ -13,7 +13,7 @@ namespace {
 
 using std::chrono::steady_clock;
 
-/// Maximum number of states of a transaction.
+/// Maximum number of states in a transaction.
 constexpr std::size_t kMaxBatch = 50'000;
 constexpr auto kBetweenAttempts = std::chrono::seconds(1);
 
@@ -78,14 +78,16 @@ void Queue::run() {
             std::unique_lock lock(mutex_);
             changed_.wait_for(lock, kBetweenAttempts, [this] { return ends_; });
             if (ends_ && steady_clock::now() >= ends_by_) return;
-            // After the end, `ends_` no longer limits the rate of attempts.
+            // Once `ends_` is true, the wait above returns immediately, and this wait limits the
+            // rate of attempts.
             if (ends_) changed_.wait_for(lock, kBetweenAttempts / 10);
         }
         remove_old_days();
     }
 }
 
-/// Waits for the next transaction. Returns false if the queue has ended and is empty.
+/// Takes the states of the next transaction from the queue, after waiting for them. Returns false
+/// if the queue has ended and is empty.
 bool Queue::take_batch() {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, options_.period,

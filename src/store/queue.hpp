@@ -1,5 +1,5 @@
-// Writes states to a database in the background, and keeps them in memory while the database is
-// away.
+// Writes states to a database in the background. Keeps the states in memory while the database is
+// not available.
 #pragma once
 
 #include <chrono>
@@ -19,15 +19,15 @@
 namespace dotpose::store {
 
 struct QueueOptions {
-    /// Maximum number of states that wait. If there are more, the oldest are dropped. A state takes
-    /// 96 bytes.
+    /// Maximum number of states in the queue. If the queue is full, the oldest states are dropped.
+    /// A state takes 96 bytes.
     std::size_t max_states = 1'000'000;
     /// Time between two transactions. PostgreSQL stores the states of a transaction together,
-    /// sorted by robot, so a longer time makes it faster to read the history of a robot.
+    /// sorted by robot. With a longer period, the history of a robot can be read faster.
     std::chrono::milliseconds period{5000};
-    int keep_days = 0;  ///< days before are removed; 0: all days are kept
-    /// Called with messages for the user, for example that the database is away. May be called by
-    /// another thread.
+    int keep_days = 0;  ///< number of days to keep, or 0 to keep all days
+    /// Called with messages for the user, for example that the database is not available. May be
+    /// called by another thread.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
@@ -40,8 +40,8 @@ struct QueueStatus {
 
 class Queue {
   public:
-    /// Creates the tables. Throws Error if the database is a file and cannot be opened. A server
-    /// that is away is waited for.
+    /// Creates the tables. Throws Error if the database is a file and cannot be opened. If the
+    /// database is on a server that is not available, the queue retries later.
     Queue(std::unique_ptr<Database> database, bool is_on_server, QueueOptions options);
     ~Queue();
     Queue(const Queue&) = delete;
@@ -52,8 +52,8 @@ class Queue {
 
     QueueStatus status() const;
 
-    /// Writes the waiting states, but gives up if the database is away for longer than `patience`.
-    /// No state may be added afterwards. Returns false if states were not stored.
+    /// Writes the states in the queue. Gives up if the database is not available for longer than
+    /// `patience`. No state may be added afterwards. Returns false if some states were not stored.
     bool finish(std::chrono::milliseconds patience);
 
   private:
@@ -66,7 +66,7 @@ class Queue {
     std::unique_ptr<Database> database_;
     QueueOptions options_;
     std::vector<State> batch_;    ///< states of the current transaction; used by `thread_` only
-    std::int64_t kept_from_ = 0;  ///< first day that was kept when old days were last removed
+    std::int64_t kept_from_ = 0;  ///< first day kept by the latest removal of old days
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<State> waiting_;

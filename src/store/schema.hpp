@@ -1,4 +1,4 @@
-// The tables of all databases, and the conversion between rows and states.
+// Tables that all databases have, and the conversion between rows and states.
 #pragma once
 
 #include <array>
@@ -13,19 +13,20 @@ namespace dotpose::store {
 
 inline constexpr std::int64_t kDay_us = 86'400'000'000;
 
-/// Version of the tables. The table `version` contains it.
+/// Version of the tables, stored in the table `version`.
 inline constexpr int kVersion = 1;
 
-/// Parts of the definitions that depend on the database.
+/// Parts of the table definitions that depend on the database.
 struct Dialect {
-    std::string_view generated_key;  ///< integer column that is a primary key, and is generated
-    std::string_view partition;      ///< end of the definition of the table `states`
-    std::string_view create_view;    ///< creates a view unless it exists, or replaces it
-    std::string_view time;           ///< expression of `time_us` as a time
+    std::string_view generated_key;  ///< definition of a primary key: an integer column whose
+                                     ///< values are generated
+    std::string_view partition;      ///< last part of the definition of the table `states`
+    std::string_view create_view;    ///< creates a view if it is missing, or replaces it
+    std::string_view time;           ///< SQL expression that converts `time_us` to a time
 };
 
-/// Returns the statements that create the tables and the view unless they exist, separated by
-/// semicolons.
+/// Returns the statements that create the missing tables and the view. Semicolons separate the
+/// statements.
 std::string schema_of(const Dialect& dialect);
 
 /// Columns of the table `states` in the order of its definition.
@@ -33,11 +34,12 @@ inline constexpr std::string_view kColumns =
     "time_us, number, x_nm, y_nm, robot, place, delay_us, theta_urad, deviation_nm, vx_um_s, "
     "vy_um_s, omega_urad_s, state, reason";
 inline constexpr int kColumnCount = 14;
-inline constexpr int kIntegerCount = 12;  ///< the first columns; all others are texts
-/// Columns whose width is 64 bits: the first ones. All other integers have 32 bits.
+inline constexpr int kIntegerCount = 12;  ///< number of integer columns, which precede the text
+                                          ///< columns
+/// Number of integer columns with 64 bits, which precede the columns with 32 bits.
 inline constexpr int kWideCount = 4;
 
-/// Values of the integer columns; none for null.
+/// Values of the integer columns. nullopt represents null.
 using Integers = std::array<std::optional<std::int64_t>, kIntegerCount>;
 
 Integers integers_of(const State& state, std::int64_t robot_id, std::int64_t place_id);
@@ -48,7 +50,8 @@ std::string_view reason_text(Status reason);
 /// Returns the state of a row. Sets neither `robot` nor `place`.
 State state_of(const Integers& integers, std::string_view state, std::string_view reason);
 
-/// Name of the partition of a day, such as "states_20261128". `day` counts the days since 1970.
+/// Returns the name of the partition of a day, such as "states_20261128". `day` is the number of
+/// days since 1970.
 std::string partition_name(std::int64_t day);
 
 }  // namespace dotpose::store

@@ -12,8 +12,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::system {
 
-/// A lock that one program at a time holds. The lock ends with the program that holds it, also if
-/// that program is killed.
+/// A lock that at most one program holds at a time. The system releases the lock when the program
+/// ends or is killed.
 class FileLock {
   public:
     /// `path` is the path of the lock file. The file exists only while a program holds the lock or

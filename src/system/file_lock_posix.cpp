@@ -18,8 +18,8 @@ std::error_code FileLock::try_lock() {
             close(descriptor);
             return {error_number, std::generic_category()};
         }
-        // The previous owner of the lock removes the file at the end. A lock on a removed file has
-        // no effect, so the lock must be taken again on a new file.
+        // The previous owner removes the lock file when it releases the lock. A lock on a removed
+        // file has no effect. In this case, the lock must be taken again on a new file.
         const auto named = numbers_of(path_);
         if (named && named == numbers_of(descriptor)) {
             handle_ = descriptor;

@@ -1,4 +1,4 @@
-/// Operations on files that the standard library lacks. If they fail, they set errno, unless the
+/// File operations that the standard library lacks. On failure, they set errno, unless their
 /// comment states otherwise.
 #pragma once
 
@@ -37,7 +37,7 @@ bool write_at(int descriptor, const void* data, std::size_t size_bytes, std::uin
 /// Returns false if closing the file fails.
 bool close_descriptor(int descriptor);
 
-/// Numbers that identify a file on this computer: equal for all names of the file.
+/// Numbers that identify a file on this computer. They are equal for all names of the file.
 struct FileNumbers {
     std::uint64_t device = 0;
     std::uint64_t file = 0;

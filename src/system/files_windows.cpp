@@ -88,7 +88,8 @@ std::optional<FileNumbers> numbers_of(int descriptor) {
 }
 
 fs::path create_temporary_folder() {
-    // No access rights are set, because the folder for temporary files belongs to the user alone.
+    // The folder does not need special access rights, because the system's temporary folder is
+    // private to the user.
     constexpr int kAttempts = 100;
     std::random_device random;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {

@@ -15,8 +15,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::system {
 
-/// Returns the arguments of `main` in UTF-8. Makes the standard streams binary, and prepares a
-/// console of Windows for UTF-8 and colours.
+/// Returns the arguments of `main` in UTF-8. Switches the standard streams to binary mode, and
+/// prepares a Windows console for UTF-8 and colours.
 std::vector<std::string> start_program(int argc, char** argv);
 
 /// Returns the folder of this program, or an empty path if it is not known.
@@ -25,8 +25,9 @@ std::filesystem::path program_folder();
 /// Returns true if the stream is a terminal.
 bool is_terminal(std::FILE* stream);
 
-/// Waits at most 100 ms for bytes of a file, a pipe or a device. Returns the number of bytes read,
-/// 0 at the end, or none if there were no bytes yet. Throws std::system_error if reading fails.
+/// Waits up to 100 ms for bytes from a file, a pipe or a device. Returns the number of bytes read,
+/// 0 at the end of the file, or nullopt if no bytes arrived. Throws std::system_error if reading
+/// fails.
 std::optional<std::size_t> read_available(int descriptor, void* data, std::size_t max_bytes);
 
 /// Calls the handler for the signals that ask the program to end: Ctrl-C, SIGTERM and a closed

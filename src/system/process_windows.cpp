@@ -7,7 +7,7 @@
 #include <fcntl.h>
 #include <io.h>
 #include <windows.h>
-// Needs the types of windows.h.
+// shellapi.h needs the types of windows.h, which must therefore be included first.
 #include <shellapi.h>
 
 #include "system/process.hpp"
@@ -25,7 +25,8 @@ void make_streams_binary() {
     for (std::FILE* const stream : {stdin, stdout, stderr}) {
         _setmode(_fileno(stream), _O_BINARY);
     }
-    // Windows has no line buffering: a stream to a pipe would keep its lines until the end.
+    // Windows has no line buffering. With full buffering, lines written to a pipe would be delayed
+    // until the end.
     std::setvbuf(stderr, nullptr, _IONBF, 0);
 }
 
@@ -48,8 +49,8 @@ void on_end_signal(int signal_number) {
     end_handler(signal_number);
 }
 
-/// Returns true if `read` would not wait. Only pipes can be examined; everything else is read
-/// without a limit of time.
+/// Returns true if `read` would not block. Only pipes can be examined. For other files, `read` may
+/// block.
 bool has_bytes_or_end(int descriptor) {
     const auto handle = reinterpret_cast<HANDLE>(_get_osfhandle(descriptor));
     if (GetFileType(handle) != FILE_TYPE_PIPE) return true;

@@ -9,19 +9,21 @@ namespace {
 /// Time constant of the acceleration decay.
 constexpr float kHold_s = 0.5F;
 
-/// Factor by which a sighting increases or decreases the agility. Both directions use the same
-/// factor. In equilibrium, consecutive innovations therefore have the same sign as often as
-/// opposite signs, as in a matched filter.
+/// Factor by which a sighting increases or decreases the agility, the factor of the process noise
+/// (see filter.hpp). Because both directions use the same factor, consecutive innovations have the
+/// same sign as often as opposite signs in equilibrium, as in a filter with the correct noise
+/// variance.
 constexpr float kAgility_step = 1.5F;
 constexpr float kMinAgility = 1e-6F;
 /// Innovations above this number of standard deviations are not considered noise.
 constexpr float kSurprise = 4;
-/// Number of sightings over which the scatter is averaged.
+/// Number of sightings over which the scatter is averaged. The scatter is the ratio of the squared
+/// innovations to the innovations' covariance.
 constexpr float kScatter_sightings = 32;
 constexpr float kMinScatter = 0.01F;
 constexpr float kMaxScatter = 9;
 
-/// Upper bound on the rounding error when two variances are subtracted, relative to the larger
+/// Upper bound on the rounding error of the difference of two variances, relative to the larger
 /// variance.
 constexpr float kRounding = 4e-6F;
 
@@ -43,7 +45,7 @@ std::int32_t turned(std::int32_t theta_bam, float angle_rad) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(std::int64_t{theta_bam} + turn));
 }
 
-/// Adds a step to the state.
+/// Adds a correction to the state.
 void move(MotionEstimate& motion, const Vector9& step) {
     constexpr float kNm_per_mm = 1e6F;
     TrackedPose& pose = motion.pose;
@@ -62,7 +64,7 @@ float kept(float dt_s) {
     return kHold_s / (kHold_s + dt_s);
 }
 
-/// Advances a state by `dt_s`, or one row or column of its covariance. `at(i)` is a reference to
+/// Advances a state, or one row or column of its covariance, by `dt_s`. `at(i)` is a reference to
 /// element i. Assumes constant acceleration over the interval.
 template <typename State>
 void advance(const State& at, float dt_s) {
@@ -92,8 +94,9 @@ void add_noise(Covariance9& covariance, std::size_t axis, float variance, const 
     }
 }
 
-/// Sets the pose covariance. If sightings scatter less than their covariances predict, the
-/// sightings have a common error. Averaging does not reduce this error.
+/// Sets the pose covariance. If sightings scatter less than their covariances predict, a part of
+/// their errors is common to all of them. Averaging does not reduce the common part, so the
+/// covariance includes it.
 void set_pose_covariance(MotionEstimate& motion) {
     const float common = std::max(1 - motion.scatter, 0.0F);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -138,8 +141,9 @@ Right product(const Left& left, const Right& right) {
     return result;
 }
 
-/// Updates the covariance P for a sighting: replaces P by (I - K H) P. `weighted` is S^-1 H P, the
-/// transposed gain.
+/// Updates the covariance P for a sighting: replaces P by (I - K H) P. K is the gain, and H selects
+/// the pose from the state. `weighted` is S^-1 H P, the transpose of K, where S is the covariance
+/// of the innovation. `noise` is R, the covariance of the sighting.
 void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, const Matrix3& noise) {
     const Covariance9 before = p;
     for (std::size_t i = 3; i < 9; ++i) {
@@ -150,9 +154,10 @@ void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, cons
         }
         p[i][i] += kRounding * before[i][i];
     }
-    // The upper three rows equal R S^-1 H P, a product without cancellation. After a long gap, the
-    // subtraction above would leave no correct digit in single precision. All other elements need
-    // the subtraction, so their diagonal includes a bound on the rounding error.
+    // The upper three rows equal R S^-1 H P. This product has no cancellation, while the
+    // subtraction above would lose all digits in single precision after a long gap. All other
+    // elements need the subtraction. Their diagonal therefore includes a bound on the rounding
+    // error.
     const auto upper = product(noise, weighted);
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 9; ++j)
@@ -242,7 +247,7 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
                        std::int64_t time_us, bool is_y_up, const TrackOptions& options) {
     const float dt_s = static_cast<float>(time_us - motion.pose.time_us) * 1e-6F;
     const PlaneMotion seen = in_plane(measured, motion.pose.theta_bam, is_y_up);
-    // The agility was fitted to sightings, so this agility does not apply between sightings.
+    // The agility is fitted to sightings and does not apply between them.
     MotionEstimate later = motion;
     later.agility = {1, 1, 1};
     later = predicted(later, time_us, options);

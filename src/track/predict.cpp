@@ -9,9 +9,9 @@ namespace {
 
 using namespace dotpose::track;
 
-/// Minimum standard deviations of a prediction. The dot search covers three standard deviations, so
-/// at least 3/32 spacing and 0.53 degrees. After the robot has been at rest for long, the filter
-/// covariance alone is too small.
+/// Minimum standard deviations of a prediction. The dot search covers three standard deviations,
+/// which are at least 3/32 spacing and 0.53 degrees. The minimum is needed because the filter
+/// covariance becomes too small when the robot rests for a long time.
 constexpr std::int32_t kMinSigma_q16 = 65536 / 32;
 constexpr std::int32_t kMinSigma_theta_bam = 1 << 21;
 constexpr float kDeviations = 3;
@@ -42,7 +42,7 @@ std::int32_t bounded(float sigma, float unit, std::int32_t min, std::int32_t max
 
 /// Returns the standard deviation of the predicted pose along an axis. Combines the filter
 /// covariance with the covariance of the fix. `unforeseen` is a motion that the filter cannot
-/// predict. A third of this motion is added, so that three standard deviations cover the motion.
+/// predict. Three standard deviations must cover this motion, so a third of it is added.
 float sigma(const Covariance6& predicted, const Sighting& seen, std::size_t axis,
             float unforeseen) {
     return std::sqrt(predicted[axis][axis] + seen.covariance[axis][axis]) +

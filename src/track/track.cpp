@@ -10,8 +10,8 @@ namespace {
 
 using namespace dotpose::track;
 
-/// log2 of the number of hypotheses along one axis, rounded down. The number is kPositionsPerAxis *
-/// 63 * 4, for positions, sections and turns.
+/// log2 of the number of hypotheses along one axis, rounded down. There are kPositionsPerAxis
+/// positions, 63 sections and 4 turns.
 constexpr int kHypotheses_log2 = 36;
 static_assert((std::uint64_t{kPositionsPerAxis} * kSections * 4) >> kHypotheses_log2 == 1,
               "the number of hypotheses is rounded down to a power of two");
@@ -203,7 +203,7 @@ bool Tracker::is_confirmed(const Sighting& sighting) {
 void Tracker::restart(const MotionEstimate& motion) {
     track_.events.fix = track_.is_lost;
     track_.is_lost = false;
-    // A robot that was lifted and put down elsewhere has moved, even if it is at rest now.
+    // A robot that was lifted and put down elsewhere has moved, even if it does not move now.
     track_.events.moving = track_.is_stationary;
     track_.is_stationary = false;
     was_seen_ = true;

@@ -8,8 +8,8 @@ namespace dotpose::video {
 
 /// A frame size of a camera, with its frame rates and pixel formats.
 struct CameraSize {
-    std::string size;                  ///< for example "640x480", or a range of sizes
-    std::vector<double> rates;         ///< frames per second in descending order; empty if unknown
+    std::string size;           ///< for example "640x480", or a range of sizes
+    std::vector<double> rates;  ///< frames per second in descending order, or empty if unknown
     std::vector<std::string> formats;  ///< for example "YUYV" and "MJPG"
 };
 
@@ -17,7 +17,8 @@ struct FoundCamera {
     std::string device;  ///< for example "/dev/video0"
     std::string name;    ///< name reported by the driver
     std::vector<CameraSize> sizes;
-    std::string problem;  ///< reason why the device could not be queried; empty if it was queried
+    /// Reason why the device could not be queried, or empty if it was queried.
+    std::string problem;
 };
 
 /// Returns the cameras among /dev/video0 to /dev/video63, or an empty list if there are none.

@@ -40,8 +40,8 @@ struct CalibrationScene {
 
     CalibrationCoverage coverage;
     std::vector<Gauge> gauges;
-    std::optional<double> theta_rad;  ///< direction of the frame; empty if it was not located
-    bool is_taken = false;            ///< true if this frame was taken
+    std::optional<double> theta_rad;  ///< direction of the frame, or empty if it was not located
+    bool is_taken = false;            ///< true if this frame was added to the calibration
 };
 
 /// Contents of the picture of one frame.
@@ -59,7 +59,7 @@ struct Scene {
 
 struct ScreenOptions {
     bool has_window = false;
-    std::string record;  ///< path of the video file; empty for none
+    std::string record;  ///< path of the video file, or empty for none
     double fps = 30;     ///< frame rate of the video file
     /// Called with a message if the recording does not have the preferred format for its name.
     std::function<void(const std::string&)> tell = [](const std::string&) {};

@@ -1,4 +1,4 @@
-// Tests `locate` with frames that are designed to deceive it: every fix must be the true pose.
+// Tests `locate` with frames that are designed to deceive it. Every fix must be the true pose.
 // `dotpose_tables adversarial` tests any number of such frames.
 #include <memory>
 #include <string>

@@ -20,7 +20,7 @@ using testing::AnyOf;
 using testing::HasSubstr;
 
 /// Positions modulo 241, the period of the sequence a4. In the codes anoto and libdots, a4 differs
-/// at the positions 222 to 238 (docs/position-code.md): starting at 222, the digits of one code are
+/// at the positions 222 to 238 (docs/position-code.md). Starting at 222, the digits of one code are
 /// shifted by one position in the other code.
 constexpr std::uint32_t kPeriod = 241;
 constexpr std::uint32_t kShifted = 231;
@@ -122,7 +122,8 @@ TEST_F(AnyCode, given_decides_and_another_that_explains_the_frame_is_a_warning) 
     EXPECT_EQ(wrong["other_code"], "libdots");
     EXPECT_TRUE(is_at(wrong, "other_x_mm", "other_y_mm", truth)) << wrong;
 
-    // If the frame has no position in the given code, the warning names a code in which it has one.
+    // If the frame has no position in the given code, the warning names a code in which the frame
+    // has a position.
     run("--code microdots a.pgm");
     const json none = records().at(0);
     EXPECT_NE(none["status"], "ok");

@@ -39,7 +39,7 @@ TEST_F(CalibrateCommand, WritesACameraFileThatLocateReads) {
 }
 
 // Locates frames with lens distortion, but without a camera file. The lens moves the image corner
-// by up to 5 % of its distance from the centre, inwards and outwards.
+// by up to 5 % of its distance from the centre, both inwards and outwards.
 TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
     const auto corner_px = [](int width, int height) {
         return std::hypot((width - 1) / 2.0, (height - 1) / 2.0);
@@ -72,7 +72,8 @@ TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
 
 TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
     simulate("turn", 1);
-    // The camera is at the robot's centre, so its frames show one place in four directions.
+    // The camera is at the robot's centre. If the robot turns, the frames show one place in four
+    // directions.
     std::string turn;
     for (const int angle : {0, 90, 180, 270}) {
         const std::string folder = "turn" + std::to_string(angle);

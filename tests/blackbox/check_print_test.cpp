@@ -149,8 +149,8 @@ TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json --dpi 600"), 0) << errors_;
 }
 
-// Without its EXIF data, a photo taken straight from above would be mistaken for a scan with the
-// resolution that the phone wrote into the file.
+// Without its EXIF data, a photo taken straight from above would be mistaken for a scan. The phone
+// writes a resolution into the file, which the check would then use.
 TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
     ASSERT_EQ(run("print --paper 60x50 -o a.svg --sheets sheets.json --name a"), 0);
     const std::string before = file("sheets.json");
@@ -175,8 +175,8 @@ TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
     EXPECT_EQ(run("check-print photo.jpg --format json"), 0);
     EXPECT_EQ(json::parse(output_)["exif_of_camera"], true);
 
-    // The EXIF data of a scanner contain no exposure, so the resolution of the file, 300 dpi, is
-    // used. The option --dpi has the same effect.
+    // The EXIF data of a scanner contain no exposure. The check therefore uses the resolution of
+    // the file, 300 dpi. The option --dpi has the same effect.
     write("scan.jpg", {test::date_taken, test::file_source});
     EXPECT_EQ(run("check-print scan.jpg"), 3);
     EXPECT_THAT(output_, HasSubstr("FAULT: the driver scaled the page to 110.0 %"));

@@ -26,7 +26,7 @@ class Examples : public ToolCommand {
 TEST(Readme, HasTheProgramOfTheExample) {
     const std::string readme = read_file(test::source_dir() + "/README.md");
     const std::string example = read_file(test::source_dir() + "/examples/locate_one.cpp");
-    // The first line, a comment, is omitted in README.md.
+    // README.md omits the first line of the example, a comment.
     EXPECT_THAT(readme, HasSubstr("```cpp\n" + example.substr(example.find('\n') + 1) + "```\n"));
 }
 

@@ -1,5 +1,5 @@
-// Tests `dotpose calibrate --live` without a display: the tool takes frames that add information,
-// reports the missing requirements, and ends automatically.
+// Tests `dotpose calibrate --live` without a display. The tool must take frames that add
+// information, report the missing requirements, and end automatically.
 #include <fstream>
 #include <iterator>
 #include <regex>
@@ -198,7 +198,7 @@ TEST_F(LiveCalibration, RefusesWhatItCannotDo) {
         EXPECT_THAT(errors_, HasSubstr("cannot be given together")) << other;
     }
     EXPECT_EQ(run("calibrate --no-window frames"), 2);
-    // The output path is checked first, so that the user does not move the camera in vain.
+    // The tool checks the output path before the user moves the camera.
     EXPECT_EQ(run("calibrate --live --no-window frames -o nowhere/camera.yaml"), 1);
     EXPECT_THAT(errors_, HasSubstr("nowhere/camera.yaml"));
     EXPECT_THAT(errors_, Not(HasSubstr("taken")));

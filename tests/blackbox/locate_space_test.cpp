@@ -47,7 +47,7 @@ class LocateSpace : public LocateCommand {
 TEST_F(LocateSpace, WritesPositionAndAngles) {
     ASSERT_EQ(run("--camera camera.yaml --pose space frame.pgm"), 0) << errors_;
     const json line = json::parse(output_);
-    // The optical axis meets the paper at the pose, kDistance_mm from the camera.
+    // The optical axis intersects the paper at the pose, kDistance_mm from the camera.
     const double aside_mm = kDistance_mm * std::sin(kTilt_deg * kDegree_rad);
     EXPECT_NEAR(line["camera_x_mm"], line["x_mm"].get<double>() + aside_mm, 0.05);
     EXPECT_NEAR(line["camera_y_mm"], line["y_mm"].get<double>(), 0.05);
@@ -55,7 +55,7 @@ TEST_F(LocateSpace, WritesPositionAndAngles) {
     EXPECT_NEAR(line["camera_tilt_deg"], kTilt_deg, 0.1);
     EXPECT_NEAR(line["camera_azimuth_deg"], 0, 0.3);
     EXPECT_NEAR(line["camera_turn_deg"], 0, 0.3);
-    // A rotation about the y axis of the paper, by -20 degrees.
+    // The camera is rotated about the y axis of the paper by -20 degrees.
     const json& q = line["camera_quaternion_xyzw"];
     EXPECT_NEAR(q[1], -std::sin(kTilt_deg / 2 * kDegree_rad), 0.002);
     EXPECT_NEAR(q[3], std::cos(kTilt_deg / 2 * kDegree_rad), 0.001);

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The expected values are from an independent decoder, with a homography fitted to 184 dots.
+// Expected values from an independent decoder, which fits a homography to 184 dots.
 constexpr double kX_grid = 129.157;
 constexpr double kY_grid = 3224.485;
 constexpr double kTheta_deg = -1.45;

@@ -1,4 +1,4 @@
-// Tests `dotpose replay`: compares the figures of a log with values computed by hand.
+// Tests `dotpose replay`. Compares the figures of a log with values computed by hand.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -17,9 +17,12 @@ constexpr const char* kHeader =
     "frame,t_s,file,status,dots_seen,p_wrong,state,events,verdict,plane,track_x_mm,track_y_mm,"
     "vx_mm_s,vy_mm_s\n";
 
-/// Ten frames per second: a drive of 30 mm along x at 100 mm/s, three lost frames, a new start 1 m
-/// away, a drive of 40 mm to the side at 200 mm/s, two frames at rest with some noise, and a frame
-/// that was accepted only because of the prior.
+/// Ten frames per second of a run:
+/// - a drive of 30 mm along x at 100 mm/s,
+/// - three lost frames,
+/// - a new start 1 m away, and a drive of 40 mm to the side at 200 mm/s,
+/// - two frames at rest with some noise,
+/// - a frame that was accepted only because of the prior.
 constexpr const char* kRows =
     "0,0.0,,ok,150,1e-20,moving,fix,accepted,world,0,0,0,0\n"
     "1,0.1,,ok,150,1e-20,moving,,accepted,world,10,0,100,0\n"

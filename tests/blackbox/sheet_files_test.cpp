@@ -1,6 +1,6 @@
-// Tests poses on the page and in the world end to end: prints pages with `dotpose print` and a
-// sheet file, renders frames of the pages, and locates the frames with `dotpose locate` and the
-// sheet file.
+// Tests poses on the page and in the world end to end. Prints pages with `dotpose print` and a
+// sheet file, and renders frames of the pages. Then locates the frames with `dotpose locate` and
+// the sheet file.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -176,14 +176,14 @@ TEST_F(SheetFiles, a_frame_under_the_ruler_s_50_mm_lies_at_50_mm) {
         << output_;
     const GreyImage page = read_image((directory_ / "page.pgm").string());
     const auto px = [](double pt) { return static_cast<int>(pt * 1200 / 72); };
-    // The tick is 1.8 mm long, and it is between the number and the dots.
+    // The tick is 1.8 mm long. It is between the number and the dots.
     const int v = px(bottom_pt);
     const int u =
         darkest_column(page, px(left_pt), px(right_pt), v, v + static_cast<int>(1.8 * kPxPerMm));
     const json record =
         locate_with_sheets(cut_out(page, u, static_cast<int>(30 * kPxPerMm), 280, 260));
     ASSERT_EQ(record["status"], "ok") << record;
-    // The tick is 0.1 mm wide, and any of its columns may be the darkest.
+    // The tick is 0.1 mm wide. Any of its columns may be the darkest.
     EXPECT_NEAR(record["x_sheet_mm"], 50, 0.05 + kTolerance_mm);
     EXPECT_NEAR(record["y_sheet_mm"], 30, kTolerance_mm + 0.03);
 }
@@ -235,8 +235,7 @@ TEST_F(SheetFiles, csv_has_the_same_columns_for_every_frame) {
     const std::vector<json> expected = records();
     ASSERT_EQ(expected.size(), 4U);
     EXPECT_EQ(expected[2]["status"], "ok");
-    // All sheets have the same spacing, so this spacing also applies to the position outside of
-    // them.
+    // All sheets have the same spacing. This spacing therefore also applies outside of the sheets.
     EXPECT_TRUE(expected[2].contains("x_mm"));
     run("--format csv " + arguments);
     EXPECT_EQ(lines_of(output_).front(),

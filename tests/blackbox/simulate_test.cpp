@@ -147,8 +147,8 @@ TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
             continue;
         }
         sheets.insert(record["sheet"]);
-        // The size of the figure eight is 120 x 40 mm, minus the view of the camera and 5 mm on
-        // each side.
+        // The figure eight fits into 120 x 40 mm, minus the view of the camera and 5 mm on each
+        // side.
         EXPECT_GT(record["x_m"], 0.0095);
         EXPECT_LT(record["x_m"], 0.1105);
         if (last) {

@@ -38,7 +38,7 @@ double sigmas_off(const Fix& fix, const Shot& shot) {
     return sigmas_off(fix, truth_of(shot));
 }
 
-// With the current code, 99.8 % of the errors are within 4 sigmas. Before `locate` detected small
+// In the current version, 99.8 % of the errors are within 4 sigmas. Before `locate` detected small
 // steps in the middle of the view, the fraction was 97.6 %.
 TEST(SeamedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     constexpr int kFrames = 400;
@@ -79,7 +79,7 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         divided += outcome.fix.surface == Surface::divided ? 1 : 0;
     }
     EXPECT_GE(fixes, kFrames * 9 / 10);
-    // The number of frames is small: if the true fraction is 1 %, a fraction of more than 3 %
+    // The number of frames is small. If the true fraction is 1 %, a fraction of more than 3 %
     // occurs by chance once in 70 runs.
     EXPECT_LE(claim_too_much, fixes * 3 / 100);
     // Many slips affect only a corner, or displace dots by less than their scatter.
@@ -110,9 +110,9 @@ struct Claims {
     }
 };
 
-// Wrinkles with wavelengths of 8 mm and more cannot be observed in a view of 9 x 6 mm. Before
-// `locate` counted blocks with mean residuals above 1.5 standard deviations, only 62 % (slight
-// wrinkles) and 72 % (stronger wrinkles) of the errors were within 4 sigmas.
+// Wrinkles with wavelengths of 8 mm and more cannot be observed in a view of 9 x 6 mm. An earlier
+// version did not count blocks with mean residuals above 1.5 standard deviations. In that version,
+// only 62 % (slight wrinkles) and 72 % (stronger wrinkles) of the errors were within 4 sigmas.
 TEST(WrinkledSheet, MostErrorsAreAsLargeAsTheyAreSaidToBe) {
     const Claims slightly(0.02);
     EXPECT_EQ(slightly.fixes, 150);

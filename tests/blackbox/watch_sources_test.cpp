@@ -82,7 +82,7 @@ TEST_F(WatchSources, LooksAtAPartOfTheFrame) {
 
 TEST_F(WatchSources, StopsCleanlyOnAnInterrupt) {
     put_raw(60);
-    // The pipe stays open, so the run ends only by the signal.
+    // The pipe stays open, and only the signal ends the run.
     shell(
         "mkfifo pipe && bash -c '(cat drive.raw; exec sleep 30) > pipe & writer=$!; "
         "\"" +

@@ -84,8 +84,8 @@ void expect_events(const std::vector<json>& lines, const Drive& drive) {
     EXPECT_NEAR(events[2].first, first_away(drive, frame_at(plan.start), 1, 0), 1);
     // The robot is lost 70 ms, or 14 frames, after the last frame before it was lifted.
     EXPECT_EQ(events[3].first, frame_at(plan.lift) - 1 + 14);
-    // The event is reported in the third frame in which the robot is farther away than it can have
-    // driven at 400 mm/s.
+    // The tracker reports the event in the third frame in which the robot is too far away to have
+    // driven there at 400 mm/s.
     EXPECT_EQ(events[4].first, frame_at(plan.put_down) + 2);
     EXPECT_EQ(events[5].first, frame_at(plan.second_lift) - 1 + 14);
     EXPECT_EQ(events[6].first, frame_at(plan.second_put_down));
@@ -121,7 +121,7 @@ void expect_accurate_at_seam(const std::vector<json>& lines, const Drive& drive)
     EXPECT_GT(frames, 10);
 }
 
-// This is a single test, because rendering and locating the drive takes seconds.
+// A single test checks all properties, because rendering and locating the drive takes seconds.
 TEST_F(Watch, FollowsADrive) {
     put_video(drive_.frames(), "drive.avi");
     ASSERT_EQ(run(std::string("watch drive.avi ") + kTrack), 0);
@@ -210,7 +210,7 @@ void cover_all_but(GreyImage& image, int side) {
 
 TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
     // In whole frames, p_wrong is below 1e-13. In frames with about 45 dots, p_wrong is larger,
-    // although the sheet is known.
+    // even on a known sheet.
     constexpr int kSide_px = 76;
     const DriveCamera camera(188, 120);
     std::ofstream raw(directory_ / "weak.raw", std::ios::binary);

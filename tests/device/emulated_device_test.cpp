@@ -38,8 +38,8 @@ constexpr std::int64_t kFrameTime_us = 20'000;
 constexpr double kFps = 50;
 constexpr double kSpacing_mm = 0.508;
 
-/// A robot that rests, drives half a circle at up to 170 mm/s, and then rests long enough for
-/// frames to be taken once per second.
+/// A robot that rests, drives half a circle at up to 170 mm/s, and rests again. The final rest is
+/// long enough for the pacer to take one frame per second.
 constexpr double kStart_s = 0.2;
 constexpr double kStop_s = 2.2;
 constexpr double kEnd_s = 10;
@@ -82,7 +82,7 @@ std::vector<GreyImage> drive() {
     return frames;
 }
 
-// Board of the desktop program. Its camera delivers the frames, and its serial line keeps all
+// Board of the desktop program. Its camera delivers the frames, and its serial line stores all
 // bytes.
 struct EndOfFrames {};
 std::vector<GreyImage> camera;

@@ -112,7 +112,7 @@ int give_frame(v4l2_buffer& buffer) {
     return 0;
 }
 
-/// Returns the frame size with an index, or 0 x 0 after the last one.
+/// Returns the frame size with an index, or 0 x 0 after the last size.
 v4l2_frmsize_discrete size_at(unsigned index) {
     if (index == 0) {
         return {static_cast<unsigned>(camera.width_px), static_cast<unsigned>(camera.height_px)};

@@ -1,8 +1,8 @@
-/// A connection that publishes MQTT messages with QoS 1 in batches, either to a broker or, acting
-/// as a broker, to a subscriber.
+/// A connection that publishes MQTT messages with QoS 1 in batches. It connects to a broker, or
+/// acts as a broker for a subscriber.
 ///
 /// It writes packets of MQTT 3.1.1 without a library. A library makes several system calls per
-/// message, and the load would take more time than the program under test.
+/// message, and would use more time than the program under test.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ class Connection {
     Connection(Connection&& other) noexcept;
     Connection& operator=(Connection&&) = delete;
 
-    /// Returns true if another message may be published, because the number of unanswered messages
-    /// is below its limit.
+    /// Returns true if another message may be published. The number of unanswered messages is then
+    /// below its limit.
     bool has_room() const { return published_ - answered_ < kMaxUnanswered; }
     void publish(const std::string& topic, const std::string& payload);
 

@@ -8,7 +8,7 @@
 namespace dotpose::test {
 
 /// Robots that drive in circles, named robot0 and so on. The message texts are prepared in advance,
-/// so that sending a state takes little time.
+/// because sending a state must take little time.
 class Robots {
   public:
     Robots(int first, int count);

@@ -1,4 +1,4 @@
-// Requests and commands of clients of the page. A request that does not contain the token is never
+// Fuzzes requests and commands of clients of the page. A request without the token must never be
 // allowed.
 #include <algorithm>
 #include <cstdint>

@@ -169,8 +169,9 @@ TEST_F(FleetMetricsFile, ContainsTheCameraOfAWatchedRobot) {
     const Broker broker(directory_);
     const DriveCamera camera(188, 120);
     const Drive drive;
-    // 10 frames per second. The robot reports after 1, 2 and 3 s. In the fleet, the first report is
-    // the beginning. Between the first and the last, there are 20 frames, of which 5 are blank.
+    // 10 frames per second. The robot reports after 1, 2 and 3 s. The fleet starts to count at the
+    // first report. Between the first and the last report, there are 20 frames, of which 5 are
+    // blank.
     for (int i = 0; i < 35; ++i) {
         GreyImage image = camera.frame(drive, 240 + i);
         if (i >= 14 && i < 19) std::ranges::fill(image.pixels, std::uint8_t{200});

@@ -25,7 +25,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A state in the log of a fleet: the robot and the number of the state.
+/// A state in the log of a fleet: the name of the robot and the number of the state.
 using Logged = std::pair<std::string, int>;
 
 class FleetScale : public Mqtt {
@@ -107,8 +107,8 @@ TEST_F(FleetScale, AGroupSharesTheStates) {
     publish(broker, 51, 40);
     wait_for_states(folders, 51 * 40);
     for (WatchedFleet* fleet : {&a, &b}) {
-        // A member has no information about the states that the other member received, so it
-        // reports no missing states.
+        // A member does not receive the states of the other member, and must not report them as
+        // missing.
         EXPECT_THAT(fleet->table(),
                     testing::ContainsRegex("\n51 robots, [0-9]+ states, 0 bad, 0 repe"));
     }

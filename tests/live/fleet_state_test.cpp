@@ -50,7 +50,8 @@ TEST(FleetConditions, FollowTheStatesAndTheSilence) {
 TEST(FleetConditions, FollowTheConnection) {
     Receiver r;
     r.receive({.robot = "anna"});
-    r.connect("anna", "CONNECTIONBROKEN", 3600 * kSecond);  // the will has the time of the start
+    // The last will contains the time at which the robot started, an hour ago.
+    r.connect("anna", "CONNECTIONBROKEN", 3600 * kSecond);
     EXPECT_EQ(r.condition("anna"), Condition::silent);
     EXPECT_EQ(r.robot("anna").reason, "connection broke");
     r.connect("anna", "ONLINE");
@@ -59,7 +60,7 @@ TEST(FleetConditions, FollowTheConnection) {
     r.connect("anna", "OFFLINE");
     EXPECT_EQ(r.condition("anna"), Condition::gone);
     EXPECT_EQ(r.robot("anna").reason, "disconnected");
-    // Retained messages of robots that sent no state since.
+    // The broker delivers retained messages of robots that have not sent a state since.
     r.connect("bert", "ONLINE");
     EXPECT_EQ(r.condition("bert"), Condition::lost);
     EXPECT_EQ(r.robot("bert").reason, "no state yet");
@@ -95,7 +96,7 @@ TEST(FleetConditions, AClockThatIsSetBackOrDriftsDoesNotSilenceARobot) {
     r.pass(0.1);
     r.receive({.robot = "anna"}, 0, -3600 * kSecond);
     EXPECT_EQ(r.condition("anna"), Condition::moving);
-    // A clock that loses 1 % of the time: 18 s in half an hour.
+    // A clock that is slow by 1 %, which is 18 s in half an hour.
     Receiver slow;
     for (int i = 0; i < 1800; ++i) {
         slow.receive({.robot = "anna"}, 0, -i * kSecond / 100);

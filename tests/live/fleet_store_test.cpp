@@ -69,7 +69,7 @@ TEST_F(FleetStore, HistoryOfAFile) {
                             .is_localized = false,
                             .reason = "no_grid"});
         messages.push_back({.robot = "'; DROP TABLE states; --", .time = time_now()});
-        // This clock is a year behind, so the time of arrival is stored.
+        // The clock of this robot is a year behind. The database stores the time of arrival.
         messages.push_back({.robot = "old", .time = "2025-11-24T16:00:00Z"});
         publish_messages(broker, messages);
         fleet.table();

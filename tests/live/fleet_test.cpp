@@ -157,7 +157,7 @@ TEST_F(Fleet, SubscribesWithTls) {
         sender.publish(state_topic("anna"), Message{"anna", i, time_now()}.json());
     EXPECT_TRUE(sender.flush(20s));
     std::this_thread::sleep_for(500ms);
-    // Some states are late. Among the queued states, the newest are sent first.
+    // Some states arrive late, because the newest queued states are sent first.
     EXPECT_THAT(fleet.table(), HasSubstr("1 robots, 200 states, 0 bad, 0 missed, "));
 }
 

@@ -25,7 +25,7 @@ inline void wait_until(const std::function<bool()>& condition,
     ASSERT_TRUE(condition());
 }
 
-/// Collects messages, which may be reported from any thread.
+/// Collects messages from any thread.
 class News {
   public:
     std::function<void(const std::string&)> listener() {

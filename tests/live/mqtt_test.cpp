@@ -1,4 +1,4 @@
-// Tests publishing to a real broker: which messages arrive and which messages are dropped,
+// Tests publishing to a real broker. Checks which messages arrive and which messages are dropped,
 // including when the broker disconnects.
 #include "publish/mqtt.hpp"
 
@@ -98,8 +98,8 @@ std::vector<int> header_ids(const std::string& lines) {
 }
 
 TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
-    // Publishes at 50 frames/s, or at the maximum rate of a slow machine. The broker is stopped and
-    // started at given frames.
+    // Publishes at 50 frames/s, or at the maximum rate of a slow machine. The broker stops and
+    // restarts at given frames.
     constexpr int kFrames = 700;
     constexpr auto kFrame = 20ms;
     constexpr int kGone = 100;
@@ -113,8 +113,8 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
     shell("mkfifo frames");
     std::thread camera([&] {
         const GreyImage image = DriveCamera(188, 120).frame(Drive(), 0);
-        // The pipe is closed on exec, because a broker that is started in the meantime must not
-        // keep the pipe open.
+        // The pipe is closed on exec. Otherwise, a broker that starts in the meantime would keep
+        // the pipe open.
         std::FILE* pipe = std::fopen((directory_ / "frames").c_str(), "wbe");
         const auto begun = std::chrono::steady_clock::now();
         for (int i = 1; i <= kFrames; ++i) {
@@ -148,14 +148,14 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
         << errors_;
     std::printf("%d states sent, %d dropped\n", sent, dropped);
     EXPECT_EQ(sent + dropped, kFrames);
-    // The minimum allows for the 50 states that are kept, and for states published before the loss
-    // of the broker is detected.
+    // The limit accounts for the 50 states in the queue, and for states published before the
+    // publisher detects the loss of the broker.
     EXPECT_GT(dropped, kBack - kGone - 100);
 
     // A state in transit when the broker was stopped may arrive twice.
     const std::vector<int> ids = header_ids(shell(reader + "-W 5 || true"));
     EXPECT_EQ(std::set<int>(ids.begin(), ids.end()).size(), static_cast<std::size_t>(sent));
-    // After the gap, the newest states come first. A busy machine causes small gaps.
+    // After the gap, the newest states come first. A busy machine may add small gaps.
     ASSERT_GT(ids.size(), 22U);
     auto before = ids.begin();
     for (auto i = ids.begin(); i + 1 != ids.end(); ++i) {

@@ -1,4 +1,4 @@
-/// A PostgreSQL cluster of the test, on a free port of the loopback interface.
+/// Runs a PostgreSQL cluster for the test, on a free port of the loopback interface.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 
 namespace dotpose::test {
 
-/// PostgreSQL refuses to run as root. If the test runs as root, the cluster belongs to the user
-/// `postgres` of Debian's package.
+/// A PostgreSQL cluster. PostgreSQL refuses to run as root. If the test runs as root, the cluster
+/// belongs to the user `postgres` of Debian's package.
 class Postgres {
   public:
     Postgres() : port_(free_port()) {

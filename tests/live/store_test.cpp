@@ -1,4 +1,4 @@
-// Tests the databases of states, SQLite and PostgreSQL, and the queue in front of them.
+// Tests the databases of states (SQLite and PostgreSQL), and the queue that writes to them.
 #include <atomic>
 #include <filesystem>
 #include <fstream>
@@ -28,7 +28,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr std::int64_t kDay_us = 86'400'000'000;
-constexpr std::int64_t kNoon_us = 1'795'000'000'000'000;  // 2026-11-18T08:26:40
+constexpr std::int64_t kNoon_us = 1'795'000'000'000'000;  // 2026-11-18T11:06:40 UTC
 
 State state_of(const std::string& robot, std::int64_t time_us, std::int64_t number) {
     State state;
@@ -56,7 +56,7 @@ auto values_of(const State& s) {
 
 enum class Kind { sqlite, postgres };
 
-/// Tests of both databases.
+/// Tests that both databases must pass.
 class Databases : public testing::TestWithParam<Kind> {
   protected:
     static void SetUpTestSuite() { cluster_ = std::make_unique<Postgres>(); }
@@ -182,7 +182,7 @@ TEST_P(Databases, RemoveOldDays) {
     EXPECT_THAT(numbers(*database, {"anna"}), ElementsAre(3, 4));
     EXPECT_THAT(numbers(*database, {"old"}), ElementsAre());
     EXPECT_EQ(database->robots().size(), 1U);
-    database->write(states);  // removed days can be written again
+    database->write(states);  // the database accepts states of removed days
     EXPECT_EQ(numbers(*database, {"anna"}).size(), 5U);
 }
 
@@ -199,7 +199,7 @@ TEST_P(Databases, TwoProgramsWriteAtTheSameTime) {
                 try {
                     database->write(states);
                 } catch (const Error& error) {
-                    // PostgreSQL may end one of two transactions that wait for each other.
+                    // If two transactions wait for each other, PostgreSQL may abort one of them.
                     ++failures;
                     database->write(states);
                 }
@@ -249,7 +249,7 @@ TEST(DatabaseFiles, OtherFilesAreRefused) {
                 HasSubstr("the URL of the database is not valid"));
 }
 
-/// A database in memory that can be away.
+/// A database in memory that can be made unavailable.
 class FakeDatabase : public store::Database {
   public:
     struct Contents {

@@ -1,5 +1,5 @@
-# Runs the tool of another platform (TOOL, a list) and that of this machine (NATIVE) with the same arguments in two
-# empty folders, and compares their lines, exit codes and files.
+# Runs the tool of another platform (TOOL, a list) and the tool of this machine (NATIVE) with the
+# same arguments in two empty folders. Compares their lines, exit codes and files.
 
 # run(PROGRAM NAME ARGUMENT...): sets NAME_lines and NAME_code. Reads `input`, a file, if it is set.
 function(run program name)
@@ -9,7 +9,7 @@ function(run program name)
     endif()
     execute_process(COMMAND ${program} ${ARGN} WORKING_DIRECTORY ${FOLDER}/${name} ${from}
                     OUTPUT_VARIABLE lines RESULT_VARIABLE code ERROR_VARIABLE notes)
-    # The only field that differs from run to run.
+    # Removes the only field that differs from run to run.
     string(REGEX REPLACE "\"elapsed_us\":[0-9.]+" "" lines "${lines}")
     set(${name}_lines "${lines}" PARENT_SCOPE)
     set(${name}_code "${code}" PARENT_SCOPE)
@@ -62,14 +62,14 @@ compare(sheets rename Übung 机 --sheets 紙.json)
 compare_files(紙.json)
 compare_files(Zeichnung-図.svg)
 
-# Three raw frames through standard input: the frames without their headers of 15 bytes.
+# Passes three raw frames through standard input. `tail` removes the 15-byte header of each frame.
 execute_process(COMMAND sh -c "for i in 0 1 2; do tail -c +16 native/Bilder-画/frame_00000$i.pgm; done >frames.raw"
                 WORKING_DIRECTORY ${FOLDER} COMMAND_ERROR_IS_FATAL ANY)
 set(input frames.raw)
 compare(locate - --size 188x120 --fps 50)
 unset(input)
 
-# What Windows lacks is reported.
+# The tool reports functions that Windows lacks.
 run("${TOOL}" tool watch 0)
 if(tool_code EQUAL 0 OR NOT tool_notes MATCHES "does not exist for Windows")
     message(SEND_ERROR "dotpose watch 0, exit code ${tool_code}:\n${tool_notes}")

@@ -1,4 +1,4 @@
-// Tests weak sightings: enumerates all other places inside the tracker's gate, sums their odds
+// Tests weak sightings. Enumerates all other places inside the tracker's gate, sums their odds
 // relative to the true place, and compares the sum with the tracker's bound (docs/tracking.md).
 #include <algorithm>
 #include <array>

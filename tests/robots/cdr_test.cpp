@@ -69,8 +69,8 @@ TEST(Cdr, HasTheBytesOfAnotherSerialiser) {
 }
 
 TEST(Cdr, CountsTheBytesOfATextAndItsEnd) {
-    // The other serialiser counts characters, so the expected bytes follow the standard: 2 bytes of
-    // UTF-8, and the terminating 0.
+    // The other serialiser counts characters instead of bytes. The expected bytes therefore follow
+    // the standard: 2 bytes of UTF-8, and the terminating 0.
     const std::string bytes = hex(to_cdr(CompressedImage{{{1, 2}, "\u00e4"}, "", {}}));
     EXPECT_EQ(bytes,
               "00010000"

@@ -45,8 +45,8 @@ class Dds : public WatchCommand {
                                  const std::string& options, const std::string& environment = "") {
         const std::string watch = "'" + test::tool_path() + "' watch - " + kRaw + " " + kTrack +
                                   " --units ros --dds --robot anna -o lines " + options;
-        // The frames start when reader and writers have discovered each other, which the reader
-        // signals.
+        // The reader signals when it and the writers have discovered each other. The frames start
+        // then.
         const std::string ready =
             "until [ -e ready ] || ! kill -0 $reader; do sleep 0.1; done; sleep 1; ";
         std::ofstream(directory_ / "run.sh")
@@ -93,8 +93,8 @@ TEST_F(Dds, SendsSensorDataAsRosDoes) {
 TEST_F(Dds, IsFoundOnThisComputerAloneIfRosSaysSo) {
     DOTPOSE_NEEDS_DDS();
     put_raw(20);
-    // With LOCALHOST, the reader receives no multicast packets, with which programs discover each
-    // other in a network.
+    // With LOCALHOST, programs do not use multicast to discover each other. The reader must not
+    // receive any multicast packets.
     const auto messages = read_drive("cat drive.raw", "reliable", "--dds-reliable",
                                      "export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; ");
     EXPECT_EQ(of_topic(messages, "/anna/pose").size(), 20U);

@@ -113,8 +113,8 @@ TEST_F(Mcap, TheIndexStaysSmallerThanTheData) {
     McapFile file(path_, {.chunk_ns = 1});
     write(file, 20'000);
     file.finish();
-    // Chunks grow with the index, so that rewriting the index with each chunk writes no more bytes
-    // than writing the data.
+    // Chunks grow with the index. Rewriting the index with each chunk therefore writes no more
+    // bytes than writing the data.
     constexpr std::size_t kRecord = 420;  // per pose: headers of 9 + 22 bytes, CDR of 4 + 384 bytes
     EXPECT_LT(std::filesystem::file_size(path_), 20'000 * kRecord * 3 / 2);
 }

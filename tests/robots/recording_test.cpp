@@ -37,8 +37,8 @@ class Recording : public WatchCommand {
     }
 };
 
-// This is a single test, because locating the drive takes seconds, and so does reading its
-// recording.
+// A single test checks the poses, the odometry and the replayed log, because locating the drive and
+// reading its recording take seconds.
 TEST_F(Recording, HasThePosesAndTheOdometryOfTheLines) {
     DOTPOSE_NEEDS_NPM();
     put_raw(drive_.frames());

@@ -278,8 +278,8 @@ TEST(CameraMount, IsWhereTheImageCentreIsSeenFromTheRobot) {
     EXPECT_NEAR(ahead->transform.translation.x, 0.01, 1e-12);
     EXPECT_NEAR(ahead->transform.translation.y, 0, 1e-12);
     EXPECT_NEAR(ahead->transform.translation.z, 0.02, 1e-12);
-    // The camera is rotated by half a turn about x: the image's y axis points to the right, and z
-    // down.
+    // The camera is rotated by half a turn about x. The image's y axis points to the right, and z
+    // points down.
     EXPECT_NEAR(ahead->transform.rotation.x, 1, 1e-12);
 
     // The robot's heading is the image's y axis, which points down in the image. The image's x axis

@@ -49,8 +49,8 @@ std::vector<std::string> page_with(const std::string& keys, const std::string& c
     return objects;
 }
 
-/// Returns objects numbered from 5. `names(number)` returns an object that refers to `number`, so
-/// that each object refers to the next one.
+/// Returns objects numbered from 5, each of which refers to the next object. `names(number)`
+/// returns an object that refers to `number`.
 std::vector<std::string> chain(const std::function<std::string(int)>& names) {
     std::vector<std::string> objects;
     for (int number = 5; number < 5 + kDeep; ++number)

@@ -22,15 +22,16 @@ struct Limits {
 };
 // The maximum is a seventh of the displacement, which is 85 µm at a spacing of 0.508 mm.
 constexpr Limits kUsual = {4, 12};
-// At 300 dpi, 0.3 mm are 3.5 pixels. No page can be more accurate, because neighbouring dots may
-// ink the same pixel. The displacement of a symbol is 50 µm.
+// At 300 dpi, 0.3 mm are 3.5 pixels. No rendering can be more accurate, because neighbouring dots
+// may ink the same pixel. The displacement of a symbol is 50 µm.
 constexpr Limits kFineOnCoarse = {6, 30};
 
 // Minimum diameter of a dot whose place can be measured exactly. Even a perfect rendering does not
-// show the place of a smaller dot within a pixel: the error is up to 17 µm for a dot of 0.05 mm at
+// show the place of a smaller dot within a pixel. The error is up to 17 µm for a dot of 0.05 mm at
 // 300 dpi. A dot of whole pixels in whole places is exact at any size.
 constexpr double kExactDot_px = 2.3;
-// Maximum diameter, at a spacing of 0.3 mm, that leaves a white pixel between any two dots: 1.6 px.
+// Maximum diameter that leaves a white pixel between any two dots at a spacing of 0.3 mm and 300
+// dpi: 1.6 px.
 constexpr double kFineDot_px = 1.63;
 
 struct Dots {
@@ -103,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 class OddResolution : public testing::TestWithParam<const char*> {};
 
-// Shows why glyphs are used for dots of whole pixels only: a renderer moves each glyph to whole
+// Shows why glyphs are used for dots of whole pixels only. A renderer moves each glyph to whole
 // pixels (or parts of pixels), but draws strokes at their exact places.
 TEST_P(OddResolution, moves_letters_and_leaves_strokes) {
     constexpr int kOdd_dpi = 310;  // a spacing of 6.2 pixels

@@ -1,6 +1,6 @@
-// Writes the states of a day of many robots to a database, as `dotpose fleet --store` writes them
-// but faster than real time. Then reads them back, checks that none is missing, and prints rates
-// and times. docs/fleet.md contains the results.
+// Writes a day of states of many robots to a database, as `dotpose fleet --store` does, but faster
+// than real time. Then reads all states, checks that none is missing, and prints rates and times.
+// docs/fleet.md contains the results.
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -29,7 +29,7 @@ struct Arguments {
     int robots = 200;
     int hz = 10;
     int hours = 24;
-    int period_s = 5;  ///< time of the states of a transaction
+    int period_s = 5;  ///< time span of the states in one transaction
     bool only_reads = false;
 };
 
@@ -84,7 +84,7 @@ void write_all(const Arguments& arguments) {
         std::vector<State> batch;
         for (std::int64_t second = 0; second < seconds; second += arguments.period_s) {
             batch.clear();
-            // Sorted by robot and time, like the transactions of the queue.
+            // Sorts the states by robot and time, as the queue does in its transactions.
             for (int robot = 0; robot < arguments.robots; ++robot) {
                 for (int i = 0; i < arguments.period_s * arguments.hz; ++i)
                     batch.push_back(robots.state(robot, second * arguments.hz + i, arguments.hz));
@@ -129,7 +129,7 @@ void measure_queries(store::Database& database, const Arguments& arguments) {
     std::fflush(stdout);
 }
 
-/// Returns true if every state of every robot is stored once.
+/// Returns true if every state of every robot is stored exactly once.
 bool check_all(store::Database& database, const Arguments& arguments) {
     const std::int64_t end_s = std::int64_t{arguments.hours} * 3600;
     std::int64_t total = 0;

@@ -1,5 +1,5 @@
-// Initialisation of microcontroller locators. This code is in a separate file, so programs that use
-// only these locators do not contain the other kinds.
+// Initialisation of microcontroller locators. This code has its own file to keep the other kinds of
+// locators out of programs that use only these locators.
 #include "locator.hpp"
 
 namespace {

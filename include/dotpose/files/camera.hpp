@@ -1,9 +1,11 @@
 /// Camera: the optics of one camera, its view of the paper and its place on the robot.
 ///
-/// Coordinate frames: *pixel* (the centre of the first pixel is (0, 0), v down); *undistorted*
-/// pixel, the pixel of the same point in a camera without distortion, possibly outside the image;
-/// *camera*, mm on the paper from the point under the distortion centre, x along the image x axis,
-/// y DOWN.
+/// Coordinate frames:
+/// - *pixel*: the centre of the first pixel is (0, 0), and v points down.
+/// - *undistorted* pixel: the pixel of the same point in a camera without distortion. It may be
+///   outside the image.
+/// - *camera*: mm on the paper from the point under the distortion centre, x along the image x
+///   axis, y DOWN.
 #pragma once
 
 #include <map>
@@ -26,7 +28,8 @@ struct PixelPoint {
 };
 
 /// The map from the undistorted image to the paper, for a camera that is mounted at a fixed height.
-/// A point at (a, b) undistorted px from the distortion centre is in the camera frame at
+/// A point at (a, b) undistorted px from the distortion centre has these coordinates in the camera
+/// frame:
 ///
 ///     x = mm_per_px_x (a + skew b) / d,   y = mm_per_px_y b / d,   d = 1 + perspective . (a, b).
 struct PaperScale {
@@ -39,17 +42,19 @@ struct PaperScale {
 
 /// Tilt of the paper relative to the image plane, with the sign convention of tools/simulate.hpp.
 struct Tilt {
-    double x_rad = 0;  ///< about the image x axis; above 0, the paper recedes towards the bottom
-    /// About the image y axis; above 0, the paper comes closer towards the right.
+    double x_rad = 0;  ///< about the image x axis; if above 0, the paper recedes towards the bottom
+    /// About the image y axis. If the angle is above 0, the paper comes closer towards the right.
     double y_rad = 0;
 };
 
 /// Minimum value of a flat field. Darker parts of an image are too noisy to show dots.
 inline constexpr double kMinFlatField = 0.05;
 
-/// Directions of view of the undistorted image: pixel (u, v) is the image of the points in the
-/// direction ((u - centre_px.u) / focal_u_px, (v - centre_px.v) / focal_v_px, 1), with x along the
-/// image x axis, y down in the image, and z along the optical axis.
+/// Directions of view of the undistorted image. Pixel (u, v) shows the points in the direction
+///
+///     ((u - centre_px.u) / focal_u_px, (v - centre_px.v) / focal_v_px, 1).
+///
+/// x is along the image x axis, y is down in the image, and z is along the optical axis.
 struct Pinhole {
     double focal_u_px = 0;
     double focal_v_px = 0;
@@ -64,12 +69,13 @@ struct Camera {
     /// distortion.
     double k_per_px2 = 0;
     PixelPoint centre_px;
-    std::optional<PaperScale> paper;  ///< none if the camera is hand-held, or its view is not known
+    std::optional<PaperScale> paper;  ///< none if the camera is hand-held, or if its view is not
+                                      ///< known
     std::optional<double> focal_px;   ///< none if the calibration did not determine it
-    /// Directions of view, if pixels are not square or `centre_px` is not on the optical axis, as
-    /// in the files of ROS. See `pinhole_of`.
+    /// Directions of view, if pixels are not square or `centre_px` is not on the optical axis. The
+    /// files of ROS describe such cameras. See `pinhole_of`.
     std::optional<Pinhole> pinhole;
-    /// Tilt of a mounted camera; none if the calibration did not determine it.
+    /// Tilt of a mounted camera. None if the calibration did not determine the tilt.
     std::optional<Tilt> tilt;
 
     /// Reference point of the pose: an undistorted pixel, which may be outside the image. If there
@@ -78,20 +84,20 @@ struct Camera {
     /// Heading of the robot minus the angle of the image x axis at the image centre.
     double theta_offset_rad = 0;
 
-    /// True if the camera delivers mirrored frames. Mirrored frames are flipped left to right
-    /// before they are located. All pixel coordinates in this struct refer to the flipped frames.
+    /// True if the camera delivers mirrored frames. dotpose flips these frames left to right before
+    /// it locates them. All pixel coordinates in this struct refer to the flipped frames.
     bool flip = false;
 
     /// Flat field: the brightness of evenly lit white paper in the image, relative to its brightest
-    /// point. Rows of values at equal distances, from the first to the last pixel along each axis,
-    /// with bilinear interpolation between them; each from kMinFlatField to 1. The flat field
-    /// includes the vignetting of the lens and the light of the lamps. Empty if the brightness is
-    /// even, or not known.
+    /// point. Contains rows of values from kMinFlatField to 1. The values are sampled at equal
+    /// distances, from the first to the last pixel along each axis. Values between them are
+    /// interpolated bilinearly. The flat field includes the vignetting of the lens and the light of
+    /// the lamps. Empty if the brightness is even or not known.
     std::vector<std::vector<double>> flat_field;
 
-    /// Time from the first to the last row of an image, if the sensor has a rolling shutter. In
-    /// this case, the pose applies to the time of the middle row, and the velocity of the camera is
-    /// fitted as well.
+    /// Time from the first to the last row of an image, if the sensor has a rolling shutter. The
+    /// pose then applies to the time of the middle row, and the velocity of the camera is also
+    /// fitted.
     std::optional<double> readout_ms;
 
     /// Sensor settings, for information only. dotpose does not use them.
@@ -103,16 +109,18 @@ struct Camera {
     std::map<std::string, double> sigma;
 };
 
-/// Checks all values. Throws BadArgument for a size that `locate` does not accept, a lens that
-/// folds the image (1 + k r^2 must be in [0.5, 2]), a centre more than 1000 px from the image
-/// centre, values that are not finite, lengths of 0 or less, and a reference point more than 10,000
-/// px from the image centre.
+/// Checks all values. Throws BadArgument in these cases:
+/// - `locate` does not accept the image size.
+/// - The distortion is too strong: 1 + k r^2 is outside [0.5, 2] in a corner of the image.
+/// - The distortion centre is more than 1000 px from the image centre.
+/// - The reference point is more than 10,000 px from the image centre.
+/// - A value is not finite, or a length is not positive.
 void validate(const Camera& camera);
 
 /// Returns the undistorted pixel of `pixel` (paper eq. 1-2).
 PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
-/// Returns the distorted pixel of an undistorted pixel. For a point that the camera cannot see,
-/// returns the pixel at twice the distance of `undistorted` from the distortion centre.
+/// Returns the distorted pixel of an undistorted pixel. If the camera cannot see the point, returns
+/// the pixel at twice the distance of `undistorted` from the distortion centre.
 PixelPoint distorted(const Camera& camera, PixelPoint undistorted);
 
 /// Returns `pinhole` or, if there is none, square pixels with `focal_px` and the optical axis at
@@ -124,7 +132,8 @@ struct CameraPoint {
     double x_mm = 0;
     double y_mm = 0;
 };
-/// Returns the point in the camera frame of an undistorted pixel. `camera.paper` must be known.
+/// Returns the point on the paper that an undistorted pixel shows, in the camera frame.
+/// `camera.paper` must be known.
 CameraPoint on_paper(const Camera& camera, PixelPoint undistorted);
 /// Returns the undistorted pixel of a point in the camera frame. `camera.paper` must be known.
 PixelPoint on_image(const Camera& camera, CameraPoint point);
@@ -132,10 +141,10 @@ PixelPoint on_image(const Camera& camera, CameraPoint point);
 /// Returns the direction of the image x axis at an undistorted pixel, in the camera frame.
 double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 
-/// Returns the position on the paper of an undistorted pixel, in mm from the point under the image
-/// centre, with x along the image x axis at this point. `camera.paper` must be known. In this
-/// frame, the positions from two calibrations of the same camera agree to within microns, even for
-/// points far outside the image. The pixel coordinates of such points differ by more.
+/// Returns the point on the paper that an undistorted pixel shows, in mm from the point under the
+/// image centre. x is along the image x axis at this point. `camera.paper` must be known. In this
+/// frame, two calibrations of the same camera give positions that agree to within microns, even far
+/// outside the image. The undistorted pixels of the same points differ by more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 /// Returns the undistorted pixel of a point returned by `from_image_centre`.
 PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
@@ -145,15 +154,16 @@ PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
 /// unchanged.
 std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera);
 
-/// Returns the camera for crops of the images of `camera`. The crop is the rectangle of `width_px`
-/// x `height_px` whose top left pixel is (`left_px`, `top_px`). Reference point and heading refer
-/// to the same point and direction as before, even if `camera` uses the defaults. Throws
-/// BadArgument as `validate` does, and if the crop exceeds the image.
+/// Returns the camera for crops of the images of `camera`. A crop has `width_px` x `height_px`
+/// pixels, and its top left pixel is (`left_px`, `top_px`). Reference point and heading refer to
+/// the same point and direction as before, even if `camera` uses the defaults. Throws BadArgument
+/// as `validate` does, and if the crop exceeds the image.
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
-/// Sets the lens and the reference point in `options`, for images of the given size. If the view of
-/// the camera is known, also sets `show_stages`, because `with_camera` needs the dots in the trace.
-/// Throws BadArgument if the given size is not the image size of the camera.
+/// Sets the lens in `options`, and the reference point if the camera has one, for images of the
+/// given size. If the view of the camera is known, also sets `show_stages`, because `with_camera`
+/// needs the dots in the trace. Throws BadArgument if the given size is not the image size of the
+/// camera.
 void use_camera(const Camera& camera, int width_px, int height_px, DeviceOptions& options);
 
 }  // namespace dotpose

@@ -22,9 +22,11 @@ namespace dotpose {
 inline constexpr int kCameraFileVersion = 1;
 
 /// Reads a camera file, or a camera_info file of ROS. Throws Error, with the names of the file and
-/// the key, if the file cannot be read, has another format or version, or has a key that is
-/// missing, unknown, of the wrong type or out of range. Also throws Error if the distortion model
-/// is not plumb_bob, or if eq. 2 cannot approximate the lens to within 0.5 px rms.
+/// the key, in these cases:
+/// - The file cannot be read, or has another format or version.
+/// - A key is missing, unknown, of the wrong type or out of range.
+/// - The distortion model is not plumb_bob, or eq. 2 cannot approximate the lens to within 0.5 px
+///   rms.
 Camera read_camera(const std::filesystem::path& path);
 
 /// Reads a camera from the text of a camera file. `name` is the name of the file in messages.

@@ -1,5 +1,5 @@
 /// Exceptions of the layers around the core (printing, simulation, files, the tool). The core never
-/// throws. It returns a Status instead.
+/// throws, but returns a Status.
 #pragma once
 
 #include <stdexcept>
@@ -11,7 +11,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Thrown if an operation fails. `what()` is one sentence for the user, without a full stop, that
+/// Thrown if an operation fails. `what()` is one sentence for the user without a full stop. It
 /// names the file or value.
 class Error : public std::runtime_error {
   public:

@@ -1,7 +1,8 @@
 /// Sheet: the dimensions of a printed pattern and of its page. The core does not use this header.
 ///
-/// Coordinate frames (both x right, y DOWN): *pattern*, where intersection (i, j) is at (i, j) *
-/// spacing_mm; *sheet*, in mm from the top left corner of the page.
+/// Coordinate frames (x right, y DOWN):
+/// - *pattern*: intersection (i, j) is at (i, j) * spacing_mm.
+/// - *sheet*: mm from the top left corner of the page.
 #pragma once
 
 #include "dotpose/code.hpp"
@@ -29,8 +30,8 @@ struct Pattern {
     double dot_mm = kDefaultSpacing_mm / 6;           ///< diameter of a dot
 };
 
-/// Returns the maximum distance, along x or y, between the ink of a dot and the intersection of the
-/// dot, in mm.
+/// Returns the maximum distance, along x or y, between the ink of a dot and its intersection, in
+/// mm.
 inline double reach_mm(const Pattern& pattern) {
     return pattern.displacement_mm + pattern.dot_mm / 2;
 }
@@ -54,10 +55,13 @@ struct Sheet {
     double origin_y_mm = 0;
 };
 
-/// Checks all values of a sheet. Throws BadArgument for the first invalid value: lengths must be
-/// positive and finite, dots must not touch, the section must be below kSections, the sheet must
-/// have at least kMinSheetCells columns and rows, the region must be inside the code plane, and all
-/// ink must be on the page.
+/// Checks all values of a sheet. Throws BadArgument for the first invalid value. A valid sheet
+/// meets these conditions:
+/// - Lengths are positive and finite.
+/// - Dots do not touch, and all ink is on the page.
+/// - The section is below kSections.
+/// - There are at least kMinSheetCells columns and rows.
+/// - The region is inside the code plane.
 void validate(const Sheet& sheet);
 
 }  // namespace dotpose

@@ -44,8 +44,8 @@ namespace dotpose {
 inline constexpr int kSheetFileVersion = 1;
 
 /// Number of free cells around every allocated region. This number exceeds the diagonal of the
-/// largest frame: 4096 x 4096 px at 6 px per spacing, 966 cells. If a frame that shows two sheets
-/// is located by the dots of one sheet, the pose is therefore never on the other sheet.
+/// largest frame: 4096 x 4096 px at 6 px per spacing, 966 cells. The pose of a frame that shows two
+/// sheets is therefore always on the sheet whose dots were read.
 inline constexpr std::uint32_t kSheetGap_cells = 1024;
 
 /// Place and direction of a page in the world.
@@ -81,24 +81,29 @@ struct SheetEntry {
     std::optional<WorldPose> world;
     /// Print parameters. None if the entry was made by an earlier version, or not by printing.
     std::optional<SheetPrint> print;
-    /// True if the region is reserved for a page that may not exist, because the page is being
-    /// written, or because the program was stopped while it wrote the page.
+    /// True if the region is reserved for a page that may not exist. The page is being written, or
+    /// the program was stopped while it wrote the page.
     bool is_reserved = false;
 };
 
-/// Checks one entry. Throws BadArgument if any of these conditions holds: the name is empty, is not
-/// UTF-8, or contains terminal control characters; the page number is below 1; a print scale is out
-/// of range; the world pose is not finite; `sheet` is invalid (see `validate(const Sheet&)`); or
-/// `print` has no pages, a resolution of 0 or less, or an unknown method of drawing dots.
+/// Checks one entry. Throws BadArgument in these cases:
+/// - The name is empty, is not UTF-8, or contains terminal control characters.
+/// - The page number is below 1.
+/// - A print scale is out of range.
+/// - The world pose is not finite.
+/// - `sheet` is invalid (see `validate(const Sheet&)`).
+/// - `print` has no pages, a resolution of 0 or less, or an unknown method of drawing dots.
 void validate(const SheetEntry& entry);
 
 /// Returns true if two sheets share cells. Different sections never overlap. The code variants
-/// anoto and libdots agree on most of the plane, so they are treated as one. microdots is separate.
+/// anoto and libdots count as one variant, because they agree on most of the plane. microdots is
+/// separate.
 bool overlap(const Sheet& a, const Sheet& b);
 
-/// Reads a sheet file. Throws Error, with the names of the file and the key, if the file cannot be
-/// read, is not a sheet file or has another version; if a key is missing, has the wrong type or a
-/// value out of range; or if a name occurs twice or two regions overlap.
+/// Reads a sheet file. Throws Error, with the names of the file and the key, in these cases:
+/// - The file cannot be read, is not a sheet file, or has another version.
+/// - A key is missing, has the wrong type, or has a value out of range.
+/// - A name occurs twice, or two regions overlap.
 std::vector<SheetEntry> read_sheets(const std::filesystem::path& path);
 
 /// Options for waiting while another program changes a sheet file.
@@ -116,8 +121,8 @@ struct SheetFileWait {
 class SheetFile {
   public:
     /// Waits for exclusive access, then reads the file. A missing file counts as a file without
-    /// sheets. Throws Error as `read_sheets` does, or if the file cannot be locked, for example
-    /// because another program holds the lock for longer than `wait` allows.
+    /// sheets. Throws Error as `read_sheets` does, and if the file cannot be locked. For example,
+    /// another program may hold the lock for longer than `wait` allows.
     explicit SheetFile(const std::filesystem::path& path, const SheetFileWait& wait = {});
     ~SheetFile();
     SheetFile(const SheetFile&) = delete;
@@ -125,14 +130,13 @@ class SheetFile {
 
     const std::vector<SheetEntry>& sheets() const { return sheets_; }
 
-    /// Adds `count` pages with the layout of `sheet`, each in the next free region. `sheet.origin`
-    /// is ignored. A single page gets the given name. Several pages get the names "name-1",
+    /// Adds `count` pages with the layout of `sheet`, each in the next free region. Ignores
+    /// `sheet.origin`. A single page gets the given name. Several pages get the names "name-1",
     /// "name-2" and so on.
     ///
-    /// The next free region is the topmost, then leftmost region with a distance of at least
-    /// kSheetGap_cells from the ends of the plane and from the regions of all other sheets,
-    /// regardless of their code variant and section. Allocated sheets can therefore be
-    /// distinguished by their cells alone.
+    /// A free region is at least kSheetGap_cells away from the ends of the plane and from all other
+    /// regions, regardless of their code variant and section. Cells alone therefore distinguish
+    /// allocated sheets. The next free region is the topmost, then leftmost free region.
     ///
     /// Returns the added entries. Throws BadArgument as `validate` does, and if the name is taken,
     /// the plane is full, or the count is below 1.
@@ -173,8 +177,8 @@ class SheetFile {
     std::map<std::string, std::string> names_in_text_;
 };
 
-/// Adds sheets to a sheet file before their pages are written. The sheets are marked as reserved:
-/// their regions remain taken even if this program is killed. `confirm` removes the mark. Other
+/// Adds sheets to a sheet file before their pages are written. The sheets are marked as reserved,
+/// and their regions remain taken even if this program is killed. `confirm` removes the mark. Other
 /// programs may change the file in the meantime.
 class SheetReservation {
   public:
@@ -188,9 +192,9 @@ class SheetReservation {
     SheetReservation(const SheetReservation&) = delete;
     SheetReservation& operator=(const SheetReservation&) = delete;
 
-    /// Removes the marks. Call this function after the pages have been written. Throws Error if the
-    /// file cannot be changed. The sheets then remain reserved. Also throws Error if another
-    /// program has removed the sheets and assigned their cells.
+    /// Removes the marks. Must be called after the pages have been written. Throws Error if the
+    /// file cannot be changed, in which case the sheets remain reserved. Also throws Error if
+    /// another program has removed the sheets and assigned their cells.
     void confirm();
 
   private:
@@ -199,7 +203,7 @@ class SheetReservation {
     std::filesystem::path path_;
     SheetFileWait wait_;
     std::vector<SheetEntry> entries_;  ///< reserved and unconfirmed entries
-    /// Text of the file before the reservation; none if the file did not exist.
+    /// Text of the file before the reservation. None if the file did not exist.
     std::optional<std::string> text_before_;
     std::optional<std::string> text_reserved_;
 };

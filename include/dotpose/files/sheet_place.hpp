@@ -41,9 +41,9 @@ struct SheetPlace {
     PoseCovariance covariance{};
 };
 
-/// Returns the place of `fix`, which was read in the given code variant. The place is on the sheet
-/// whose region contains the fix. If there is no such sheet, the place is on a sheet whose margins
-/// contain the fix. Returns none if the fix is not ok or is not on any sheet.
+/// Returns the place of `fix`, which was read in the given code variant. Prefers a sheet whose
+/// region contains the fix to a sheet whose margins contain it. Returns none if the fix is not ok
+/// or is not on any sheet.
 std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, CodeVariant code,
                                      const Fix& fix);
 
@@ -63,8 +63,8 @@ struct WorldPlace {
 std::optional<WorldPlace> world_place(const SheetPlace& place);
 
 /// Converts the covariance of a pose from the sheet to the world. `sheet_yaw_rad` is the direction
-/// of the upper edge of the page in the world. The covariance is rotated by this angle, with y and
-/// the angle negated. The unit of length does not change.
+/// of the upper edge of the page in the world. Rotates the covariance by this angle, and negates y
+/// and the angle. The unit of length does not change.
 PoseCovariance world_covariance(const PoseCovariance& on_sheet, double sheet_yaw_rad);
 
 }  // namespace dotpose

@@ -16,11 +16,11 @@ namespace dotpose {
 /// target is not a regular file or cannot be written.
 void write_file(const std::filesystem::path& target, std::string_view contents);
 
-/// Throws Error, as `write_file` does, if the file cannot be created. Intended to be called before
-/// a long computation whose result is written to the file.
+/// Throws Error, as `write_file` does, if the file cannot be created. A program can call this
+/// function before a long computation whose result it writes to the file.
 void require_writable(const std::filesystem::path& target);
 
-/// Resolves symbolic links and returns the path of their target, which need not exist.
+/// Resolves symbolic links and returns the path of their target. The target need not exist.
 std::filesystem::path without_links(std::filesystem::path path);
 
 }  // namespace dotpose

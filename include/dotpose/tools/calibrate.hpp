@@ -5,14 +5,17 @@
 ///     const LensCalibration lens = calibrate_lens(20, frame_at, {});
 ///     write_camera("camera.yaml", lens.camera);
 ///
-/// `calibrate_lens` determines the lens and the scale, `calibrate_spin` and `calibrate_drive` the
-/// mount of the camera on a robot, `calibrate_flat_field` the vignetting, `calibrate_readout` the
-/// readout time of a rolling shutter, and `stitch_sheets` the relative poses of adjacent sheets. If
-/// the frames do not determine a result, the functions throw Error with advice. Standard deviations
-/// are computed from the residuals of the fit.
+/// - `calibrate_lens` determines the lens and the scale.
+/// - `calibrate_spin` and `calibrate_drive` determine the mount of the camera on a robot.
+/// - `calibrate_flat_field` determines the vignetting.
+/// - `calibrate_readout` determines the readout time of a rolling shutter.
+/// - `stitch_sheets` determines the relative poses of adjacent sheets.
 ///
-/// Frames are requested by index, possibly several times, and are not stored. Functions share no
-/// state.
+/// If the frames do not determine a result, the functions throw Error with advice. Standard
+/// deviations are computed from the residuals of the fit.
+///
+/// Functions request frames by index, possibly several times, and do not store them. Functions
+/// share no state.
 #pragma once
 
 #include <functional>
@@ -41,11 +44,11 @@ struct CalibrateOptions {
     /// proportional to the spacing, so they have the relative error of the spacing.
     Pattern pattern;
     /// True to detect the code variant from the frames instead of using the code variant of
-    /// `pattern`. Ignored by `stitch_sheets`, because each sheet has its own code variant.
+    /// `pattern`. `stitch_sheets` ignores this option, because each sheet has its own code variant.
     bool any_code = false;
     /// Sheets that the frames may show, for example the sheets of a sheet file. If the list is not
-    /// empty, the spacing is the printed spacing of the sheet in most frames. Ignored by
-    /// `stitch_sheets`.
+    /// empty, the spacing is the printed spacing of the sheet in most frames. `stitch_sheets`
+    /// ignores this option.
     std::vector<SheetEntry> sheets;
     /// Called after each part of the work. Returning false stops the work with an Error.
     std::function<bool(int done, int total)> progress;
@@ -90,8 +93,9 @@ struct LensCalibration {
     int duplicates = 0;  ///< number of frames that repeat an earlier image, and are not used
     int dots = 0;        ///< number of dots used
     int outliers = 0;    ///< number of dots not used
-    double residual_before_px = 0;  ///< rms per axis for a camera without distortion, skew and tilt
-    double residual_px = 0;         ///< rms per axis for the calibrated camera
+    double residual_before_px = 0;  ///< rms residual per axis for a camera without distortion, skew
+                                    ///< and tilt
+    double residual_px = 0;         ///< rms residual per axis for the calibrated camera
     double px_per_spacing = 0;      ///< mean over the frames, at the image centre
     double dot_width = 0;           ///< width at half darkness, in spacings; 1/6 for a sharp dot
     double coverage = 0;            ///< fraction of the 12 x 8 parts of the image that show dots
@@ -148,11 +152,13 @@ struct SpinCalibration {
 
 /// Computes the position of the camera on the robot from at least 3 frames that cover more than 30
 /// degrees. A full turn in 12 frames is recommended. `camera` contains the lens and the view of the
-/// paper. Without `camera`, the lens is assumed to have no distortion. Throws Error if too few
-/// frames have a fix, the turn is too small, a frame differs in size from the camera file or from
-/// the first frame, the spacing contradicts the view of the camera, the reference point is beyond
-/// the range of a camera file, or the centre of rotation varies by more than one spacing (rms per
-/// axis) or has an uncertainty of more than half a spacing.
+/// paper. Without `camera`, the lens is assumed to have no distortion. Throws Error in these cases:
+/// - Too few frames have a fix, or the turn is too small.
+/// - A frame differs in size from the camera file or from the first frame.
+/// - The spacing contradicts the view of the camera.
+/// - The reference point is beyond the range of a camera file.
+/// - The centre of rotation varies by more than one spacing (rms per axis), or has an uncertainty
+///   of more than half a spacing.
 SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
                                const std::optional<Camera>& camera,
                                const CalibrateOptions& options);
@@ -169,10 +175,12 @@ struct DriveCalibration {
 };
 
 /// Computes the direction of the camera from at least 2 frames that cover more than 5 mm. Throws
-/// Error if too few frames have a fix, a frame differs in size from the camera file or from the
-/// first frame, the spacing contradicts the view of the camera, the drive is too short, or the
-/// robot turned by more than 5 degrees from its mean direction, deviated from the straight line by
-/// more than this angle, or drove backwards.
+/// Error in these cases:
+/// - Too few frames have a fix, or the drive is too short.
+/// - A frame differs in size from the camera file or from the first frame.
+/// - The spacing contradicts the view of the camera.
+/// - The robot turned by more than 5 degrees from its mean direction, deviated from the straight
+///   line by more than this angle, or drove backwards.
 DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
                                  const std::optional<Camera>& camera,
                                  const CalibrateOptions& options);
@@ -181,17 +189,18 @@ DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
 struct FlatFieldCalibration {
     Camera camera;  ///< the given camera with `flat_field` set
     int frames = 0;
-    double min_brightness = 0;  ///< at the darkest point, relative to the brightest point
-    /// Rms deviation of the mean frame from the flat field, relative to it: remaining dots, and
-    /// pixels with a different sensitivity.
+    double min_brightness = 0;  ///< brightness at the darkest point, relative to the brightest
+                                ///< point
+    /// Rms deviation of the mean frame from the flat field, relative to the flat field. It is due
+    /// to remaining dots, and to pixels with a different sensitivity.
     double residual = 0;
 };
 
 /// Computes the flat field of a camera from at least 20 frames of a sheet or of white paper, taken
-/// with constant exposure and light. The dots must be at different places in the frames, so that
-/// their mean is even. Without a camera, makes one with the size of the frames. Throws Error if
-/// there are fewer frames, frames differ in size, the image is too dark, or the mean frame is not
-/// smooth. Of the options, only `progress` is used.
+/// with constant exposure and light. The dots must be at different places in the frames, because
+/// the mean of the frames must show even paper. Without a camera, makes one with the size of the
+/// frames. Throws Error if there are fewer frames, frames differ in size, the image is too dark, or
+/// the mean frame is not smooth. Uses only `progress` of the options.
 FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
                                           const std::optional<Camera>& camera,
                                           const CalibrateOptions& options);
@@ -207,9 +216,10 @@ struct ReadoutCalibration {
 
 /// Computes the readout time of a camera that moves over a sheet, from at least 7 consecutive
 /// frames, taken at intervals of `interval_ms`. Compares the motion during the readout of each
-/// frame with the motion from the previous to the next frame. Throws Error if the camera file has
-/// no view of the paper, if there are fewer than 5 located frames with a located frame before and
-/// after them, or if the motion does not determine the readout time to 10 %.
+/// frame with the motion from the previous to the next frame. Throws Error in these cases:
+/// - The camera file has no view of the paper.
+/// - Fewer than 5 located frames are preceded and followed by a located frame.
+/// - The motion does not determine the readout time to 10 %.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);
 
@@ -284,13 +294,16 @@ struct Stitching {
 /// the first sheet defines the world: its corner is the origin, and its upper edge is the x axis.
 ///
 /// `camera` contains the lens and, for mounted cameras, the view of the paper. Without a view, the
-/// view is fitted to each part of a frame. In this case, the poses are less accurate, and they are
+/// view is fitted to each part of a frame. In this case, the poses are less accurate. They are
 /// correct only if the fixed sheet was printed with the print scales in the sheet file.
 ///
-/// Throws Error if there are fewer than two sheets, no frame shows two sheets, no frame shows a
-/// sheet with a world pose although such sheets exist, the sheet of the reference is not stitched,
-/// or the camera file implies a print scale that differs from 1 by more than 25 %. Throws
-/// BadArgument if the sheet of the reference does not exist.
+/// Throws Error in these cases:
+/// - There are fewer than two sheets, or no frame shows two sheets.
+/// - Sheets with a world pose exist, but no frame shows one of them.
+/// - The sheet of the reference is not stitched.
+/// - The camera file implies a print scale that differs from 1 by more than 25 %.
+///
+/// Throws BadArgument if the sheet of the reference does not exist.
 Stitching stitch_sheets(int frames, const FrameAt& frame_at, std::vector<SheetEntry> sheets,
                         const std::optional<Camera>& camera, const CalibrateOptions& options,
                         const ScaleReference& reference = {});

@@ -1,6 +1,6 @@
-/// Coverage: the parts of the image, the places and the directions that the frames so far cover for
-/// a lens calibration, and the requirements that are not met yet. Intended for programs that take
-/// frames while the camera moves, like `dotpose calibrate --live`.
+/// Coverage: what the frames so far cover for a lens calibration (parts of the image, places and
+/// directions), and which requirements are not met yet. Intended for programs that take frames
+/// while the camera moves, such as `dotpose calibrate --live`.
 ///
 ///     CalibrationCoverage coverage(640, 480);
 ///     coverage.add(view);  // for each frame taken
@@ -23,29 +23,29 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Minimum fraction of the parts of the image that must show dots. With a lower fraction, the
+/// Minimum fraction of the parts of the image that must show dots. With a smaller fraction, the
 /// verdict of a calibration is `corners_unseen`.
 inline constexpr double kMinCoverage = 0.85;
 /// Maximum width of dots in focus, in spacings. Dots that are blurred to twice their printed width
 /// begin to touch.
 inline constexpr double kWidestDot = 0.32;
-/// Required number of distinct places on the sheet at which frames were taken; see
-/// `CalibrationCoverage::places`.
+/// Required number of distinct places on the sheet at which frames were taken (see
+/// `CalibrationCoverage::places`).
 inline constexpr int kWantedPlaces = 4;
 /// Required number of different frame directions, counted in `CalibrationCoverage::kDirections`
 /// sectors. Different directions distinguish lens distortion from a printer that stretches one axis
 /// of the paper.
 inline constexpr int kWantedDirections = 3;
-/// Maximum uncertainty of the lens in the corner of the image; see `corner_sigma_px`.
+/// Maximum uncertainty of the lens in the corner of the image (see `corner_sigma_px`).
 inline constexpr double kWantedCornerSigma_px = 0.1;
 
 /// Returns the corner of the image that is farthest from the distortion centre.
 PixelPoint farthest_corner(const Camera& camera);
 
 /// Returns the standard deviation, in px, of the undistorted position of the farthest corner
-/// relative to the middle of the image. `camera.sigma` must contain the standard deviations of
-/// `k_per_px2` and of the distortion centre, from which the result is computed. The errors of k and
-/// of the centre are assumed to be independent.
+/// relative to the middle of the image. Computed from the standard deviations of `k_per_px2` and of
+/// the distortion centre, which `camera.sigma` must contain. Assumes that the errors of k and of
+/// the centre are independent.
 double corner_sigma_px(const Camera& camera);
 
 /// The parts of the image in which dots have been seen.

@@ -46,15 +46,16 @@ struct CheckPrintOptions {
     /// region of a sheet is checked against the pattern of that sheet. Only sheets with the code
     /// variant of `pattern` are found.
     std::vector<Sheet> sheets;
-    /// Resolution of the scan. An image without a resolution, or with the perspective or lens
-    /// distortion of a camera, is treated as a photo: the check allows for both effects and does
-    /// not judge the scale. A resolution that contradicts the spacing is reported as a fault.
+    /// Resolution of the scan. An image counts as a photo if it has no resolution, or if it has the
+    /// perspective or lens distortion of a camera. The check of a photo allows for perspective and
+    /// lens distortion, and does not judge the scale. A resolution that contradicts the spacing is
+    /// reported as a fault.
     std::optional<Resolution> resolution;
     /// True if the image file states that a camera took the image. In this case, the resolution is
     /// ignored.
     bool is_photo = false;
     /// Reflectance of solid ink relative to the paper, 0 to 0.9. The value must be given, because
-    /// it cannot be measured on dots of a few pixels. The measured diameter of a dot is the
+    /// dots of a few pixels are too small to measure it. The measured diameter of a dot is the
     /// diameter of a disc of this ink that has the same total darkness.
     double ink_reflectance = 0.15;
     /// Called after each part of the work. Returning false stops the work with an Error.
@@ -62,16 +63,17 @@ struct CheckPrintOptions {
 };
 
 /// Scale and angles of a print on a flatbed scan, including the scale and angles of the scanner. A
-/// second scan, with the page turned by 90 degrees, separates printer and scanner.
+/// second scan, with the page turned by 90 degrees, separates the printer from the scanner.
 struct PrintScale {
     double scale_x = 1;       ///< printed length over nominal length along the pattern's x axis
     double scale_y = 1;       ///< printed length over nominal length along the pattern's y axis
     double rotation_rad = 0;  ///< direction of the pattern's x axis in the scan, from +u towards +v
-    double skew_rad = 0;      ///< excess over 90 degrees of the angle from the x to the y axis
+    double skew_rad = 0;      ///< angle from the x axis to the y axis, minus 90 degrees
 };
 
-/// Ratio of the two scales of a print, measured in a photo. Available only if its uncertainty, due
-/// to perspective and the unknown focal length of the camera, is at most half a percent.
+/// Ratio of the two scales of a print, measured in a photo. Perspective and the unknown focal
+/// length of the camera make the ratio uncertain. It is available only if the uncertainty is at
+/// most half a percent.
 struct ScaleRatio {
     double x_over_y = 1;
     double uncertainty = 0;  ///< maximum error of the ratio
@@ -110,14 +112,14 @@ struct PrintField {
     std::vector<DistortionBin> distortion;
     double largest_distortion_mm = 0;  ///< maximum length of a deviation in `distortion`
 
-    /// Number of cells under other print, such as text; not counted in `cells`.
+    /// Number of cells under other print, such as text. `cells` excludes these cells.
     int covered = 0;
     int cells = 0;       ///< number of cells of the region that are in view and not covered
     int missing = 0;     ///< number of cells without a dot
     int merged = 0;      ///< number of dots that touch a neighbour
     int dots = 0;        ///< number of dots found
     int bits_wrong = 0;  ///< number of wrong bits, at most two per dot found
-    /// Median diameter of equivalent discs; see CheckPrintOptions::ink_reflectance.
+    /// Median diameter of equivalent discs (see CheckPrintOptions::ink_reflectance).
     double dot_mm = 0;
     double dot_sigma_mm = 0;  ///< standard deviation of the diameter, from the median absolute
                               ///< deviation
@@ -133,7 +135,7 @@ struct PrintField {
     double missing_share() const { return cells > 0 ? double(missing) / cells : 0; }
     double merged_share() const { return dots > 0 ? double(merged) / dots : 0; }
     double wrong_share() const { return dots > 0 ? 0.5 * bits_wrong / dots : 0; }
-    /// Returns the relative growth of the dot diameter over the nominal diameter; negative if the
+    /// Returns the relative growth of the dot diameter over the nominal diameter. Negative if the
     /// dots shrank.
     double gain() const { return dot_mm / pattern.dot_mm - 1; }
     /// Returns the fraction of the cells that cannot be used: covered, missing, merged or with a
@@ -170,7 +172,7 @@ const char* name(FindingKind kind);
 struct Finding {
     FindingKind kind = FindingKind::good;
     bool is_fault = false;  ///< true for a fault to correct, false for a remark
-    /// Index of the field concerned; none for the scan as a whole.
+    /// Index of the field concerned. None for the scan as a whole.
     std::optional<std::size_t> field;
     /// One or two sentences for the user: the fault, the likely cause, the remedy.
     std::string text;

@@ -33,7 +33,7 @@ struct SpinCalibration;
 struct Stitching;
 struct Sweep;
 
-/// Contents of the caption of `draw_frame`, in addition to the fix.
+/// Options for the caption of `draw_frame`.
 struct DrawOptions {
     /// Spacing of the printed grid in mm, for the pose in mm. If the spacing is NaN, the pose is in
     /// spacings.
@@ -42,9 +42,9 @@ struct DrawOptions {
     /// `locate`. Default: the fix of the trace.
     std::optional<Fix> fix{};
     std::string title{};  ///< for example the name of the file; default: none
-    /// Place of the fix on a sheet. If the place is given, the large numbers of the caption are the
-    /// pose in the world, or on the sheet if the pose in the world is not known. Default: the pose
-    /// in the pattern.
+    /// Place of the fix on a sheet. With a place, the caption shows the pose in the world in large
+    /// numbers. If the pose in the world is not known, it shows the pose on the sheet. Default: the
+    /// pose in the pattern.
     std::optional<SheetPlace> place{};
     /// Reason and remedy for the caption if there is no fix. Default: the message of the status.
     std::string reason{};
@@ -55,14 +55,14 @@ struct DrawOptions {
 ///
 /// The left panel shows the image with a ring around each dot, the symmetric connections of the
 /// neighbour search, and the origin of the grid (paper Fig. 2 and 3). Below the panel, the same
-/// connections are drawn from one origin, with the grid vectors (Fig. 4). The right panel (Fig. 9)
-/// shows the grid, the symbol of each dot as seen on the pattern, coloured by its likelihood, the
-/// decoded window and its corner, the reference point and the angle theta. Below the panel is the
-/// pose, or the reason why there is none.
+/// connections are drawn from one origin, with the grid vectors (Fig. 4). The right panel shows the
+/// decoding (Fig. 9): the grid, the symbol of each dot, coloured by its likelihood, the decoded
+/// window and its corner, the reference point and the angle theta. Below the panel is the pose, or
+/// the reason why there is none.
 ///
-/// With lens distortion, everything is drawn at its place in the image, so grid lines are curved.
-/// Large images are embedded at a lower resolution, and dots too close together for letters are
-/// drawn as points. The picture of a photo is therefore smaller than 1 MB.
+/// Everything is drawn at its place in the image, so grid lines are curved if the lens has
+/// distortion. Large images are embedded at a lower resolution. Dots too close together for letters
+/// are drawn as points. The picture of a photo is therefore smaller than 1 MB.
 void draw_frame(std::ostream& out, ImageView image, const Trace& trace,
                 const DrawOptions& draw_options = {});
 void draw_frame(const std::filesystem::path& path, ImageView image, const Trace& trace,
@@ -78,7 +78,7 @@ struct PathPoint {
 };
 
 /// Draws the true path on the page with the measured points. The errors are too small to be visible
-/// on the page, so they are also drawn as a scatter plot and as a function of the frame number.
+/// on the page. They are also drawn as a scatter plot, and as a function of the frame number.
 void draw_path(std::ostream& out, const Sheet& sheet, std::span<const PathPoint> path,
                const std::string& title = {});
 void draw_path(const std::filesystem::path& file, const Sheet& sheet,
@@ -91,7 +91,8 @@ void draw_calibration(const std::filesystem::path& path, const LensCalibration& 
 /// frame.
 void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibration);
 
-/// Contents of the caption that `draw_frame` draws, in addition to the fix.
+/// Draws the sheets before and after stitching, with the difference between the two positions of
+/// each frame over a seam.
 void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
                     const Stitching& stitching);
 

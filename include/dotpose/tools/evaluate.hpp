@@ -7,7 +7,7 @@
 ///     const Score score = score_of(evaluate(run).front());
 ///
 /// `frames_of_setup` simulates the frames instead. `run_protocol` (protocol.hpp) repeats the
-/// paper's own experiment (section IV); `run_sweep` (sweep.hpp) degrades one condition step by
+/// paper's own experiment (section IV). `run_sweep` (sweep.hpp) degrades one condition step by
 /// step.
 ///
 /// Except for times, results depend only on the frames, not on the number of threads. Functions

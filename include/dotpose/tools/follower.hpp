@@ -46,10 +46,10 @@ struct FollowerOptions {
     double spacing_mm = kDefaultSpacing_mm;
     /// Lens, view and mount of the camera. Images must have the size in the camera file.
     std::optional<Camera> camera;
-    /// True if images are flipped left to right before they are located, like `flip` in a camera
-    /// file. All pixel coordinates refer to the flipped images.
+    /// True to flip images left to right before they are located, like `flip` in a camera file. All
+    /// pixel coordinates refer to the flipped images.
     bool flip = false;
-    /// The reference pixel of the pose, instead of the image centre or the reference point of the
+    /// The reference pixel of the pose. Replaces the image centre and the reference point of the
     /// camera file.
     std::optional<PixelPoint> reference_px;
     /// True to fit the pose of the camera in space, in addition to the pose on the paper. Requires
@@ -63,21 +63,21 @@ struct Located {
     /// The pose of the reference point, corrected by the camera file if there is one.
     Fix fix;
     std::optional<SheetPlace> place;  ///< place of the fix; none if the fix is not on any sheet
-    /// The code variant of the fix and, if a place in another code variant also explains the image,
-    /// this place. After `locate`, `reading.fix` does not include the correction by the camera
-    /// file.
+    /// The code variant of the fix. If a place in another code variant also explains the image,
+    /// contains this place. After `locate`, `reading.fix` does not include the correction by the
+    /// camera file.
     CodeReading reading;
     /// Spacing of the sheet, or the common spacing of all sheets, in mm. NaN if spacings differ and
     /// the fix is not on any sheet.
     double spacing_mm = 0;
-    /// Spacing computed from the fix and the view of the camera file, in mm; NaN if unknown.
+    /// Spacing computed from the fix and the view of the camera file, in mm. NaN if unknown.
     /// `contradicts` (mounted_pose.hpp) compares this spacing with `spacing_mm`.
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
-    /// Velocity of the camera during the readout. None without a fix, or if the camera file does
-    /// not contain the readout time of a rolling shutter.
+    /// Velocity of the camera during the readout. None if there is no fix, or if the camera file
+    /// does not contain the readout time of a rolling shutter.
     std::optional<ReadoutVelocity> velocity;
-    /// Pose of the camera in space, if `FollowerOptions::fits_space_pose` is set. None without a
-    /// fix or if the spacing is not known.
+    /// Pose of the camera in space, if `FollowerOptions::fits_space_pose` is set. None if there is
+    /// no fix, or if the spacing is not known.
     std::optional<SpacePose> space;
     bool code_is_given = false;  ///< true if options or sheets determine the code variant
     int reduced_by = 1;          ///< factor by which the image was reduced
@@ -86,7 +86,7 @@ struct Located {
 /// The result for one image of a sequence, given the previous images.
 struct Followed {
     /// Result of the image. If the fix was accepted only because of the predicted place, its
-    /// `p_wrong` includes the prior probability of that place.
+    /// `p_wrong` takes the prior probability of that place into account.
     Located located;
     Track track;
 };
@@ -100,8 +100,8 @@ std::optional<Sighting> world_sighting(const Fix& fix, const SheetPlace& place,
 /// Locates single images, or the images of a sequence in order.
 class Follower {
   public:
-    /// Throws BadArgument if the options require a pose in space and have no camera file, or one
-    /// without a focal length.
+    /// Throws BadArgument if the options require a pose in space, and the camera file is missing or
+    /// has no focal length.
     explicit Follower(const FollowerOptions& options);
 
     /// Locates an image without a prediction from other images. Reduces images larger than
@@ -119,8 +119,8 @@ class Follower {
     const std::vector<SheetEntry>& sheets() const { return options_.sheets; }
     bool fits_space_pose() const { return options_.fits_space_pose; }
 
-    /// Return, for the latest image: the image that was located (possibly flipped, reduced, and
-    /// corrected by the flat field), the options used, and the trace of the stages.
+    /// Return results for the latest image: the image that was located (possibly flipped, reduced,
+    /// and corrected by the flat field), the options used, and the trace of the stages.
     ImageView image() const { return image_; }
     const DeviceOptions& used_options() const { return used_; }
     Trace trace() const { return locator_.trace(); }
@@ -179,7 +179,7 @@ class Follower {
     DeviceOptions used_;
     ImageView image_;
     std::optional<FlatFieldCorrection> flat_field_;
-    GreyImage corrected_;  ///< the image, flipped and with even light
+    GreyImage corrected_;  ///< image after flipping and correcting the light
     GreyImage reduced_;
     std::vector<KnownRegion> known_;  ///< regions of the sheets
     Locator locator_{DeviceOptions{}};

@@ -1,10 +1,10 @@
 /// Reads images from files as 8-bit grey, and writes grey images.
 ///
 /// Formats: PNM (PBM, PGM and PPM, text and binary), PNG, JPEG, BMP and TIFF. If dotpose was built
-/// with libwebp and libheif, also WebP, HEIC and AVIF. The format is detected from the first bytes
-/// of a file, never from its name. A truncated or damaged file is an Error, even if part of the
-/// picture could be decoded, because interpolated pixels are not measurements. A JPEG that lacks
-/// only its end marker is read.
+/// with libwebp and libheif, also WebP, HEIC and AVIF. The format is determined by the first bytes
+/// of a file, not by its name. A truncated or damaged file is an Error, even if part of the picture
+/// could be decoded, because interpolated pixels are not measurements. A JPEG that lacks only its
+/// end marker is read.
 ///
 /// Every pixel is converted to one grey level, from 0 (black) to 255 (white). Colour is converted
 /// to luma 0.299 R + 0.587 G + 0.114 B (Rec. 601) of the stored values. Palettes are expanded. CMYK

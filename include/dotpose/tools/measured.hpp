@@ -70,16 +70,17 @@ struct MeasuredError {
     double x_mm = 0;
     double y_mm = 0;
     std::optional<double> angle_rad;  ///< none if the true angle is not known
-    /// True if the fix is wrong: it is on another sheet, there is no true place, or the error of
-    /// its position or angle exceeds both a fixed limit (half a spacing, 2 degrees) and ten times
-    /// the median error.
+    /// True if the fix is wrong: it is on another sheet, there is no true place, or its error is
+    /// too large. The error of position or angle is too large if it exceeds both a fixed limit
+    /// (half a spacing, 2 degrees) and ten times the median error.
     bool is_wrong = false;
 };
 
 /// All frames with their errors.
 struct Measurement {
     std::vector<MeasuredFrame> frames;
-    std::vector<std::optional<MeasuredError>> errors;  ///< error of each frame; none without a fix
+    std::vector<std::optional<MeasuredError>> errors;  ///< error of each frame; none if the frame
+                                                       ///< has no fix
     std::optional<Similarity> alignment;  ///< none if places were compared without alignment
     bool is_in_world = false;
 
@@ -101,9 +102,9 @@ std::vector<std::pair<std::string, std::string>> described(const Measurement& me
 /// Writes one line for each frame: true place, found place and error.
 void write_errors_csv(std::ostream& out, const Measurement& measurement);
 
-/// Writes positions.csv, figure-13 and figure-14 and, if the true angles differ, angles.csv and
-/// figure-15. The figures correspond to the figures of the paper. Each figure is written as .svg
-/// and .png. Frames with the same true place are samples of one position.
+/// Writes positions.csv, figure-13 and figure-14. If the true angles differ, also writes angles.csv
+/// and figure-15. The figures correspond to the figures of the paper. Each figure is written as
+/// .svg and .png. Frames with the same true place are samples of one position.
 void write_measurement(const std::filesystem::path& folder, const Measurement& measurement);
 
 }  // namespace dotpose

@@ -20,11 +20,13 @@ DOTPOSE_BEGIN_EXPORT
 namespace dotpose {
 
 /// Refines a fix, given the camera file and the trace of the frame. The perspective and the scale
-/// of a mounted camera are constant and are read from the file. Only the place, the angle, a scale
-/// factor and the displacement of the dots are fitted: the scale factor because the scale of a
-/// print differs from its nominal scale, and the displacement because ink and blur change it. If
-/// the file contains the readout time of a rolling shutter, the velocity is fitted as well. The
-/// result is more accurate than `fix`, especially far from the image centre. Theta becomes the
+/// of a mounted camera are constant, and the camera file contains them. Fits only these parameters:
+/// - the place and the angle,
+/// - a scale factor, because the scale of a print differs from its nominal scale,
+/// - the displacement of the dots, because ink and blur change it,
+/// - the velocity, if the file contains the readout time of a rolling shutter.
+///
+/// The result is more accurate than `fix`, especially far from the image centre. Theta becomes the
 /// heading of the robot. `print` is the print scale of the sheet of the fix, if it is known. The
 /// fix remains in nominal units of the pattern.
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace,
@@ -43,8 +45,8 @@ struct ReadoutVelocity {
 };
 
 /// A fix refined by `with_camera`, and the velocity during the readout. Pose and velocity are
-/// fitted together to the dots. There is no velocity
-/// without a fix, or if the camera file has no `readout_ms` or no view.
+/// fitted together to the dots. There is no velocity if there is no fix, or if the camera file has
+/// no `readout_ms` or no view.
 struct MovingFix {
     Fix fix;
     std::optional<ReadoutVelocity> velocity;
@@ -52,13 +54,14 @@ struct MovingFix {
 MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const Trace& trace,
                                    const AxisScale& print = {});
 
-/// Returns the spacing of the pattern in mm, computed from the fix and the view of the camera file,
-/// divided by the print scale of the sheet (nominal mm). Returns NaN without a fix or a view.
+/// Returns the spacing of the pattern in nominal mm. This is the spacing computed from the fix and
+/// the view of the camera file, divided by the print scale of the sheet. Returns NaN if there is no
+/// fix, or if the camera file has no view.
 double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print = {});
 
-/// Maximum relative difference between the nominal and the measured spacing of a sheet. The limit
-/// is larger than the change of scale within the depth of field of a camera close to the paper. The
-/// limit is smaller than 3 %, the change of scale if a printer driver shrinks the page to 97 %.
+/// Maximum relative difference between the nominal and the measured spacing of a sheet. It exceeds
+/// the change of scale within the depth of field of a camera close to the paper. It is less than 3
+/// %, the change of scale if a printer driver shrinks the page to 97 %.
 inline constexpr double kMaxSpacingDifference = 0.025;
 
 /// Returns true if a measured spacing contradicts the spacing of the sheet. Returns false if either

@@ -63,13 +63,13 @@ struct OpticsReport {
     double field_angle_rad = 0;  ///< angle of view along the diagonal of the field
     double dots_in_view = 0;     ///< mean number of dots in the field
 
-    /// Diagonal of 8 x 8 dots in the worst case: sqrt(2) spacing (7 + 3/6) for dots with a diameter
-    /// of a sixth of the spacing and a displacement of a sixth in each direction.
+    /// Diagonal of 8 x 8 dots in the worst case: sqrt(2) spacing (7 + 3/6). The dots have a
+    /// diameter of a sixth of the spacing and a displacement of a sixth in each direction.
     double block_diagonal_mm = 0;
     /// True if the shorter side of the field is at least `block_diagonal_mm` (paper III-A.3).
     bool block_fits = false;
-    /// Side of a square field that contains 8 x 8 dots at any position of the grid, for a grid at
-    /// 45 degrees: block_diagonal_mm + sqrt(2) spacing.
+    /// Side of a square field that contains 8 x 8 dots at any position of the grid. The worst case
+    /// is a grid at 45 degrees: block_diagonal_mm + sqrt(2) spacing.
     double block_anywhere_mm = 0;
     bool block_fits_anywhere = false;
 
@@ -80,8 +80,8 @@ struct OpticsReport {
     double longest_exposure_s = 0;  ///< maximum exposure at the given speed and turn rate
     double blur_px = 0;             ///< blur at the given speed, turn rate and exposure
 
-    /// Distances from the lens at which the defocus blur is one pixel: nearer and farther than the
-    /// focused distance. `far_mm` may be infinite.
+    /// Distances from the lens at which the defocus blur is one pixel. `near_mm` is less than the
+    /// focused distance, and `far_mm` is greater. `far_mm` may be infinite.
     double near_mm = 0;
     double far_mm = 0;
     double depth_mm() const { return far_mm - near_mm; }

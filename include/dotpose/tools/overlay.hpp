@@ -35,19 +35,20 @@ struct OverlaidPage {
 /// Options for the dots, and for the pages that contain dots.
 struct OverlayOptions {
     Pattern pattern;  ///< code, section, and dimensions of the dots
-    /// First cell of the first page; the first cells of the following pages are chosen as in
+    /// First cell of the first page. The first cells of the following pages are chosen as in
     /// `make_sheets`.
     Cell origin;
     double margin_mm = 5;  ///< margin without dots inside the visible page (its crop box)
     double dpi = 600;      ///< resolution of the printer; see PrintOptions
     DotDrawing drawing = DotDrawing::automatic;
-    /// Pages that get dots, from 1, for example "1-3,7"; "z" is the last page. Empty: all.
+    /// Numbers of the pages that get dots, from 1, for example "1-3,7". "z" is the last page. Empty
+    /// for all pages.
     std::string pages;
     int copies = 1;  ///< number of copies of the document, each with its own cells
     /// Paper on which several pages with dots are printed side by side as cards, with cut marks.
     /// The sheet of a card begins at the corner of the card. Cards have no links or form fields,
-    /// and pages without dots are omitted. If none, there are no cards, and each page of the
-    /// document remains a page.
+    /// and pages without dots are omitted. Without this option, there are no cards, and each page
+    /// of the document remains a page.
     std::optional<Paper> card_paper;
     bool under = false;    ///< true for dots below the content of the page instead of above
     std::string password;  ///< password of an encrypted file; the result is also encrypted
@@ -79,11 +80,17 @@ struct OverlayReport {
 /// text, drawings, forms, fonts and appearances, and of images if their colour space permits. The
 /// report lists content that was not changed.
 ///
-/// Throws BadArgument if the pattern, margin, page range or number of copies is invalid, cards
-/// differ in size or are larger than their paper, a page is too small or its region would extend
-/// past the end of the code plane, or `out` is `in`. Throws Error if `in` cannot be read, is
-/// damaged, needs another password, is nested too deeply or exceeds the limit on uncompressed
-/// content, if `out` cannot be written, or if `progress` returned false.
+/// Throws BadArgument in these cases:
+/// - The pattern, margin, page range or number of copies is invalid.
+/// - Cards differ in size or are larger than their paper.
+/// - A page is too small, or its region would extend past the end of the code plane.
+/// - `out` is `in`.
+///
+/// Throws Error in these cases:
+/// - `in` cannot be read, is damaged, needs another password, is nested too deeply or exceeds the
+///   limit on uncompressed content.
+/// - `out` cannot be written.
+/// - `progress` returned false.
 OverlayReport overlay_pdf(const std::filesystem::path& in, const std::filesystem::path& out,
                           const OverlayOptions& options = {});
 

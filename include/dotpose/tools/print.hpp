@@ -31,7 +31,7 @@ inline constexpr int kMaxPages = 10'000;
 /// Maximum resolution of PNG, TIFF and PDF files.
 inline constexpr double kMaxResolution_dpi = 19'200;
 
-/// Size of a page; the default is A4, portrait.
+/// Size of a page. The default is A4, portrait.
 struct Paper {
     double width_mm = 210;
     double height_mm = 297;
@@ -55,10 +55,10 @@ struct SheetOptions {
 
 /// Lays out a sheet: fills the page inside its margins with whole cells, from the top left.
 ///
-/// The top left intersection is the first one whose dot is inside the margins and whose coordinates
-/// are odd multiples of half a 300 dpi printer pixel. With these coordinates, every dot of the
-/// default pattern covers whole printer pixels at 300, 600 and 1200 dpi (paper section III-A.1,
-/// Fig. 11).
+/// The top left intersection is the first intersection with these properties: its dot is inside the
+/// margins, and its coordinates are odd multiples of half a 300 dpi printer pixel. With these
+/// coordinates, every dot of the default pattern covers whole printer pixels at 300, 600 and 1200
+/// dpi (paper section III-A.1, Fig. 11).
 ///
 /// Throws BadArgument as `validate` does, if the margins leave less space than kMinSheetCells
 /// columns and rows, and if the region would extend past the end of the code plane.
@@ -95,8 +95,8 @@ using Progress = std::function<bool(int rows_done, int rows)>;
 /// Methods of drawing dots in a PDF.
 enum class DotDrawing {
     automatic,  ///< `glyphs` where they are exact, otherwise `strokes`
-    /// Text in a font of four glyphs: small and fast, but renderers round the position of every
-    /// glyph to whole pixels, so spacing, displacement and dot diameter must be whole numbers of
+    /// Text in a font of four glyphs: small and fast. Renderers round the position of every glyph
+    /// to whole pixels. Spacing, displacement and dot diameter must therefore be whole numbers of
     /// pixels.
     glyphs,
     strokes,  ///< lines of length 0 with round caps: exact at any spacing
@@ -114,10 +114,10 @@ struct PrintOptions {
     bool labels = true;
     std::string name;     ///< PDF only: the first label, and the title of the document
     std::string command;  ///< PDF only: label with the command that reprints the sheet
-    /// PDF only: separate commands for each page. If there are any, they replace `command`.
+    /// PDF only: separate commands for each page. If not empty, they replace `command`.
     std::vector<std::string> page_commands;
     int first_page = 1;  ///< PDF only: page number of the first sheet, for the labels
-    /// PDF only: total number of pages, for the labels. 0 stands for the number of sheets.
+    /// PDF only: total number of pages, for the labels. If 0, the labels show the number of sheets.
     int page_count = 0;
     /// Called often, so it must be fast. Default: none.
     Progress progress;

@@ -8,9 +8,9 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// A model (not a measurement) of a printer's errors over a page: a smooth, low-frequency shift.
-/// The amplitudes are chosen such that the maximum errors over the measured area are those of Table
-/// III of the paper. The errors are larger along y, the direction of paper feed, than along x.
+/// A model (not a measurement) of the errors of a printer over a page: a smooth, low-frequency
+/// shift. The maximum errors over the measured area are those of Table III of the paper. The errors
+/// are larger along y, the direction of paper feed, than along x.
 class PrintModel {
   public:
     /// Side of the square area to which the maximum errors apply.

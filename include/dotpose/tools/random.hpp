@@ -1,5 +1,5 @@
-/// Random numbers that are the same on every machine and with every standard library, unlike the
-/// distributions of `<random>`. For simulation only; not for secrets.
+/// Random numbers that are the same on every machine. The distributions of `<random>` depend on the
+/// standard library. For simulation only, not for secrets.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@ constexpr std::uint64_t scramble(std::uint64_t bits) noexcept {
     return bits ^ (bits >> 31);
 }
 
-/// The generator splitmix64. It is cheap to seed, so every frame and every printed dot has its own
+/// The generator splitmix64. Seeding is fast, so every frame and every printed dot can have its own
 /// generator.
 class Rng {
   public:
-    /// Starts the stream of numbers of a seed.
+    /// Starts the stream of numbers that belongs to a seed.
     explicit constexpr Rng(std::uint64_t seed) noexcept : state_(seed) {}
 
     /// Starts an independent stream for item `index` of a run.
@@ -54,8 +54,7 @@ class Rng {
 
     /// Returns a normal number with mean 0 and standard deviation 1: the number of ones among 128
     /// random bits, smoothed by a uniform number. The excess kurtosis is -0.016, and the absolute
-    /// value is at most 11.4. No logarithm is used, because its last digit differs between
-    /// machines.
+    /// value is at most 11.4. Uses no logarithm, because its last digit differs between machines.
     constexpr double normal() noexcept {
         constexpr double kInverseDeviation = 0.1765469659009499;  // 1 / sqrt(128 / 4 + 1 / 12)
         const int ones = ones_in(bits(), bits());
@@ -63,8 +62,8 @@ class Rng {
     }
 
   private:
-    /// Returns the number of set bits among 128 bits. Counts in parallel fields of 2, 4 and 8 bits,
-    /// because std::popcount is a function call on processors that may lack the instruction.
+    /// Returns the number of set bits among 128 bits. Counts in parallel fields of 2, 4 and 8 bits.
+    /// On processors that may lack the instruction, std::popcount is a slow function call.
     static constexpr int ones_in(std::uint64_t a, std::uint64_t b) noexcept {
         constexpr std::uint64_t kOdd2 = 0x3333333333333333u;
         constexpr std::uint64_t kOdd4 = 0x0F0F0F0F0F0F0F0Fu;

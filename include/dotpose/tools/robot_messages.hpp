@@ -8,13 +8,16 @@
 ///     if (messages.pose) publish(to_cdr(*messages.pose));
 ///
 /// Coordinate frames (ROS REP 103: metres, x forward, y left, z up, counter-clockwise; REP 105):
-/// `map` is the world of the sheet file. Without a sheet file, `map` is the pattern frame with y up
-/// and the same origin. `odom` begins at the first pose of the robot. While the robot is followed,
-/// the transform from `map` to `odom` does not change. When the robot is found again after it was
-/// lost or moved by hand, or is in another plane, the transform from `map` to `odom` jumps, and the
-/// transform from `odom` to `base_link` remains continuous. `base_link` is the reference point of
-/// the camera file on the paper, with the robot's heading. Without a camera file, `base_link` is
-/// the point under the image centre, with x along the image x axis.
+/// - `map` is the world of the sheet file. Without a sheet file, `map` is the pattern frame with y
+///   up and the same origin.
+/// - `odom` begins at the first pose of the robot.
+/// - `base_link` is the reference point of the camera file on the paper, with the robot's heading.
+///   Without a camera file, `base_link` is the point under the image centre, with x along the image
+///   x axis.
+///
+/// While the robot is followed, the transform from `map` to `odom` is constant. It jumps when the
+/// robot is found again after it was lost or moved by hand, and when the robot enters another
+/// plane. The transform from `odom` to `base_link` is always continuous.
 #pragma once
 
 #include <array>
@@ -64,7 +67,8 @@ struct PlanarMotion {
 /// The results of a frame, in the frame `map`.
 struct RobotUpdate {
     std::int64_t time_ns = 0;            ///< middle of the exposure
-    std::optional<PlanarFix> fix;        ///< none without a fix, or if its place is not known
+    std::optional<PlanarFix> fix;        ///< none if there is no fix, or if the place of the fix is
+                                         ///< unknown
     std::optional<PlanarMotion> motion;  ///< none while the robot is lost
     std::uint32_t plane = 0;             ///< ID of the plane; poses in different planes are
                                          ///< unrelated
@@ -120,10 +124,10 @@ class RobotMessenger {
     std::optional<std::uint32_t> plane_;  ///< none before the first pose
 };
 
-/// Returns the mount of the camera: the pose of the optical frame (z towards the paper, x and y
-/// along the axes of the image) in `base_link`, above the point under the image centre. The height
-/// is 0 if the camera file has no focal length. Returns none if the camera file has no view of the
-/// paper.
+/// Returns the mount of the camera: the pose of the optical frame in `base_link`. The optical frame
+/// is above the point under the image centre, with z towards the paper, and x and y along the axes
+/// of the image. The height is 0 if the camera file has no focal length. Returns none if the camera
+/// file has no view of the paper.
 std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFrames& frames = {});
 
 }  // namespace dotpose::ros

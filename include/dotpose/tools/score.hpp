@@ -28,7 +28,7 @@ Quantiles quantiles_of(std::vector<double> values);
 
 /// Counts and error statistics of many frames.
 struct Score {
-    /// Number of readable frames; each is located, wrong, or has a status other than ok.
+    /// Number of readable frames. Each frame is located, is wrong, or has a status other than ok.
     int frames = 0;
     int unreadable = 0;
     int located = 0;                               ///< number of correct fixes
@@ -39,9 +39,9 @@ struct Score {
     // `elapsed_us`.
     Quantiles position_um;  ///< distance between the found and the true position
     Quantiles angle_deg;
-    /// Mean of error^2 / variance, for x, y and theta: 1 if the covariance is correct, above 1 if
-    /// the errors are larger than the covariance predicts. NaN if there are no correct fixes, or if
-    /// any of them has no covariance.
+    /// Mean of error^2 / variance, for x, y and theta. The mean is 1 if the covariance is correct,
+    /// and larger if the errors are larger than the covariance predicts. NaN if there are no
+    /// correct fixes, or if any of them has no covariance.
     std::array<double, 3> normalised = {};
 
     double largest_p_wrong = 0;  ///< maximum p_wrong of all fixes

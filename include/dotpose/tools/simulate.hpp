@@ -9,9 +9,9 @@
 ///     const Shot shot = draw_shot(setup, i);  // change anything here: shot.pose.theta_rad = 0;
 ///     const GreyImage image = render(shot);
 ///
-/// Every frame depends on (setup, i) alone: the same bytes on every machine, in any order and from
-/// any number of threads. All functions are pure and thread-safe. Functions throw BadArgument for
-/// invalid values.
+/// Every frame depends only on (setup, i). Its bytes are the same on every machine, for any order
+/// of rendering and any number of threads. All functions are pure and thread-safe. Functions throw
+/// BadArgument for invalid values.
 ///
 /// Coordinate frames: *pixel* (centre of the first pixel (0, 0), v down), *pattern* (x right, y
 /// DOWN as the page is read, mm). Offsets named `offset_mm` are in the pattern frame, relative to
@@ -55,14 +55,14 @@ struct CameraModel {
     double k = 0;
     /// Distance of the projection centre from the pose point, relevant only with tilt. Above 0.
     double working_distance_mm = 16;
-    /// Motion of the scene in the undistorted image while a rolling shutter reads the rows, at most
+    /// Motion of the scene in the undistorted image while a rolling shutter reads the rows. At most
     /// 75 % of the side of the image along each axis. The pose applies to the time of the middle
     /// row. (0, 0) for a global shutter.
     Vec2 readout_px;
-    /// Rotation of the scene about the image centre while a rolling shutter reads the rows, from
-    /// the image x axis towards the image y axis, in addition to the motion. Both rates are
-    /// constant, as for a camera on a robot that drives in a circle. The scene must not overtake
-    /// the rows: the limit is about 80 degrees in an image of 4:3.
+    /// Rotation of the scene about the image centre while a rolling shutter reads the rows, in
+    /// addition to the motion. The direction is from the image x axis towards the image y axis.
+    /// Both rates are constant, as for a camera on a robot that drives in a circle. The scene must
+    /// not move down faster than the rows are read: the limit is about 80 degrees in a 4:3 image.
     double readout_turn_rad = 0;
 };
 
@@ -74,9 +74,9 @@ struct CameraPose {
     /// Angle of the image x axis in the pattern frame, from +x towards +y (clockwise as seen on
     /// the paper), at the image centre.
     double theta_rad = 0;
-    /// Tilt of the paper about the image x axis: above 0, the paper recedes towards the bottom.
+    /// Tilt of the paper about the image x axis. If above 0, the paper recedes towards the bottom.
     double tilt_x_rad = 0;
-    /// Tilt about the image y axis: above 0, the paper comes closer towards the right.
+    /// Tilt about the image y axis. If above 0, the paper comes closer towards the right.
     double tilt_y_rad = 0;
 };
 
@@ -85,19 +85,19 @@ double x_grid(const CameraPose& pose);
 double y_grid(const CameraPose& pose);
 
 /// Effects of printer, paper, light and sensor on a frame. The defaults are those of the preset
-/// `clean`, which has none of these effects. Fractions and reflectances are in [0, 1]; sigmas,
+/// `clean`, which has none of these effects. Fractions and reflectances are in [0, 1]. Sigmas,
 /// lengths and counts are not negative.
 struct Imperfections {
     double paper_level = 200;       ///< grey level of bare paper at the image centre, 0 to 255
     double ink_reflectance = 0.15;  ///< reflectance relative to paper
     double ink_variation = 0;  ///< standard deviation of a dot's reflectance, relative to paper
-    /// Contrast of the palest ink relative to the darkest ink. Each direction of displacement may
-    /// have its own ink: the darkest ink has `ink_reflectance`, and the contrasts of the remaining
-    /// two inks are evenly spaced between the contrasts of the palest and of the darkest ink.
+    /// Contrast of the palest ink relative to the darkest ink. Each of the four directions of
+    /// displacement has its own ink. The darkest ink has `ink_reflectance`. The contrasts of the
+    /// four inks are evenly spaced.
     double palest_ink = 1;
     double vignetting = 0;  ///< loss of light in the image corners, growing with r^2
     /// Linear change of light from one side to the opposite side, relative to the light at the
-    /// centre; 0 to 2.
+    /// centre. 0 to 2.
     double fall = 0;
     double fall_direction_rad = 0;  ///< direction in which the light decreases, from +u towards +v
     double blur_sigma_px = 0;
@@ -145,7 +145,7 @@ struct PageArea {
     double half_height = 0;
     double angle_rad = 0;  ///< direction of the side along `half_width`, from +x towards +y
 
-    /// Returns the distance of a point from the area, in grid units; negative inside.
+    /// Returns the distance of a point from the area, in grid units. Negative inside.
     double distance(double x, double y) const;
 };
 
@@ -153,8 +153,8 @@ struct PageArea {
 struct Page {
     Pattern pattern;
     /// Seed of the printing errors and of the texture of the paper. The seed, the section and the
-    /// cell determine the jitter, the ink and the absence of a dot. These properties are therefore
-    /// the same in every frame.
+    /// cell determine the jitter, the ink and the absence of a dot, which are therefore the same in
+    /// every frame.
     std::uint64_t seed = 1;
     /// Printed intersections: `columns` x `rows`, starting at `origin`. The whole plane if
     /// `columns` is 0.
@@ -162,7 +162,7 @@ struct Page {
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
     /// Printed length over nominal length, above 0. The position of the pose and `displacement_mm`
-    /// are in nominal units. Offsets and theta are on the paper.
+    /// are in nominal units. Offsets and theta are measured on the paper.
     AxisScale print_scale;
     /// Areas with printed dots: a dot is printed if its intersection is in one of the areas. If
     /// empty, all dots are printed.
@@ -186,19 +186,21 @@ class Projection {
   public:
     Projection(const CameraModel& camera, const CameraPose& pose);
 
-    /// Returns the pixel of an offset. For a point that the camera cannot see, returns (1e9, 1e9),
-    /// a pixel far outside the image.
+    /// Returns the pixel that shows the point at an offset. For a point that the camera cannot see,
+    /// returns (1e9, 1e9), a pixel far outside the image.
     Vec2 pixel_from_offset(Vec2 offset_mm) const;
-    /// Returns the offset of a pixel, in mm.
+    /// Returns the offset of the point that a pixel shows, in mm.
     Vec2 offset_from_pixel(Vec2 pixel) const;
     /// Computes `offset_from_pixel` for adjacent pixels, from `first_pixel` to the right.
     void offsets_from_row(Vec2 first_pixel, std::span<Vec2> offsets_mm) const;
 
   private:
-    /// Returns the undistorted point, in px from the image centre, at which a point of the middle
-    /// row's time is seen at `time`. Time is in readouts, and 0 at the middle row.
+    /// Returns where a scene point is in the undistorted image at `time`. `undistorted` is the
+    /// image point of the same scene point at the time of the middle row. Points are in px from the
+    /// image centre. Time is in readouts, and 0 at the middle row.
     Vec2 moved(Vec2 undistorted, double time) const;
-    /// Returns the motion of the pose point in the undistorted image until `time`, an arc.
+    /// Returns the motion of the pose point in the undistorted image from time 0 to `time`. The
+    /// path is an arc.
     Vec2 way_at(double time) const;
 
     Vec2 centre_px_;
@@ -282,8 +284,8 @@ void cover_partly(Shot& shot, const PartialView& view);
 /// Renders a shot.
 GreyImage render(const Shot& shot);
 
-/// Frames without a unique valid position. A locator must refuse these frames. At a seam, however,
-/// the position and section of either side count as correct.
+/// Frames without a unique valid position, which a locator must refuse. At a seam, however, the
+/// position and section of either side count as correct.
 enum class Scene : std::uint8_t {
     black,
     white,

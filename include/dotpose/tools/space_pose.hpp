@@ -9,12 +9,12 @@
 ///     if (pose && !pose->is_ambiguous()) use(pose->camera.z_mm, lean_of(pose->camera.rotation));
 ///
 /// Coordinate frames, all right-handed:
-/// *camera*: the origin is the projection centre; x along the image x axis, y down in the image, z
-/// forward along the optical axis (the optical frame of ROS REP 103).
-/// *pattern*, *sheet*: x right, y DOWN, z INTO the paper, in mm. A camera above the paper has z <
-/// 0. Intersection (i, j) of the pattern is at (i, j) times the printed spacing. The sheet frame
-/// begins at the top left corner of the page. *world*: the world of a sheet file, in metres, y up,
-/// z OUT of the paper. A camera has z > 0.
+/// - *camera*: the origin is the projection centre, x is along the image x axis, y is down in the
+///   image, and z is forward along the optical axis (the optical frame of ROS REP 103).
+/// - *pattern*, *sheet*: x right, y DOWN, z INTO the paper, in mm. A camera above the paper has z <
+///   0. Intersection (i, j) of the pattern is at (i, j) times the printed spacing. The origin of
+///   the sheet frame is the top left corner of the page.
+/// - *world*: the world of a sheet file, in metres, y up, z OUT of the paper. A camera has z > 0.
 ///
 /// The functions are pure and thread-safe.
 #pragma once
@@ -49,13 +49,13 @@ struct CameraInSpace {
     Quaternion rotation;  ///< rotates vectors of the camera frame into the frame of the pose
 };
 
-/// A rotation as three angles in the pattern or sheet frame. The camera is first turned about its
-/// optical axis, which points straight at the paper, and then leaned over in the direction of the
-/// azimuth, by the tilt, without a further turn. These are the angles of a pen in the W3C's Pointer
-/// Events, with tilt = 90 degrees - altitude.
+/// A rotation as three angles in the pattern or sheet frame. The camera looks straight at the
+/// paper, is turned about its optical axis, and then leaned over by the tilt in the direction of
+/// the azimuth. These are the angles of a pen in the W3C's Pointer Events. The tilt is 90 degrees
+/// minus the altitude.
 struct CameraLean {
-    double tilt_rad =
-        0;  ///< angle between the optical axis and the normal of the paper, in [0, pi]
+    /// Angle between the optical axis and the normal of the paper, in [0, pi].
+    double tilt_rad = 0;
     /// Direction on the paper in which the camera leans, from +x towards +y, in (-pi, pi]. Not
     /// defined if the tilt is 0.
     double azimuth_rad = 0;
@@ -68,12 +68,13 @@ CameraLean lean_of(const Quaternion& rotation);
 /// Covariance of a pose: position, then rotation.
 using SpaceCovariance = std::array<std::array<double, 6>, 6>;
 
-/// The other local maximum of the likelihood of the view of a plane. Its tilt is approximately
-/// mirrored about the line of sight.
+/// The second local maximum of the likelihood, if the view of the plane has two. Its tilt is
+/// approximately the first tilt, mirrored about the line of sight.
 struct SecondPose {
     CameraInSpace camera;
-    /// log2 of the likelihood of the dots with this pose divided by that with the first pose, for
-    /// independent errors of the dots. Not above 0.
+    /// log2 of a likelihood ratio: the likelihood of the dots with this pose, divided by their
+    /// likelihood with the first pose. Assumes that the errors of the dots are independent. At most
+    /// 0.
     double odds_log2 = 0;
 };
 
@@ -89,8 +90,8 @@ struct SpacePose {
     /// The second pose that explains the view, if there is one. It may be improbable.
     std::optional<SecondPose> second;
 
-    /// Largest odds of an excluded second pose, log2. The limit is far below any rate of frames,
-    /// because the errors of dots on bent paper are not independent.
+    /// Maximum odds of an excluded second pose, as log2. The limit is low because the errors of
+    /// dots on bent paper are not independent.
     static constexpr double kMaxOdds_log2 = -30;
     /// Returns true if the dots do not exclude the second pose.
     bool is_ambiguous() const { return second && second->odds_log2 > kMaxOdds_log2; }
@@ -100,13 +101,16 @@ struct SpacePose {
 void require_focal_length(const Camera& camera);
 
 /// Fits position and rotation of `camera` to all dots of `image` by maximum likelihood. The dots in
-/// the trace of `fix` give a first pose, which predicts all dots in view: also those at the border
-/// of the image and those far from a tilted camera. They are measured again. The errors of the dots
-/// are errors of their print, which a tilted view foreshortens, and errors of their centres in the
-/// image; both variances are estimated from the residuals. Dots with residuals above four standard
-/// deviations are not used. `print` is the print scale of the sheet. Returns none without a fix,
-/// without a known spacing (`Fix::spacing_nm` is 0), or with fewer than 12 dots. Throws BadArgument
-/// as `require_focal_length` does.
+/// the trace of `fix` give a first pose, which predicts all dots in view. All dots are then
+/// measured again, including dots at the image border and far from a tilted camera.
+///
+/// The errors of the dots are print errors, which a tilted view foreshortens, and errors of their
+/// centres in the image. Both variances are estimated from the residuals. Dots with residuals above
+/// four standard deviations are not used.
+///
+/// `print` is the print scale of the sheet. Returns none if there is no fix, if the spacing is
+/// unknown (`Fix::spacing_nm` is 0), or if there are fewer than 12 dots. Throws BadArgument as
+/// `require_focal_length` does.
 std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const ImageView& image,
                                     const Trace& trace, const AxisScale& print = {});
 

@@ -36,10 +36,10 @@ const char* name(SweepKind kind);
 /// Options for a sweep. The options apply to all values of the condition.
 struct SweepOptions {
     Setup setup;  ///< setup of all frames, except for the varied condition
-    /// Number of frames per value. Frame i is the same at every value, except for the condition
-    /// that is varied.
+    /// Number of frames per value. Frame i is the same at every value, except for the varied
+    /// condition.
     int frames_per_value = 200;
-    /// Options for `locate`; `decoder` is ignored, because both decoders are run.
+    /// Options for `locate`. Both decoders are run, so `decoder` is ignored.
     DeviceOptions locate;
     int threads = 0;
     /// Called with the progress. If it returns false, the sweep ends with the values completed so

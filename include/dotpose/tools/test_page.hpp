@@ -1,13 +1,13 @@
 /// Test page: patches with different dot sizes and spacings, to find the best settings of a
 /// printer.
 ///
-/// The position of each patch encodes its settings: the cell (x, y) at its top left is
+/// The position of each patch encodes its settings. The cell (x, y) at its top left is
 ///
 ///     x = kTestPageCell + kTestPatchCells * (spacing in 1/1200 inch)
 ///     y = kTestPageCell + kTestPatchCells * (diameter of a dot in 1/1200 inch)
 ///
-/// so the position that `locate` reads anywhere in a patch identifies the patch. Cells from
-/// kTestPageCell, on both axes, are reserved for test pages: do not use them for sheets. The
+/// The position that `locate` reads anywhere in a patch therefore identifies the patch. Cells from
+/// kTestPageCell, on both axes, are reserved for test pages and must not be used for sheets. The
 /// displacement is a sixth of the spacing.
 #pragma once
 
@@ -25,7 +25,7 @@ namespace dotpose {
 
 /// First cell, on both axes, of the region reserved for test pages.
 inline constexpr std::uint32_t kTestPageCell = 410'000'000;
-/// Distance in cells between the patches of adjacent settings; a patch has at most half this number
+/// Distance in cells between the patches of adjacent settings. A patch has at most half this number
 /// of cells per axis.
 inline constexpr std::uint32_t kTestPatchCells = 10'000;
 /// Unit of spacings and diameters on a test page.

@@ -13,7 +13,7 @@ namespace dotpose {
 /// Returns "lost", "stationary" or "moving".
 std::string state_name(const Track& track);
 
-/// Returns the names of the events, separated by spaces; empty if there are none.
+/// Returns the names of the events, separated by spaces. Empty if there are none.
 std::string event_names(const TrackEvents& events);
 
 }  // namespace dotpose

@@ -30,8 +30,8 @@ BitLines in_opposite_order(const BitLines& lines) {
     return result;
 }
 
-/// Returns each line as it reads after a half turn: reversed, with all bits flipped. The lines keep
-/// their order.
+/// Returns each line as it appears after a half turn: reversed, with all bits flipped. The lines
+/// keep their order.
 BitLines backwards(const BitLines& lines) {
     BitLines result;
     for (std::size_t i = 0; i < lines.bits.size(); ++i) {
@@ -42,8 +42,8 @@ BitLines backwards(const BitLines& lines) {
     return result;
 }
 
-/// Returns the range from the first to the last line with bits. Keeps at most `max_count` lines,
-/// those nearest the middle of the block.
+/// Returns the range from the first to the last line with bits. If the range has more than
+/// `max_count` lines, keeps the lines nearest the middle of the block.
 LineRange lines_with_bits(const BitLines& lines, int max_count) {
     int first = 0;
     int last = BitBlock::kSide - 1;
@@ -56,10 +56,10 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
     return {std::clamp(BitBlock::kMiddle - max_count / 2, first, last + 1 - max_count), max_count};
 }
 
-/// Returns the line's score when read backwards minus the line's score when read forwards. If all n
-/// bits agree with the main sequence in only one direction, the magnitude of the result is
-/// 127 (n - 6). The first six bits are no evidence, because almost every string of six bits occurs
-/// in the main sequence.
+/// Returns the score of a line when read backwards minus its score when read forwards. If all n
+/// bits agree with the main sequence in only one direction, the magnitude of the result is 127 (n -
+/// 6). The first six bits are no evidence, because the main sequence contains almost every string
+/// of six bits.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);
     const std::uint64_t valid_back = reversed(valid);
@@ -77,7 +77,7 @@ int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid
     return backwards.best.score - forwards.best.score;
 }
 
-/// Sums the backwardness of several lines. Stops early if the magnitude of the sum reaches
+/// Sums `backwardness` over several lines. Stops early if the magnitude of the sum reaches
 /// `kLandslide`.
 int backwardness(const Kernels& kernels, const BitLines& lines) {
     constexpr int kVoters = tuning::turns::kVotersOfBits;

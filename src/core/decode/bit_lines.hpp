@@ -1,7 +1,6 @@
 // Bit lines: a block of 64 x 64 cells as bits, with one word per column and one word per row.
 // Reversing, comparing or counting a line takes only a few instructions. The decoder follows the
-// paper (sections II-B.4 to II-B.7), but uses hard bits (0, 1 or not read) instead of
-// probabilities.
+// paper (sections II-B.4 to II-B.7), but bits are hard (0, 1 or not read) instead of probabilities.
 #pragma once
 
 #include "core/decode/lines.hpp"
@@ -28,8 +27,8 @@ struct BlockRanges {
     LineRange rows;
 };
 
-/// Returns the columns and rows with bits, from the first to the last one. Keeps at most
-/// `max_count` lines per axis, those nearest the middle of the block.
+/// Returns the columns and rows with bits, from the first to the last. If an axis has more than
+/// `max_count` such lines, keeps the lines nearest the middle of the block.
 BlockRanges ranges_with_bits(const BitBlock& block, int max_count);
 
 /// The scored lines of a block. `first_column` and `first_row` are the block indices of the first
@@ -45,8 +44,8 @@ struct BlockLines {
 /// columns and rows near the middle of the block vote. `turned` applies the turn.
 int likeliest_turn(const Kernels& kernels, const BitBlock& block);
 
-/// Rotates a block by `quarters` quarter turns. Cell (i, j) moves to (-1 - j, i) for 1, to (-1 - i,
-/// -1 - j) for 2, and to (j, -1 - i) for 3 quarter turns.
+/// Rotates a block by `quarters` quarter turns. One quarter turn moves cell (i, j) to (-1 - j, i),
+/// two move it to (-1 - i, -1 - j), and three move it to (j, -1 - i).
 BitBlock turned(int quarters, const BitBlock& block);
 /// Rotates a plane by `quarters` quarter turns. The result maps image points to cells of the
 /// rotated block.

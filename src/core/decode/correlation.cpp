@@ -7,18 +7,18 @@
 namespace dotpose::core {
 namespace {
 
-/// Weights are processed in groups of kGroup. A table contains a group's signed sum for every
-/// combination of signs. Each pass over the rolls adds up to kGroups groups.
+/// The correlation processes weights in groups of kGroup. A table contains the signed sum of a
+/// group for every combination of signs. Each pass over the rolls adds up to kGroups groups.
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;
-/// Weights of two lines, packed as a + 65536 b. One addition adds the weights of both lines,
-/// because the sums of each line fit in 16 bits.
+/// Weights of two lines, packed as a + 65536 b. The sums of each line fit in 16 bits, so one
+/// addition adds the weights of both lines.
 using Weights = std::array<std::int32_t, kAtOnce>;
 using Sums = std::array<std::int32_t, 1 << kGroup>;
 
 /// Strings of kGroup bits in the main sequence, by start index. The first bit is the lowest bit.
-/// Each string is stored as a byte offset into Sums, which saves a multiplication on small
+/// The strings are stored as byte offsets into Sums, which saves a multiplication on small
 /// processors.
 constexpr auto kStrings = [] {
     std::array<std::uint8_t, 2 * kSections + kAtOnce> strings{};
@@ -60,8 +60,8 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
     ((sums[sizeof...(I) + I] = sums[I] + 2 * weight), ...);
 }
 
-/// Tabulates a group's signed sum for each string of bits. A 0 bit negates its weight. Unrolling
-/// halves the time. Not inlined, because the unrolled code is long.
+/// Tabulates the signed sum of a group for each string of bits. A 0 bit negates its weight. The
+/// loop is unrolled, which halves the time. The unrolled code is too long to inline.
 [[gnu::noinline]] void sum_signed(const std::int32_t* weights, Sums& sums) {
     static_assert(kGroup == 5);
     sums[0] = -(weights[0] + weights[1] + weights[2] + weights[3] + weights[4]);
@@ -98,8 +98,7 @@ void correlate_both(Line a, Line b, LineScores& scores_a, LineScores& scores_b) 
     const auto are_zero = [&](std::size_t i) {
         return (i >= a.size() || a[i] == 0) && (i >= b.size() || b[i] == 0);
     };
-    // Skips empty cells at both ends. If the grid is rotated in the image, most lines have empty
-    // cells.
+    // Skips empty cells at both ends. Most lines of a rotated grid have empty cells.
     std::size_t end = std::max(a.size(), b.size());
     std::size_t first = 0;
     while (first < end && are_zero(first))
@@ -129,7 +128,7 @@ void correlate(std::span<const std::int8_t> weights, LineScores& scores) {
     correlate_both(weights, {}, scores, none);
 }
 
-// Not inlined, because the unrolled code is long.
+// The unrolled code is too long to inline.
 [[gnu::noinline]] Match next_match(const LineScores& scores, Match last) {
     std::int32_t best = INT32_MIN;
     std::size_t roll = 0;

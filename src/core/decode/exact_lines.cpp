@@ -23,7 +23,7 @@ int below_sections(int roll) {
     return roll < kSections ? roll : roll - kSections;
 }
 
-/// Reads the position of the first line in a range, and the line's roll at cell `first_cell`.
+/// Reads the position of the first line in a range, and the roll of this line at cell `first_cell`.
 /// Returns false if there are too few adjacent exact lines, if the code does not contain their
 /// rolls, or if too many bits are wrong.
 bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange& range,
@@ -56,8 +56,8 @@ bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange&
     int wrong = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const int here = below_sections(reading.roll + rolls[i]);
-        // Counts wrong bits one by one. Most lines have none, and many processors lack a popcount
-        // instruction.
+        // Counts wrong bits one by one. Most lines have no wrong bits, and many processors have no
+        // popcount instruction.
         std::uint64_t differ =
             (bits(i) ^ code::main_bits(static_cast<std::size_t>(here))) & valid(i);
         for (; differ != 0; differ &= differ - 1)

@@ -8,7 +8,7 @@
 
 namespace dotpose::core {
 
-/// Maximum number of cells per axis, for every workspace size.
+/// Maximum number of cells per axis, in workspaces of any size.
 inline constexpr int kMaxGridSide = 256;
 
 /// The matrices P^(x) and P^(y) of the paper. They cover the columns [i0, i0 + columns) and the

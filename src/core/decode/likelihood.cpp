@@ -10,7 +10,8 @@ struct Extent {
     int count = 0;
 };
 
-/// Returns the cells from `min` to `max`. Keeps at most `capacity` cells, those nearest the origin.
+/// Returns the cells from `min` to `max`. If these are more than `capacity` cells, keeps the cells
+/// nearest the origin.
 Extent extent(int min, int max, int capacity) {
     if (max - min < capacity) return {min, max - min + 1};
     const int first = std::clamp(-capacity / 2, min, max - capacity + 1);
@@ -57,8 +58,8 @@ Status assign(std::span<const DetectedDot> dots, int min_side, PointOf point_of,
     }
     lay_out(min, max, grid);
 
-    // A local copy keeps the grid members in registers. They would otherwise be reloaded for each
-    // dot, which is slow on small processors.
+    // A local copy keeps the grid members in registers. Otherwise, the loop would reload them for
+    // each dot, which is slow on small processors.
     const Grid here = grid;
     const auto columns = static_cast<unsigned>(here.columns);
     const auto rows = static_cast<unsigned>(here.rows);

@@ -11,12 +11,12 @@ namespace dotpose::core {
 /// is the dot's projected offset, in 2^-16 spacings.
 std::int8_t quasi_probability(std::int32_t projection_q16);
 
-/// Clears the grid and lays it over the cells from `min` to `max`. An axis is cropped to the
-/// `grid.side` cells nearest cell (0, 0).
+/// Clears the grid and moves it to the cells from `min` to `max`. Crops an axis to the `grid.side`
+/// cells nearest cell (0, 0).
 void lay_out(FixedVec min, FixedVec max, Grid& grid);
 
 /// Fills the grid from all dots (paper, Fig. 8). If a cell contains several dots, uses the dot with
-/// the highest quality. An axis is cropped to the `grid.side` cells nearest cell (0, 0). Error:
+/// the highest quality. Crops an axis to the `grid.side` cells nearest cell (0, 0). Error:
 /// grid_too_small if the dots span fewer than kWindowSide columns or rows.
 Status assign_likelihoods(std::span<const DetectedDot> dots, const PlaneFromImage& grid_from_image,
                           Grid& grid);

@@ -7,11 +7,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of lines per axis that vote on the turn. They are from the middle half of the region,
-/// where lines are longest.
+/// Number of lines per axis that vote on the turn. The lines are from the middle half of the
+/// region, because they are longest there.
 constexpr int kVoters = tuning::turns::kVoters;
 
-/// The columns or rows that vote on the turn, and the bit (x or y) to read from each cell.
+/// The columns or rows that vote on the turn. Reads one bit (x or y) of each cell.
 class Voters {
   public:
     Voters(const Grid& grid, const GridRegion& region, bool are_columns, std::int8_t GridCell::*bit)
@@ -75,7 +75,7 @@ BothWays agreement(const Voters& voters) {
     return {agreement_by_pairs(voters, false), agreement_by_pairs(voters, true)};
 }
 
-/// Returns the highest agreement that any sequence could have: the sum of all |weight|.
+/// Returns the maximum agreement of any sequence with the voting lines: the sum of all |weight|.
 std::int32_t max_possible(const Voters& voters) {
     std::int32_t sum = 0;
     Line storage;
@@ -96,8 +96,8 @@ std::int32_t best_agreement(const Voters& voters) {
 }  // namespace
 
 Orientation rank_turns(const Grid& grid, const GridRegion& region) {
-    // Unlike the paper, adds up the best scores, to include lines with misread bits. The paper
-    // counts the lines that occur exactly in the main sequence.
+    // Adds up the best scores of the lines. Unlike the paper, which counts the lines that occur
+    // exactly in the main sequence, this sum includes lines with misread bits.
     const Voters x_columns(grid, region, true, &GridCell::x);
     const Voters y_rows(grid, region, false, &GridCell::y);
     const BothWays of_columns = agreement(x_columns);
@@ -107,8 +107,8 @@ Orientation rank_turns(const Grid& grid, const GridRegion& region) {
     // A half turn reverses each line and flips its bits.
     const std::int32_t turned_columns = of_columns.backwards.flipped;
     const std::int32_t turned_rows = of_rows.backwards.flipped;
-    // A quarter turn exchanges columns and rows. A quarter turn also reverses and flips either the
-    // columns or the rows (see `turned` in upright.hpp).
+    // A quarter turn exchanges columns and rows. It also reverses and flips either the columns or
+    // the rows (see `turned` in upright.hpp).
     const std::array<std::int32_t, 4> scores{columns + rows, turned_columns + rows,
                                              turned_columns + turned_rows, columns + turned_rows};
     std::array<QuarterTurn, 4> turns{QuarterTurn{0}, QuarterTurn{1}, QuarterTurn{2},
@@ -124,8 +124,8 @@ Orientation rank_turns(const Grid& grid, const GridRegion& region) {
 }
 
 bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t upright) {
-    // A mirror image exchanges the x and y bits (paper, eq. 7-8). A mirror image may also reverse
-    // lines or flip bits.
+    // A mirror image exchanges the x and y bits (paper, eq. 7-8). It may also reverse lines or flip
+    // bits.
     const Voters y_columns(grid, region, true, &GridCell::y);
     const Voters x_rows(grid, region, false, &GridCell::x);
     const auto is_much_more = [&](std::int32_t mirrored) {

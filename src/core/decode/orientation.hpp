@@ -13,12 +13,13 @@ struct Orientation {
     std::int32_t agreement;            ///< total score of the voting lines at the likeliest turn
 };
 
-/// Ranks the four turns by a vote of columns and rows. Each voting line is compared with the main
+/// Ranks the four turns by a vote of columns and rows. Compares each voting line with the main
 /// sequence as read and after a half turn. A half turn reverses the line and flips its bits.
 Orientation rank_turns(const Grid& grid, const GridRegion& region);
 
-/// Returns true if the region agrees much better with a mirrored pattern, where columns contain y
-/// bits and rows contain x bits. `agreement` is the region's `Orientation::agreement`.
+/// Returns true if the region agrees much better with a mirrored pattern. In a mirrored pattern,
+/// columns contain y bits and rows contain x bits. `agreement` is the region's
+/// `Orientation::agreement`.
 bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t agreement);
 
 }  // namespace dotpose::core

@@ -9,21 +9,21 @@
 
 namespace dotpose::core {
 
-/// Decodes with the paper's method, as a baseline. A vote finds the turn. The position then follows
-/// from the best roll of each line in the clearest 8 x 8 window. Errors: not_in_code, ambiguous,
+/// Decodes with the paper's method, as a baseline. A vote finds the turn. The best roll of each
+/// line in the clearest 8 x 8 window gives the position. Errors: not_in_code, ambiguous,
 /// grid_too_small. Also returns grid_too_small if the mean quality in the window is below a third
 /// of the maximum.
 Status decode_window(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                      Decoding& decoding);
 
-/// Decodes all lines: finds the position with the highest total score. Tries the most likely turn
-/// first. Also tries the second most likely turn, unless the position is already clear
+/// Decodes all lines, and finds the position with the highest total score. Tries the most likely
+/// turn first. Also tries the second most likely turn, unless the position is already clear
 /// (`AxisReading::is_clear`). Errors: grid_too_small, not_in_code.
 Status decode_all(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                   Decoding& decoding);
 
-/// Decodes all lines in bounded time, for first attempts. A position that takes longer to find is
-/// rarely certain. Errors: grid_too_small, not_in_code.
+/// Variant of `decode_all` for first attempts, which takes bounded time. A position that takes
+/// longer to find is rarely certain. Errors: grid_too_small, not_in_code.
 Status decode_briefly(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                       Decoding& decoding);
 

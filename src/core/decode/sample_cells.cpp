@@ -66,12 +66,13 @@ class CellSampler {
     /// sampled yet.
     template <typename Use>
     void visit(const Grid& grid, Use use) const;
-    /// Sets `half_px`, and the darkness and shade of each place in the image.
+    /// Sets `half_px`. Also sets the darkness and shade of each place in the image.
     void sample(CellView& view) const;
-    /// Returns the paper level at the cell relative to the image centre, in 1/256.
+    /// Returns the paper level at the cell divided by the paper level at the image centre, in
+    /// 1/256.
     int light_q8(const CellView& view) const;
     /// Returns the largest shade of the eight squares around each place. The square centres are
-    /// about 2/15 of a spacing from the place. Places outside the image get 0.
+    /// about 2/15 of a spacing from the place. The result is 0 for places outside the image.
     std::array<int, 4> darkest_around_q8(const CellView& view) const;
 
   private:
@@ -79,8 +80,8 @@ class CellSampler {
     FixedVec image_of(int i, int j) const {
         return distorted_point_q8(lens_, plane_, {i * 65536, j * 65536});
     }
-    /// Returns the mean darkness of a square, relative to the paper level, in 1/256. Skips pixels
-    /// in large squares.
+    /// Returns the mean darkness of a square, relative to the paper level, in 1/256. Subsamples
+    /// large squares.
     int shade_q8(FixedVec centre_q8, int half_px) const;
     /// Converts the grey level sum of a square to its mean darkness, relative to the paper level,
     /// in 1/256. Returns 0 if `pixels` is 0.
@@ -94,8 +95,7 @@ class CellSampler {
     const PlaneFromImage& plane_;
 };
 
-/// Returns the sampling step within a square, in px. Large squares are subsampled to limit the
-/// time.
+/// Returns the sampling step within a square, in px. Large squares are subsampled to save time.
 int step_px(int half_px) {
     return std::max(half_px / 3, 1);
 }
@@ -175,8 +175,8 @@ std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view, Shade sh
 }
 
 std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view) const {
-    // Maximum distance of the squares' pixels from the cell centre, per image axis. The square
-    // centres are offset by at most a third of the larger step component.
+    // Maximum distance between the pixels of the squares and the cell centre, per image axis. The
+    // square centres are at most a third of the larger step component from the cell centre.
     const int reach_px =
         std::max(larger_component(view.u_q8), larger_component(view.v_q8)) / (3 * 256) + 1 +
         view.half_px;
@@ -197,8 +197,8 @@ int CellSampler::light_q8(const CellView& view) const {
     return here * 256 / paper_at(paper_, image_.width_px / 2, image_.height_px / 2);
 }
 
-/// Returns the median darkness and shade of a dot, each at least 1. Samples the darkest place in
-/// cells that are completely in the image.
+/// Returns the median darkness and the median shade of a dot, each at least 1. Samples the darkest
+/// place of each cell that is completely in the image.
 PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
     std::array<std::int32_t, tuned::kMedianSample> darkness;
     std::array<std::int32_t, tuned::kMedianSample> shade;
@@ -225,8 +225,8 @@ class Ink {
     Ink(const CellSampler& sampler, const Grid& grid) : sampler_(sampler) {
         const PlaceView typical = typical_place(sampler, grid);
         contrast_q8_ = typical.darkness_q8;
-        // A place counts as graphics if its shade exceeds the geometric mean of two shades: that of
-        // a typical dot and that of solid ink.
+        // Shade above which a place counts as graphics. This is the geometric mean of the shades of
+        // a typical dot and of solid ink.
         graphics_q8_ = static_cast<int>(
             square_root(static_cast<std::uint64_t>(typical.shade_q8 * tuned::kSolidInk_q8)));
     }
@@ -285,15 +285,14 @@ class Ink {
     }
 
     /// Returns the weight of a bit, in [-127, 127]. `one_q8` and `zero_q8` are the darkness for bit
-    /// values 1 and 0, each at the darker of two places.
+    /// values 1 and 0. Each is the darkness of the darker of two places.
     std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
         // The weight is proportional to the log-likelihood ratio of the bit. With constant sensor
-        // noise, this ratio is proportional to the level difference times the contrast. Both
-        // factors are proportional to the light, so the weight is proportional to the light
-        // squared.
+        // noise, the ratio is proportional to the level difference times the contrast. Both factors
+        // are proportional to the light, so the weight is proportional to the squared light.
         const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = sample.light_q8 * sample.light_q8;
-        // Clamped, because bit errors at high contrast are not caused by noise.
+        // Clamps the weight. At high contrast, noise does not cause the bit errors.
         const int weight = static_cast<int>(
             std::clamp<std::int64_t>(std::int64_t{difference} * light_q16 >> 16, -127, 127));
         return static_cast<std::int8_t>(weight * sample.reliability_q4 / 16);
@@ -305,8 +304,8 @@ class Ink {
     int graphics_q8_ = 0;  ///< shade above which a place counts as graphics, in 1/256
 };
 
-/// Clears the grid and lays it over the whole image. Finds the extent from the cells at 5 x 5
-/// evenly spaced points, which include the image border.
+/// Clears the grid and extends it over the whole image. Finds the extent from the cells at 5 x 5
+/// evenly spaced points, including the image border.
 void cover_image(const ImageView& image, const FixedLens& lens, const PlaneFromImage& plane,
                  Grid& grid) {
     FixedVec min{INT32_MAX, INT32_MAX};

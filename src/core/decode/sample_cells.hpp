@@ -1,5 +1,5 @@
-// Sample cells: reads the bits of each cell from the grey levels at its four places. The second
-// attempt uses this stage instead of the dot projections (paper, eq. 7-8). Unlike the paper's
+// Sample cells: reads the bits of each cell from the grey levels at its four places. In the second
+// attempt, this stage replaces the projections of dots (paper, eq. 7-8). Unlike the paper's
 // projections, this stage can use dots that blob detection missed. See docs/differs-from-paper.md.
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace dotpose::core {
 
-/// Lays the grid over the whole image, up to `grid.side` cells per axis, and sets all bit weights.
-/// Places outside the image or under graphics favour neither bit value. Cells with places under
-/// graphics are also marked as hidden. The weights are smaller at the image border, near graphics
-/// and in dirty cells. Returns false if the image shows two patterns: more than 3/8 of the
-/// completely visible cells seem to contain two dots.
+/// Extends the grid over the whole image, up to `grid.side` cells per axis, and sets all bit
+/// weights. Places outside the image or under graphics favour neither bit value. Marks cells with
+/// places under graphics as hidden. Reduces the weights at the image border, near graphics and in
+/// dirty cells. Returns false if the image shows two patterns: more than 3/8 of the completely
+/// visible cells seem to contain two dots.
 bool sample_cells(const ImageView& image, const PaperMap& paper, const FixedLens& lens,
                   const PlaneFromImage& grid_from_image, Grid& grid);
 

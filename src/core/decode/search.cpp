@@ -23,8 +23,8 @@ std::uint8_t roll_of(int score, const LineScores& scores) {
     return static_cast<std::uint8_t>(found - scores.data());
 }
 
-/// The rolls of one line, by decreasing score. Ties are broken by taking the smaller roll. Rolls
-/// after the first are computed on demand, because they are rarely needed.
+/// The rolls of one line, by decreasing score. Ties are broken by taking the smaller roll. Computes
+/// all rolls after the first on demand, because most searches do not need them.
 class Choices {
   public:
     Choices() = default;
@@ -42,7 +42,7 @@ class Choices {
         }
         return rolls_[static_cast<std::size_t>(i)];
     }
-    /// Returns the score that is lost by choosing rank `i` instead of rank 0.
+    /// Returns the score of rank 0 minus the score of rank `i`.
     int loss(int i) { return i == 1 ? margin_ : (*scores_)[rolls_[0]] - (*scores_)[roll(i)]; }
 
   private:
@@ -53,7 +53,7 @@ class Choices {
     std::array<std::uint8_t, kChoices> rolls_;
 };
 
-/// Returns the reading with line `line` at `position` and roll `roll`. Its score is the total over
+/// Returns the reading for line `line` at `position` with roll `roll`. Its score is the total over
 /// all lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
@@ -70,8 +70,8 @@ AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32
 
 using Run = std::array<Choices, kMaxRunLength>;
 
-/// Chooses how many rolls to try for each line of a run. Repeatedly adds the roll with the smallest
-/// loss, as long as there are at most `max_readings` combinations.
+/// Chooses the number of rolls to try for each line of a run. Adds the roll with the smallest loss
+/// repeatedly, while there are at most `max_readings` combinations.
 std::array<int, kMaxRunLength> widen(Run& run, int length, int max_readings) {
     std::array<int, kMaxRunLength> widths;
     widths.fill(1);

@@ -1,6 +1,6 @@
 // Search: finds the position on one axis that agrees best with all lines in view. Unlike the paper,
-// the search is not limited to the clearest 8 x 8 symbols and does not decode lines separately. See
-// docs/differs-from-paper.md.
+// this search does not decode each line separately, and is not limited to the clearest 8 x 8
+// symbols. See docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/lines.hpp"
@@ -9,18 +9,18 @@
 namespace dotpose::core {
 
 /// Returns the number of consecutive lines that determine a position. `libdots` needs more lines,
-/// because its misprinted secondary sequence repeats strings of fewer than 7 digits.
+/// because strings of fewer than 7 digits repeat in its misprinted secondary sequence.
 int run_length(CodeVariant code);
 
-/// Returns the reading of the first line if line `line` is at `position` and has the roll `roll`.
-/// Sets `rolls` to the rolls of all lines relative to the first line, modulo 63.
+/// Returns the reading of the first line, if line `line` is at `position` with roll `roll`. Sets
+/// `rolls` to the rolls of all lines relative to the first line, modulo 63.
 AxisReading reading_of_first(CodeVariant code, std::uint32_t position, int roll, int line,
                              std::span<std::uint8_t> rolls);
 
 /// Finds the position on an axis from runs of consecutive lines, clearest run first. Tries the most
-/// likely rolls of each line, and keeps the position with the highest total score. If the score is
-/// below `AxisReading::max_possible` and there are at least `run_length(code)` lines, also calls
-/// `search_by_steps`. Error: not_in_code if no reading occurs in the code.
+/// likely rolls of each line, and keeps the position with the highest total score. Also calls
+/// `search_by_steps` if the score is below `AxisReading::max_possible` and there are at least
+/// `run_length(code)` lines. Error: not_in_code if no reading occurs in the code.
 Status find_axis(CodeVariant code, const Lines& lines, AxisReading& best);
 
 /// Variant of `find_axis` for first attempts. Reads only a few runs with a few readings each, and

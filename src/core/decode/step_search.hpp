@@ -1,17 +1,16 @@
 // Step search: finds the position on one axis from the steps between adjacent lines. A *step* is
-// the difference between the rolls of two adjacent lines. Unlike the paper, the search does not
-// decode lines separately. See docs/differs-from-paper.md.
+// the difference between the rolls of two adjacent lines. Unlike the paper, this search does not
+// decode each line separately. See docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/lines.hpp"
 
 namespace dotpose::core {
 
-/// Searches by steps, and replaces `best` if a position has a higher score. First computes how much
-/// score is lost by each possible digit of each step. Then finds the places with the smallest total
-/// loss in each secondary sequence, and evaluates all their combinations. Also finds positions that
-/// the search by runs misses, for example if graphics hide every sixth line or if no line has a
-/// clear roll.
+/// Searches by steps, and replaces `best` if a position has a higher score. First computes the
+/// score lost by each possible digit of each step. Then finds the places with the smallest total
+/// loss in each secondary sequence, and evaluates all their combinations. This also finds positions
+/// in frames where every sixth line is hidden, or where no line has a clear roll.
 void search_by_steps(CodeVariant code, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

@@ -1,9 +1,12 @@
 // Tuning: empirical constants of decoding. They were determined on the frames of `dotpose evaluate
 // --preset hard --frames 4000 --seed 404`, on 3,000 frames with `--seed 5001`, and on the refused
-// frames of seeds 777 and 778. docs/accuracy.md shows that the constants also suit other frames.
-// Comments state how many frames `dotpose evaluate --preset hard --frames 2000 --seed 404` locates
-// with other values. With the values below, it locates 1,994 frames. No value led to a wrong fix. A
-// difference of one frame is not significant.
+// frames of seeds 777 and 778. docs/accuracy.md has results for other frames. Some comments compare
+// a constant with other values, by the number of frames located by
+//
+//     dotpose evaluate --preset hard --frames 2000 --seed 404
+//
+// The values in this file locate 1,994 frames. A difference of one frame is not significant. No
+// value led to a wrong fix.
 #pragma once
 
 #include <array>
@@ -14,27 +17,27 @@ namespace dotpose::core::tuning {
 /// Bit weights from the darkness at the four places of a cell (decode/sample_cells).
 namespace sample_cells {
 /// Maximum number of cells to sample for the median darkness and shade of a dot. The medians hardly
-/// change even if graphics cover a quarter of the cells.
+/// change if graphics cover a quarter of the cells.
 inline constexpr std::size_t kMedianSample = 256;
 /// Spacing divided by half the width of the square in which the shade is averaged. The square is
 /// wider than a dot, but does not reach the dots of neighbouring cells.
 inline constexpr int kShadePart = 5;
 /// Offsets of the squares that are tested for graphics around a place, in 1/60 spacing. Four
-/// squares are offset along one axis, and four squares diagonally. Together, they detect every
-/// stroke that touches the dot.
+/// squares are offset along one axis, and four squares diagonally. Together, the squares detect
+/// every stroke that touches the dot.
 inline constexpr int kBeside_60th = 8;
 inline constexpr int kBesideDiagonally_60th = 5;
 /// Darkness of solid ink relative to the paper level, in 1/256. A shade counts as graphics above
 /// the geometric mean of this value and a typical dot's shade. With half or twice the value, 1,992
 /// frames are located.
 inline constexpr int kSolidInk_q8 = 230;
-/// Reliability of the bits in a cell, in 1/16, by the number of places in the image. Measured on
-/// hard frames.
+/// Reliability of the bits in a cell, in 1/16, by the number of its places that are in the image.
+/// Measured on hard frames.
 inline constexpr std::array<int, 5> kReliabilityBySeen_q4{0, 6, 8, 10, 16};
 /// Reliability of a cell with a place under graphics, in 1/16.
 inline constexpr int kReliabilityCovered_q4 = 10;
-/// Shade above which the cell is near graphics, in fifths of the shade that counts as graphics. The
-/// shade is measured next to a place.
+/// Minimum shade beside the places of a cell near graphics, in fifths of the shade that counts as
+/// graphics.
 inline constexpr int kNearGraphics_5ths = 3;
 /// Reliability of a cell near graphics, in 1/16. With a value of 3, 1,993 frames are located. With
 /// a value of 14, 1,994 frames are located.
@@ -47,17 +50,18 @@ inline constexpr int kReliabilityDark_q4 = 12;
 inline constexpr int kTooDark_10ths = 16;
 /// Reliability of a cell whose darkest place is probably dirt, in 1/16.
 inline constexpr int kReliabilityTooDark_q4 = 6;
-/// Weight of a bit whose two values differ by a typical dot's darkness, before clamping to 127.
-/// About two fifths of this difference already give a weight of 127. With a value of 150, 1,994
-/// frames are located. With a value of 600, 1,992 frames are located.
+/// Weight of a bit whose two values differ by the darkness of a typical dot, before clamping to
+/// 127. About two fifths of this difference already gives a weight of 127. A value of 150 locates
+/// 1,994 frames, and a value of 600 locates 1,992 frames.
 inline constexpr int kGain = 300;
 /// Maximum light at a cell relative to the image centre, in 1/256. Brighter light does not increase
 /// the weights further.
 inline constexpr int kMaxLight_q8 = 1024;
-/// Test for two patterns in one image. A cell has two dots if its second darkest place exceeds two
-/// limits: kSecondDot_3rds / 3 of a typical dot's darkness, and kSecondDot_4ths / 4 of the darkest
-/// place. The image shows two patterns if more than kMaxCrowded_8ths / 8 of the cells have two
-/// dots. In hard frames, at most a quarter of the cells had two dots.
+/// Test for two patterns in one image. A cell has two dots if its second darkest place is dark
+/// enough in two comparisons: more than kSecondDot_3rds / 3 of a typical dot, and more than
+/// kSecondDot_4ths / 4 of the darkest place. The image shows two patterns if more than
+/// kMaxCrowded_8ths / 8 of the cells have two dots. In hard frames, at most a quarter of the cells
+/// had two dots.
 inline constexpr int kSecondDot_3rds = 2;
 inline constexpr int kSecondDot_4ths = 3;
 inline constexpr int kMaxCrowded_8ths = 3;
@@ -67,13 +71,13 @@ inline constexpr int kMaxCrowded_8ths = 3;
 namespace search {
 /// Maximum number of rolls to try per line.
 inline constexpr int kChoices = 8;
-/// Maximum number of runs, and readings per run, in the second attempt. With half or twice either
-/// value, the same number of frames is located. The margin is for frames with more misread bits.
+/// Maximum number of runs, and readings per run, in the second attempt. Half or twice either value
+/// locates the same number of frames. The limits leave a margin for frames with more misread bits.
 inline constexpr int kRuns = 24;
 inline constexpr int kReadings = 64;
-/// Maximum number of runs, and readings per run, in the first attempt and on devices. Bounds the
-/// time for unreadable frames. None of 2,000 nominal frames needed more, and 4 of 2,000 hard frames
-/// did.
+/// Maximum number of runs, and readings per run, in the first attempt and on devices. These limits
+/// bound the time for unreadable frames. Of 2,000 nominal frames, none needed more. Of 2,000 hard
+/// frames, 4 did.
 inline constexpr int kRunsBriefly = 3;
 inline constexpr int kReadingsBriefly = 8;
 }  // namespace search

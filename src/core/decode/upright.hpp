@@ -1,5 +1,5 @@
-// Upright: reads a region of the grid as if the pattern were upright. In the paper, "symbols and
-// matrices are rotated accordingly" (section II-B.6, last paragraph).
+// Upright: reads a region of the grid as if the pattern were upright (paper, section II-B.6, last
+// paragraph).
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct Bits {
 };
 
 /// Returns the bits of a cell, rotated to the upright pattern. A quarter turn maps the displacement
-/// (x, y) to (-y, x). The projections (y - x, y + x) thus become (x + y, x - y) (paper, eq. 7-8).
+/// (x, y) to (-y, x). It maps the projections (y - x, y + x) to (x + y, x - y) (paper, eq. 7-8).
 constexpr Bits turned(QuarterTurn pattern_from_grid, const GridCell& cell) {
     const auto minus_x = static_cast<std::int8_t>(-cell.x);
     const auto minus_y = static_cast<std::int8_t>(-cell.y);
@@ -53,7 +53,7 @@ class Upright {
         };
         to_right_ = stride({1, 0});
         downwards_ = stride({0, 1});
-        // Must match `turned`, which turns single cells: which bit becomes x, and with which sign.
+        // The bits and signs must match those of `turned`, which rotates single cells.
         x_bit_ = is_sideways() ? &GridCell::y : &GridCell::x;
         y_bit_ = is_sideways() ? &GridCell::x : &GridCell::y;
         x_sign_ = q == 0 || q == 1 ? 1 : -1;

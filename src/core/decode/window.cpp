@@ -11,7 +11,7 @@ GridRegion choose_window(const Grid& grid, int side) {
     const int rows = std::min(side, grid.rows);
     GridRegion window{grid.i0, grid.j0, columns, rows};
     if (columns == grid.columns && rows == grid.rows) return window;
-    // Total quality of each column within the window's rows. Updated as the window moves down.
+    // Total quality of each column within the rows of the window, updated as the window moves down.
     std::array<std::int32_t, kMaxGridSide> column_sums{};
     std::int32_t best = -1;
     const GridCell* cell = grid.storage.data();

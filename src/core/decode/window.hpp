@@ -1,5 +1,4 @@
-// Window: finds the square of cells with the highest total quality (paper, section II-B.5, with 8 x
-// 8 cells).
+// Window: finds the square of cells with the highest total quality (paper, section II-B.5).
 #pragma once
 
 #include "core/decode/grid.hpp"

@@ -12,11 +12,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Half threshold that makes every pixel dark. Stored after the last column, as a sentinel that
-/// ends the search for dark pixels.
+/// Half of a threshold above all grey levels. A sentinel with this value after the last column ends
+/// the search for dark pixels.
 constexpr std::uint8_t kAlwaysDark = 128;
 
-constexpr int kBandsKept = 4;  // three bands suffice, but a power of two is faster
+constexpr int kBandsKept = 4;  // three bands suffice, but indexing is faster with a power of two
 constexpr unsigned kContrastBins = 64;
 
 std::span<Tile> tiles_of(const AdaptiveThreshold& threshold, int band) {
@@ -24,7 +24,7 @@ std::span<Tile> tiles_of(const AdaptiveThreshold& threshold, int band) {
     return threshold.tiles.subspan(static_cast<std::size_t>(band & (kBandsKept - 1)) * n, n);
 }
 
-/// Copies blocks of kBlock bytes as long as a whole block remains. Advances both pointers.
+/// Copies blocks of kBlock bytes while a whole block remains. Advances both pointers.
 template <std::size_t kBlock>
 void copy_blocks(const std::uint8_t*& from, const std::uint8_t* end, std::uint8_t*& to) {
     for (; end - from >= static_cast<std::ptrdiff_t>(kBlock); from += kBlock, to += kBlock)
@@ -36,8 +36,8 @@ void keep_row(const std::uint8_t* pixels, const AdaptiveThreshold& threshold, st
     const std::uint8_t* const end = pixels + threshold.width_px;
     std::uint8_t* const whole = row + whole_width(threshold);
     if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {
-        // Compilers inline copies of constant size. The `memcpy` of small devices copies byte by
-        // byte.
+        // Compilers inline copies of constant size. The `memcpy` functions of small devices copy
+        // single bytes.
         copy_blocks<28>(pixels, end, row);
         copy_blocks<12>(pixels, end, row);
         copy_blocks<4>(pixels, end, row);
@@ -66,7 +66,7 @@ ThreeBands three_bands(const AdaptiveThreshold& threshold, int band) {
             band + 1 < band_count(threshold) ? tiles_of(threshold, band + 1).data() : here};
 }
 
-/// Takes the maximum mean and the maximum darkness over three bands, for each tile.
+/// Stores the maximum mean and the maximum darkness over three bands, for each column of tiles.
 void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
                 std::uint8_t* darknesses) {
     for (std::size_t t = 0; t < count; ++t) {
@@ -99,11 +99,12 @@ inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     return column + kTileWidth_px;
 }
 
-/// Number of tiles by contrast relative to the paper level. The bins are 1/kContrastBins wide.
+/// Histogram of the tiles by their contrast, relative to the paper level. The bins are
+/// 1/kContrastBins wide.
 using Histogram = std::array<std::uint16_t, kContrastBins>;
 
-/// Adds the tiles with at least `min_contrast` to the histogram, and sets the mean of all other
-/// tiles to 0. Updates `max_contrast`. Returns the number of tiles in the histogram.
+/// Adds the tiles with at least `min_contrast` to the histogram. Marks all other tiles as blank by
+/// setting their mean to 0. Updates `max_contrast`. Returns the number of tiles in the histogram.
 int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                    int min_contrast, int& max_contrast, Histogram& histogram) {
     int blank = 0;
@@ -128,9 +129,8 @@ int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::siz
 
 /// Returns the contrast of dots in a band, relative to the paper level, in 1/256. Returns 0 if no
 /// tile has contrast. Ink reflects the same fraction of the light everywhere, so all dots have the
-/// same relative contrast. Strokes of graphics increase the contrast of their tiles. The result is
-/// therefore the 30 % quantile over the tiles. This quantile is typical of dots even if strokes
-/// cross the band.
+/// same relative contrast. Strokes of graphics have more contrast than dots. The 30 % quantile over
+/// the tiles is typical of dots even if strokes cross the band.
 unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                              int min_contrast, int& max_contrast) {
     Histogram histogram{};
@@ -145,17 +145,17 @@ unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses
     return (2 * bin + 1) * (256 / (2 * kContrastBins));
 }
 
-/// Sets the thresholds of all columns. The low threshold is below the paper level by the fraction
-/// `to_low_q16`, in units of 2^-16. The high threshold is below the paper level by `to_high_q16`,
-/// and is at most the low threshold.
+/// Sets the thresholds of all columns. The low threshold is the paper level times (1 - `to_low_q16`
+/// / 2^16). The high threshold is the paper level times (1 - `to_high_q16` / 2^16), but at most the
+/// low threshold.
 void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q16,
                 unsigned to_high_q16, AdaptiveThreshold& threshold) {
     std::uint8_t* half_low_levels = threshold.half_low_levels.data();
     std::uint8_t* high_levels = threshold.high_levels.data();
     for (const std::uint8_t* const end = papers + tiles; papers != end; ++papers) {
         const unsigned paper = *papers;
-        // The low threshold is even, because the search for runs compares only seven bits of each
-        // level.
+        // Makes the low threshold even. The search for runs compares only the seven upper bits of
+        // each level.
         const unsigned half_low = (paper - (paper * to_low_q16 >> 16)) >> 1;
         const unsigned high = std::min(paper - (paper * to_high_q16 >> 16), 2 * half_low);
         half_low_levels = fill(half_low_levels, half_low);
@@ -167,7 +167,7 @@ void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q
 
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold) {
     // The minimum contrast is the largest contrast so far divided by this number. A smaller divisor
-    // would reject more noise, but also pale dots in uneven light.
+    // would reject more noise, but it would also reject pale dots in uneven light.
     constexpr int kContrastPart = 6;
     return std::clamp(threshold.max_contrast / kContrastPart, options.min_contrast,
                       2 * options.min_contrast);
@@ -200,16 +200,16 @@ int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold) {
 
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold) {
     const auto tiles = static_cast<std::size_t>(threshold.tiles_per_band);
-    // Reuses the threshold memory for one value per tile. The paper levels are at the end of
-    // `half_low_levels`, because `set_levels` overwrites the end last.
+    // Uses the memory for thresholds as temporary storage for one value per tile. The paper levels
+    // are at the end of `half_low_levels`, because `set_levels` overwrites the end last.
     std::uint8_t* const papers = threshold.half_low_levels.data() + whole_width(threshold) - tiles;
     std::uint8_t* const darknesses = threshold.high_levels.data();
     join_bands(three_bands(threshold, band), tiles, papers, darknesses);
-    // The darkness includes the tiles on both sides, because dots may be farther apart than a tile
-    // is wide. The paper level excludes these tiles. Each tile contains paper, and the brightest of
-    // several tiles would be too bright.
+    // Extends the darkness to the adjacent tiles, because the dot spacing may exceed the tile
+    // width. The paper level needs no extension, because every tile contains paper.
     join_neighbours(darknesses, tiles);
-    // If most of the last tile is padding, its paper level is raised to the preceding tile's level.
+    // If the last tile is mostly padding, raises its paper level to at least that of the preceding
+    // tile.
     if (whole_width(threshold) - threshold.width_px > kTileWidth_px / 2)
         papers[tiles - 1] = std::max(papers[tiles - 2], papers[tiles - 1]);
     const unsigned contrast_q8 = typical_contrast_q8(

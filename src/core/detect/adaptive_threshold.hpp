@@ -1,7 +1,7 @@
-// Adaptive threshold: computes thresholds for each column from the paper level and contrast of
-// image tiles. This is the first half of thresholding (paper, section II-B.1). Unlike the paper,
-// this stage does not use one global threshold. LEDs next to a wide-angle lens never light the
-// sheet evenly.
+// Adaptive threshold: computes two thresholds for each column from the paper level of image tiles
+// and the contrast of their dots. This is the first half of thresholding (paper, section II-B.1).
+// Unlike the paper, this stage does not use one global threshold, because LEDs next to a wide-angle
+// lens light the sheet unevenly.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +14,9 @@
 namespace dotpose::core {
 
 /// Size of a tile. Tiles are kLowTile_px high if the shorter image side is at most
-/// kMaxSideWithLowTiles_px, and kHighTile_px high otherwise. Three adjacent tiles must always
-/// include part of a dot. This assumes at least 8 dots along the shorter side, so the spacing is at
-/// most 1/8 of this side.
+/// kMaxSideWithLowTiles_px, and kHighTile_px high otherwise. In each direction, three adjacent
+/// tiles must always include part of a dot. The sizes assume at least 8 dots along the shorter
+/// image side.
 inline constexpr int kTileWidth_px = 16;
 inline constexpr int kLowTile_px = 8;
 inline constexpr int kHighTile_px = 16;
@@ -29,7 +29,7 @@ inline constexpr int kReadAhead_px = 8;
 /// Grey levels of a tile, measured in every fourth row.
 struct Tile {
     std::uint8_t mean = 0;
-    std::uint8_t darkness = 0;  ///< 255 minus the mean level of the two darkest adjacent pixels
+    std::uint8_t darkness = 0;  ///< 255 minus the mean level of the darkest pair of adjacent pixels
 };
 
 /// The newest image rows with their tiles, and the thresholds of the current band. A *band* is a
@@ -42,8 +42,8 @@ struct AdaptiveThreshold {
     int tiles_per_band = 0;
     int rows_taken = 0;
     bool has_contrast = false;  ///< true if any tile so far has contrast
-    int max_contrast =
-        0;  ///< largest contrast between paper and ink in all tiles so far, in grey levels
+    /// Largest contrast between paper and ink in all tiles so far, in grey levels.
+    int max_contrast = 0;
     /// Pixels of the two newest bands. Rows are padded to whole tiles.
     std::span<std::uint8_t> rows;
     std::span<Tile> tiles;  ///< tiles of the four newest bands
@@ -65,10 +65,9 @@ int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold);
 /// be called for each band in order, when `take_row` reports the band as ready.
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold);
 
-/// Returns the contrast below which a tile in the next band is blank, in grey levels. The result
-/// grows with the largest contrast so far, from `options.min_contrast` to 2 *
-/// `options.min_contrast`. This rejects noise in blank tiles once tiles with dots have been
-/// measured.
+/// Returns the contrast below which a tile in the next band is blank, in grey levels. The limit
+/// grows from `options.min_contrast` to 2 * `options.min_contrast` as the largest contrast so far
+/// grows. After the first tiles with dots, this rejects noise in blank tiles.
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold);
 
 inline int band_count(const AdaptiveThreshold& threshold) {

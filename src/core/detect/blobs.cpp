@@ -18,12 +18,13 @@ constexpr std::uint32_t kMaxMass = 65535;
 /// Value of `OpenBlob::last_v` for a blob that was merged into another blob.
 constexpr std::uint16_t kNoRow = UINT16_MAX;
 
-/// Returns an upper bound of a dot's distance from the image centre, per axis.
+/// Returns an upper bound on the distance between a dot and the image centre, per axis.
 int all_within_px(const AdaptiveThreshold& threshold) {
     return std::max(threshold.width_px, threshold.height_px);
 }
 
-/// Returns true if a dot is at most `DotList::kept_within_px` from the image centre, per axis.
+/// Predicate that is true if a dot is at most `DotList::kept_within_px` from the image centre, per
+/// axis.
 struct IsKept {
     FixedVec image_centre_q8;
     std::int32_t within_q8;
@@ -37,7 +38,7 @@ struct IsKept {
 };
 
 /// Removes the dots that do not satisfy the predicate. The remaining dots keep their order.
-/// Standard libraries unroll std::remove_if, which would take a kilobyte on small devices.
+/// Standard libraries unroll std::remove_if, which would add a kilobyte of code on small devices.
 template <typename Predicate>
 void keep_dots(DotList list, Predicate is_to_keep) {
     DetectedDot* kept = list.dots.data();
@@ -49,9 +50,9 @@ void keep_dots(DotList list, Predicate is_to_keep) {
     list.count = static_cast<int>(kept - list.dots.data());
 }
 
-/// Makes room for dots near the image centre: reduces `kept_within_px`, and removes the dots beyond
-/// this distance. Returns false if `kept_within_px` is already 0. Not inlined, because the caller's
-/// frequent path needs the registers of small devices.
+/// Makes room for dots near the image centre. Reduces `kept_within_px`, and removes the dots beyond
+/// this distance. Returns false if `kept_within_px` is already 0. Not inlined, because this rare
+/// path would use registers that the frequent path of the caller needs.
 [[gnu::noinline]] bool make_room(const AdaptiveThreshold& threshold, DotList list) {
     if (list.kept_within_px == 0) return false;
     list.kept_within_px -= list.kept_within_px / 8 + 1;
@@ -77,7 +78,7 @@ bool may_be_dot(const OpenBlob& blob, const AdaptiveThreshold& threshold) {
 
 void close_blob(const OpenBlob& blob, const AdaptiveThreshold& threshold, DotList list) {
     if (!may_be_dot(blob, threshold)) return;
-    // Coordinates are relative to the blob's corner, because the sums wrap modulo 2^32.
+    // The sums wrap modulo 2^32. The differences from the blob's corner are exact.
     const DetectedDot dot{
         {blob.left * 256 + mean_q8(blob.sum_x - blob.mass * blob.left, blob.mass),
          blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)},
@@ -204,8 +205,9 @@ void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& thr
     }
 }
 
-/// Returns the upper quartile of a member, over a sample of the blobs. The quartile is typical of
-/// dots even if half the blobs are noise, because few blobs are larger than dots.
+/// Returns the upper quartile of a data member over a sample of the blobs. The quartile is typical
+/// of dots even if half the blobs are noise, because noise is smaller than dots, and few blobs are
+/// larger than dots.
 std::int32_t typical(std::span<const DetectedDot> dots, std::uint16_t DetectedDot::*member) {
     constexpr std::size_t kSample = 128;
     const std::size_t step = dots.size() / kSample + 1;

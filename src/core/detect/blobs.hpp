@@ -1,5 +1,6 @@
-// Blobs: connects dark pixels, computes centroids weighted by darkness, and selects the dots
-// (paper, section II-B.1).
+// Blobs: connects dark pixels, computes centroids, and selects the dots (paper, section II-B.1).
+// Unlike the paper, which uses the centres of mass of binary blobs, this stage weights pixels by
+// their darkness.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +14,9 @@
 
 namespace dotpose::core {
 
-/// A blob that may continue in the next row, stored as sums over its pixels. The sums wrap modulo
-/// 2^32. If a blob is small enough to be a dot, the sums relative to the blob's corner are exact.
+/// A blob that may continue in the next row, stored as sums over its pixels. The weight of a pixel
+/// is the low threshold minus its grey level. The sums wrap modulo 2^32. They are exact relative to
+/// the blob's corner if the blob is small enough to be a dot.
 struct OpenBlob {
     std::uint32_t sum_x = 0;  ///< sum of weight times u
     std::uint32_t sum_y = 0;  ///< sum of weight times v
@@ -24,8 +26,7 @@ struct OpenBlob {
     std::uint16_t right = 0;  ///< exclusive
     std::uint16_t first_v = 0;
     std::uint16_t last_v = 0;
-    /// The blob into which this blob was merged, or null. If this blob is unused, the next unused
-    /// blob.
+    /// The blob into which this blob was merged, or null. For an unused blob, the next unused blob.
     OpenBlob* part_of = nullptr;
     bool passes_high = false;  ///< true if a pixel is darker than the high threshold
 };
@@ -40,7 +41,7 @@ struct OpenBlobs {
     int max_runs = INT32_MAX;  ///< maximum number of runs per image; further runs are ignored
     int runs_left = 0;
     std::span<OpenBlob> blobs;
-    std::size_t blobs_begun = 0;  ///< number of elements of `blobs` that this image has used so far
+    std::size_t blobs_begun = 0;       ///< number of elements of `blobs` used so far in this image
     OpenBlob* first_unused = nullptr;  ///< first blob in the list of unused blobs, or null
 };
 
@@ -48,7 +49,7 @@ struct OpenBlobs {
 struct DotList {
     std::span<DetectedDot> dots;
     int& count;
-    int& kept_within_px;  ///< distance from the image centre, per axis, within which dots are kept
+    int& kept_within_px;  ///< maximum distance of stored dots from the image centre, per axis
 };
 
 /// Starts a new frame. Discards all blobs and dots.
@@ -59,7 +60,7 @@ void begin_blobs(const AdaptiveThreshold& threshold, OpenBlobs& open, DotList li
 void grow_blobs(int v, const AdaptiveThreshold& threshold, OpenBlobs& open, DotList list);
 
 /// Removes blobs with too few pixels, a mass far below the upper quartile, or an area far above the
-/// upper quartile (paper, section II-B.1). Limits relative to quartiles suit any spacing.
+/// upper quartile (paper, section II-B.1). Limits relative to quartiles apply to any spacing.
 void sift_dots(const BlobOptions& options, DotList list);
 
 }  // namespace dotpose::core

@@ -7,13 +7,14 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of adjacent pixels whose source points are interpolated by a quadratic. At a rotation of
-/// 60 degrees in 120 rows, the interpolation has errors of up to 0.003 px.
+/// Number of adjacent pixels whose source points are interpolated by one quadratic. The error of
+/// the interpolation is at most 0.003 px at a rotation of 60 degrees in 120 rows.
 constexpr int kStep_px = 16;
-/// Source points are in units of 2^-8 px.
+/// Factor that converts px to the unit of source points, 2^-8 px.
 constexpr float kUnit = 256;
 
-/// Returns the grey level at a point, in 2^-8 px from the first pixel.
+/// Returns the grey level at the point (u, v), interpolated linearly. u and v are in units of 2^-8
+/// px from the first pixel.
 std::uint8_t level_at(const ImageView& image, int u_q8, int v_q8) {
     const std::uint8_t* upper = image.row(v_q8 >> 8) + (u_q8 >> 8);
     const std::uint8_t* lower = upper + image.stride_bytes;
@@ -24,7 +25,7 @@ std::uint8_t level_at(const ImageView& image, int u_q8, int v_q8) {
     return static_cast<std::uint8_t>((above * (256 - down) + below * down + (1 << 15)) >> 16);
 }
 
-/// The quadratic through three points, at distances of 0, kStep_px / 2 and kStep_px.
+/// The quadratic through three values, at 0, kStep_px / 2 and kStep_px.
 struct Quadratic {
     float at, slope, curve;
 
@@ -47,8 +48,8 @@ ImageView derotated(const ImageView& image, const ReadoutTurn& turn,
     std::uint8_t* out = memory.data();
     for (int v = 0; v < image.height_px; ++v) {
         const float y = static_cast<float>(v) - centre_v;
-        // The first source point of a row needs more steps of Newton's method than the next points,
-        // which begin at an extrapolated row.
+        // Computes the first source point of a row with six Newton steps. For the other points, one
+        // step from an extrapolated row coordinate suffices.
         FloatVec first = turn.seen_from({-centre_u, y}, y, 6);
         float down = 0;
         for (int u = 0; u < image.width_px; u += kStep_px) {
@@ -64,7 +65,7 @@ ImageView derotated(const ImageView& image, const ReadoutTurn& turn,
             const Quadratic v_q8(to_q8(first.y, centre_v), to_q8(middle.y, centre_v),
                                  to_q8(last.y, centre_v));
             const int count = std::min(kStep_px, image.width_px - u);
-            // The first loop is vectorized, the second is not.
+            // Separate loops, because compilers vectorize the first loop but not the second.
             std::array<int, kStep_px> us;
             std::array<int, kStep_px> vs;
             for (int i = 0; i < kStep_px; ++i) {

@@ -1,5 +1,4 @@
-// Derotate: removes the rotation of the scene during the readout of a rolling shutter from an
-// image.
+// Derotate: removes the rotation of the scene from an image of a rolling shutter.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +9,9 @@
 
 namespace dotpose::core {
 
-/// Returns the image of a scene that does not rotate, at the time of the middle row. Interpolates
-/// linearly between pixels. Pixels that the image does not contain are copied from its border.
-/// Writes the pixels to `memory`, which must have a byte per pixel.
+/// Returns the image that the camera would see if the scene did not rotate. The middle row is the
+/// reference time. Interpolates linearly between pixels. Border pixels replace pixels outside the
+/// image. `memory` receives the pixels, and must have one byte per pixel.
 ImageView derotated(const ImageView& image, const ReadoutTurn& turn,
                     std::span<std::uint8_t> memory);
 

@@ -24,8 +24,9 @@ std::array<int, kTaps> taps(std::int32_t position_q8) {
     return weights;
 }
 
-/// Returns the level of a pixel, corrected if the pixel is defective. Border pixels have too few
-/// neighbours. The nearest inner pixel replaces a pixel on or beyond the border.
+/// Returns the level of a pixel, corrected if the pixel is defective. For a pixel on or beyond the
+/// border, returns the level of the nearest inner pixel, because the correction needs eight
+/// neighbours.
 int level_near(const ImageView& image, int u, int v) {
     return without_defect(image, std::clamp(u, 1, image.width_px - 2),
                           std::clamp(v, 1, image.height_px - 2));

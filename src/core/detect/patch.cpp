@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::patch;
 
-/// Returns 2^24 / (n + 1), rounded up. Tabulated, because the divisions for all tiles would take a
-/// microsecond.
+/// Returns 2^24 / (n + 1), rounded up. Called through tabled(), because the divisions for all tiles
+/// would take a microsecond.
 constexpr std::uint32_t reciprocal_q24(std::uint32_t n) {
     return ((1U << 24) + n) / (n + 1);
 }
@@ -71,13 +71,13 @@ bool measure_contrast(Patch& patch) {
     patch.dot_contrast_q8 = 4 * static_cast<int>(median) + 2;
     const int contrast_q16 = patch.dot_contrast_q8 * tuned::kThreshold_q8;
     for (int row = 0; row < rows; ++row) {
-        // Computes a whole row of tiles in one vector operation, including unused tiles.
+        // Computes a whole row of tiles, including unused tiles, in one vector operation.
         const auto paper = std::span(patch.brightest).subspan(tile(0, row), Patch::kTilesPerRow);
         std::array<std::uint8_t, Patch::kTilesPerRow> thresholds;
         for (std::size_t i = 0; i < thresholds.size(); ++i)
             thresholds[i] = static_cast<std::uint8_t>(paper[i] - (paper[i] * contrast_q16 >> 16));
-        // A strip is two tiles wide. If the last strip has only one tile, the threshold of the
-        // missing tile accepts no pixel.
+        // A strip is two tiles wide. If the last strip has only one tile, the threshold 0 excludes
+        // all pixels of the missing tile.
         if (columns % 2 != 0) thresholds[static_cast<std::size_t>(columns)] = 0;
         std::copy(thresholds.begin(), thresholds.end(),
                   patch.thresholds.begin() + static_cast<std::ptrdiff_t>(tile(0, row)));
@@ -104,7 +104,8 @@ void keep_isolated(Patch& patch) {
     };
     std::size_t kept = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
-        // On a plateau, the fitted parabola has no vertex, so the coordinates are not finite.
+        // Skips minima on plateaus. There, the fitted parabola has no vertex, and the coordinates
+        // are not finite.
         if (!(std::abs(dots.x[i]) < kNoDot_px && std::abs(dots.y[i]) < kNoDot_px)) continue;
         const int u = pixel_of(dots.x[i], patch.width_px);
         const int v = pixel_of(dots.y[i], patch.height_px);

@@ -1,5 +1,5 @@
-// Patch: the part of an image in which the grid is searched. Places the patch, sets its thresholds,
-// and removes minima that are not dots (paper, section II-B.1).
+// Patch: the part of an image that is searched for the grid. Places the patch, computes its
+// thresholds, and removes minima that are not dots (paper, section II-B.1).
 #pragma once
 
 #include "core/patch_memory.hpp"
@@ -8,9 +8,9 @@
 namespace dotpose::core {
 
 /// Places a patch around an image point. The requested size is in image pixels. A patch pixel
-/// covers `scale` x `scale` image pixels, and `scale` must be 1, 2 or 4. The patch is shifted into
-/// the image, and its size is limited by the image and by the capacity of `Patch`. Returns false if
-/// a side has fewer than `Patch::min_side_px` patch pixels.
+/// covers `scale` x `scale` image pixels. `scale` must be 1, 2 or 4. The patch is shifted into the
+/// image and clipped to the capacity of `Patch`. Returns false if a side has fewer than
+/// `Patch::min_side_px` patch pixels.
 bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int width_px,
                  int height_px, int scale, Patch& patch);
 
@@ -18,9 +18,9 @@ bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int w
 /// contrast and the tile's paper level. Returns false if too few tiles have contrast.
 bool measure_contrast(Patch& patch);
 
-/// Removes minima that are not dots. These are minima on plateaus, in tiles without contrast, or
-/// with dark surroundings in more than two of eight directions. Minima with dark surroundings occur
-/// on a dark table beyond the sheet.
+/// Removes minima that are not dots: minima on plateaus, in tiles without contrast, and with dark
+/// surroundings in more than two of eight directions. A dark table beyond the sheet has minima with
+/// dark surroundings.
 void keep_isolated(Patch& patch);
 
 /// Return the middle of the patch, in image pixels.

@@ -71,14 +71,14 @@ void weight_down(const std::array<const std::uint16_t*, kRows>& rows, int width_
 }
 
 /// Returns half the side of the averaging window for the local light, along one axis. The window
-/// shrinks near the image border to stay centred, because a centred window cancels light gradients.
-/// The result is at least kMinHalf_px.
+/// shrinks near the image border to remain centred, because only a centred window cancels light
+/// gradients. The result is at least kMinHalf_px.
 int half_side(int at, int length, int max_half) {
     return std::max(std::min({max_half, at, length - 1 - at}), tuned::kMinHalf_px);
 }
 
-/// Adds a row to the column sums, or subtracts it if `add` is false. A pixel much darker than the
-/// paper counts as paper, because a stroke of graphics is not a shadow.
+/// Adds a row to the column sums, or subtracts the row if `add` is false. A pixel much darker than
+/// the paper counts as paper, because a stroke of graphics does not mean that there is less light.
 void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     const std::uint8_t* row = image.row(v);
     std::uint32_t* sums = smoothing.column_sums.data();
@@ -97,7 +97,7 @@ void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     }
 }
 
-/// Moves the column sums to the rows [begin, end).
+/// Updates the column sums to cover the rows [begin, end).
 void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing) {
     while (smoothing.sums_end < end)
         add_row(image, smoothing.sums_end++, true, smoothing);
@@ -105,11 +105,11 @@ void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing)
         add_row(image, smoothing.sums_begin++, false, smoothing);
 }
 
-/// Minimum level of the normalised image. Darker pixels are raised to this level.
+/// Minimum level of the normalised image. Darker pixels are set to this level.
 constexpr std::uint32_t kMinLevel = kNormalLevel * tuned::kMinLevel_5ths / 5;
 
-/// Divides by multiplication and rounds down. Exact for n / d < 256 and d < 2^20. `factor_` is too
-/// large by at most 1. This increases n / d by at most n / 2^48 < 1 / d.
+/// Divides by multiplication and rounds down. The result is exact for n / d < 256 and d < 2^20,
+/// because `factor_` exceeds 2^kBits / d by at most 1. This adds at most n / 2^48 < 1 / d to n / d.
 class Divider {
   public:
     std::uint32_t quotient(std::uint32_t n, std::uint32_t d) {
@@ -126,14 +126,14 @@ class Divider {
     std::uint64_t factor_ = 0;
 };
 
-/// Returns kNormalLevel / mean in units of 2^-24, rounded up. The product with a pixel is then too
-/// large by less than 2^-16. The result for a mean of 0 is never used.
+/// Returns kNormalLevel / mean in units of 2^-24, rounded up. Rounding adds less than 2^-16 to the
+/// product with a pixel. The result for a mean of 0 is never used.
 constexpr std::uint32_t normalising_factor_q24(std::uint32_t mean) {
     return mean == 0 ? 0 : ((std::uint32_t{kNormalLevel} << 24) - 1) / mean + 1;
 }
 
-/// Multiplies each pixel of row `v` by kNormalLevel / mean, where the mean is taken around the
-/// pixel. Clamps the result to [kMinLevel, 255].
+/// Multiplies each pixel of row `v` by kNormalLevel / mean, where mean is the mean level of a
+/// window around the pixel. Clamps the result to [kMinLevel, 255].
 void normalise_light(const ImageView& image, int v, Smoothing& smoothing) {
     const int max_half = smoothing.paper.block_px;
     const int half_height = half_side(v, image.height_px, max_half);

@@ -1,6 +1,6 @@
 // Smooth: the image filter of the second attempt. The filter normalises the light, averages noise
 // over about the area of a blurred dot, and removes single defective pixels. Unlike the paper, the
-// second attempt filters the image before dot detection. See docs/differs-from-paper.md.
+// second attempt filters the image before it detects dots. See docs/differs-from-paper.md.
 #pragma once
 
 #include <cstdint>
@@ -30,10 +30,10 @@ inline constexpr int kNormalLevel = 192;
 /// Starts a new image.
 void begin_smoothing(const ImageView& image, Smoothing& smoothing);
 
-/// Returns the next row of the filtered image, from top to bottom. Each pixel is clamped to the
-/// range of its eight neighbours, except at the image border. The result is smoothed with a 5 x 5
-/// binomial filter (sigma 1 px). Finally, each pixel is normalised by the mean of a rectangle
-/// around the pixel. The row is valid until the next call.
+/// Returns the next row of the filtered image, from top to bottom. First, clamps each pixel to the
+/// range of its eight neighbours, except at the image border. Then applies a 5 x 5 binomial filter
+/// (sigma 1 px). Finally, divides each pixel by the mean of a rectangle around the pixel. The row
+/// is valid until the next call.
 const std::uint8_t* next_smooth_row(const ImageView& image, Smoothing& smoothing);
 
 }  // namespace dotpose::core

@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Row step: every kRowsEvery-th row of a band is measured. At least some of the dots in a tile
-/// extend over a measured row.
+/// Only every kRowsEvery-th row of a band is measured. In each tile, these rows cross some of the
+/// dots.
 constexpr int kRowsEvery = 4;
 
 /// The measured rows of a band.

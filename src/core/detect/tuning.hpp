@@ -1,24 +1,27 @@
 // Tuning: empirical constants of dot detection. The constants of the second attempt were determined
-// on the hard frames listed in decode/tuning.hpp. Comments state how many frames `dotpose evaluate
-// --preset hard --frames 2000 --seed 404` locates with other values. With the values below, it
-// locates 1,994 frames.
+// on the hard frames listed in decode/tuning.hpp. Some comments compare a constant with other
+// values, by the number of frames located by
+//
+//     dotpose evaluate --preset hard --frames 2000 --seed 404
+//
+// The values in this file locate 1,994 frames.
 #pragma once
 
 namespace dotpose::core::tuning {
 
 /// Paper level of image blocks (detect/paper).
 namespace paper {
-/// Shorter image side divided by the side of a block. A block contains enough paper even if only 8
-/// dots are in view along the shorter side. It is small enough to follow light gradients.
+/// Shorter image side divided by the side of a block. A block contains enough paper if at least 8
+/// dots are in view along the shorter side. A larger block would not follow light gradients.
 inline constexpr int kBlockPart = 10;
 /// Number of pixels sampled along each block side.
 inline constexpr int kSamplesPerSide = 12;
 /// Maximum fraction of a block's pixels that are darker than its paper level, in thirds. Dots cover
-/// much less than this fraction, so the level is that of paper.
+/// a much smaller fraction.
 inline constexpr int kDarker_3rds = 2;
-/// Minimum level of a block, in fourths of its brightest neighbour. A darker block is assumed to be
-/// under graphics, and takes the neighbour's level. Light gradients cause smaller differences
-/// between neighbouring blocks.
+/// Minimum level of a block, in fourths of the level of its brightest neighbour. A darker block is
+/// assumed to be under graphics, and its level is replaced with the level of the neighbour. Light
+/// gradients cause smaller differences between neighbouring blocks.
 inline constexpr int kCovered_4ths = 3;
 }  // namespace paper
 
@@ -28,19 +31,18 @@ namespace smooth {
 /// window shrinks to this size at the image border.
 inline constexpr int kMinHalf_px = 4;
 /// Maximum level of a stroke, in tenths of the brightest paper level nearby. Darker pixels count as
-/// paper in the local mean, because a stroke of graphics is not a shadow. The value is not
-/// critical: with 4 or 9, 1,995 frames are located.
+/// paper in the local mean, because a stroke of graphics does not mean that there is less light.
+/// With 4 or 9, the second attempt locates 1,995 frames.
 inline constexpr int kStroke_10ths = 7;
-/// Minimum level of the normalised image, in fifths of kNormalLevel. Graphics are then at most as
-/// dark as a weak dot. Near darker graphics, the required contrast would exceed the contrast of
-/// dots. With 2, only 1,937 frames are located.
+/// Minimum level of the normalised image, in fifths of kNormalLevel. Clamping makes graphics no
+/// darker than a weak dot. Otherwise, the required contrast near dark graphics would exceed the
+/// contrast of dots. With 2, only 1,937 frames are located.
 inline constexpr int kMinLevel_5ths = 4;
 }  // namespace smooth
 
 /// Dot detection in a patch (detect/patch).
 namespace patch {
-/// Shorter side from which `kMinTiles` applies to a patch, in px. Smaller patches have too few
-/// tiles.
+/// Shorter side below which a patch has too few tiles for `kMinTiles`, in patch pixels.
 inline constexpr int kSmall_px = 48;
 /// Minimum darkness of a tile's darkest smoothed pixel, in grey levels below the paper level. Other
 /// tiles are blank. A patch must have at least kMinTiles tiles that are not blank. In a small
@@ -50,8 +52,8 @@ inline constexpr int kMinTiles = 12;
 /// Minimum darkness of a dot relative to a typical dot, in 1/256. Lighter minima count as noise.
 inline constexpr int kThreshold_q8 = 150;
 /// Distances at which the surroundings of a minimum are tested, along the axes and diagonally, in
-/// px. At most kMaxDark of the eight directions may be dark, for example because of a neighbouring
-/// dot.
+/// px. At most kMaxDark of the eight directions may be dark. A neighbouring dot may darken a
+/// direction.
 inline constexpr int kAway_px = 4;
 inline constexpr int kDiagonally_px = 3;
 inline constexpr int kMaxDark = 2;

@@ -1,5 +1,5 @@
-// Words: adjacent pixels that are processed together in one register. The first pixel is in the
-// lowest byte.
+// Words: adjacent pixels in one register, for operations on all of them in parallel. The first
+// pixel is in the lowest byte.
 #pragma once
 
 #include <bit>
@@ -16,8 +16,8 @@ constexpr Word in_all_bytes(std::uint8_t byte) {
     return static_cast<Word>(0x0101010101010101) * byte;
 }
 
-/// Mask of the top bit in every byte. Comparisons use half of each grey level, which fits in the
-/// seven lower bits, and store their result in the top bit.
+/// Mask of the top bit in every byte. Comparisons use half of each grey level, which has only seven
+/// bits. They store the result in the top bit.
 inline constexpr Word kTops = in_all_bytes(0x80);
 
 /// Loads a word. `pixels` must be word-aligned.

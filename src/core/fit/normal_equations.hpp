@@ -63,7 +63,7 @@ class NormalEquations {
         return true;
     }
 
-    // The following functions may be called only after `decompose`.
+    // The functions below require a previous call of `decompose`.
 
     /// Returns true if `decompose` did not exclude the parameter.
     bool determines(std::size_t parameter) const { return columns_[parameter].at(parameter) > 0; }
@@ -82,8 +82,8 @@ class NormalEquations {
     }
     /// Returns L^-T `vector`.
     Vector unwhitened(const Vector& vector) const {
-        // Subtracts the product with the newest element last. The other products need not wait for
-        // this element.
+        // Subtracts the product with the newest element last, because the other products do not
+        // depend on this element.
         Vector result{};
         for (std::size_t i = N; i-- > 0;) {
             float rest = vector[i];

@@ -20,7 +20,7 @@ class PlaneSums {
     FitSums all() const;
 
   private:
-    /// Negated number of points, because vector comparisons yield -1 for true.
+    /// Negated number of points. A vector comparison yields -1 for true.
     FourInts less_points_{};
     std::array<Four, 4> places_{};
     std::array<Four, 3> residuals_{};  ///< includes the sum of squared residuals

@@ -14,8 +14,8 @@ using Pair = std::array<float, 2>;
 
 using Symmetric = Symmetric2<float>;
 
-/// Returns the prior covariance after whitening, in units of the noise variance. Each term has a
-/// variance of 1 before whitening.
+/// Returns the prior covariance of the whitened terms, in units of the noise variance. Before
+/// whitening, each term has a variance of 1.
 Symmetric spread_of(const DistortionPrior& terms, const PlaneNormal& normal, float variance) {
     const std::size_t i = terms.first;
     const float scale = 1 / variance;
@@ -28,7 +28,8 @@ Symmetric spread_of(const DistortionPrior& terms, const PlaneNormal& normal, flo
 
 /// Posterior for one component of the prior.
 struct PosteriorOfKind {
-    /// Inverse covariance of terms plus noise, in units of the inverse noise variance.
+    /// Inverse of the covariance of the fitted terms (prior plus noise), in units of the inverse
+    /// noise variance.
     Symmetric precision;
     Pair mean;
     float distance;  ///< squared Mahalanobis distance of the fitted terms from 0

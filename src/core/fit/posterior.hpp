@@ -1,5 +1,5 @@
 // Posterior: shrinks fitted distortion terms towards 0 by Bayes' rule. The terms are 0 for a camera
-// that looks straight at flat paper. Fitting a tilt costs accuracy if there is none, and so does
+// that looks straight at flat paper. Fitting a tilt that is not present costs accuracy, and so does
 // omitting a real tilt. The shrinkage therefore depends on the probability of a tilt. Unlike the
 // paper, the fit includes these terms.
 #pragma once

@@ -11,9 +11,9 @@
 namespace dotpose::core {
 
 /// Plane parameters in order of decreasing importance: at_centre (x, y), scale, rotation,
-/// perspective (x, y), shear (two parameters), lens distortion. A parameter's value is its effect
-/// at a place one unit from the origin, in spacings. kTilt, kShear and kBend are the first indices
-/// of perspective, shear and lens distortion.
+/// perspective (x, y), shear (two parameters), lens distortion. The value of a parameter is its
+/// effect at a place one unit from the origin, in spacings. kTilt, kShear and kBend are the first
+/// indices of perspective, shear and lens distortion.
 constexpr std::size_t kPoseParameters = 9;
 constexpr std::size_t kTilt = 4;
 constexpr std::size_t kShear = 6;
@@ -27,14 +27,14 @@ struct FourVecs {
 };
 
 /// Returns the derivatives of x and y with respect to all parameters, at one of four places. In
-/// pattern coordinates, the derivatives are polynomials in the place (u, v). The derivatives for
-/// perspective are u (u, v) and v (u, v). The derivative for lens distortion is (u^2 + v^2) (u, v).
+/// pattern coordinates, each derivative is a polynomial in the place (u, v): u (u, v) and v (u, v)
+/// for perspective, and (u^2 + v^2) (u, v) for lens distortion.
 std::array<Parameters, 2> jacobian(const FourVecs& places, std::size_t point);
 
 /// A plane whose parameters act on the pattern instead of the image. Changes in scale, rotation,
 /// perspective and shear are then exact at any tilt. Places are relative to the plane's `at`, in
-/// units of `scale()`. All derivatives then have similar magnitudes, so single precision is
-/// sufficient.
+/// units of `scale()`. In these units, all derivatives have similar magnitudes, and single
+/// precision is sufficient.
 class ScaledPlane {
   public:
     ScaledPlane(const FloatPlane& plane, float reach_px);
@@ -43,9 +43,9 @@ class ScaledPlane {
     /// centre.
     FourVecs project(Four x_px, Four y_px) const;
 
-    /// Returns the parameters of perspective, shear and lens distortion. These parameters are 0 for
-    /// a camera without distortion that looks straight at the sheet. All other elements are always
-    /// 0.
+    /// Returns the parameters of perspective, shear and lens distortion, and 0 for all other
+    /// parameters. For a camera without distortion that looks straight at the sheet, all parameters
+    /// are 0.
     Parameters distortions() const;
     /// Returns the unit of places, in spacings: the pattern length that corresponds to `reach_px`.
     float scale() const { return scale_; }

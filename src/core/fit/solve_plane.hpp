@@ -1,5 +1,5 @@
-// Solve plane: computes one Gauss-Newton step towards the least-squares plane. The distortion terms
-// are shrunk according to the probability that distortion is present.
+// Solve plane: computes one Gauss-Newton step towards the least-squares plane. Shrinks the
+// distortion terms according to the probability that distortion is present.
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@ struct PoseFit {
     int reach_px = 1;        ///< unit of length in the image, in px
     int dots = 0;            ///< number of inliers
     float variance = 0;      ///< noise variance of a dot along one axis, in spacings^2
-    float squares = 0;       ///< total squared residuals of all inliers after the last step
+    float squares = 0;       ///< sum of the squared residuals of all inliers after the last step
     float displacement = 0;  ///< distance of a typical dot from its intersection, in spacings
     PlaneNormal normal;      ///< decomposed normal equations for the parameters of `jacobian`
     std::array<Parameters, kPoseParameters> covariance;  ///< covariance of the whitened parameters
     Surface surface = Surface::even;
-    /// Covariance of x, y and theta that an uneven sheet adds.
+    /// Additional covariance of x, y and theta for an uneven sheet.
     std::array<std::array<float, 3>, 3> uneven{};
 };
 

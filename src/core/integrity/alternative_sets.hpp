@@ -1,32 +1,32 @@
 // Alternative sets: groups of far alternatives. A far alternative differs from the reading in the
-// places in two or more secondary sequences. See docs/integrity.md.
+// places in two or more secondary sequences. See docs/integrity.md, "Alternatives: odds".
 #pragma once
 
 #include <array>
 
 namespace dotpose::core {
 
-/// The far alternatives that differ from the reading in the same set of sequences. All values are
+/// The far alternatives that differ from the reading in the same set of sequences. Both values are
 /// log2 in units of 2^-8.
 struct AlternativeSet {
     int alternatives_q8 = 0;  ///< number of alternatives
-    /// Probability that, in one step, an alternative's digits equal the reading's digits in all
-    /// sequences of the set. A step leads from one line to the next.
+    /// Probability that all digits of an alternative in the sequences of the set equal the digits
+    /// of the reading, in one step. A step leads from one line to the next.
     int equal_q8 = 0;
 };
-/// Sets of sequences in which an alternative's place differs from the reading's place:
+/// Sets of sequences in which the place of an alternative differs from the place of the reading:
 /// - a3 and one other sequence,
 /// - two sequences other than a3,
 /// - a3 and two other sequences,
 /// - all three sequences other than a3,
 /// - all four sequences.
 ///
-/// a1, a2 and a4 have the same base. Sets that differ only in the choice among these three are
-/// therefore merged.
+/// a1, a2 and a4 have the same base. The list therefore contains each choice among these three
+/// sequences only once.
 inline constexpr std::array<AlternativeSet, 5> kAlternativeSets{
     {{3694, -661}, {4444, -811}, {5712, -1067}, {6057, -1217}, {7326, -1473}}};
 /// log2 of the safety factor 1.03 for digits that are not random, in units of 2^-8, rounded up. See
-/// `kUnevenness` in expected_alternatives.cpp.
+/// `kUnevenness` in kernels/loops/alternatives.inc.
 inline constexpr int kUnevenness_q8 = 11;
 
 }  // namespace dotpose::core

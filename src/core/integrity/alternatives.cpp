@@ -13,18 +13,18 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of adjacent lines that two positions share in `anoto` and `microdots`. With six
-/// shared lines, five digits would be equal in each sequence, and five digits determine a place. In
+/// Maximum number of adjacent lines that two positions share in `anoto` and `microdots`. Six shared
+/// lines would have five equal digits in each sequence, and five digits determine a place. In
 /// `libdots`, some positions share more lines. The near alternatives include these positions.
 constexpr int kMaxSharedInARow = code::kOrder;
-/// Maximum expected odds of the far alternatives for which a detailed evaluation is worth the time.
-/// With larger expected odds, the fix cannot become certain.
+/// Expected odds of the far alternatives from which the detailed evaluation is skipped. With larger
+/// expected odds, the detailed evaluation cannot make a fix certain.
 constexpr float kBeyondHelp = 1e-4F;
-/// Default limit of the odds.
+/// Default limit of the summed odds.
 constexpr float kUsualLimit = 0x1p-30F;
 
-/// Returns the summed odds of the same position in the other sections. In each of these sections,
-/// the rolls of all lines differ from the rolls of the reading by the same shift.
+/// Returns the summed odds of the same position in the other sections. In another section, the
+/// rolls of all lines differ from the rolls of the reading by the same shift.
 float sum_of_other_sections(const RankedLines& lines) {
     float sum = 0;
     for (int shift = 1; shift < kSections; ++shift) {
@@ -37,36 +37,37 @@ float sum_of_other_sections(const RankedLines& lines) {
 }
 
 int log2_rounded_up(float sum) {
+    if (sum >= 1) return 0;  // including infinity
     int exponent = 0;
     std::frexp(sum, &exponent);  // sum < 2^exponent
-    return std::min(exponent, 0);
+    return exponent;
 }
 
-/// Odds of the far alternatives as an expectation over all places.
+/// Expected odds of the far alternatives, averaged over all places.
 struct Expectation {
-    float of_two;   ///< of the alternatives that differ in two sequences
-    float of_more;  ///< of the alternatives that differ in three or four
+    float of_two;   ///< alternatives that differ in two sequences
+    float of_more;  ///< alternatives that differ in three or four sequences
 };
 
-/// Returns the sum of the odds of the far alternatives, with more of them counted one by one: the
-/// double alternatives, and the near alternatives that share one line fewer. `known` is the sum of
-/// all other odds. This reduces the part of the sum that is only an expectation.
+/// Returns the sum of the odds of all alternatives. Counts more of the far alternatives one by one:
+/// the double alternatives, and the near alternatives that share one line less. This reduces the
+/// part of the sum that is only an expectation. `known` is the sum of all other odds.
 float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float known,
                         Expectation expected, float limit) {
-    // Odds that do not matter. Computes the odds as precisely as the default limit requires, even
-    // if the caller permits larger odds.
+    // Computes the odds as precisely as the default limit requires, even if the caller permits
+    // larger odds.
     const float usual = std::min(limit, kUsualLimit);
     float sum = kMargin * expected.of_more;
     if (sum > usual / 16) {
         sum = sum_of_expected_alternatives(kernels, lines, kMaxSharedInARow - 2, 3, 4);
-        // Skips the slowest sums if the other sums already exceed the limit.
+        // Skips the slowest sum if the other sums already exceed the limit.
         if (known + sum < limit)
             sum += sum_of_near_alternatives(kernels, lines, kMaxSharedInARow - 1);
     }
     sum += known;
     if (sum >= limit) return sum;
-    // Maximum expected odds of the double alternatives that are not counted one by one. An
-    // expectation alone must not cause a refusal.
+    // Maximum expected odds of the double alternatives that are not counted one by one. The limit
+    // prevents a refusal because of an expectation alone.
     const float negligible = std::min(sum < usual / 8 ? usual / 16 : sum / 8, (limit - sum) / 8);
     return sum +
            sum_of_double_alternatives(kernels, lines, expected.of_two, negligible, limit - sum);
@@ -84,7 +85,7 @@ int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, in
     };
     const Expectation expected{expected_of(2, 2), expected_of(3, 4)};
     const float far = expected.of_two + expected.of_more;
-    // The fastest sums first. If a sum exceeds the limit, the others do not matter.
+    // Computes the fastest sums first, and stops when a sum exceeds the limit.
     if (far >= std::max(limit, kBeyondHelp)) return log2_rounded_up(far);
     float known = sum_of_single_alternatives(kernels, lines) + sum_of_other_sections(lines);
     if (known < limit) known += sum_of_near_alternatives(kernels, lines, kMaxSharedInARow);

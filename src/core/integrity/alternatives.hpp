@@ -1,6 +1,6 @@
 // Alternatives: the summed odds of all positions except the reading. Most of the sum comes from
-// positions that share lines with the reading. likelihood_ratios.hpp defines the terms, and
-// docs/integrity.md derives the sum.
+// positions that share lines with the reading. likelihood_ratios.hpp defines the terms. See
+// docs/integrity.md, "Alternatives: odds".
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -9,10 +9,10 @@
 namespace dotpose::core {
 
 /// Returns log2 of the summed odds of all alternatives except seam alternatives, rounded up to an
-/// integer and clamped to at most 0. Far alternatives differ from the reading in several sequences
-/// and share few adjacent lines. A far alternative contributes either its individual odds or its
-/// expected odds. All other odds in the sum are exact or upper bounds. The sum is only as precise
-/// as a comparison with 2^limit_log2 requires. Returns 0 if there are at most 5 lines.
+/// integer and clamped to at most 0. The sum contains individual odds or expected odds of the far
+/// alternatives, which share few adjacent lines with the reading. All other odds are exact or upper
+/// bounds. The sum is only as precise as a comparison with 2^limit_log2 requires. Returns 0 if
+/// there are at most 5 lines.
 int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2 = 0);
 
 }  // namespace dotpose::core

@@ -19,10 +19,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of shifts, out of 63, at which a given line is not shared.
+/// Number of shifts, out of 63, at which an alternative does not share a given line.
 constexpr float kShifts = kSections - 1;
-/// Odds counted for a single alternative that is skipped, as log2 in units of 2^-8 and as a number.
-/// The true odds are never larger.
+/// Odds counted for each skipped single alternative, as log2 in units of 2^-8 and as a number. The
+/// true odds are never larger.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Total number of places in the four sequences.
@@ -35,8 +35,8 @@ constexpr float power_of_two_rounded_up(int n_q8) {
     return static_cast<float>(exp2_q16(n - whole * 256)) * 1.02F * power_of_two_exactly(whole - 16);
 }
 
-/// Returns `LikelihoodRatios::odds` without its upper limit. Avoids 64-bit integers, because their
-/// conversion to floating point may require a library call.
+/// Variant of `LikelihoodRatios::odds` without an upper limit. Avoids 64-bit integers, because
+/// converting them to floating point may require a library call.
 float odds_of(const LikelihoodRatios& ratios, int lost) {
     const int log2_q8 = std::max(ratios.log2_odds_q8(lost), kNegligible_q8);
     const int whole = log2_q8 >> 8;
@@ -53,8 +53,8 @@ constexpr FarAlternatives kFarAlternatives = [] {
     return sets;
 }();
 
-/// Returns an upper bound on the expected odds of the far alternatives. This is the rough bound in
-/// quick_alternatives.cpp, but in floating point and for all sets in parallel.
+/// Returns an upper bound on the expected odds of the far alternatives. Computes the rough bound of
+/// quick_alternatives.cpp in floating point, for all sets in parallel.
 float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
     std::array<float, kMaxLines> odds;
     const auto count = static_cast<std::size_t>(ratios.count());
@@ -70,9 +70,8 @@ float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
                                         kFarAlternatives);
 }
 
-/// Returns an upper bound on the odds of all alternatives without a shared line. Includes the other
-/// sections at the same position. Also includes single alternatives at shifts without a shared
-/// line.
+/// Returns an upper bound on the odds of all alternatives without a shared line: the other sections
+/// at the same position, and single alternatives at shifts without a shared line.
 float sharing_none(const LikelihoodRatios& ratios) {
     int lost = 0;
     for (int line = 0; line < ratios.count(); ++line)
@@ -80,7 +79,7 @@ float sharing_none(const LikelihoodRatios& ratios) {
     return (1 + kSingles) * kShifts * odds_of(ratios, lost);
 }
 
-/// Loss caused by one wrong bit, in score units. All bits have the full weight here, so losses are
+/// Loss caused by one wrong bit, in score units. All bits have the full weight, so losses are
 /// multiples of kBit.
 constexpr int kBit = 2 * 127;
 /// Lists the lines by decreasing minimum loss. Losses are in bits and are clamped to [0, kMaxBits].
@@ -89,8 +88,8 @@ std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> loss
     constexpr int kMaxBits = 31;
     const auto count = static_cast<std::size_t>(ratios.count());
     std::array<std::uint8_t, kMaxLines> bits;
-    // Counting sort. `begin[b]` is first the number of lines that lose b bits, then the index where
-    // these lines begin.
+    // Counting sort. begin[b] is first the number of lines that lose b bits, and later the index of
+    // the first of these lines.
     std::array<std::uint8_t, kMaxBits + 1> begin{};
     for (std::size_t line = 0; line < count; ++line) {
         const int loss = ratios.min_loss(static_cast<int>(line)) / kBit;
@@ -109,7 +108,7 @@ std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> loss
 }
 
 /// Returns the loss of a single alternative at the shift where it shares the line `shared`. Stops
-/// as soon as the odds cannot exceed kSkippedOdds, and returns the loss so far.
+/// when the odds cannot exceed kSkippedOdds, and returns the loss so far.
 int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place, int shared) {
     const std::uint8_t* own = ratios.basis[sequence].rolls + ratios.places[sequence];
     const std::uint8_t* alternative = ratios.basis[sequence].rolls + place;
@@ -125,9 +124,10 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
     return lost;
 }
 
-/// Returns an upper bound on the odds of the single alternatives that share a line. Most sequences
-/// need only a table. In the remaining sequences, alternatives that may lose less than `loss_limit`
-/// are evaluated one by one. Returns 1 if `Kernels::list_similar_places` fails.
+/// Returns an upper bound on the odds of the single alternatives that share a line. Uses the bounds
+/// of `tabled_alternatives` where possible. In the other sequences, adds the odds of each
+/// alternative that may lose less than `loss_limit`. Returns 1 if `Kernels::list_similar_places`
+/// fails.
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;
@@ -161,7 +161,7 @@ float seam_alternatives(const Kernels& kernels, const UnsharedLines& unshared) {
         std::max(seam_alternatives_log2_q8(kernels, unshared), -100 * 256));
 }
 
-/// Parameters of the certainty test, the same for both axes.
+/// Parameters of the certainty test. Both axes use the same values.
 struct Query {
     CodeVariant code;
     int odds_per_bit_q8;
@@ -174,7 +174,7 @@ bool is_code_in_question(const Query& query) {
 }
 
 /// Returns an upper bound on the probability that random bits agree with the code as well as the
-/// bits of one axis do.
+/// bits of one axis.
 float chance_of(const Confidence& bits, const Query& query) {
     if (!is_code_in_question(query))
         return power_of_two_exactly(chance_log2(bits, query.odds_per_bit_q8));
@@ -182,17 +182,18 @@ float chance_of(const Confidence& bits, const Query& query) {
         chance_log2_q8(bits, query.odds_per_bit_q8, query.others->log2_in_question_q8));
 }
 
-/// Returns the weighted number of possible codes, or 1 if the code is given. A code's weight is its
-/// odds relative to the code that was read. All codes have the same number of alternatives, so the
-/// weighted number of codes multiplies the odds of the alternatives.
+/// Returns the weighted number of possible codes, or 1 if the code is given. The weight of a code
+/// is its odds relative to the code that was read. All codes have the same number of alternatives,
+/// so the odds of the alternatives are multiplied by this number.
 float codes_in_question(const Query& query) {
     return !is_code_in_question(query) ? 1
                                        : power_of_two_rounded_up(query.others->log2_in_question_q8);
 }
 
 /// Returns an upper bound on the probability that one axis is wrong. Returns 1 if the bounds on
-/// chance and alternatives exceed 2^limit_log2. Tries up to three bounds on the alternatives, each
-/// slower and tighter than the preceding one. Hard bits allow only the first bound.
+/// chance and alternatives exceed 2^limit_log2. Tries up to three bounds on the alternatives. Each
+/// bound is slower and tighter than the preceding bound. For hard bits, only the first bound
+/// exists.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,
                  const Query& query) {
     const LikelihoodRatios& ratios = unshared.ratios();
@@ -214,7 +215,7 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
 }
 
 /// Returns true if the error probabilities of both axes add up to at most 2^limit_log2. Sets
-/// `fix.p_wrong_log2`, unless the x axis alone has a bound of 1 or more. On success, sets the odds
+/// `fix.p_wrong_log2`, unless the bound of the x axis is 1 or more. On success, also sets the odds
 /// of the other codes, unless `Query::others` is null.
 bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
                  const LikelihoodRatios& x, const LikelihoodRatios& y, const Query& query,
@@ -231,8 +232,8 @@ bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
 }
 
 /// Returns the odds that a bit is correct, as log2 in units of 2^-8. Combines both axes, because
-/// their bits are read from the same dots. Returns 0 if the bits carry no information or if either
-/// axis has too many wrong bits. Sets `fix.bit_errors`.
+/// their bits come from the same dots. Returns 0 if the bits contain no information, or if an axis
+/// has too many wrong bits. Sets `fix.bit_errors`.
 int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOptions& options,
                     Fix& fix) {
     fix.bit_errors = x.wrong() + y.wrong();

@@ -1,5 +1,5 @@
 // Certainty: tests whether a position is certain. Computes an upper bound on the probability of an
-// error, from chance, alternatives and seams. docs/integrity.md derives the bound.
+// error, from chance, alternatives and seams. See docs/integrity.md, "First and tracked attempts".
 #pragma once
 
 #include <array>
@@ -24,12 +24,12 @@ struct AxisBits {
     std::span<const std::uint8_t> rolls;  ///< roll of each line
 };
 
-/// Returns true if the hard bits make the position certain. Returns false if in doubt. Takes a
-/// tenth of the work that `is_certain` takes, and suffices for clean frames. Compares only bits
-/// near the middle of the view with alternatives. Ignoring the other bits can only increase the
-/// bound on the error probability. Sets `fix.bit_errors`. On success, also sets `fix.p_wrong_log2`
-/// and, unless `others` is null, the odds of the other codes. On failure, `fix.p_wrong_log2` is not
-/// valid.
+/// Returns true if the hard bits make the position certain. Returns false if in doubt. This test
+/// takes a tenth of the work of `is_certain`, and is sufficient for clean frames. It compares
+/// alternatives only with bits near the middle of the view. Ignoring the other bits can only
+/// increase the bound on the error probability. Sets `fix.bit_errors`. On success, also sets
+/// `fix.p_wrong_log2` and, unless `others` is null, the odds of the other codes. On failure,
+/// `fix.p_wrong_log2` is not valid.
 bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
                           CodeVariant code, const IntegrityOptions& options, Fix& fix,
                           OtherCodes* others = nullptr);
@@ -47,14 +47,15 @@ struct Evidence {
 std::array<Confidence, 2> compared_with_code(CodeVariant code, const Place& place,
                                              const BitBlock& block);
 
-/// Returns the evidence in a block whose cell (0, 0) is at `place`. `storage` receives the scores.
+/// Scores the lines of a block. Returns the scores and `bits` as evidence. Cell (0, 0) of the block
+/// is at `place`. The scores are in `storage`.
 Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& place,
                      const BitBlock& block, const std::array<Confidence, 2>& bits,
                      std::span<ScoredLine> storage);
 
-/// Returns true if the position is certain. The upper bound on the error probability must be within
-/// the limit in `options`, and not too many bits may contradict the position. Returns false if
-/// there are at most kMaxShared columns or rows. Sets `fix.bit_errors`. On success, also sets
+/// Returns true if the position is certain: the upper bound on the error probability is within the
+/// limit in `options`, and the number of wrong bits is within its limit. Returns false if there are
+/// at most kMaxShared columns or rows. Sets `fix.bit_errors`. On success, also sets
 /// `fix.p_wrong_log2` and, unless `others` is null, the odds of the other codes. On failure,
 /// `fix.p_wrong_log2` is not valid.
 bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
@@ -65,7 +66,7 @@ bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant co
 /// `limit_log2`.
 bool is_within_limit(float wrong, int limit_log2, Fix& fix);
 
-/// Sets the odds of the other codes without a certainty test. Does nothing if the bits carry no
+/// Sets the odds of the other codes without a certainty test. Does nothing if the bits contain no
 /// information.
 void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                        OtherCodes& others);

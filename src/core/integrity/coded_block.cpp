@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// First compared line, and first compared cell in each line. `kFirst` is relative to cell (0, 0).
-/// `kFirstOfBlock` is the index in a BitBlock.
+/// First line and first cell to compare. `kFirst` is relative to cell (0, 0). `kFirstOfBlock` is
+/// the index in a BitBlock.
 constexpr int kFirst = -kMaxComparedLines / 2;
 constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);
 
@@ -31,7 +31,7 @@ std::uint32_t longest_run(std::uint32_t bits) {
 
 }  // namespace
 
-/// Compares `count` lines of one axis with the code, from the line `first_line`. Uses only the
+/// Compares `count` lines of one axis with the code, starting at line `first_line`. Uses only the
 /// middle kMaxComparedLines lines. rolls[i] is the roll of line first_line + i, at the cell
 /// `first_cell`.
 CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rolls, int first_line,
@@ -51,8 +51,9 @@ CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rol
         const int roll = there < kSections ? there : there - kSections;
         const std::uint32_t code = code::kMainWords[static_cast<std::size_t>(roll)];
         const std::uint32_t wrong = (bits ^ code) & seen;
-        // A line without wrong bits keeps only its longest run. The tables in likelihood_ratios.cpp
-        // require runs without gaps. Dropping bits can only increase the odds of alternatives.
+        // Keeps only the longest run of a line without wrong bits, because the tables in
+        // likelihood_ratios.cpp require runs without gaps. Ignoring bits can only increase the odds
+        // of alternatives.
         half.rolls[i] = static_cast<std::uint8_t>(roll);
         half.lines[i] = {code, wrong == 0 ? longest_run(seen) : seen, wrong};
         if (seen == 0) continue;

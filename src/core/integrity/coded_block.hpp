@@ -1,5 +1,5 @@
 // Coded block: packs the bits that were read and the bits of the code into words. A single
-// instruction then compares a whole line.
+// instruction can then compare a whole line.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"
@@ -11,12 +11,12 @@ namespace dotpose::core {
 /// The middle 32 x 32 cells of an upright block, compared with the code.
 class CodedBlock {
   public:
-    /// Cell (0, 0) of the block is at `place`. `view` contains the rolls of all lines that were
-    /// read.
+    /// Constructs the comparison for a block whose cell (0, 0) is at `place`. `view` contains the
+    /// rolls of all lines that were read.
     CodedBlock(CodeVariant code, const Place& place, const CellsInView& view,
                const BitBlock& block);
 
-    /// Returns the bits of one axis. `confidence` must include all bits that were read, even
+    /// Returns the bits of one axis. `confidence` must include all bits that were read, also
     /// outside the middle cells.
     AxisBits axis(Axis axis, const Confidence& confidence) const;
 

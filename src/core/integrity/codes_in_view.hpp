@@ -1,5 +1,5 @@
 // Codes in view: the odds of the codes that were not read, from all dots in view. The certainty
-// test may use only some dots.
+// test may use fewer dots.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"
@@ -7,9 +7,8 @@
 
 namespace dotpose::core {
 
-/// Recomputes the odds of the other codes if more bits may change these odds. Cell (0, 0) of
-/// `block` is at `place`. `has_more_lines` is true if the block has lines that the certainty test
-/// did not use.
+/// Recomputes the odds of the other codes if more bits may change them. Cell (0, 0) of `block` is
+/// at `place`. `has_more_lines` is true if the block has lines that the certainty test did not use.
 void weigh_codes_in_view(const Kernels& kernels, CodeVariant read, const Place& place,
                          const BitBlock& block, const std::array<Confidence, 2>& bits,
                          bool has_more_lines, std::span<ScoredLine> storage, OtherCodes& others);

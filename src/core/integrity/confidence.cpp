@@ -14,7 +14,7 @@ constexpr std::array<std::int32_t, 34> kLog2OfOneAnd{
     24,    17,    12,    9,     6,     5,     3,     3,    2,    2};
 
 /// Returns an upper bound on log2(1 + 2^-n), in units of 2^-16. The function is convex, so linear
-/// interpolation in the table never gives too small a value.
+/// interpolation in the table gives an upper bound.
 int log2_of_one_and_q16(int n_q8) {
     const auto i = static_cast<std::size_t>(n_q8 >> 7);
     return kLog2OfOneAnd[i] - ((kLog2OfOneAnd[i] - kLog2OfOneAnd[i + 1]) * (n_q8 & 127) >> 7);
@@ -65,7 +65,7 @@ int odds_per_bit_q8(const Confidence& confidence) {
     }
     const std::uint64_t allowed_q16 = std::uint64_t{allowed} << 16;
     int odds_q8 = 0;
-    // Bisection: the expected weight of wrong bits decreases as the odds increase.
+    // Bisection. The expected weight of wrong bits decreases as the odds increase.
     for (int step_q8 = 8 * 256; step_q8 >= 8; step_q8 /= 2) {
         std::uint64_t expected_q16 = 0;
         for (std::size_t i = 0; i < count && expected_q16 <= allowed_q16; ++i) {

@@ -1,5 +1,5 @@
-// Confidence: how reliable the bits are, and the probability that random bits agree with the code
-// as well as these bits do. docs/integrity.md derives the formulas.
+// Confidence: the reliability of bits, and the probability that random bits agree with the code
+// equally well. See docs/integrity.md, "Chance: a bound".
 #pragma once
 
 #include <array>
@@ -57,26 +57,23 @@ class Confidence {
 
 /// Returns the odds that a bit with weight 127 is correct, as log2 in units of 2^-8. The result is
 /// in [0, 16 * 256]. Log odds are proportional to the weight. At the returned odds, the expected
-/// weight of wrong bits is the observed weight of wrong bits plus two full bits. (This is a
-/// maximum-likelihood logistic regression with a margin of two bits.) Returns 0 if the bits carry
-/// no information.
+/// weight of wrong bits is the observed weight of wrong bits plus two full bits. See
+/// docs/integrity.md, "Alternatives: odds". Returns 0 if the bits contain no information.
 int odds_per_bit_q8(const Confidence& confidence);
 
-/// Returns log2 of an upper bound on the probability that random bits of these weights agree with
-/// one given place at least as well as the bits that were read, in units of 2^-8 (Chernoff). The
-/// result is an upper bound for any value of `odds_per_bit_q8`.
+/// Returns log2 of Chernoff's upper bound on the probability of a chance agreement with one given
+/// place, in units of 2^-8. In a chance agreement, random bits of the same weights agree with the
+/// place at least as well as the bits that were read. Any value of `odds_per_bit_q8` gives an upper
+/// bound.
 int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8);
 
-/// Returns log2 of an upper bound on the probability that random bits of these weights agree with
-/// the code at least as well as the bits that were read, at any position, in any section, and in
-/// any of the four orientations. An axis has L * 63 * 4 hypotheses (position, section and
-/// orientation), where L = 410,815,348 is the number of positions. Chernoff's bound, with weights
-/// scaled to log odds, applies to each hypothesis. The result is an upper bound for any value of
-/// `odds_per_bit_q8`, and is smallest near the true odds.
+/// Returns log2 of an upper bound on the probability of a chance agreement with any place, in any
+/// section and orientation. See docs/integrity.md, "Chance: a bound". Any value of
+/// `odds_per_bit_q8` gives an upper bound. The bound is smallest near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
-/// Returns the same bound as `chance_log2` in units of 2^-8, with 2^(log2_times_q8 / 256) times as
-/// many hypotheses. Uses the given odds or odds of 2^16, whichever gives the smaller bound.
+/// Variant of `chance_log2` in units of 2^-8, for 2^(log2_times_q8 / 256) times as many hypotheses.
+/// Uses either the given odds or odds of 2^16, whichever gives the smaller bound.
 int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8);
 
 }  // namespace dotpose::core

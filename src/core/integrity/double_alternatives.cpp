@@ -12,34 +12,35 @@
 namespace dotpose::core {
 namespace {
 
-/// Minimum result: kNegligible for each pair of places, at each shift. No fix may rely on smaller
-/// expected odds. There are 190,027 pairs, including 2,217 pairs with one of the reading's places.
+/// Minimum result: kNegligible for each pair of places, at each shift. This prevents a fix from
+/// relying on smaller expected odds. The 190,027 pairs include 2,217 pairs with a place of the
+/// reading.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// log2 of the odds above which an alternative is always evaluated, not only expected.
+/// log2 of the odds above which an alternative is counted individually.
 constexpr int kLargeOdds_log2 = -36;
 
-/// Set of anchors, the lines with the most information. Bit n is the anchor with index n. Anchors
-/// are indexed in the order of the lines.
+/// Set of anchors. Bit n is the anchor with index n, in the order of the lines. Anchors are the
+/// lines with the most information.
 using Anchors = std::uint32_t;
 
 /// One byte per anchor. The vector fits in one register.
 using AnchorBytes [[gnu::vector_size(16)]] = std::uint8_t;
 static_assert(sizeof(AnchorBytes) >= kMaxAnchors);
 
-/// Returns differences of offsets modulo 63. The differences are in [-62, 62]. Negative differences
-/// are represented modulo 256.
+/// Returns differences of offsets modulo 63. The arguments are in [-62, 62], with negative
+/// differences represented modulo 256.
 AnchorBytes modulo_sections(AnchorBytes offsets) {
     return offsets + (static_cast<AnchorBytes>(offsets >= kSections) & kSections);
 }
 
 /// The anchors, divided into `shared - 1` groups. An alternative that shares `shared` anchors
-/// therefore shares at least two anchors of the same group.
+/// shares at least two anchors of one group.
 class Groups {
   public:
     Groups(int anchors, int shared) : count_(shared - 1) {
-        // Assigns the anchors to the groups in turn. The anchors of a group are therefore far
-        // apart, and few alternatives share two anchors of a group.
+        // Assigns the anchors to the groups in turn. The anchors of a group are then far apart, and
+        // few alternatives share two of them.
         for (int n = 0; n < anchors; ++n)
             groups_[static_cast<std::size_t>(n % count_)] |= Anchors{1} << n;
     }
@@ -59,7 +60,7 @@ class Groups {
 
     /// Returns true if (`one`, `other`) is the first pair, in the order of `visit_pairs`, of
     /// anchors that are both in `shared`. An alternative that shares several pairs of anchors is
-    /// counted only at the first of these pairs.
+    /// counted only at the first pair.
     bool is_first_pair(Anchors shared, std::size_t one, std::size_t other) const {
         for (const Anchors group : groups_) {
             const Anchors both = shared & group;
@@ -95,8 +96,8 @@ class BytesInWords {
     Anchors anchors() const { return bits_of(halves_[0]) | bits_of(halves_[1]) << 8; }
 
   private:
-    /// Packs the lowest bits of eight bytes into one byte. The multiplication moves each bit to a
-    /// different bit in the highest byte.
+    /// Packs the lowest bits of eight bytes into one byte. The multiplication moves each bit to
+    /// another bit of the highest byte.
     static Anchors bits_of(std::uint64_t bytes) {
         return static_cast<Anchors>(bytes * 0x0102040810204080 >> 56);
     }
@@ -127,7 +128,7 @@ class AnchorOffsets {
         return all_[sequence][place];
     }
 
-    /// Returns the line in the view of an anchor.
+    /// Returns the line in view that an anchor represents.
     std::size_t line(std::size_t anchor) const { return lines_[anchor]; }
 
   private:
@@ -135,16 +136,16 @@ class AnchorOffsets {
     std::array<std::array<AnchorBytes, code::kA4Restored.size()>, 4> all_;
 };
 
-/// A place in a sequence, and the negatives of its offsets since an anchor, modulo 63. Together
-/// with a place in another sequence, this place shares each anchor at which the offset of the other
-/// place since the same anchor is equal.
+/// A place in one sequence. `offsets` are its roll offsets relative to its offset at one anchor,
+/// negated, modulo 63. This place and a place in another sequence share every anchor at which the
+/// relative offset of the other place equals the negated offset.
 struct Opposite {
     AnchorBytes offsets;
     std::uint32_t place;
 };
 
-/// The places in a sequence, in buckets by the difference between a place's offsets at two anchors,
-/// modulo 63. Excludes the reading's place.
+/// The places in one sequence, except the place of the reading. The places are in buckets by the
+/// difference of their offsets at two anchors, modulo 63.
 class Buckets {
   public:
     Buckets(const AnchorOffsets& offsets, std::size_t sequence, std::uint32_t length,
@@ -200,8 +201,9 @@ class Finder {
     float sum() const {
         float sum = 0;
         groups_.visit_pairs([&](std::size_t one, std::size_t other) {
-            // For each pair of sequences, the places in one of the two sequences are sorted into
-            // buckets. This sequence is never a3, the shortest sequence.
+            // Sorts the places of the first sequence into buckets, and combines them with each of
+            // the other sequences. a3 is never sorted into buckets, because it is the shortest
+            // sequence.
             sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
                    sum_of_bucketed(3, {0, 1, 2}, one, other);
         });
@@ -209,15 +211,16 @@ class Finder {
     }
 
   private:
-    /// Upper bound on the odds of an alternative that is not evaluated line by line, as log2 in
-    /// units of 2^-8 and as a number. The sum contains this bound instead of the odds.
+    /// Odds counted for an alternative that is not evaluated line by line, as log2 in units of 2^-8
+    /// and as a number. The true odds are never larger.
     static constexpr int kSkippedOdds_q8 = -56 * 256;
     static constexpr float kSkippedOdds = 0x1p-56F;
     static constexpr int kLimit = 20;
     static_assert(kLimit * kMaxAnchors <= 255);
 
     /// Returns the summed odds of the alternatives that differ in `sequence` and in one of
-    /// `others`, and are counted at the pair of anchors (`one`, `other`).
+    /// `others`. Includes only alternatives that are counted at the pair of anchors (`one`,
+    /// `other`).
     float sum_of_bucketed(std::size_t sequence, std::initializer_list<std::size_t> others,
                           std::size_t one, std::size_t other) const {
         const LikelihoodRatios& ratios = lines_.ratios;
@@ -250,8 +253,8 @@ class Finder {
         RollOffsets b;
         lines_.set_offsets(sequence_a, place_a, a);
         lines_.set_offsets(sequence_b, place_b, b);
-        // Adding 126, a multiple of 63, does not change the shift and keeps the index of the loss
-        // positive.
+        // Adding 126 keeps the index of the loss positive. 126 is a multiple of 63 and does not
+        // change the shift.
         const std::size_t shared = offsets_.line(anchor);
         const int base = 2 * kSections - a[shared] - b[shared];
         int lost = 0;
@@ -268,13 +271,13 @@ class Finder {
     int shared_;
     Groups groups_;
     AnchorBytes anchors_{};  ///< 1 for each anchor
-    /// Minimum loss of an alternative that does not share the anchor, in units of 1/kLimit of the
-    /// loss at which the odds are kSkippedOdds, rounded down.
+    /// Minimum loss of an alternative that does not share the anchor, rounded down. The unit is
+    /// 1/kLimit of the loss at which the odds are kSkippedOdds.
     AnchorBytes losses_{};
 };
 
-/// The sum of the n smallest minimum losses of the anchors, indexed by n, minus the maximum gain:
-/// the minimum loss of an alternative that does not share n anchors.
+/// Returns, for each n, the minimum loss of an alternative that does not share n anchors. This is
+/// the sum of the n smallest minimum losses of the anchors, minus the maximum gain.
 std::array<int, kMaxAnchors + 1> min_losses_of_unshared(const RankedLines& lines, int anchors) {
     std::array<int, kMaxAnchors> losses{};
     std::size_t count = 0;
@@ -292,11 +295,12 @@ std::array<int, kMaxAnchors + 1> min_losses_of_unshared(const RankedLines& lines
     return sums;
 }
 
-/// Numbers of anchors, and of anchors that an alternative must share to be counted one by one.
+/// Number of anchors, and number of anchors that an alternative must share to be counted
+/// individually.
 struct Search {
     int anchors;
     int shared;
-    /// Number of pairs of anchors that `Finder` visits. It determines the time.
+    /// Number of pairs of anchors that `Finder` visits, which determines the time.
     int pairs() const {
         const int groups = shared - 1;
         const int size = anchors / groups;
@@ -305,9 +309,7 @@ struct Search {
     }
 };
 
-/// Maximum number of pairs of anchors in a search for all alternatives with large odds. A search
-/// that also limits the expected odds of the others visits at most as many, unless the fix would be
-/// refused.
+/// Maximum number of pairs of anchors in a search for all alternatives with large odds.
 constexpr int kMaxPairs = 18;
 
 /// Returns the fastest search that finds all alternatives whose odds may exceed 2^log2_odds.
@@ -339,8 +341,9 @@ float sum_of_double_alternatives(const Kernels& kernels, const RankedLines& line
     const auto expected_odds = [&](int shared) {
         return kMargin * by_shared[static_cast<std::size_t>(shared)];
     };
-    // Requiring fewer anchors means visiting more pairs: 6 of 66 for seven anchors, 18 for four,
-    // and all 66 for two. Fewer than four anchors are worth the time only to avoid a refusal.
+    // The search visits 6 pairs of anchors if seven shared anchors are required, 18 pairs for four,
+    // and 66 pairs for two. Fewer than four shared anchors are required only if the fix would be
+    // refused otherwise.
     constexpr int kMinForDetail = 4;
     int shared = std::min(kMinFound, anchors);
     while (shared > 2 &&

@@ -1,6 +1,6 @@
 // Expected double alternatives: the expected odds of positions that differ from the reading in two
-// secondary sequences. The odds are averaged over all places. docs/integrity.md derives the
-// expectation.
+// secondary sequences. The expectation is over all places. See docs/integrity.md, "Alternatives:
+// odds".
 #pragma once
 
 #include "core/integrity/ranked_lines.hpp"
@@ -10,9 +10,8 @@ namespace dotpose::core {
 /// Maximum number of anchors. Anchors are the lines with the most information, which have the
 /// lowest ranks.
 inline constexpr int kMaxAnchors = 12;
-/// Maximum number of shared anchors that the search for single pairs of places (`Finder` in
-/// double_alternatives.cpp) requires. The expected odds contain only alternatives that share fewer
-/// anchors.
+/// Maximum number of anchors that an alternative must share to be counted individually (`Finder` in
+/// double_alternatives.cpp). The expected odds include only alternatives that share fewer anchors.
 inline constexpr int kMinFound = 7;
 
 /// Returns, for each n, the expected sum of the odds of all double alternatives that share fewer

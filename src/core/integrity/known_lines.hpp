@@ -1,5 +1,5 @@
-// Known lines: compares the columns and rows of a block with all positions on a known sheet.
-// docs/integrity.md, "Known sheets", explains the position classes modulo 63.
+// Known lines: compares the columns and rows of a block with all positions on a known sheet. See
+// docs/integrity.md, "Known sheets".
 #pragma once
 
 #include <algorithm>
@@ -34,8 +34,8 @@ inline std::size_t sum_of_rolls(std::size_t a, std::size_t b) {
 /// Returns the number of bits that were read in all lines.
 int number_of_bits(const BitLines& lines);
 
-/// The lines on one axis of a block. For each line and roll, contains the number of bits that agree
-/// with the code.
+/// The lines on one axis of a block. Contains the number of bits that agree with the code, for each
+/// line and roll.
 class ScoredAxis {
   public:
     ScoredAxis(const Kernels& kernels, const BitLines& lines, const LineRange& range,
@@ -43,13 +43,13 @@ class ScoredAxis {
 
     int count() const { return scores_.count; }
 
-    /// Returns the number of bits that agree with the code if the first line is at `position`.
-    /// `added` is added to each line's roll in section 0.
+    /// Returns the number of bits that agree with the code if the first line is at `position`. The
+    /// roll of each line is its roll in section 0 plus `added`.
     int agreeing(CodeVariant code, std::uint32_t position, std::size_t added) const;
 
     /// Calls `use(position, sums)` for each position of the first line in `range`. sums[r] is the
-    /// number of bits that agree with the code if r is added to each line's roll in section 0. r
-    /// depends on the section and on the position along the other axis.
+    /// number of bits that agree with the code if the roll of each line is its roll in section 0
+    /// plus r. The true r depends on the section and on the position along the other axis.
     template <typename Use>
     void visit(CodeVariant code, const PositionRange& range, Use use) const {
         constexpr std::uint32_t kChunk = 63;
@@ -86,19 +86,20 @@ struct ScoredTurn {
           columns(kernels, upright.columns, ranges.columns, ranges.rows.first),
           rows(kernels, upright.rows, ranges.rows, ranges.columns.first) {}
 
-    /// Returns the possible positions of the block's first column if at least one column is in
+    /// Returns the positions of the first column of the block at which at least one column is in
     /// `region`.
     PositionRange columns_of(const KnownRegion& region) const {
         return {region.first.x, region.columns, columns.count()};
     }
-    /// Returns the possible positions of the block's first row if at least one row is in `region`.
+    /// Returns the positions of the first row of the block at which at least one row is in
+    /// `region`.
     PositionRange rows_of(const KnownRegion& region) const {
         return {region.first.y, region.rows, rows.count()};
     }
 };
 
 /// Cache for the table of one axis. The next region reuses the table if its code and positions are
-/// the same. This case is frequent, because the sheets in a file are side by side.
+/// the same. Sheets in the same file often have the same positions on one axis.
 template <typename Table>
 class KeptTable {
   public:
@@ -117,10 +118,10 @@ class KeptTable {
     std::optional<Table> table_;
 };
 
-/// Calls `use(column, column_roll, row, row_roll)` for each column class and row class. A column's
-/// roll is the column's roll in section 0 plus `column_roll`, which depends on the section and the
-/// row class. A row's roll is the row's roll in section 0 plus `row_roll`, which depends on the
-/// section and the column class.
+/// Calls `use(column, column_roll, row, row_roll)` for each column class and row class. The roll of
+/// a column is its roll in section 0 plus `column_roll`, which depends on the section and the row
+/// class. The roll of a row is its roll in section 0 plus `row_roll`, which depends on the section
+/// and the column class.
 template <typename Use>
 void visit_classes(const Section& section, Use use) {
     for (std::size_t column = 0; column < kSections; ++column) {

@@ -1,4 +1,5 @@
-// Known odds: the probability that a place on the known sheets is wrong.
+// Known odds: the probability that a place on the known sheets is wrong. See docs/integrity.md,
+// "Known sheets".
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +21,7 @@ class OddsOfBits {
     OddsOfBits(int odds_per_bit_q8, int agreeing)
         : agreeing_(agreeing),
           // Clamps the odds to [2^-52, 2^60]. Odds above 2^60 on one axis always cause a refusal,
-          // because 2^60 * 2^-52 exceeds 1.
+          // because the product with the minimum odds on the other axis exceeds 1.
           min_(-52 * 256 / odds_per_bit_q8 - 1),
           max_(60 * 256 / odds_per_bit_q8),
           per_bit_(odds_per_bit_q8 << 15) {}
@@ -33,7 +34,7 @@ class OddsOfBits {
     }
 
   private:
-    static constexpr int kOne = 127 << 23;  // the bits of 1.0F
+    static constexpr int kOne = 127 << 23;  // bit pattern of 1.0F
     int agreeing_;
     int min_;
     int max_;
@@ -46,8 +47,8 @@ struct PositionAndRoll {
     std::size_t roll;
 };
 
-/// Summed odds of all positions in a class, by class and by added roll. The class is the position
-/// modulo 63. Excludes `left_out`.
+/// Summed odds of all positions except `left_out`, by class and by added roll. The class of a
+/// position is the position modulo 63.
 class OddsByClass {
   public:
     OddsByClass(const ScoredAxis& axis, CodeVariant code, const PositionRange& range,
@@ -87,10 +88,10 @@ float random_agreement(int bits, int wrong) {
     return term * power_of_two_exactly(exponent) / (1 - ratio);
 }
 
-/// Returns an upper bound on the probability of a chance match if no known sheet is in view. In a
-/// chance match, random bits agree with some known place as well as the bits that were read. `bits`
-/// and `wrong` count bits and wrong bits per axis. `lines` is the number of columns or rows,
-/// whichever is larger.
+/// Returns an upper bound on the probability of a chance agreement if no known sheet is in view. In
+/// a chance agreement, random bits agree with a known place as well as the bits that were read.
+/// `bits` is the number of bits per axis, and `wrong` the number of wrong bits per axis. `lines` is
+/// the larger of the numbers of columns and rows.
 float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int, 2>& wrong,
                       int lines) {
     float places = 0;
@@ -108,9 +109,8 @@ float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int,
     const float anywhere = trials * random_agreement(2 * bits, wrong[0] + wrong[1]);
     if (sheets.are_all()) return anywhere;
     // An unknown sheet may have the same rows as a known sheet. All y bits then agree with the
-    // code, and they determine the turn, the roll and the row position. Only the columns in one
-    // class remain possible. If the sheets have the same columns, only the rows in one class remain
-    // possible.
+    // code, and they determine the turn, the roll and the row position. Only the columns of one
+    // class remain possible. The same applies to rows if an unknown sheet has the same columns.
     return anywhere + columns * random_agreement(bits, wrong[0]) +
            rows * random_agreement(bits, wrong[1]);
 }
@@ -138,8 +138,8 @@ float sum_of_odds(const KnownRegion& region, const OddsByClass& columns, const O
     return sum;
 }
 
-/// Returns the summed odds of all places in a region except `best`. `best` must be in the region,
-/// and its odds are 1.
+/// Returns the summed odds of all places in a region except `best`. The region must contain `best`,
+/// and the odds of `best` are 1.
 float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const OddsOfBits& x_odds,
                     const OddsOfBits& y_odds, const CornerPlace& best) {
     const auto [x, column_roll] = best.column();
@@ -147,9 +147,9 @@ float sum_of_others(const KnownRegion& region, const ScoredTurn& turn, const Odd
     const OddsByClass columns(turn.columns, region.code, turn.columns_of(region), x_odds,
                               best.column());
     const OddsByClass rows(turn.rows, region.code, turn.rows_of(region), y_odds, best.row());
-    // `columns` and `rows` exclude the column and the row at `best`, which have odds of 1. The last
-    // two terms combine the row at `best` with other columns in the class of the best column, and
-    // the column at `best` with other rows in the class of the best row.
+    // `columns` and `rows` exclude the column and the row of `best`, whose odds are 1. The second
+    // term adds the places with the row of `best` and another column of the same class. The third
+    // term adds the places with the column of `best` and another row of the same class.
     return sum_of_odds(region, columns, rows) + columns(class_of(x), column_roll) +
            rows(class_of(y), row_roll);
 }
@@ -180,7 +180,7 @@ float known_place_wrong(const Kernels& kernels, const BitBlock& block, const Kno
         for (const KnownRegion& region : sheets.regions) {
             const PositionRange x = turn.columns_of(region);
             const PositionRange y = turn.rows_of(region);
-            // Regions may overlap, so more than one may contain `best`.
+            // Several regions may contain `best`, because regions may overlap.
             const bool has_best = quarters == 0 && region.code == code &&
                                   region.section == best.place.section &&
                                   x.contains(best.place.cell.x) && y.contains(best.place.cell.y);

@@ -9,9 +9,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of bits on one axis that agree with the code, over all positions in a class. The
-/// first index is the class, which is the position modulo 63. The second index is the roll that is
-/// added to the rolls in section 0.
+/// Stores the maximum number of bits on one axis that agree with the code. The first index is the
+/// class: the position modulo 63. The second index is the roll that is added to the rolls in
+/// section 0. Each maximum is over all positions in a class.
 class Peaks {
   public:
     Peaks(const ScoredAxis& axis, CodeVariant code, const PositionRange& range) {
@@ -30,7 +30,7 @@ class Peaks {
     std::array<RollSums, kSections> best_;
 };
 
-/// Returns the first position in a class where exactly `sum` bits agree with the code. `roll` is
+/// Returns the first position in a class at which exactly `sum` bits agree with the code. `roll` is
 /// added to the rolls in section 0.
 std::uint32_t position_with(const ScoredAxis& axis, CodeVariant code, const PositionRange& range,
                             std::size_t of_class, std::size_t roll, int sum) {
@@ -44,8 +44,8 @@ std::uint32_t position_with(const ScoredAxis& axis, CodeVariant code, const Posi
     return found;
 }
 
-/// Positions of a block's first column and first row. Also contains the number of bits on each axis
-/// that agree with the code at this place.
+/// Positions of the first column and row of a block, and the number of bits on each axis that agree
+/// with the code.
 struct Peak {
     Cell corner;
     int x_agreeing = 0;

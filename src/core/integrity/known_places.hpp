@@ -1,6 +1,6 @@
-// Known places: finds the likeliest place of a block on the known sheets. Also bounds the
-// probability that a place is wrong, from the odds of all places on the sheets. docs/integrity.md
-// derives the bound.
+// Known places: finds the most likely place of a block on the known sheets. Also bounds the
+// probability that a place is wrong, from the odds of all places on the sheets. See
+// docs/integrity.md, "Known sheets".
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ struct KnownPlace {
     CodeVariant code = CodeVariant::anoto;
     int quarters = 0;            ///< quarter turns from the block to the pattern, as for `turned`
     Place place;                 ///< place of cell (0, 0) of the turned block
-    int bits = 0;                ///< number of bits in the block, two per dot
+    int bits = 0;                ///< number of bits in the block; a dot has two bits
     std::array<int, 2> wrong{};  ///< number of wrong bits on x and y
 
     /// Returns true if at most max_bit_error_q8 / 256 of the bits on each axis are wrong.
@@ -25,21 +25,20 @@ struct KnownPlace {
     }
 };
 
-/// Returns true if an upright block shows at least a part of a known sheet. Cell (0, 0) of the
-/// block is at `place`.
+/// Returns true if an upright block shows any part of a known sheet. Cell (0, 0) of the block is at
+/// `place`.
 bool shows_sheet(const KnownSheets& sheets, CodeVariant code, const Place& place,
                  const BitBlock& block);
 
-/// Returns the place where the most bits of the block agree with the code, over all sheets, codes
-/// and orientations. Returns nullopt if the block has no bits. `sheets` must contain at least one
-/// region.
+/// Returns the place at which the most bits of the block agree with the code, over all sheets,
+/// codes and orientations. Returns nullopt if the block has no bits. `sheets` must contain at least
+/// one region.
 std::optional<KnownPlace> find_known_place(const Kernels& kernels, const BitBlock& block,
                                            const KnownSheets& sheets);
 
-/// Returns an upper bound on the probability that `place` is wrong. The block may be at another
-/// place on the sheets, or the view may show no known sheet. `place` is the place of cell (0, 0) in
-/// the upright block. Returns 1 if `place` is not on the sheets or if the bits carry no
-/// information.
+/// Returns an upper bound on the probability that `place` is wrong. The true place may be elsewhere
+/// on the sheets, or no known sheet may be in view. `place` is the place of cell (0, 0) in the
+/// upright block. Returns 1 if `place` is not on the sheets, or if the bits contain no information.
 float known_place_wrong(const Kernels& kernels, const BitBlock& block, const KnownSheets& sheets,
                         CodeVariant code, const Place& place);
 

@@ -17,8 +17,8 @@ constexpr int distance_of(std::size_t first, std::size_t other, std::size_t leng
     return bits_in((code::kMainWords[first] ^ code::kMainWords[other]) & all);
 }
 
-/// Minimum Hamming distance from a substring of the main sequence to any other substring with the
-/// same length, and the number of substrings at this distance.
+/// Minimum Hamming distance between a substring of the main sequence and all other substrings of
+/// the same length, and the number of substrings at this distance.
 struct NearestSubstrings {
     int distance = kMaxComparedLines + 1;
     int count = 0;
@@ -37,8 +37,8 @@ constexpr NearestSubstrings nearest_of(std::size_t first, std::size_t length) {
 }
 
 /// Minimum distances for all lengths, by the first bit of the substring. Bit i is 1 if the minimum
-/// distance grows from i to i + 1 bits. Each additional bit increases the minimum distance by at
-/// most 1. The minimum distance for n bits is therefore the number of ones in the first n bits.
+/// distance grows from i to i + 1 bits. It grows by at most 1 per bit, so the minimum distance for
+/// n bits is the number of ones in the first n bits.
 constexpr auto kGrowingDistances = [] {
     std::array<std::uint32_t, kSections> grows{};
     for (std::size_t first = 0; first < grows.size(); ++first) {

@@ -5,15 +5,16 @@
 // - Reading: the position and the section that were read. Its odds are 1.
 // - Alternative: any other position or section.
 // - Place: the index of a position in a secondary sequence.
-// - Roll offset: the alternative's roll minus the reading's roll in a line, modulo 63. The places
-//   determine the roll offsets up to a shift.
-// - Shift: a number that is added to the rolls in all lines. It depends on the section.
-// - Shared line: a line where the roll offset is 0.
+// - Roll offset: the roll of the alternative minus the roll of the reading in a line, modulo 63.
+//   The places determine the roll offsets up to a shift.
+// - Shift: a number that is added to the rolls of all lines. It depends on the section.
+// - Shared line: a line in which the roll offset is 0.
 // - Single alternative: differs from the reading in the place in one sequence.
 // - Double alternative: differs in the places in two sequences.
 // - Far alternative: differs in the places in two or more sequences.
 // - Near alternative: shares several adjacent lines with the reading.
-// - Seam alternative: has one shift before a border between two lines, and another shift after it.
+// - Seam alternative: has one shift before a border between two lines, and another shift after the
+//   border.
 #pragma once
 
 #include <algorithm>
@@ -39,8 +40,8 @@ inline constexpr int kOtherRolls_q8 = 1525;
 inline constexpr int kNegligible_q8 = -64 * 256;
 inline constexpr float kNegligible = 5.5e-20F;
 
-/// Losses and odds of alternatives, line by line. The loss in a line is the reading's score minus
-/// the alternative's score. A negative loss is a gain. A shared line has no loss.
+/// Losses and odds of alternatives, line by line. The loss in a line is the score of the reading
+/// minus the score of the alternative. A negative loss is a gain. A shared line has no loss.
 class LikelihoodRatios {
   public:
     /// Uses scored lines. Requires odds_per_bit_q8 > 0.
@@ -59,8 +60,8 @@ class LikelihoodRatios {
     /// Returns true if the ratios come from hard bits. `lines` is then empty.
     bool is_of_bits() const { return !bits_.empty(); }
 
-    /// Returns the loss of an alternative in a line. `shift` is the alternative's roll minus the
-    /// reading's roll, modulo 63, with |shift| < 63.
+    /// Returns the loss of an alternative in a line. `shift` is the roll of the alternative minus
+    /// the roll of the reading, modulo 63, with |shift| < 63.
     int loss(int line, int shift) const {
         const int own = rolls_[static_cast<std::size_t>(line)];
         const int moved = own + shift;
@@ -72,49 +73,49 @@ class LikelihoodRatios {
     }
     int own_roll(int line) const { return rolls_[static_cast<std::size_t>(line)]; }
     /// Returns the minimum loss of an alternative that does not share the line. The minimum is
-    /// negative if another roll fits the line better.
+    /// negative if another roll agrees better with the line.
     int min_loss(int line) const { return min_losses_[static_cast<std::size_t>(line)]; }
-    /// Returns the minimum losses of `count` adjacent lines, from the line `first`.
+    /// Returns the minimum losses of `count` adjacent lines, starting at line `first`.
     std::span<const std::int16_t> min_losses(int first, int count) const {
         return std::span(min_losses_)
             .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
     }
     /// Returns the minimum loss of an alternative whose digit differs in the step from `line` to
-    /// `line` + 1. Such an alternative shares at most one of the two lines. Negative losses count
+    /// `line` + 1. Such an alternative shares at most one of these two lines. Negative losses count
     /// as 0.
     int min_loss_of_step(int line) const {
         return std::max(std::min(min_loss(line), min_loss(line + 1)), 0);
     }
     /// Returns an upper bound on log2(sum / best) for a line, in units of 2^-8. `sum` and `best`
-    /// are the sum and the maximum of the odds at all rolls except the reading's roll. For hard
-    /// bits only.
+    /// are the sum and the maximum of the odds at all rolls except the roll of the reading. For
+    /// hard bits only.
     int log2_of_nearest_q8(int line) const;
-    /// Returns the maximum gain of an alternative: the total gain in the lines that another roll
-    /// fits better than the reading's roll.
+    /// Returns the maximum gain of an alternative: the total gain in all lines in which another
+    /// roll agrees better than the roll of the reading.
     int max_gain() const { return max_gain_; }
-    /// Returns the maximum number of adjacent lines that an alternative shares.
+    /// Returns the maximum number of adjacent lines that an alternative can share.
     int max_shared() const { return basis[3].has_twins ? kMaxShared : code::kOrder; }
-    /// Returns log2 of the odds of an alternative that loses `lost`, in units of 2^-8.
+    /// Returns log2 of the odds of an alternative whose total loss is `lost`, in units of 2^-8.
     int log2_odds_q8(int lost) const {
-        // A loss is twice the weight of the bits that cause it. 129 / 2^15 is about 1 / (2 * 127).
-        // Losses are clamped so that the product fits in 32 bits.
+        // A loss is twice the weight of the contradicting bits. 129 / 2^15 is about 1 / (2 * 127).
+        // Losses are clamped to keep the product within 32 bits.
         constexpr int kMaxLost = 1 << 18;
         return -(((std::min(lost, kMaxLost) * odds_per_bit_q8_) >> 8) * 129 >> 7);
     }
     /// Returns the loss at which the odds are 2^(log2_odds_q8 / 256), rounded up.
     int loss_for(int log2_odds_q8) const { return -log2_odds_q8 * 254 / odds_per_bit_q8_ + 1; }
-    /// Returns the odds of an alternative that loses `lost`, clamped to [2^-64, 2^64].
+    /// Returns the odds of an alternative whose total loss is `lost`, clamped to [2^-64, 2^64].
     float odds(int lost) const {
         const int log2_q8 = std::clamp(log2_odds_q8(lost), kNegligible_q8, -kNegligible_q8);
         const int whole = log2_q8 >> 8;
-        // A float's exponent begins at bit 23 and has a bias of 127. Emscripten's standard library
-        // has no `std::bit_cast`.
+        // The exponent of a float begins at bit 23 and has a bias of 127. Emscripten's standard
+        // library has no `std::bit_cast`.
         const auto power =
             __builtin_bit_cast(float, static_cast<std::uint32_t>(whole - 16 + 127) << 23);
         return static_cast<float>(exp2_q16(log2_q8 - whole * 256)) * power;
     }
-    /// Returns true if an alternative that has lost `lost` is negligible, whatever it gains in the
-    /// remaining lines.
+    /// Returns true if an alternative with the loss `lost` so far is negligible, regardless of its
+    /// gains in the remaining lines.
     bool is_hopeless(int lost) const { return lost > hopeless_score_; }
 
     const code::Basis& basis;
@@ -131,10 +132,10 @@ class LikelihoodRatios {
     void follow_rolls(CodeVariant code, const AxisReading& reading);
     void set_min_losses_of_bits();
     void set_min_loss(int line, int min_loss);
-    /// Returns the loss in bits: the wrong bits at `roll` minus the wrong bits at the reading's
-    /// roll.
+    /// Returns the loss in bits: the number of wrong bits at `roll` minus the number of wrong bits
+    /// at the roll of the reading.
     int loss_of_bits(int line, int roll) const;
-    /// The rolls with the minimum loss in a line, apart from the reading's roll.
+    /// The rolls with the minimum loss in a line, except for the roll of the reading.
     struct Nearest {
         int lost_bits = 0;      ///< loss of these rolls, in bits
         int log2_count_q8 = 0;  ///< upper bound on log2 of their number, in units of 2^-8
@@ -152,12 +153,13 @@ class LikelihoodRatios {
     std::array<std::int16_t, kMaxComparedLines> log2_of_nearest_q8_;
 };
 
-/// Roll offsets of an alternative, by line, from 0 to 62. These offsets are known only up to a
-/// common shift.
+/// Roll offsets of an alternative in each line, from 0 to 62. A common shift of all offsets is
+/// unknown.
 using RollOffsets = std::array<std::uint8_t, kMaxLines>;
 
-/// Returns the roll offset, from 0 to 62. `own` is the reading's roll, and `alternative` is the
-/// alternative's roll. Byte arithmetic allows compilers to vectorise loops over lines.
+/// Returns the roll offset, from 0 to 62. `own` is the roll of the reading, and `alternative` is
+/// the roll of the alternative. Compilers can vectorise loops over lines, because all arithmetic is
+/// on bytes.
 constexpr std::uint8_t roll_offset(std::uint8_t own, std::uint8_t alternative) {
     return static_cast<std::uint8_t>(alternative - own + (alternative < own ? kSections : 0));
 }
@@ -173,10 +175,10 @@ inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequenc
         offsets[static_cast<std::size_t>(line)] = roll_offset(own[line], alternative[line]);
 }
 
-/// Returns the loss of an alternative at the shift where it shares the line `shared`. Stops early
-/// if the alternative is hopeless, and returns the loss so far. Returns nullopt if the alternative
-/// also shares an earlier line at this shift. The caller counts the alternative at the earlier line
-/// instead.
+/// Returns the loss of an alternative at the shift where it shares the line `shared`. Stops if the
+/// alternative is hopeless, and returns the loss so far. Returns nullopt if the alternative also
+/// shares an earlier line at this shift, because the caller counts the alternative at the earlier
+/// line.
 std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOffsets& offsets,
                                    int shared);
 

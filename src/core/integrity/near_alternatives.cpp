@@ -8,11 +8,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of periods added to a place before a line index is subtracted. The difference is then
-/// positive, because kPeriods periods of any sequence contain more than kMaxLines places.
+/// Number of periods that are added to a place before a line index is subtracted. The difference is
+/// then positive, because kPeriods periods of any sequence contain more than kMaxLines places.
 constexpr std::uint32_t kPeriods = kMaxLines / code::kA3.size() + 1;
 
-/// Roll offsets of 16 lines, or sums of two roll offsets.
+/// Roll offsets of 16 lines, or sums of two roll offsets in each of 16 lines.
 using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
 static_assert(kMaxLines % sizeof(Bytes) == 0);
 
@@ -22,7 +22,7 @@ Bytes bytes_at(const RollOffsets& offsets, std::size_t line) {
     return bytes;
 }
 
-/// Sets, for each line, `offsets` to the sum of two roll offsets modulo 63.
+/// Sets `offsets` to the sums of two roll offsets in each line, modulo 63.
 void set_sums(const RollOffsets& a, const RollOffsets& b, std::size_t lines, RollOffsets& offsets) {
     for (std::size_t line = 0; line < lines; line += sizeof(Bytes)) {
         Bytes sum = bytes_at(a, line) + bytes_at(b, line);
@@ -31,9 +31,10 @@ void set_sums(const RollOffsets& a, const RollOffsets& b, std::size_t lines, Rol
     }
 }
 
-/// The places in one sequence at which the digits of a run occur, as roll offsets relative to the
-/// run, or the negatives of these offsets. The digits of a run are the digits of the reading in the
-/// steps between the lines of the run. The place of the reading is the first one.
+/// The places in one sequence at which the digits of a run occur. The digits of a run are the
+/// digits of the reading in the steps between the lines of the run. Contains the roll offsets of
+/// these places relative to the run, or their negatives. The first place is the place of the
+/// reading.
 class TwinPlaces {
   public:
     enum class Sign : std::uint8_t { positive, negative };
@@ -78,8 +79,8 @@ class TwinPlaces {
 };
 
 /// Sums the odds of the alternatives that share all lines of one run. An alternative is a
-/// combination of twin places in all sequences. The combinations in the last two sequences are
-/// compared with each combination in the first two sequences, 32 at a time.
+/// combination of twin places in all sequences. Combines the first two sequences one by one, and
+/// compares each combination with 32 combinations of the last two sequences at a time.
 class RunSum {
   public:
     RunSum(const Kernels& kernels, const RankedLines& lines, const CoarseLosses& losses, int run,

@@ -1,5 +1,5 @@
-// Near alternatives: positions that share several adjacent lines with the reading.
-// docs/integrity.md derives the odds.
+// Near alternatives: positions that share several adjacent lines with the reading. See
+// docs/integrity.md, "Alternatives: odds".
 #pragma once
 
 #include "core/integrity/ranked_lines.hpp"
@@ -7,8 +7,8 @@
 namespace dotpose::core {
 
 /// Returns an upper bound on the summed odds of all alternatives that share at least `shared_lines`
-/// (4 or 5) adjacent lines. Enumerates the alternatives by finding, in each secondary sequence, all
-/// places at which the 3 or 4 digits between these lines occur. The sum contains the odds of an
+/// (4 or 5) adjacent lines. Finds all places in each secondary sequence at which the 3 or 4 digits
+/// between these lines occur, and enumerates their combinations. The sum contains the odds of an
 /// alternative more than once if it shares more lines. A hopeless alternative
 /// (`LikelihoodRatios::is_hopeless`) contributes kNegligible.
 float sum_of_near_alternatives(const Kernels& kernels, const RankedLines& lines, int shared_lines);

@@ -9,11 +9,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Summed odds of other places in other codes above which a fix is ambiguous. Smaller odds do not
-/// make the fix ambiguous, because a second attempt may reduce these odds.
+/// Summed odds of other places in other codes above which a fix is ambiguous. Below this limit, a
+/// second attempt may reduce the odds.
 constexpr float kAmbiguousOdds = 1e-3F;
-/// Maximum odds of a code that earlier frames rule out, relative to the likeliest code. No attempt
-/// is made in such a code.
+/// Maximum odds of a code that earlier frames rule out, relative to the likeliest code. The locator
+/// makes no attempt in such a code.
 constexpr float kRuledOutOdds = 1e-9F;
 /// Factors up to this value count as rounding errors.
 constexpr float kRoundings = 1.01F;
@@ -88,7 +88,7 @@ CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others) {
     for (std::size_t i = 0; i < log2_q8.size(); ++i) {
         if (i == index(read)) continue;
         const float odds = others.of[i].here() + others.of[i].elsewhere();
-        // A code that explains the frame as well as the code `read` must not lose odds. Otherwise,
+        // Keeps the odds of a code that explains the frame as well as the code `read`. Otherwise,
         // rounding errors would accumulate over frames.
         const bool is_equal = odds <= kRoundings && odds * kRoundings >= 1;
         log2_q8[i] = is_equal ? 0 : log2_of_odds_q8(odds);

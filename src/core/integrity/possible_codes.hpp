@@ -1,5 +1,5 @@
-// Possible codes: the certainty of a fix if the sheet's code variant is not known.
-// docs/integrity.md, "Which code?", derives the probabilities.
+// Possible codes: the certainty of a fix if the code variant of the sheet is unknown. See
+// docs/integrity.md, "Which code?".
 #pragma once
 
 #include <array>
@@ -34,17 +34,17 @@ class PossibleCodes {
     std::span<const CodeVariant> in_order() const { return std::span(order_).first(count_); }
     CodeVariant likeliest() const { return order_[0]; }
     bool is_known() const { return is_known_; }
-    /// Returns true if earlier frames favour no code, which means that the two likeliest codes have
-    /// equal odds.
+    /// Returns true if earlier frames do not favour a code: the two likeliest codes have equal
+    /// odds.
     bool are_equal() const { return !is_known_ && weight(order_[1]) == 1; }
 
-    /// Returns the weighted number of possible codes. A code's weight is its odds relative to the
-    /// code `read`.
+    /// Returns the weighted number of possible codes. The weight of a code is its odds relative to
+    /// the code `read`.
     float number(CodeVariant read) const;
     /// Returns log2(2^log2 * factor), rounded up. Factors up to 1.01 count as 1.
     static int rounded_up(int log2, float factor);
 
-    /// Returns the certainty of a fix that has the status ok and was read in the code `read`.
+    /// Returns the certainty of a fix that was read in the code `read` and has the status ok.
     /// `others` contains the odds of the other codes.
     Judgement judge(CodeVariant read, const OtherCodes& others, const Fix& fix,
                     int max_p_wrong_log2) const;

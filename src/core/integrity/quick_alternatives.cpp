@@ -14,17 +14,17 @@ namespace {
 
 /// log2(741) in units of 2^-8, rounded up. The four sequences have 741 places.
 constexpr int kSingles_q8 = 2441;
-/// Odds of the far alternatives below which no tighter bound is computed, as log2 in units of 2^-8.
+/// Odds of the far alternatives below which no tighter bound is needed, as log2 in units of 2^-8.
 constexpr int kSmallOdds_q8 = -36 * 256;
-/// Default limit for the error probability, as log2 in units of 2^-8. Bounds are as tight as this
+/// Default limit of the error probability, as log2 in units of 2^-8. Bounds are as tight as this
 /// limit requires, even if the caller permits larger odds.
 constexpr int kUsualLimit_q8 = -30 * 256;
-/// Odds counted for a single alternative that is skipped, as log2 in units of 2^-8. The true odds
-/// are never larger.
+/// Odds counted for each skipped single alternative, as log2 in units of 2^-8. The true odds are
+/// never larger.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 
 /// Odds in a line that an alternative does not share, as log2 in units of 2^-8. The other rolls are
-/// all rolls except the reading's roll.
+/// all rolls except the roll of the reading.
 struct LineOdds {
     int best_q8;  ///< odds of the best other roll
     int sum_q8;   ///< summed odds of all other rolls
@@ -46,8 +46,8 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
         const auto half_bits = static_cast<std::size_t>(-ratios.log2_odds_q8(best - score) >> 7);
         return kPowers[std::min(half_bits, kPowers.size() - 1)];
     };
-    // Most rolls have odds at least 2^12 times smaller than the best roll. Each of these rolls
-    // contributes the last element of kPowers.
+    // The odds of most rolls are at least 2^12 times smaller than the odds of the best roll. Each
+    // of these rolls adds the last element of kPowers to the sum.
     const int min_power_score = best - ratios.loss_for(-12 * 256 - 8);
     std::uint32_t sum_q12 = 0;
     for (int roll = 0; roll < kSections; ++roll)
@@ -56,22 +56,21 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
     return log2_at_most_q8(sum_q12) - 12 * 256;
 }
 
-/// Returns an upper bound on the sum that `ExpectedAlternatives` computes for one set, as log2 in
-/// units of 2^-8. Merges all nonzero roll offsets into one state. Let p be the probability that all
-/// digits in a step are equal. A step leads to a given roll offset with a probability of at most p.
-/// A line that is not shared therefore multiplies the odds by at most p * `sum`, and by at most
-/// `best` (see `LineOdds`).
+/// Returns an upper bound on the expected odds of one set, as log2 in units of 2^-8. Merges all
+/// nonzero roll offsets into one state. Let p be the probability that all digits in a step are
+/// equal. A step leads to a given roll offset with a probability of at most p. A line that is not
+/// shared therefore multiplies the odds by at most p * `sum`, and by at most `best` (see
+/// `LineOdds`).
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
     const auto max_shared = static_cast<std::size_t>(ratios.max_shared());
     const int equal = set.equal_q8 + kUnevenness_q8;
-    // One element per line: the summed odds of alternatives that have shared all lines since this
-    // line. All sums in this function are divided by the probability that all digits so far are
-    // equal. An element therefore stays constant while its lines are shared.
+    // One element per line: the summed odds of the alternatives that have shared all lines since
+    // this line. All sums in this function are divided by the probability that all digits so far
+    // are equal. An element therefore remains constant while an alternative shares lines.
     std::array<int, kMaxShared + kMaxLines> sharing;
-    // pairs[n] is the sum of sharing[n] and sharing[n - 1]. Adding pairs halves the number of
-    // additions.
+    // pairs[n] is sharing[n] + sharing[n - 1]. Adding pairs halves the number of additions.
     std::array<int, kMaxShared + kMaxLines> pairs;
     std::fill_n(sharing.begin(), kMaxShared, kNever_q8);
     std::fill_n(pairs.begin(), kMaxShared, kNever_q8);
@@ -93,10 +92,10 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
     return sum + (ratios.count() - 1) * equal + set.alternatives_q8;
 }
 
-/// Returns an upper bound on the odds of far alternatives that share at most seven lines. Covers
-/// all sets. The result is log2 in units of 2^-8. An alternative that shares at most seven lines
-/// loses at least the sum of all minimum losses except the seven largest. The bound is the product
-/// of these factors:
+/// Returns an upper bound on the odds of the far alternatives that share at most seven lines, as
+/// log2 in units of 2^-8. Covers all sets. An alternative that shares at most seven lines loses at
+/// least the sum of all minimum losses except the seven largest. The bound is the product of these
+/// factors:
 /// - the odds at this loss,
 /// - the number of alternatives,
 /// - the number of rolls in the first line,
@@ -121,9 +120,9 @@ int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
 }
 
 /// Returns an upper bound on the odds of the far alternatives in all sets, as log2 in units of
-/// 2^-8. If `roughly` is true, replaces the sum over a line's rolls by the number of rolls times
-/// the best odds. For hard bits, uses `LikelihoodRatios::log2_of_nearest_q8` instead. Stops as soon
-/// as the sum exceeds `max_log2_q8`.
+/// 2^-8. If `roughly` is true, replaces the sum over the rolls of a line by the number of rolls
+/// times the best odds. For hard bits, uses `LikelihoodRatios::log2_of_nearest_q8` instead. Stops
+/// when the sum exceeds `max_log2_q8`.
 int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     AllLineOdds odds;
     odds[0] = {};
@@ -135,10 +134,10 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
         odds[static_cast<std::size_t>(line)] = {best, best + others};
     }
     int sum = far_log2_q8(ratios, kAlternativeSets.front(), odds);
-    // The other four sets contain more alternatives, but these share lines more rarely. Consider
-    // only alternatives that share more than seven lines. In each of the four sets, the odds of
-    // these alternatives are less than half as large as in the first set. In all five sets
-    // together, the odds are less than three times as large.
+    // The other four sets contain more alternatives, but these share lines more rarely. Among the
+    // alternatives that share more than seven lines, each of the four sets has less than half the
+    // odds of the first set. The odds of all five sets together are therefore less than three times
+    // the odds of the first set.
     constexpr int kThreeTimes_q8 = 406;
     if (sum + kThreeTimes_q8 < kSmallOdds_q8) {
         const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(ratios));
@@ -151,8 +150,7 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     return sum;
 }
 
-/// Adds up the odds of single alternatives, at every shift where the loss may be below
-/// `loss_limit`.
+/// Sums the odds of single alternatives at every shift where the loss may be below `loss_limit`.
 class ByShift {
   public:
     ByShift(const LikelihoodRatios& ratios, int loss_limit);
@@ -168,7 +166,7 @@ class ByShift {
     struct Loss {
         std::uint16_t least;  ///< minimum loss if the line is not shared
         std::uint8_t line;
-        /// The sequence's contribution to the line's roll, at the reading's place.
+        /// Contribution of the sequence to the roll of the line, at the place of the reading.
         std::uint8_t own = 0;
     };
 
@@ -188,18 +186,18 @@ class ByShift {
     std::uint32_t loss_limit_;
     std::size_t count_ = 0;               ///< number of lines with a positive minimum loss
     std::array<Loss, kMaxLines> losses_;  ///< sorted by decreasing loss
-    std::uint32_t in_all_ = 0;            ///< sum of all losses
-    /// Number of lines that `may_matter` adds before its first check, and the summed losses of
-    /// these lines. The lines are in the order of `losses_`. In these lines alone, an alternative
-    /// that shares the first line cannot lose `loss_limit_`.
+    std::uint32_t in_all_ = 0;            ///< total of all losses
+    /// Number of lines that `may_matter` adds before its first check, in the order of `losses_`,
+    /// and the sum of their losses. An alternative that shares the first of these lines cannot lose
+    /// `loss_limit_` in these lines alone.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
-    /// For each shift, `none_` plus the losses of the lines that the current alternative shares.
+    /// For each shift, `none_` plus the losses in the lines that the current alternative shares.
     /// The alternative avoids these losses. Values below `none_` belong to earlier alternatives and
     /// count as `none_`.
     std::array<std::uint32_t, kSections> kept_{};
-    /// Value in `kept_` for no avoided loss. It increases with each alternative, which resets
-    /// `kept_` without writing to it.
+    /// Value in `kept_` at shifts where the alternative avoids no losses. Increasing `none_` for
+    /// each alternative resets `kept_` without writing to it.
     std::uint32_t none_;
 };
 
@@ -223,8 +221,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
 }
 
 /// Returns true if an alternative may lose less than `loss_limit_` at some shift. `alternative`
-/// points to the sequence's rolls at the alternative's place.
-// Not inlined, to keep all variables in registers on small processors.
+/// points to the rolls of the sequence at the place of the alternative.
+// Inlining would exceed the registers of small processors.
 [[gnu::noinline]] bool ByShift::may_matter(const std::uint8_t* alternative) {
     std::uint32_t* const kept = kept_.data();
     const std::uint32_t none = none_ += in_all_;
@@ -239,8 +237,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     const Loss* loss = losses_.data();
     for (const Loss* const end = loss + first_count_; loss != end; ++loss)
         keep(*loss);
-    // Up to this value of `largest`, the alternative loses at least `loss_limit_` at every shift,
-    // in the lines so far.
+    // If `largest` is at most this value, the alternative loses at least `loss_limit_` at every
+    // shift, in the lines so far.
     std::uint32_t max_to_keep = none - loss_limit_ + first_losses_;
     for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
         keep(*loss);
@@ -250,8 +248,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     return true;
 }
 
-/// Returns `sum` plus the odds of a place at all shifts that matter, line by line. Not inlined, to
-/// save registers.
+/// Returns `sum` plus the odds of a place at all shifts that matter, line by line. Inlining would
+/// exceed the registers of small processors.
 [[gnu::noinline]] int ByShift::add_closely(std::uint32_t place, int sum) const {
     RollOffsets offsets;
     set_roll_offsets(ratios_, sequence_, place, offsets);
@@ -267,17 +265,16 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
             const int odds = lost ? ratios_.log2_odds_q8(*lost) : kNever_q8;
             if (odds > kSkippedOdds_q8) sum = add_log2(sum, odds);
         }
-        // Lines that are shared at the same shift belong to the same alternative, which counts
+        // Lines that are shared at the same shift belong to the same alternative, which counts only
         // once.
         here = 0;
     }
     return sum;
 }
 
-/// Returns an upper bound on the odds of one sequence's single alternatives, as log2 in units of
-/// 2^-8. Includes alternatives that share a line. Assumes that all of them have the minimum loss.
-/// An alternative counts once for each shift where it shares a line, so at most `ratios.count()`
-/// times.
+/// Returns an upper bound on the odds of the single alternatives of one sequence that share a line,
+/// as log2 in units of 2^-8. Assumes the minimum loss for each alternative. An alternative counts
+/// once for each shift where it shares a line, so at most `ratios.count()` times.
 int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
                      std::size_t sequence) {
     const int lost = unshared.min_loss(sequence, Sharing::at_one_shift) - ratios.max_gain();
@@ -308,10 +305,9 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
     return sequences;
 }
 
-/// Returns an upper bound on the odds of single alternatives in the given sequences, as log2 in
-/// units of 2^-8. Includes alternatives that share a line. Counts kSkippedOdds_q8 for every
-/// alternative and every line. Evaluates one by one the few alternatives that may lose less than
-/// `loss_limit`.
+/// Returns an upper bound on the odds of the single alternatives that share a line, in the given
+/// sequences, as log2 in units of 2^-8. Counts kSkippedOdds_q8 for every alternative and every
+/// line. Evaluates the few alternatives that may lose less than `loss_limit` one by one.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();
@@ -333,7 +329,7 @@ int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
 }
 
 /// Returns an upper bound on the odds of the other sections at the same position, as log2 in units
-/// of 2^-8. In another section, no line has the reading's roll.
+/// of 2^-8. In another section, no line has the roll of the reading.
 int other_sections_log2_q8(const LikelihoodRatios& ratios) {
     int lost = 0;
     for (int line = 0; line < ratios.count(); ++line)
@@ -344,8 +340,7 @@ int other_sections_log2_q8(const LikelihoodRatios& ratios) {
 }  // namespace
 
 int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
-    // For hard bits, no tighter bound is computed later. The sum therefore stops only at the
-    // caller's limit.
+    // For hard bits, there is no tighter bound. The sum therefore stops only at the caller's limit.
     const bool is_last = ratios.is_of_bits();
     int far = far_log2_q8(ratios, true, is_last ? limit_q8 : kSmallOdds_q8);
     if (far > kSmallOdds_q8 && !is_last) far = far_log2_q8(ratios, false, limit_q8);
@@ -355,7 +350,8 @@ int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
     Sequences sequences = kAllSequences;
     int singles = kNever_q8;
     if (is_last) {
-        // Table bounds exceed the odds that an enumeration yields, but avoid most of the work.
+        // Tries tables first. Their bounds are larger than those of an enumeration, but they avoid
+        // most of the work.
         constexpr int kLittle_q8 = -5 * 256;
         const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
         sequences = add_by_tables(ratios, little_q8, sequences, singles);

@@ -17,7 +17,7 @@ RankedLines::RankedLines(const LikelihoodRatios& of) : ratios(of) {
         for (std::size_t offset = 0; offset < kSections; ++offset) {
             const int lost = ratios.loss(static_cast<int>(line), static_cast<int>(offset));
             losses[offset] = static_cast<std::int16_t>(lost);
-            odds[offset] = std::max(ratios.odds(lost), kMinOddsOfOffset);
+            odds[offset] = ratios.odds(lost);
         }
         odds.back() = 0;
         for (std::size_t n = kSections; n < losses.size(); n += kSections) {
@@ -38,7 +38,7 @@ void RankedLines::rank_lines() {
     for (std::size_t line = 0; line < static_cast<std::size_t>(count()); ++line) {
         const OddsByOffset& odds = odds_[line];
         sums[line] = std::accumulate(odds.begin() + 1, odds.end(), 0.0F);
-        // Insertion sort, because the machine code of `std::sort` would be larger than the rest of
+        // Insertion sort. The machine code of `std::sort` would be larger than the other code in
         // this file.
         std::size_t rank = line;
         for (; rank > 0 && sums[lines[rank - 1]] > sums[line]; --rank)
@@ -52,7 +52,7 @@ void RankedLines::rank_lines() {
 void RankedLines::set_offsets(std::size_t sequence, std::uint32_t place,
                               RollOffsets& offsets) const {
     using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
-    // The tables of rolls and the offsets extend beyond the last line.
+    // The tables of rolls and the offsets have elements beyond the last line.
     static_assert(kMaxLines % sizeof(Bytes) == 0 && kMaxLines <= code::kLinesAhead);
     const std::uint8_t* const rolls = ratios.basis[sequence].rolls;
     for (std::size_t line = 0; line < static_cast<std::size_t>(count()); line += sizeof(Bytes)) {

@@ -1,5 +1,5 @@
 // Ranked lines: the lines in view by decreasing information, with the roll offsets of all places.
-// If losses are added in this order, most alternatives become hopeless after a few lines.
+// In this order, most alternatives become hopeless after the losses of a few lines.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -15,15 +15,15 @@ class RankedLines {
     int count() const { return ratios.lines.count(); }
     int rank(std::uint32_t line) const { return ranks_[line]; }
     /// Returns the odds of an alternative in each line, by roll offset. The odds are at least
-    /// kMinOddsOfOffset.
+    /// kNegligible, except for the padding.
     std::span<const OddsByOffset> odds() const {
         return std::span(odds_).first(static_cast<std::size_t>(count()));
     }
-    /// Sets the roll offsets of the single alternative with the place `place` in `sequence`, like
-    /// `set_roll_offsets`, but in vectors.
+    /// Sets the roll offsets of the single alternative at `place` in `sequence`. Vectorised variant
+    /// of `set_roll_offsets`.
     void set_offsets(std::size_t sequence, std::uint32_t place, RollOffsets& offsets) const;
     /// Returns the loss of an alternative in a line. `further` is the roll offset of the
-    /// alternative plus a multiple of 63. Range: 0 to 255.
+    /// alternative plus a multiple of 63, from 0 to 255.
     int loss(int line, int further) const {
         return losses_[static_cast<std::size_t>(line)][static_cast<std::size_t>(further)];
     }
@@ -39,14 +39,13 @@ class RankedLines {
     std::array<std::array<std::int16_t, 256>, kMaxLines> losses_;
 };
 
-/// Minimum losses of lines in coarse units, for sums in bytes. Each loss is rounded down to whole
-/// units, and is at most `limit`.
+/// Minimum losses of lines in coarse units, because their sums must fit in bytes. Each loss is
+/// rounded down to whole units, and is at most `limit`.
 struct CoarseLosses {
     explicit CoarseLosses(const LikelihoodRatios& ratios);
 
-    /// Upper bound on the odds of an alternative that loses at least `limit`, regardless of its
-    /// gains in other lines. The sums contain this bound instead of the odds. With 2^15 such
-    /// alternatives, it is 2^-41.
+    /// Odds counted for an alternative that loses at least `limit`. The true odds are never larger,
+    /// regardless of gains in other lines. For 2^15 such alternatives, these odds add up to 2^-41.
     static constexpr float skipped_odds = 0x1p-56F;
     int limit;  ///< at most 200, the maximum of `Kernels::list_similar_places`
     std::array<std::uint8_t, kMaxLines> losses;

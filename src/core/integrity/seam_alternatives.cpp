@@ -11,13 +11,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Prior probability that a given border between two lines is a seam with a given roll difference.
-/// The value is log2 in units of 2^-8. With this prior and the default limit, a position is
-/// accepted if a seam explains the view as well as the position does. The position is refused if a
-/// seam explains the view better by two bits.
+/// Prior probability that a given border between two lines is a seam with a given roll difference,
+/// as log2 in units of 2^-8. With this prior and the default limit, a position is accepted if a
+/// seam explains the view equally well. It is refused if a seam explains the view better by two
+/// bits.
 constexpr int kSeam_q8 = -32 * 256;
-/// Minimum odds, without the prior, for an alternative to be included in the sum, as log2 in units
-/// of 2^-8.
+/// Minimum odds, without the prior, of an alternative that is included in the sum. The value is
+/// log2 in units of 2^-8.
 constexpr int kMin_q8 = -8 * 256;
 
 /// Minimum losses of an alternative before and after each border, over all shifts. Ignores a shift
@@ -29,8 +29,8 @@ class LossesByBorder {
         before_.fill(kNone);
         from_.fill(kNone);
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios.count()));
-        // Losses that the alternative avoids at each shift: the summed minimum losses of the lines
-        // that it shares.
+        // For each shift, the losses that the alternative avoids: the summed minimum losses of the
+        // lines that it shares at this shift.
         std::array<int, kSections> kept{};
         int in_all = 0;
         int max_kept = 0;
@@ -60,8 +60,8 @@ class LossesByBorder {
         const auto loss_in = [&](int line) {
             return ratios_.loss(line, offsets[static_cast<std::size_t>(line)] - shift);
         };
-        // Each loop stops when the loss on its side reaches `loss_limit_`. Borders farther along
-        // then cannot matter at this shift.
+        // Each loop stops when the loss on its side reaches `loss_limit_`, because more distant
+        // borders cannot matter at this shift.
         int lost = 0;
         for (int line = 0; line < count && lost < loss_limit_; ++line) {
             update_min(before_[static_cast<std::size_t>(line)], lost);
@@ -80,8 +80,7 @@ class LossesByBorder {
     std::array<int, kMaxLines> from_;    ///< minimum loss from each line to the last line
 };
 
-/// Adds up the odds of the seam alternatives that explain the lines about as well as the reading
-/// does.
+/// Sums the odds of the seam alternatives that explain the lines about as well as the reading.
 class SeamAlternatives {
   public:
     SeamAlternatives(const LikelihoodRatios& ratios, int loss_limit)
@@ -106,13 +105,13 @@ class SeamAlternatives {
     int sum_q8_ = kNever_q8;
 };
 
-/// Returns the loss at which an alternative is too improbable to be included.
+/// Returns the loss from which an alternative is too improbable to be included.
 int loss_limit_of(const LikelihoodRatios& ratios) {
     return ratios.loss_for(kMin_q8) + ratios.max_gain();
 }
 
 /// Returns the step losses in units of `part`, rounded down. A seam alternative avoids the loss in
-/// the step across the border, which may be any step. `part` is therefore the smallest integer with
+/// one step, which crosses the border. `part` is therefore the smallest integer with
 ///     kLimitParts * part >= loss_limit + (largest step loss)
 /// A sum of kLimitParts units then reaches `loss_limit` even without the largest step loss.
 StepLosses losses_of_steps(const LikelihoodRatios& ratios, int loss_limit) {

@@ -1,5 +1,5 @@
 // Seam alternatives: the odds that the view contains a seam between two sections with the same
-// positions, relative to the reading. docs/integrity.md derives the odds.
+// positions, relative to the reading. See docs/integrity.md, "Seams: odds with a prior".
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -8,13 +8,13 @@
 
 namespace dotpose::core {
 
-/// Returns log2 of the summed odds in units of 2^-8, including the prior for a seam. A seam
-/// alternative differs from the reading in the place in one sequence. The shift of a seam
-/// alternative changes at a border between two lines. Includes only alternatives that explain the
-/// lines about as well as the reading does. Returns kNever_q8 if there are no such alternatives.
+/// Returns log2 of the summed odds in units of 2^-8, including the prior of a seam. A seam
+/// alternative differs from the reading in the place in one sequence. Its shift changes at a border
+/// between two lines. Includes only alternatives that explain the lines about as well as the
+/// reading. Returns kNever_q8 if there are no such alternatives.
 int seam_alternatives_log2_q8(const LikelihoodRatios& ratios);
 
-/// Returns the same sum, but searches for alternatives with kernels.
+/// Variant that searches for alternatives with kernels.
 int seam_alternatives_log2_q8(const Kernels& kernels, const UnsharedLines& unshared);
 
 }  // namespace dotpose::core

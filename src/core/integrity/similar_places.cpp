@@ -24,8 +24,8 @@ class Losses {
     std::uint32_t excluded() const { return excluded_; }
 
   private:
-    /// Returns true if a bit is set. Shifting the bit to the sign bit takes fewer instructions than
-    /// masking.
+    /// Returns true if a bit is set. Small processors test the sign bit faster than they mask
+    /// another bit.
     static bool has_bit(unsigned n, int bit) {
         return static_cast<std::int32_t>(n << (31 - bit)) < 0;
     }
@@ -39,7 +39,7 @@ class Losses {
         digit ^= alternatives;
     }
 
-    // Counters start at 1, so a loss of 15 parts carries out of the highest bit.
+    // Counters start at 1, so a loss of 15 parts overflows the highest bit.
     static_assert(kLimitParts == 15);
     std::uint32_t ones_ = ~std::uint32_t{0};
     std::uint32_t twos_ = 0;
@@ -57,21 +57,21 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
     };
     int needed = loss_limit;
     if (excused == Excused::any_one) {
-        // The loss must reach `loss_limit` even without the step that loses the most.
+        // The losses must reach `loss_limit` even without the largest loss.
         for (int step = 0; step < count; ++step)
             needed = std::max(needed, loss_limit + lost_at(step));
     }
     constexpr int kParts = kLimitParts;
     const int part = (needed + kParts - 1) / kParts;
-    // Maximum loss up to the current step, and up to the step before it. Two adjacent steps are
-    // never both counted.
+    // Maximum loss up to the current step, and up to the preceding step. Two adjacent steps never
+    // both count.
     int max_loss = 0;
     int max_loss_before = 0;
     for (int step = 0; step < count; ++step) {
         std::uint8_t parts = 0;
         for (int lost = lost_at(step); lost >= part; lost -= part)
             ++parts;
-        // A step with only one part excludes too few places to be worth the time.
+        // A loss of only one part excludes too few places to be worth the time.
         if (parts == 1) parts = 0;
         losses[static_cast<std::size_t>(step)] = parts;
         const int with_this = max_loss_before + parts;
@@ -93,7 +93,7 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
     }
 }
 
-// Not inlined, to keep all variables in registers on small processors.
+// Inlining would exceed the registers of small processors.
 [[gnu::noinline]] std::uint32_t SimilarPlaces::operator[](std::uint32_t word) const {
     // Excludes the bits beyond the end of the sequence, and the bit of the reading's own place.
     const std::uint32_t places = sequence_.length - 32 * word;

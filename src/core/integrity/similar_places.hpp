@@ -1,5 +1,5 @@
-// Similar places: the places in a sequence where alternatives may matter, because their digits are
-// similar to the reading's digits. The search tests 32 places at a time, one per bit.
+// Similar places: the places in a sequence whose digits are similar to the digits of the reading.
+// Only alternatives at these places may matter. The search tests 32 places at a time, one per bit.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -12,13 +12,13 @@ inline constexpr int kMaxSteps = 18;
 /// Number of parts of the loss limit. A place that loses all parts is excluded.
 inline constexpr unsigned kLimitParts = 15;
 
-/// Steps in which an alternative loses nothing, whatever its digit: none, or any one step. For a
-/// seam alternative, this is the step across the border.
+/// Steps in which an alternative loses nothing, regardless of its digit: none, or any one step. A
+/// seam alternative loses nothing in the step across the border.
 enum class Excused : std::uint8_t { none, any_one };
 
-/// Steps in which digits are compared, and the loss if a digit differs from the reading's digit. An
-/// alternative with a different digit shares at most one of the step's two lines. It therefore
-/// loses at least the smaller of these lines' minimum losses.
+/// Steps in which digits are compared, and the loss if a digit differs from the digit of the
+/// reading. An alternative with a different digit shares at most one of the two lines of the step.
+/// It loses at least the smaller of their minimum losses.
 struct Steps {
     Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused);
 
@@ -27,12 +27,12 @@ struct Steps {
     /// Lower bound on the loss in each step, rounded down. The unit is 1/kLimitParts of the loss
     /// that excludes a place. Losses of one unit count as 0.
     std::array<std::uint8_t, kMaxSteps> losses;
-    /// True if the losses in nonadjacent steps can add up to enough to exclude a place.
+    /// True if the losses in nonadjacent steps can be large enough to exclude a place.
     bool can_exclude = false;
 };
 
 /// The places in a sequence that may lose less than the loss limit of `Steps`. A place is the index
-/// of the first step's digit.
+/// of the digit in the first step.
 class SimilarPlaces {
   public:
     /// `own` is the place of the reading at the first step.
@@ -54,7 +54,7 @@ class SimilarPlaces {
     std::array<Step, kMaxSteps> steps_;
 };
 
-/// Calls `use(place)` for each bit in `places`, the word with index `word` in a bit set.
+/// Calls `use(place)` for each set bit of `places`. `word` is the index of `places` in a bit set.
 template <typename Use>
 void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
     for (std::uint32_t place = 32 * word; places != 0; ++place, places >>= 1) {
@@ -62,8 +62,8 @@ void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
     }
 }
 
-/// Calls `use(k, place)` for each similar place in each sequence k. `place` is the place at the
-/// first line of the view. Skips sequences for which `is_settled(k)` returns true.
+/// Calls `use(k, place)` for each similar place in each sequence k, where `place` is the place at
+/// the first line in view. Skips sequences for which `is_settled(k)` returns true.
 template <typename IsSettled, typename Use>
 void visit_similar_places(const LikelihoodRatios& ratios, const Steps& steps, IsSettled is_settled,
                           Use use) {

@@ -8,8 +8,8 @@ namespace {
 
 /// Returns the odds of a single alternative at the shift at which it shares a line.
 float odds_at(const RankedLines& lines, const RollOffsets& offsets, std::size_t shared) {
-    // `base` makes the offset in the shared line 126, which is 0 modulo 63. All other offsets
-    // remain positive.
+    // With `base`, the offset in the shared line is 126, which is 0 modulo 63. The other offsets
+    // are positive.
     const int base = 2 * kSections - offsets[shared];
     int lost = 0;
     for (int line = 0; line < lines.count(); ++line) {
@@ -29,7 +29,8 @@ float sum_one_by_one(const RankedLines& lines) {
             lines.set_offsets(k, alternative, offsets);
             for (auto shared = offsets.begin(); shared < offsets.begin() + lines.count();
                  ++shared) {
-                // An alternative that shares several lines at one shift is counted at the first.
+                // Counts an alternative that shares several lines at one shift only at the first of
+                // these lines.
                 if (std::find(offsets.begin(), shared, *shared) != shared) continue;
                 sum += odds_at(lines, offsets, static_cast<std::size_t>(shared - offsets.begin()));
             }

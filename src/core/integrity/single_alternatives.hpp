@@ -1,5 +1,5 @@
 // Single alternatives: positions that differ from the reading in the place in one secondary
-// sequence. docs/integrity.md derives the odds.
+// sequence. See docs/integrity.md, "Alternatives: odds".
 #pragma once
 
 #include "core/integrity/ranked_lines.hpp"

@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Upper bounds on the odds of the single alternatives that share a line, by sequence. All bounds
-/// use the same table as `unshared`, which covers the table lines.
+/// Upper bounds on the odds of the single alternatives that share a line, by sequence. The bounds
+/// use the table of `unshared`. The table lines are the lines that this table covers.
 class Bounds {
   public:
     explicit Bounds(const UnsharedLines& unshared) : unshared_(unshared) {
@@ -19,12 +19,12 @@ class Bounds {
     }
     /// Returns the bound for a sequence. An alternative with n unshared table lines loses at least
     /// the n smallest losses. `kMaxPositionsWith` bounds the number of such alternatives, and
-    /// `kUnshared` gives the smallest n.
+    /// `kUnshared` contains the smallest n.
     float operator[](std::size_t sequence) const {
         const LikelihoodRatios& ratios = unshared_.ratios();
         const auto& max_with = code::kMaxPositionsWith[unshared_.tables() - 1][sequence];
-        // Alternatives with more than kMaxCounted unshared table lines. Each counts once for each
-        // shift where it shares a line, so at most `ratios.count()` times.
+        // Alternatives with more than kMaxCounted unshared table lines. An alternative counts once
+        // for each shift where it shares a line, so at most `ratios.count()` times.
         float sum =
             static_cast<float>(ratios.count() * ratios.basis[sequence].length) * odds_.back();
         std::size_t n = unshared_.min_unshared(sequence, Sharing::at_one_shift);

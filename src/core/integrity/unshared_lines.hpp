@@ -1,5 +1,5 @@
 // Unshared lines: lower bounds on the losses of single alternatives. Tables contain the minimum
-// number of lines that an alternative does not share. With these bounds, most alternatives need not
+// number of lines that an alternative does not share. With these bounds, few alternatives have to
 // be enumerated.
 #pragma once
 
@@ -15,7 +15,8 @@ namespace dotpose::core {
 /// How an alternative shares lines with the reading: at one shift in all lines, or at two shifts.
 enum class Sharing : std::uint8_t {
     at_one_shift,
-    on_two_sides,  ///< one shift before a border between two lines, another shift after it
+    on_two_sides,  ///< one shift before a border between two lines, and another shift after the
+                   ///< border
 };
 
 /// Lower bounds on the losses of single alternatives, by sequence. A table covers 10, 13 or 16
@@ -24,16 +25,16 @@ enum class Sharing : std::uint8_t {
 class UnsharedLines {
   public:
     static constexpr int kMaxTableLines = 16;
-    /// Uses the table with the most lines, but with at most `max_lines` lines and no more lines
-    /// than the view.
+    /// Uses the table with the most lines. The table has at most `max_lines` lines, and at most as
+    /// many lines as the view.
     explicit UnsharedLines(const LikelihoodRatios& ratios, int max_lines = kMaxTableLines);
-    /// Same as the other constructor, but sums the losses with a kernel.
+    /// Variant that sums the losses with a kernel.
     UnsharedLines(const Kernels& kernels, const LikelihoodRatios& ratios,
                   int max_lines = kMaxTableLines);
 
     const LikelihoodRatios& ratios() const { return ratios_; }
-    /// Returns the number of tables with at most `max_lines` lines and no more lines than the view.
-    /// The last of these tables is used.
+    /// Returns the number of tables with at most `max_lines` lines and at most as many lines as the
+    /// view. This object uses the last of these tables.
     std::size_t tables() const { return row_ + 1; }
     /// Returns true if every single alternative in a sequence loses at least `loss_limit`.
     bool all_lose(std::size_t sequence, Sharing sharing, int loss_limit) const {
@@ -42,20 +43,20 @@ class UnsharedLines {
     /// Returns the minimum number of table lines that a single alternative does not share. Returns
     /// 0 if the sequence has no table.
     std::size_t min_unshared(std::size_t sequence, Sharing sharing) const;
-    /// Returns the minimum loss of an alternative with n unshared table lines, for n up to 8.
+    /// Returns the minimum loss of an alternative with n unshared table lines, for n <= 8.
     int min_loss_of(std::size_t n) const { return smallest_sums_[n]; }
-    /// Returns the minimum loss of a sequence's single alternatives, or 0 if the sequence has no
-    /// table.
+    /// Returns the minimum loss of the single alternatives in a sequence, or 0 if the sequence has
+    /// no table.
     int min_loss(std::size_t sequence, Sharing sharing) const;
-    /// Returns the minimum loss over all places in another code's a4, or 0 if the view has too few
-    /// lines. `unshared_in_other` is the element of `code::kUnsharedInOther` for the code that was
-    /// read and the other code.
+    /// Returns the minimum loss over all places in the a4 of another code, or 0 if the view has too
+    /// few lines. `unshared_in_other` is the element of `code::kUnsharedInOther` for the code that
+    /// was read and the other code.
     int min_loss(const std::array<std::string_view, 3>& unshared_in_other) const;
 
   private:
-    /// Chooses the table, and returns the minimum losses of its lines. Table lines are in the
-    /// middle of the view, where lines have the most bits. Returns an empty span if the view has
-    /// too few lines.
+    /// Chooses the table, and returns the minimum losses of its lines. The table lines are in the
+    /// middle of the view, because lines have the most bits there. Returns an empty span if the
+    /// view has too few lines.
     std::span<const std::int16_t> choose_lines(int max_lines);
 
     const LikelihoodRatios& ratios_;
@@ -68,7 +69,7 @@ class UnsharedLines {
 
 inline std::size_t UnsharedLines::min_unshared(std::size_t sequence, Sharing sharing) const {
     const code::Secondary& a = ratios_.basis[sequence];
-    // `kUnshared` contains a4 for one code only.
+    // `kUnshared` contains the a4 of only one code.
     const bool is_known = sequence < 3 || a.digits == code::kA4Restored.data();
     if (row_ == SIZE_MAX || !is_known) return 0;
     const std::uint32_t ahead = ratios_.places[sequence] + first_line_;

@@ -22,7 +22,7 @@ AxisReading reading_of(CodeVariant code, const Place& place, Axis axis) {
     return {position, static_cast<std::uint8_t>(here), 0, 0};
 }
 
-// Not inlined, to keep all variables in registers on small processors.
+// Inlining would exceed the registers of small processors.
 [[gnu::noinline]] void compare_line(std::span<const std::int8_t> line, const std::uint8_t* bit,
                                     Confidence& confidence) {
     for (const std::int8_t weight : line) {
@@ -56,14 +56,16 @@ Place corner_place(CodeVariant code, const Decoding& decoding, const Upright& up
 
 /// Comparison of all bits in view with the code, before alternatives are evaluated.
 struct Doubt {
-    int odds_per_bit_q8 = 0;  ///< 0 if the bits carry no information or too many bits are wrong
-    /// For each axis, log2 of an upper bound on the probability of a chance match, in units of
-    /// 2^-8. In a chance match, random bits agree with the code as well as the bits that were read.
+    int odds_per_bit_q8 = 0;  ///< 0 if the bits contain no information, or if too many bits are
+                              ///< wrong
+    /// For each axis, log2 of an upper bound on the probability of a chance agreement, in units of
+    /// 2^-8. In a chance agreement, random bits agree with the code as well as the bits that were
+    /// read.
     std::array<int, 2> by_chance_q8{};
 };
 
-/// Returns the odds per bit and the bounds on the probability of a chance match. Computes both from
-/// the agreement of the x and y bits with the code. Sets `decoding.bits` and `fix.bit_errors`.
+/// Computes the odds per bit and the bounds on chance from the agreement of the x and y bits with
+/// the code. Sets `decoding.bits` and `fix.bit_errors`.
 Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptions& options,
                Decoding& decoding, Fix& fix) {
     decoding.bits = agreements[0].bits() + agreements[1].bits();
@@ -72,7 +74,7 @@ Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptio
         // Too many wrong bits indicate two patterns in view.
         if (agreement.wrong() > agreement.bits() * options.max_bit_error_q8 / 256) return {};
     }
-    // Both axes are read from the same dots, so they have the same error rate.
+    // Combines both axes, because their bits come from the same dots and have the same error rate.
     Confidence both = agreements[0];
     both.add(agreements[1]);
     Doubt doubt{odds_per_bit_q8(both), {}};
@@ -103,8 +105,8 @@ int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limi
 }
 
 /// Returns an upper bound on the probability that an axis is wrong, for each axis, as log2 in units
-/// of 2^-8. `alternatives_q8(axis, ratios)` returns the odds of the alternatives. The result is 0
-/// (probability 1) for an axis whose bound on chance exceeds `limit_q8`.
+/// of 2^-8. `alternatives_q8(axis, ratios)` must return the odds of the alternatives. The result is
+/// 0 (probability 1) for an axis whose bound on chance exceeds `limit_q8`.
 template <typename Alternatives>
 std::array<int, 2> with_alternatives(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                      std::span<ScoredLine> storage, const Doubt& doubt,
@@ -130,8 +132,8 @@ int sum(const std::array<int, 2>& p_wrong_q8) {
     return add_log2(p_wrong_q8[0], p_wrong_q8[1]);
 }
 
-/// Returns true if the position is refused even without any alternatives. Reasons are bits without
-/// information, too many wrong bits, and a bound on chance above `limit_q8`.
+/// Returns true if the position must be refused regardless of the alternatives: the bits contain no
+/// information, too many bits are wrong, or the bound on chance exceeds `limit_q8`.
 bool is_hopeless(const Doubt& doubt, int limit_q8) {
     return doubt.odds_per_bit_q8 == 0 || sum(doubt.by_chance_q8) > limit_q8;
 }
@@ -144,7 +146,7 @@ Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& deco
 }
 
 /// Returns an upper bound on the probability that an axis is wrong, for each axis, as log2 in units
-/// of 2^-8. Bounds the alternatives as in quick_alternatives.hpp.
+/// of 2^-8. Uses the bound on the alternatives from quick_alternatives.hpp.
 std::array<int, 2> estimate_quickly(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                     int limit_q8, std::span<ScoredLine> storage,
                                     const Doubt& doubt) {

@@ -14,11 +14,11 @@ namespace {
 
 /// Index of a4, the only sequence in which the codes differ.
 constexpr std::size_t kA4 = 3;
-/// Odds counted for a place that is skipped, as log2 in units of 2^-8 and as a number. The true
-/// odds are never larger.
+/// Odds counted for each skipped place, as log2 in units of 2^-8 and as a number. The true odds are
+/// never larger.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
-/// Summed odds below which no tighter bound is computed.
+/// Summed odds below which no tighter bound is needed.
 constexpr float kNegligibleOdds = 1e-12F;
 
 /// Minimum loss in each line that a place does not share.
@@ -39,7 +39,8 @@ struct Losses {
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
-        // The quotients are below 16. At this size, float rounding never reaches the next integer.
+        // The quotients are below 16. For such quotients, float rounding never reaches the next
+        // integer.
         const auto part = static_cast<float>((loss_limit + StepLosses::kLimitParts - 1) /
                                              StepLosses::kLimitParts);
         for (int step = 0; step < steps.count; ++step) {
@@ -65,9 +66,9 @@ struct Losses {
     std::array<std::uint16_t, kMaxLines> of;  ///< loss of each line, in units of kUnit
 };
 
-/// Adds up the odds of the places in one other code, along one axis. The *same place* is the
-/// reading's place in the other a4, at the shift `shift_here_`. All further places and shifts are
-/// *other places*.
+/// Sums the odds of the places in one other code, along one axis. The *same place* is the place of
+/// the reading in the a4 of the other code, at the shift `shift_here_`. All other places and shifts
+/// are *other places*.
 class OtherPlaces {
   public:
     OtherPlaces(const LikelihoodRatios& ratios, const Losses& losses, CodeVariant read,
@@ -78,7 +79,7 @@ class OtherPlaces {
           theirs_(code::basis(other)[kA4]),
           shift_here_(code::roll_further(read, other, ratios.position, ratios.places[kA4])),
           here_(offsets_of(ratios.places[kA4])) {
-        // A line with the reading's roll loses nothing.
+        // A line with the roll of the reading loses nothing.
         const int shared = modulo(here_[0] - shift_here_);
         int lost = 0;
         for (std::size_t line = 0; line < count_ && !ratios_.is_hopeless(lost); ++line) {
@@ -91,8 +92,8 @@ class OtherPlaces {
 
     /// Returns the likelihood ratio of the same place in the other code.
     float here() const { return result_.here; }
-    /// Returns the summed likelihood ratios of all other places. Before the odds of these places
-    /// are added, returns an upper bound on the sum.
+    /// Returns the summed likelihood ratios of all other places. Returns an upper bound until the
+    /// odds of these places have been added.
     float elsewhere() const { return result_.elsewhere; }
 
     /// Sets a table bound on the summed odds of all other places.
@@ -109,28 +110,26 @@ class OtherPlaces {
     /// Removes the table bound before places are added one by one.
     void begin_count() { result_.elsewhere = 0; }
 
-    /// Adds the odds that the search for similar places does not find. Adds the place of the
-    /// reading in a4, at all shifts except `shift_here_`. Adds every place at shifts without a
-    /// shared line.
+    /// Adds the odds that the search for similar places does not find: the place of the reading in
+    /// a4 at all shifts except `shift_here_`, and every place at shifts without a shared line.
     void add_unsimilar() {
-        // A place with the reading's rolls shares all lines at one shift, and no line at any other
-        // shift.
+        // A place with the rolls of the reading shares all lines at one shift, and no line at any
+        // other shift.
         if (!has_same_rolls_) add(ratios_.places[kA4], here_, shift_here_);
         add_sharing_none();
     }
 
     /// Adds the odds of another place in a4, at all shifts with a shared line.
     void add(std::uint32_t place) { add(place, offsets_of(place), kNoShift); }
-    /// Adds kSkippedOdds for each of `places` places and each line. A place shares lines at no more
-    /// shifts than there are lines.
+    /// Adds kSkippedOdds for each of `places` places and each line. A place cannot share lines at
+    /// more shifts than there are lines.
     void add_skipped(int places) {
         result_.elsewhere += static_cast<float>(places * ratios_.count()) * kSkippedOdds;
     }
-    /// Returns the sums. Sets the position of the likeliest other place if its odds are large
-    /// enough to be reported.
+    /// Returns the sums. Also computes the position of the likeliest other place, if its odds are
+    /// large enough to be reported.
     const OtherAxis& result() {
-        // Minimum odds of a place whose position is computed. A place with smaller odds is never
-        // reported.
+        // Minimum odds of a place that is reported.
         constexpr float kMinReportedOdds = 1e-6F;
         if (result_.best < kMinReportedOdds) return result_;
         auto places = ratios_.places;
@@ -149,8 +148,8 @@ class OtherPlaces {
         RollOffsets offsets;
         const std::uint8_t* own = ratios_.basis[kA4].rolls + ratios_.places[kA4];
         const std::uint8_t* alternative = theirs_.rolls + place;
-        // Sets the offsets of kMaxLines lines, even if fewer are in view. Loops of constant length
-        // are faster.
+        // Sets the offsets of kMaxLines lines, even if fewer lines are in view. Loops of constant
+        // length are faster.
         for (std::size_t line = 0; line < offsets.size(); ++line)
             offsets[line] = roll_offset(own[line], alternative[line]);
         return offsets;
@@ -163,7 +162,7 @@ class OtherPlaces {
     }
 
     /// Adds the odds of every place at all shifts without a shared line. If the upper bound on
-    /// these odds is negligible, adds only this bound.
+    /// these odds is negligible, adds the bound instead.
     void add_sharing_none() {
         const float all = sharing_none();
         if (all <= kNegligibleOdds) {
@@ -193,7 +192,7 @@ class OtherPlaces {
 
     /// Adds the odds of a place at all shifts with a shared line, except `shift_left_out`.
     void add(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
-        // Summed losses of the lines that are shared at the same shift, by their roll offset. In
+        // Summed losses of the lines that are shared at the same shift, by their roll offset, in
         // units of kUnit.
         std::array<std::uint16_t, kSections + 1> shared{};
         std::uint16_t most = 0;
@@ -223,8 +222,8 @@ class OtherPlaces {
         }
     }
 
-    /// Adds the odds of a place. Keeps the place if its odds are the highest so far. `shift` is the
-    /// roll of the first line at this place minus the reading's roll, modulo 63.
+    /// Adds the odds of a place. Stores the place if its odds are the highest so far. `shift` is
+    /// the roll of the first line at this place minus the roll of the reading, modulo 63.
     void count(std::uint32_t place, int shift, float odds) {
         result_.elsewhere += odds;
         if (odds <= result_.best) return;
@@ -238,8 +237,8 @@ class OtherPlaces {
     const std::size_t count_;
     const code::Secondary& theirs_;
     const int shift_here_;
-    const RollOffsets here_;  ///< roll offsets at the reading's place in the other a4
-    /// True if the reading's place has the same rolls in both codes, in all lines in view.
+    const RollOffsets here_;  ///< roll offsets at the place of the reading in the other a4
+    /// True if the place of the reading has the same rolls in both codes, for all lines in view.
     bool has_same_rolls_ = true;
     std::uint32_t best_place_ = 0;
     OtherAxis result_;
@@ -255,7 +254,7 @@ class AxisWeigher {
           read_(read),
           losses_(ratios_) {}
 
-    /// Returns the odds of the code `other`: exact odds for the place of the reading, and a table
+    /// Returns the odds in the code `other`: exact odds for the place of the reading, and a table
     /// bound for all other places.
     OtherPlaces bounded(CodeVariant other) const {
         OtherPlaces others(ratios_, losses_, read_, other);
@@ -264,14 +263,13 @@ class AxisWeigher {
     }
 
     /// Replaces the bound by a sum over all other places, unless the bound is negligible. `across`
-    /// is the summed odds on the other axis, which multiply the odds on this axis.
+    /// is the summed odds on the other axis, by which the odds on this axis are multiplied.
     void look_closer(CodeVariant other, float across, OtherPlaces& others) {
         if (others.elsewhere() * across <= kNegligibleOdds) return;
         others.begin_count();
         others.add_unsimilar();
         if (!steps_) steps_ = losses_.of_steps(ratios_);
-        // Searches the a4 of the code `other` for the reading's digits in the a4 of the code
-        // `read`.
+        // Searches the a4 of `other` for the digits of the reading in the a4 of `read`.
         code::Secondary a4 = code::basis(other)[kA4];
         a4.digits = ratios_.basis[kA4].digits;
         const PlaceBits similar = kernels_.find_similar_places(a4, ratios_.places[kA4], *steps_);
@@ -292,7 +290,7 @@ class AxisWeigher {
     const UnsharedLines& unshared_;
     const CodeVariant read_;
     const Losses losses_;
-    std::optional<StepLosses> steps_;  ///< set when first needed
+    std::optional<StepLosses> steps_;  ///< set on first use
 };
 
 }  // namespace
@@ -316,7 +314,7 @@ void weigh_other_codes(const Kernels& kernels, const UnsharedLines& columns,
         if (other == read) continue;
         OtherPlaces x = by_x.bounded(other);
         OtherPlaces y = by_y.bounded(other);
-        // An axis needs no enumeration if the other axis rules out the code.
+        // Skips the enumeration for an axis if the other axis rules out the code.
         by_x.look_closer(other, y.here() + y.elsewhere(), x);
         by_y.look_closer(other, x.here() + x.elsewhere(), y);
         others.of[i] = {x.result(), y.result()};

@@ -1,6 +1,7 @@
-// Weigh codes: the odds of places in the other codes, relative to the reading. The codes differ
-// only in a4. Only positions with the reading's places in a1, a2 and a3 are therefore compared.
-// docs/integrity.md derives the sums.
+// Weigh codes: the odds of places in the other codes, relative to the reading. Unlike the paper,
+// which has one code, dotpose treats the code of a sheet as an unknown. The codes differ only in
+// a4, so only positions with the places of the reading in a1, a2 and a3 are compared. See
+// docs/integrity.md, "Which code?".
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"

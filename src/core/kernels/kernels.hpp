@@ -1,6 +1,6 @@
 // Kernels: the inner loops over pixels, dots and cells. The desktop attempts spend most of their
-// time in these loops. Each kernel has one implementation per vector width. All implementations
-// return bit-identical results, and `select.hpp` chooses the fastest. Image lengths are in px.
+// time in these loops. There is one implementation per vector width. All implementations return
+// bit-identical results, and `select.hpp` chooses the fastest. Image lengths are in px.
 //
 // A cell is a grid intersection with its dot. The *places* of a cell are the four points where its
 // dot may be printed: above, left, right and below the intersection.
@@ -34,11 +34,11 @@ struct Waves {
 /// Options for `sum_cells`, which assigns dots to cells.
 struct CellPass {
     float reach_px = 0;  ///< maximum distance from the origin to a dot, along each axis
-    /// Maximum distance from a dot to the nearest place of its cell, in spacings. Dots beyond this
-    /// limit are not used.
+    /// Maximum distance between a dot and the nearest place of its cell, in spacings. The sums
+    /// exclude dots beyond this limit.
     float max_off = 0;
-    /// Distance from the intersection to the four places, in spacings. If 0, the intersection is
-    /// the only place.
+    /// Distance between the intersection and the four places, in spacings. If 0, the intersection
+    /// is the only place.
     float displacement = 0;
     bool with_perspective = false;
 };
@@ -49,16 +49,17 @@ struct CellPass {
 ///     j (1 + g x + h y) = d x + e y + f
 ///
 /// (x, y) is the image point of a used dot, and (i, j) is the nearest place of its cell. Without
-/// perspective, `i` and `j` contain only their first three sums, and `square` is 0.
+/// perspective, `i` and `j` contain only the first three sums, and `square` is 0.
 struct CellSums {
     float seen = 0;  ///< number of dots within `CellPass::reach_px`
     float used = 0;  ///< number of `seen` dots closer than `CellPass::max_off` to a place
     /// Sum of squared distances from the used dots to their places, in spacings^2.
     float squares = 0;
-    std::array<float, 6> one{};     ///< sums of 1, x, y, xx, xy, yy
-    std::array<float, 6> i{};       ///< the same six sums, each term times i
-    std::array<float, 6> j{};       ///< the same six sums, each term times j
-    std::array<float, 6> square{};  ///< the same six sums, each term times i^2 + j^2
+    std::array<float, 6> one{};     ///< sums of 1, x, y, xx, xy and yy over the used dots
+    std::array<float, 6> i{};       ///< sums of i, i x, i y, i xx, i xy and i yy
+    std::array<float, 6> j{};       ///< sums of j, j x, j y, j xx, j xy and j yy
+    std::array<float, 6> square{};  ///< sums of s, s x, s y, s xx, s xy and s yy, with s = i^2 +
+                                    ///< j^2
 };
 
 /// Maximum number of columns in view, at any rotation. The same limit applies to rows.
@@ -82,7 +83,8 @@ struct CellsInView {
     float reach_px = 0;
     float displacement = 0;  ///< distance from an intersection to its dot, in spacings
     Windows windows = Windows::on_intersections;
-    int step = 1;  ///< row subsampling step: every `step`-th cell of a row is listed
+    int step = 1;  ///< Subsampling step along rows. `list_cells` lists every `step`-th cell of a
+                   ///< row.
     /// Roll of each column: the main-sequence index of its cell in row `first_row`.
     const std::uint8_t* column_rolls = nullptr;
     /// Roll of each row: the main-sequence index of its cell in column `first_column`.
@@ -101,8 +103,8 @@ struct WindowOptions {
     float reach = 0.36F;
     /// Contrast threshold for dot pixels, in 1/256 of the paper level.
     int cut_q8 = 128;
-    /// Typical dot mass relative to the paper level. If 0, the typical mass is estimated from the
-    /// windows.
+    /// Typical dot mass relative to the paper level. If 0, `measure_windows` estimates the typical
+    /// mass from the windows.
     float typical_mass = 0;
 };
 /// Maximum half side of a measurement window.
@@ -110,21 +112,21 @@ inline constexpr int kMaxHalfWindow_px = 24;
 /// Maximum radius of a centroid window.
 inline constexpr float kMaxCentroidRadius_px = 24;
 /// Maximum radius of a small centroid window. Small windows take a tenth of the time of larger
-/// ones.
+/// windows.
 inline constexpr float kSmallCentroidRadius_px = 4;
-/// Centroid window radius for predicted dots. Small enough to limit noise, and large enough to
-/// include the edge of a dot at 8 to 13 px per spacing.
+/// Radius of the centroid window for predicted dots. Small enough to limit noise, and large enough
+/// to include the edge of a dot at 8 to 13 px per spacing.
 inline constexpr float kPredictedCentroidRadius_px = 3.65F;
 
-/// Sums over the inliers for a nine-parameter fit (see PlaneNormal). (u, v) is a dot's pattern
-/// point relative to the plane's `at`, in units of `scale` (see `sum_fit`). (x, y) is the dot's
-/// residual, in spacings.
+/// Sums over the inliers for a nine-parameter fit (see PlaneNormal). (u, v) is the pattern point of
+/// a dot relative to the plane's `at`, in units of `scale` (see `sum_fit`). (x, y) is the residual
+/// of the dot, in spacings.
 struct FitSums {
     int points = 0;      ///< number of inliers
     int outliers = 0;    ///< number of measured dots that are not inliers
     float farthest = 0;  ///< largest squared residual of an inlier
-    /// Sum of the dots' offsets from their intersections, in spacings. Each offset is projected
-    /// onto the direction of its coded displacement.
+    /// Sum of the offsets of the dots from their intersections, in spacings. Each offset is
+    /// projected onto the direction of the coded displacement.
     float projected = 0;
     float squares = 0;  ///< sum of the squared residuals
     /// Sums of 1, u, v, uu, uv, vv, uuu, uuv, uvv, vvv, quu, quv, qvv, qqu, qqv and qqq, with q =
@@ -134,8 +136,8 @@ struct FitSums {
     std::array<float, 9> residuals{};
 };
 
-/// Sums over predicted dots. A dot's predicted point (u, v) is relative to the view centre, in px.
-/// Its offset is the measured centre minus the predicted point.
+/// Sums over predicted dots. The predicted point (u, v) of a dot is relative to the view centre, in
+/// px. The offset is the measured centre minus the predicted point.
 struct DotOffsets {
     int points = 0;
     float u = 0;  ///< sums of the predicted points
@@ -147,8 +149,8 @@ struct DotOffsets {
     /// Sum of dot((u, v), offset). `across` is the sum of cross((u, v), offset).
     float along = 0;
     float across = 0;
-    /// Sums of d_x * offset, along u and v. d is the direction of the dot's coded displacement.
-    /// `of_y` is the same with d_y.
+    /// Sums of d_x times the offset along u and along v, where d is the direction of the dot's
+    /// coded displacement. `of_y` contains the sums of d_y times the offset.
     std::array<float, 2> of_x{};
     std::array<float, 2> of_y{};
 };
@@ -174,23 +176,24 @@ struct BitsRead {
     int wrong_x = 0;  ///< number of `read` cells whose x bit contradicts the code
     int wrong_y = 0;
     int right = 0;  ///< number of `read` cells without a wrong bit
-    /// Sum of max(|x|, |y|) over the `right` dots, in spacings. (x, y) is a dot's offset from its
-    /// intersection.
+    /// Sum of max(|x|, |y|) over the `right` dots, in spacings. (x, y) is the offset of a dot from
+    /// its intersection.
     float projected = 0;
-    /// Sum of squared distances from the `right` dots to their places, in spacings^2.
+    /// Sum of the squared distances between the `right` dots and their places, in spacings^2.
     float squares = 0;
 };
 
-/// Minimum loss, in bits, of an alternative that does not share `line`. The *reading* is the
-/// position that was read. An *alternative* is any other position. An alternative *shares* a line
-/// if the line has the same roll at the alternative and at the reading.
+/// Minimum loss of an alternative that does not share `line`, in a unit that the caller chooses.
+/// The *reading* is the position that was read, and an *alternative* is any other position. The
+/// *loss* of an alternative in a line is the score of the reading minus the score of the
+/// alternative. An alternative *shares* a line if its roll in this line is the roll of the reading.
 struct LineLoss {
     std::uint8_t line = 0;
     std::uint8_t loss = 0;
 };
 
-/// Places in the secondary sequences where an alternative may resemble the reading. Each entry
-/// names a line that this alternative shares with the reading.
+/// Places in the secondary sequences where an alternative may have bits similar to the reading.
+/// Each entry contains a line that the alternative shares with the reading.
 struct SimilarPlaceList {
     static constexpr int kMax = 512;
     struct Entry {
@@ -205,10 +208,10 @@ struct SimilarPlaceList {
 /// Set of places in a sequence, one bit per place. Bit 0 of the first word is the first place.
 using PlaceBits = std::array<std::uint32_t, 8>;
 
-/// Lower bounds on an alternative's loss, one per step. A step leads from one line to the next. The
-/// bound applies if the alternative's digit in this step differs from the reading's digit. In this
-/// case, at most one of the step's two lines is shared. The unit is 1/kLimitParts of the loss
-/// limit.
+/// Lower bounds on the loss of an alternative, one per step. A step leads from one line to the
+/// next. The bound applies if the digit of the alternative in this step differs from the digit of
+/// the reading. Such an alternative shares at most one of the two lines. The unit is 1/kLimitParts
+/// of the loss limit.
 struct StepLosses {
     static constexpr int kLimitParts = 8;
     int count = 0;
@@ -218,13 +221,15 @@ struct StepLosses {
 /// Groups of alternatives. All alternatives in a group differ from the reading in the same
 /// sequences.
 struct FarAlternatives {
-    /// Per group, the probability that an alternative's digits equal the reading's digits in one
-    /// step.
+    /// For each group, the probability that the digits of an alternative equal the digits of the
+    /// reading in one step.
     std::array<float, 8> equal{1, 1, 1, 1, 1, 1, 1, 1};
     std::array<float, 8> number{};  ///< number of alternatives in each group
 };
 
-/// Roll offsets of 32 combinations of places in some of the sequences, indexed by line.
+/// Contributions of 32 combinations to the roll offset, indexed by line. A combination is one place
+/// in each of some sequences. The roll offset is the roll of the alternative minus the roll of the
+/// reading.
 struct OffsetBatch {
     std::array<std::array<std::uint8_t, 32>, kMaxLines> offsets;
 };
@@ -232,17 +237,14 @@ struct OffsetBatch {
 /// Odds by roll offset. The last element is padding.
 using OddsByOffset = std::array<float, kRollEntries>;
 
-/// Lower bound on the odds of an alternative in a line, in the elements of `OddsByOffset` other
-/// than the padding. Avoids denormal numbers, which are slow.
-inline constexpr float kMinOddsOfOffset = 0x1p-40F;
-
-/// Expected odds by the number of shared anchors, up to 6.
+/// Expected odds by the number of shared anchors, from 0 to 6. *Anchors* are lines with high
+/// information (docs/integrity.md, "Alternatives: odds").
 using OddsByShared = std::array<float, 7>;
 
-/// Sums of the n smallest losses, indexed by n, from 0 to 8.
+/// Sums of the n smallest losses, indexed by n from 0 to 8.
 using SmallestSums = std::array<std::int32_t, 9>;
 
-/// Bits for 64 lines with 64 cells each, one word per line. A bit in `valid` is 1 if its cell was
+/// Bits of 64 lines with 64 cells each, one word per line. A bit in `valid` is 1 if its cell was
 /// read.
 struct BitLines {
     std::array<std::uint64_t, 64> bits{};
@@ -252,51 +254,52 @@ struct BitLines {
 /// Function table for one kernel implementation.
 struct Kernels {
     const char* name;
-    /// Copies the patch's part of the image, downscaled by `Patch::scale`, and adds a white margin.
+    /// Copies the part of the image that the patch covers, downscaled by `Patch::scale`. Adds a
+    /// white margin.
     void (*fill_patch)(const ImageView& image, Patch& patch);
     /// Smooths the patch with a 1-2-1 filter along both axes. Stores the brightest and the darkest
     /// level in each tile. The brightest level excludes the outermost patch pixels, because the
     /// white margin brightens them.
     void (*smooth_patch)(Patch& patch);
-    /// Lists the dots: minima of the smoothed patch that are not brighter than their tile's
-    /// threshold. Parabolas through a minimum and its neighbours give its sub-pixel coordinates.
-    /// The coordinates are in image px, relative to the patch centre. Ignores minima in the two
-    /// outermost rows and columns on each side.
+    /// Lists the dots. A dot is a minimum of the smoothed patch that is at most as bright as the
+    /// threshold of its tile. Parabolas through a minimum and its neighbours give its sub-pixel
+    /// coordinates, in image px relative to the patch centre. Ignores minima in the two outermost
+    /// rows and columns on each side.
     void (*find_minima)(Patch& patch);
     /// Returns the strongest pair of perpendicular waves with frequency `per_px`, in cycles per px.
     /// Tries 12 directions in steps of 7.5 degrees.
     Waves (*strongest_waves)(const float* x, const float* y, int count, float per_px);
-    /// Returns the strongest wave, and the strongest second wave that forms plausible cells with
-    /// the first wave. Plausible cells have an area near 1 / per_px^2. Tries 40 directions in steps
+    /// Returns the strongest wave, together with the strongest second wave that forms plausible
+    /// cells with it. Plausible cells have an area near 1 / per_px^2. Tries 40 directions in steps
     /// of 4.5 degrees, and frequencies from 0.6 to 1.63 times `per_px`. If there is no such pair,
     /// the power is 0.
     Waves (*strongest_skewed_waves)(const float* x, const float* y, int count, float per_px);
-    /// Assigns each dot to a cell. Returns the sums over the dots near one of their cell's places.
+    /// Assigns each dot to a cell. Returns the sums over the dots near a place of their cell.
     CellSums (*sum_cells)(const PatchDots& dots, const FloatPlane& plane, const CellPass& pass);
     /// Sets the bits of cells whose dots are clearly at one of the four places. The first column
-    /// and row belong to cell (-32, -32).
+    /// and row belong to cell (-32, -32). If a cell has two such dots with different values of a
+    /// bit, the bit is invalid. If a cell has three or more such dots, its bits may be wrong.
     void (*read_cells)(const PatchDots& dots, const FloatPlane& plane, float displacement,
                        BitLines& columns, BitLines& rows);
     /// Scores a line of 64 cells at each roll. Each valid cell adds 127 if its bit agrees with the
     /// main sequence, and subtracts 127 otherwise.
     void (*score_line)(std::uint64_t bits, std::uint64_t valid, ScoredLine& line);
-    /// Adds up the scores of all lines, for `positions` consecutive positions of the first line.
+    /// Sums the scores of all lines, for `positions` consecutive positions of the first line.
     /// `rolls` contains the rolls of consecutive lines of the code, starting at the first position.
     void (*sum_rolls)(const RollScores& scores, const std::uint8_t* rolls, int positions,
                       RollSums* sums);
     /// Lists the cells in view, with their window centres and coded symbols. Sets `x` and `y` to
     /// the expected image points of the dots, including lens distortion. Stops when `dots` is full.
     void (*list_cells)(const CellsInView& view, MeasuredDots& dots);
-    /// Finds the shift from the window centres to the dots. Adds up the surroundings of the first
-    /// 16 dots that are far enough from the image border, and searches the summed image for its
-    /// darkest point. The search covers shifts up to `max_px` along each axis, in steps of
-    /// `step_px`, with at most 6 steps per direction. Sets `cut_q8` to the contrast at this point,
-    /// in 1/256 of the paper level. Returns false if fewer than 8 dots can be added, or if the sum
-    /// is black.
+    /// Finds the shift from the window centres to the dots. Adds up the image areas around the
+    /// first 16 dots that are far enough from the image border, and finds the darkest point of this
+    /// sum. Searches shifts up to `max_px` along each axis, in steps of `step_px`, with at most 6
+    /// steps per direction. Sets `cut_q8` to the contrast at the darkest point, in 1/256 of the
+    /// paper level. Returns false if there are fewer than 8 such dots, or if the sum is black.
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int max_px, int step_px,
                        FixedVec& shift_px, int& cut_q8);
-    /// Sets `x` and `y` to the centroids of the dark pixels in the dots' windows. Drops dots whose
-    /// mass is less than 1/4 or more than 3.5 times the typical mass. Returns the typical mass
+    /// Sets `x` and `y` to the centroids of the dark pixels in the windows of the dots. Drops dots
+    /// with less than 1/4 or more than 3.5 times the typical mass. Returns the typical mass
     /// relative to the paper level.
     float (*measure_windows)(const ImageView& image, const CellsInView& view,
                              const WindowOptions& options, MeasuredDots& dots);
@@ -306,17 +309,17 @@ struct Kernels {
     /// if the image is too small for a window.
     void (*refine_centres)(const ImageView& image, const CellsInView& view, float radius_px,
                            MeasuredDots& dots);
-    /// Reads cell bits from the grey levels at the four places. Each dot must be predicted to
-    /// within a fraction of its displacement. The darkest place is taken as the dot. `depth_q8` is
-    /// the contrast of a typical dot, in 1/256 of the paper level. Compares the bits with the code,
-    /// and adds them to lines, as `read_bits` does. Drops dots that are not read or have a wrong
-    /// bit. Leaves `projected` and `squares` at 0.
+    /// Reads cell bits from the grey levels at the four places. The darkest place counts as the
+    /// dot. Each dot must be predicted to within a fraction of its displacement. `depth_q8` is the
+    /// contrast of a typical dot, in 1/256 of the paper level. Compares the bits with the code, and
+    /// adds them to lines, as `read_bits` does. Drops dots that are not read or have a wrong bit.
+    /// Sets `projected` and `squares` to 0.
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int depth_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Measures predicted dots as `refine_centres` does, with radius kPredictedCentroidRadius_px.
     /// Drops dots whose offset exceeds `max_off_px`. `weight_px` is the factor from moment / weight
-    /// to an offset in px. If `weight_px` is 0, the factor is estimated from dots in the middle of
-    /// the list. Returns the sums over the remaining dots.
+    /// to an offset in px. If `weight_px` is 0, estimates the factor from dots in the middle of the
+    /// list. Returns the sums over the remaining dots.
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
                                float weight_px, MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with the code. Adds the bits to `columns`
@@ -328,52 +331,53 @@ struct Kernels {
     /// `limit`, in spacings^2. `scale` is the unit of (u, v) in FitSums, in spacings.
     FitSums (*sum_fit)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float scale, float limit);
-    /// Adds up the residuals of the inliers in `side` x `side` blocks. Inliers are defined as in
-    /// `sum_fit`. The blocks cover `reach_px` on each side of the plane centre, along both axes.
-    /// Dots farther out count in the nearest block.
+    /// Sums the residuals of the inliers in `side` x `side` blocks. Inliers are defined as in
+    /// `sum_fit`. The blocks extend `reach_px` from the plane centre in each direction. Dots
+    /// outside the blocks count in the nearest block.
     void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float limit, float reach_px, int side, BlockSums& sums);
-    /// Returns the places in a sequence where an alternative may lose less than the loss limit. The
-    /// losses in `steps` give a lower bound for each place. Excludes the reading's place, `own`.
+    /// Returns the places in a sequence where an alternative may lose less than the loss limit.
+    /// `steps` gives a lower bound on the loss at each place. Excludes `own`, the place of the
+    /// reading.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);
     /// Returns an upper bound on the expected total odds of the far alternatives in `sets`.
-    /// `best[i]` is the odds of line i at the best roll other than the reading's roll. A far
+    /// `best[i]` is the maximum odds in line i over all rolls except the roll of the reading. A far
     /// alternative shares at most `max_shared` adjacent lines with the reading.
     float (*sum_far_alternatives)(std::span<const float> best, int max_shared,
                                   const FarAlternatives& sets);
-    /// Lists the places where an alternative may lose less than `loss_limit` over the given lines.
-    /// Searches the sequences whose bit is set in `sequences`, and skips the reading's places,
-    /// `own`. The lines must be sorted by decreasing loss. Returns false if
+    /// Lists the places where an alternative may lose less than `loss_limit` in the given lines.
+    /// Searches the sequences whose bit is set in `sequences`, and skips `own`, the places of the
+    /// reading. The lines must be sorted by decreasing loss. Returns false if
     /// - there are too many places,
     /// - there are fewer than two lines,
     /// - `loss_limit` exceeds 200, or
-    /// - an alternative that shares none of the first four lines may lose less than `loss_limit`.
+    /// - an alternative that shares none of the first eight lines may lose less than `loss_limit`.
     bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,
                                 unsigned sequences, std::span<const LineLoss> lines, int loss_limit,
                                 SimilarPlaceList& list);
     /// Sets `sums[n]` to the sum of the n smallest losses, for n = 0 to 8. `losses` must have 8 to
     /// 16 elements. Negative losses count as 0.
     void (*sum_smallest_losses)(std::span<const std::int16_t> losses, SmallestSums& sums);
-    /// Returns which of the 32 combinations of a batch may lose less than `limit` (at most 255),
-    /// one bit per combination, together with one combination of places in the other sequences.
-    /// `losses` contains the loss in each line that is not shared. A line is shared if the offset
-    /// in the batch equals `opposite`, the negative of the offset of the other combination.
+    /// Compares the 32 combinations of a batch with one combination of places in the other
+    /// sequences. Returns one bit per combination, which is 1 if the alternative may lose less than
+    /// `limit` (at most 255). `losses[i]` is the loss if line i is not shared. A line is shared if
+    /// the offset in the batch equals `opposite`, the negated offset of the other combination.
     std::uint32_t (*similar_in_batch)(const OffsetBatch& batch, const std::uint8_t* opposite,
                                       std::span<const std::uint8_t> losses, int limit);
-    /// Returns the expected odds of the alternatives that differ from the reading in the places in
-    /// the given sequences (`different`, one bit per sequence), and share at most `max_shared` (up
-    /// to 8) adjacent lines. The digits of the alternatives are uniform. `places` are the places of
-    /// the first line. `lines` contains the odds of an alternative in each line. The odds at offset
-    /// 0 are 1, and the padding is 0.
+    /// Returns the expected odds of the alternatives that differ from the reading in the sequences
+    /// `different` (one bit per sequence), and share at most `max_shared` (up to 8) adjacent lines
+    /// with it. Assumes that the digits of the alternatives are uniformly distributed. `places` are
+    /// the places of the first line. `lines` contains the odds of an alternative in each line, by
+    /// roll offset. The odds at offset 0 are 1, and the padding is 0.
     float (*sum_expected_alternatives)(const code::Basis& basis,
                                        const std::array<std::uint32_t, 4>& places,
                                        unsigned different, std::span<const OddsByOffset> lines,
                                        int max_shared);
-    /// Computes the expected odds of the alternatives that differ from the reading in the places in
-    /// two sequences, by the number of anchors that they share. Alternatives that share more than 6
-    /// anchors are not included. Bit n of `anchors` is 1 if line n is an anchor. The other
-    /// arguments are those of `sum_expected_alternatives`.
+    /// Computes the expected odds of the alternatives that differ from the reading in two
+    /// sequences, by the number of shared anchors. Excludes alternatives that share more than 6
+    /// anchors. Bit n of `anchors` is 1 if line n is an anchor. The other arguments are those of
+    /// `sum_expected_alternatives`.
     void (*sum_expected_doubles)(const code::Basis& basis,
                                  const std::array<std::uint32_t, 4>& places,
                                  std::span<const OddsByOffset> lines, std::uint64_t anchors,

@@ -9,7 +9,7 @@
 namespace dotpose::core {
 
 /// Maximum number of decoded columns. The same limit applies to rows. If more lines are in view,
-/// the lines with the clearest bits are decoded.
+/// the decoder uses the lines with the clearest bits.
 inline constexpr int kMaxLines = 64;
 
 /// Agreement of one column or row with the main sequence, indexed by roll.
@@ -27,13 +27,13 @@ struct ScoredLine {
     BestScore best;
 };
 
-/// Size of a table indexed by roll: kSections rounded up to whole vectors. The last entry is not
-/// used.
+/// Size of a table indexed by roll: kSections rounded up to whole vectors. The last entry is
+/// unused.
 inline constexpr std::size_t kRollEntries = 64;
 
 /// Scores of up to kMaxLines adjacent lines, indexed by roll. A score is the number of cells that
-/// agree with the main sequence. Each line stores its scores twice in succession, so kRollEntries
-/// scores can be loaded from any roll.
+/// agree with the main sequence. Each line stores its scores twice in succession, because a load of
+/// kRollEntries scores may start at any roll.
 struct RollScores {
     int count = 0;  ///< number of lines
     std::array<std::array<std::uint16_t, 2 * kRollEntries>, kMaxLines> lines;

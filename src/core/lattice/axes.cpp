@@ -16,12 +16,12 @@ constexpr std::size_t kMinEdges = 12;
 
 using Values = std::span<std::int32_t>;
 
-/// Returns the median edge length, in 2^-8 px. Ignores edges of 128 px or more along an axis.
-/// Returns 0 if no other edges remain.
+/// Returns the median edge length, in 2^-8 px. Ignores edges that extend 128 px or more along an
+/// axis. Returns 0 if all edges are ignored.
 std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
     std::size_t n = 0;
     for (const SeedEdge& edge : edges) {
-        // Below 128 px, half the squared length fits in 32 bits.
+        // Half the squared length fits in 32 bits.
         if (!is_within(edge.step_q8, (1 << 15) - 1)) continue;
         const auto x = static_cast<std::uint32_t>(edge.step_q8.x * edge.step_q8.x);
         const auto y = static_cast<std::uint32_t>(edge.step_q8.y * edge.step_q8.y);
@@ -31,9 +31,9 @@ std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
     return static_cast<std::int32_t>(square_root(half_square * 2));
 }
 
-/// Returns the grid direction modulo a quarter turn, as a binary angle. With edges as complex
-/// numbers, the fourth powers of all four grid directions have the same argument. `length_q8` is
-/// the median edge length.
+/// Returns the grid direction modulo a quarter turn, as a binary angle (2^32 units per turn). As
+/// complex numbers, the steps in all four grid directions have the same fourth power. `length_q8`
+/// is the median edge length.
 std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t length_q8) {
     const std::int32_t inverse_q16 = 1024 * 65536 / length_q8;
     std::int32_t sum_re = 0;
@@ -44,19 +44,21 @@ std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t 
         const std::int32_t x = (step.x * inverse_q16) >> 16;
         const std::int32_t y = (step.y * inverse_q16) >> 16;
         const std::int32_t squared_length = x * x + y * y;
-        // Uses only edges with 1/2 to 5/4 of the median length. This excludes diagonals, whose
-        // fourth powers have the opposite sign and four times the magnitude.
+        // Uses only edges with 1/2 to 5/4 of the median length. Diagonal edges would cancel the
+        // other edges, because their fourth powers have the opposite sign and four times the
+        // magnitude.
         if (squared_length > 1280 * 1280 || squared_length < 512 * 512) continue;
         const std::int32_t re = (x * x - y * y) >> 10;
         const std::int32_t im = (2 * x * y) >> 10;
         sum_re += (re * re - im * im) >> 10;
         sum_im += (2 * re * im) >> 10;
     }
-    // Each sum is at most 2^9 edges times (5/4)^4 * 2^10, which fits in 32 bits.
+    // Each sum is at most 2^9 edges times (5/4)^4 * 2^10. It fits in 32 bits.
     return angle_bam({sum_re, sum_im}) / 4;
 }
 
-/// Cluster of an edge. The edge may point opposite to the cluster mean.
+/// Cluster to which an edge is assigned. An edge that points opposite to a cluster mean belongs to
+/// the opposite cluster.
 enum class Side : std::uint8_t { first, second, opposite_first, opposite_second, unknown };
 
 std::size_t cluster_of(Side side) {
@@ -68,7 +70,7 @@ FixedVec turned(FixedVec edge, Side side) {
 }
 using Sides = std::array<Side, kMaxEdges>;
 
-/// Sum and number of the edges with the same Side.
+/// Sum and number of the edges in one cluster.
 struct Sum {
     FixedVec total;
     std::int32_t count = 0;
@@ -80,8 +82,7 @@ struct Sum {
 };
 using Sums = std::array<Sum, 5>;  ///< indexed by Side
 
-/// Two of the four clusters. The other two clusters are constrained to be their opposites (paper,
-/// Fig. 5).
+/// Two of the four clusters. The other two clusters are their opposites (paper, Fig. 5).
 class Clusters {
   public:
     explicit Clusters(const std::array<FixedVec, 2>& means_q8) : means_q8_(means_q8) {
@@ -119,8 +120,8 @@ class Clusters {
         const FixedVec e{edge_q8.x >> 2, edge_q8.y >> 2};
         const std::int32_t along_0 = e.x * means_q6_[0].x + e.y * means_q6_[0].y;
         const std::int32_t along_1 = e.x * means_q6_[1].x + e.y * means_q6_[1].y;
-        // Compares |mean|^2 / 2 - |edge . mean| for both means. This is min(|edge - mean|^2, |edge
-        // + mean|^2) / 2 without the common term |edge|^2 / 2.
+        // Compares |mean|^2 / 2 - |edge . mean| for both means. Adding |edge|^2 / 2 to this term
+        // gives half the squared distance from the edge to the nearer of mean and -mean.
         if (magnitude(along_1) - magnitude(along_0) > farther_)
             return along_1 < 0 ? Side::opposite_second : Side::second;
         return along_0 < 0 ? Side::opposite_first : Side::first;
@@ -131,7 +132,7 @@ class Clusters {
     }
 
     std::array<FixedVec, 2> means_q8_;
-    std::array<FixedVec, 2> means_q6_;  ///< in 2^-6 px, so that products fit in 32 bits
+    std::array<FixedVec, 2> means_q6_;  ///< in 2^-6 px, because products must fit in 32 bits
     /// (|mean 1|^2 - |mean 0|^2) / 2.
     std::int32_t farther_;
 };
@@ -183,12 +184,13 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
     const Clusters clusters({along, FixedVec{-along.y, along.x}});
     const auto [u, v] = medians(edges, clusters, memory);
     // Correction factor for the axis lengths, in 1/256. Symmetric edges are on average 4 % shorter
-    // than the spacing. A dot displaced towards another dot is more often its nearest neighbour.
+    // than the spacing, because dots displaced towards each other are more often nearest
+    // neighbours.
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;
-    // Unlike the paper, does not keep both medians as axes, but averages them into a square grid.
-    // The medians deviate from a square mostly because of scatter, not tilt. Averaging halves the
-    // variance.
+    // Unlike the paper, which uses both medians as axes, this estimate averages them into a square
+    // grid. The medians deviate from a square mostly because of random errors, not because of tilt.
+    // Averaging halves the variance.
     const FixedVec twice_u{u.x + v.y, u.y - v.x};
     lattice.u_q16 = {twice_u.x * kLengthening_q8 / 2, twice_u.y * kLengthening_q8 / 2};
     lattice.v_q16 = {-lattice.u_q16.y, lattice.u_q16.x};
@@ -196,8 +198,8 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
 }
 
 bool is_nearly_square(FixedVec u, FixedVec v) {
-    // Keeps only the fourteen most significant bits, which are sufficient. Products of four
-    // components then fit in 64 bits.
+    // Keeps only the fourteen most significant bits. Products of four components then fit in 64
+    // bits.
     const auto longest =
         static_cast<std::uint32_t>(std::max(larger_component(u), larger_component(v)));
     const int shift = std::max(static_cast<int>(std::bit_width(longest)) - 14, 0);

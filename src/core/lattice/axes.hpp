@@ -1,5 +1,5 @@
 // Axes: estimates the directions and spacings of the grid from symmetric edges between dots (paper,
-// section II-B.2, Fig. 5: constrained k-means).
+// section II-B.2, Fig. 5).
 #pragma once
 
 #include "dotpose/status.hpp"
@@ -9,13 +9,13 @@ namespace dotpose::core {
 
 /// Sets the axes u and v of the lattice, but not its origin. v is u rotated by 90 degrees from +x
 /// to +y. `memory` must contain two elements per edge. Returns no_grid if there are fewer than 12
-/// edges, or if every edge is 128 px or longer along an axis. Also returns no_grid if the median
-/// edges are not nearly square (see `is_nearly_square`).
+/// edges, if every edge extends 128 px or more along an axis, or if the median edges fail
+/// `is_nearly_square`.
 Status estimate_axes(std::span<const SeedEdge> edges, std::span<std::int32_t> memory,
                      Lattice& lattice);
 
-/// Returns true if u and v may be the axes of a square grid seen by a tilted camera. The ratio of
-/// the two lengths must be at most 3:2. The sine of the angle from u to v must be at least 0.9.
+/// Returns true if u and v may be the axes of a square grid seen by a tilted camera. The lengths
+/// may differ by a factor of up to 1.5. The sine of the angle from u to v must be at least 0.9.
 /// Angles increase from +x towards +y.
 bool is_nearly_square(FixedVec u, FixedVec v);
 /// Returns true if the grid axes at the centre of a plane are nearly square. The spacing along u

@@ -11,7 +11,7 @@ namespace {
 constexpr int kDistanceBins = 64;
 
 /// The seeds, sorted into square buckets in row-major order. Seeds that are close in the image are
-/// then close in memory.
+/// also close in memory.
 class Buckets {
   public:
     Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
@@ -30,8 +30,8 @@ class Buckets {
     }
 
   private:
-    const std::span<BucketedSeed>
-        memory_;  ///< element columns * rows contains the end of the last bucket
+    /// Element columns * rows contains the end of the last bucket.
+    const std::span<BucketedSeed> memory_;
     const std::size_t count_;
     int shift_ = 0;
     int columns_ = 1;
@@ -48,8 +48,8 @@ Buckets::Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_
         corner = {std::min(corner.x, p.x), std::min(corner.y, p.y)};
         end = {std::max(end.x, p.x), std::max(end.y, p.y)};
     }
-    // A bucket contains one to four seeds on average. The four nearest neighbours of a seed are
-    // then usually in the 3 x 3 buckets around it.
+    // Chooses a size for which a bucket contains one to four seeds on average. The 3 x 3 buckets
+    // around a seed then usually contain its four nearest neighbours.
     const int max_buckets = static_cast<int>(seeds.size());
     do {
         ++shift_;
@@ -88,8 +88,8 @@ std::uint32_t wrapped_square(std::int32_t a) {
 /// The four nearest seeds found so far, nearest first.
 class Nearest {
   public:
-    /// Keeps only seeds with a squared distance from `self` below `within_q16`. `may_be_far` must
-    /// be true if `search` may test seeds that are 128 px or more away.
+    /// Accepts only seeds with a squared distance from `self` below `within_q16`. `may_be_far` must
+    /// be true if `search` may test seeds that are 128 px or more away along an axis.
     Nearest(const BucketedSeed& self, std::uint32_t within_q16, bool may_be_far)
         : self_(self), may_be_far_(may_be_far) {
         for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -102,7 +102,7 @@ class Nearest {
         const auto [x, y] = self_.at_q8;
         std::uint32_t farthest_q16 = squared_q16_[3];
         for (; p != end; ++p) {
-            // The squared distance of a far seed may overflow and look small. `consider` rejects
+            // The squared distance of a far seed may wrap to a small number. `consider` rejects
             // such seeds.
             const std::uint32_t squared_q16 =
                 wrapped_square(p->at_q8.x - x) + wrapped_square(p->at_q8.y - y);
@@ -157,7 +157,7 @@ void widen(std::array<std::uint16_t, kDistanceBins>& histogram) {
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds) {
     // Histogram of the distances from the centre. The bins are as narrow as possible, but the last
-    // bin must contain the farthest dot.
+    // bin must include the farthest dot.
     std::array<std::uint16_t, kDistanceBins> histogram{};
     int shift = 0;
     for (const DetectedDot& dot : dots) {
@@ -197,8 +197,8 @@ void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uin
             const bool is_last = reach >= max_reach || sure_q8 >= kFarthest_q8;
             const auto within_q16 =
                 is_last ? UINT32_MAX : static_cast<std::uint32_t>(sure_q8 * sure_q8);
-            // The searched buckets contain all seeds within sure_q8 of p. They contain no seeds
-            // more than 2 * sure_q8 away along either axis.
+            // The searched buckets contain all seeds within sure_q8 of p, and no seeds more than 2
+            // * sure_q8 away along an axis.
             Nearest nearest(p, within_q16, 2 * sure_q8 > kFarthest_q8);
             const int left = std::max(column - reach, 0);
             const int right = std::min(column + reach, buckets.columns() - 1);

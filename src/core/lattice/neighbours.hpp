@@ -1,7 +1,7 @@
 // Neighbours: the nearest neighbours of each seed, and the symmetric edges between seeds (paper,
 // section II-B.2). *Seeds* are the dots nearest the image centre, at most kMaxSeeds. Unlike the
-// paper, which connects all dots, the first grid is fitted only to seeds. The grid is then extended
-// outwards (device/grow.hpp, lattice/refine_grid.hpp). This bounds the time for any image.
+// paper, which connects all dots, dotpose fits the first grid only to seeds. Later stages extend
+// the grid outwards (device/grow.hpp, lattice/refine_grid.hpp). This bounds the time for any image.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,17 @@ namespace dotpose::core {
 /// Maximum number of seeds.
 inline constexpr int kMaxSeeds = 256;
 
-/// Element of two independent arrays that share their memory. `at_q8` and `seed` belong to the
-/// array of seeds, which is sorted by bucket in row-major order. `begin` belongs to the array of
-/// buckets.
+/// Element of two independent arrays that share memory. `at_q8` and `seed` belong to the array of
+/// seeds, sorted by bucket in row-major order. `begin` belongs to the array of buckets.
 struct BucketedSeed {
     FixedVec at_q8;           ///< position relative to the corner of the first bucket
     std::uint16_t seed = 0;   ///< index of the seed
     std::uint16_t begin = 0;  ///< index of the bucket's first seed
 };
 
-/// Chooses at most `seeds.size()` dots in a square around `centre_q8`. Enlarges the square in steps
-/// of a histogram bin, as long as it does not contain more dots. Writes the dot indices to `seeds`
-/// and returns their number.
+/// Chooses at most `seeds.size()` dots in a square around `centre_q8`. The square grows by one bin
+/// of a distance histogram at a time, as long as it contains at most `seeds.size()` dots. Writes
+/// the dot indices to `seeds` and returns their number.
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds);
 
@@ -34,9 +33,9 @@ void find_neighbours(std::span<const DetectedDot> dots, std::span<const std::uin
                      std::span<BucketedSeed> memory,
                      std::span<std::array<std::int16_t, 4>> neighbours);
 
-/// Finds the symmetric edges between seeds. In a symmetric edge, each seed is among the other's
-/// four nearest neighbours. Writes each edge once, pointing down or, if horizontal, right. Returns
-/// the number of edges.
+/// Finds the symmetric edges between seeds. An edge is symmetric if each of its two seeds is among
+/// the four nearest neighbours of the other. Writes each edge once, pointing down or, if
+/// horizontal, right. Returns the number of edges.
 int connect_symmetric(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                       std::span<const std::array<std::int16_t, 4>> neighbours,
                       std::span<SeedEdge> edges);

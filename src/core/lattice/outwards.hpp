@@ -1,7 +1,7 @@
-// Outwards: finds the grid of a patch, starting near its middle. Two plane waves through the
-// central dots give a first plane. The plane is then fitted to more and more dots. The fit includes
-// perspective once it uses dots more than four spacings from the middle (paper, sections II-B.2 and
-// II-B.3).
+// Outwards: finds the grid of a patch, starting near its middle (paper, sections II-B.2 and
+// II-B.3). Two plane waves that fit the central dots give a first plane. The search then refits the
+// plane to more and more dots. The fit includes perspective once it uses dots more than four
+// spacings from the middle.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -13,12 +13,12 @@ namespace dotpose::core {
 struct PatchGrid {
     FloatPlane grid_from_image;  ///< relative to the origin of the dot coordinates
     float displacement = 0;      ///< root mean square displacement of the dots, in spacings
-    /// Variance of a dot's offset from the nearest of its cell's four places, per axis, in
-    /// spacings^2.
+    /// Variance of the offset between a dot and the nearest of the four places of its cell, per
+    /// axis, in spacings^2.
     float variance = 0;
-    /// Agreement of the dots with the grid: the sum of max_off^2 - offset^2 over the dots that are
-    /// within max_off of a place of their cell, in spacings^2. Comparable between grids of the same
-    /// dots.
+    /// Agreement of the dots with the grid, in spacings^2. This is the sum of m^2 - offset^2 over
+    /// the dots whose offset is at most m, where m is `CellPass::max_off`. The offset is the
+    /// distance to the nearest place of the dot's cell. Comparable between grids of the same dots.
     float agreement = 0;
 };
 
@@ -31,23 +31,23 @@ struct PatchView {
     /// Approximate number of central dots, from which the waves are computed. At most 64.
     float central_dots = 30;
     int min_dots = 40;  ///< minimum number of dots in the patch
-    /// True if the cells may be any parallelograms, because a rolling shutter may shear and stretch
-    /// the image. Otherwise, the cells must be about square.
+    /// True if the cells may be arbitrary parallelograms, because a rolling shutter shears and
+    /// stretches the image. Otherwise, the cells must be about square.
     bool is_skewed = false;
 };
 
-/// Returns the search parameters for a patch that dots cover completely.
+/// Returns the search parameters for a patch that is covered with dots.
 PatchView whole_view(const Patch& patch);
 
-/// Moves the dots' origin to the densest part of the patch. Intended for patches that the pattern
-/// covers only partly. In a sample of the dots, finds the dot with the smallest distance to its
-/// 20th nearest neighbour. The new origin is this dot, rounded down to whole px. Sets `view`, and
-/// sets `from_middle_px` to the new origin relative to the patch middle. Returns false if there are
-/// fewer than kMinDots dots.
+/// Moves the origin of the dots to the densest part of the patch, for patches that the pattern
+/// covers only partly. Compares a sample of the dots by the distance to their 20th nearest
+/// neighbour. The new origin is the dot with the smallest distance, rounded down to whole px. Sets
+/// `view`, and sets `from_middle_px` to the new origin relative to the patch middle. Returns false
+/// if there are fewer than kMinDots dots.
 bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
-/// Finds the grid. Returns false if there are fewer than `view.min_dots` dots, or if they do not
-/// form a grid. Also returns false if the dots are not displaced from the intersections.
+/// Finds the grid. Returns false if there are fewer than `view.min_dots` dots, or if the dots do
+/// not form a grid. Also returns false if the dots are not displaced from the intersections.
 bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view, PatchGrid& grid);
 
 }  // namespace dotpose::core

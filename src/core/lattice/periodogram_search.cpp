@@ -32,7 +32,7 @@ struct Wave {
 
 constexpr std::int32_t kQuarter_bam = 1 << 30;
 
-/// Periodogram of the seeds within `reach_q8` of the centre, per axis.
+/// Periodogram of the seeds within `reach_q8` of the centre along each axis.
 class Periodogram {
   public:
     Periodogram(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
@@ -77,7 +77,7 @@ struct Raster {
     int stretches;
 };
 
-/// Returns the strongest wave in a raster around `around`.
+/// Returns the strongest wave in a raster centred on the wave `around`.
 template <typename Power>
 Wave best_around(const Wave& around, const Raster& raster, Power power) {
     Wave best = around;
@@ -116,8 +116,8 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
     const FixedVec a = first.vector_q30();
     const FixedVec b = second.vector_q30();
     const std::int64_t area_q44 = std::max<std::int64_t>(cross(a, b) >> 16, 1);
-    // Limit for the axis components, in 2^-16 px. Two waves in the same direction do not determine
-    // a grid. The caller rejects such a lattice later, but the components must not overflow here.
+    // Limit for the axis components, in 2^-16 px. The components must not overflow if both waves
+    // have the same direction. The caller rejects such a lattice later.
     constexpr std::int32_t kLongest_q16 = 4096 << 16;
     const auto entry = [&](std::int32_t part_q30) {
         return limited((std::int64_t{part_q30} << 30) / area_q44, kLongest_q16);
@@ -125,7 +125,8 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
     Lattice lattice;
     lattice.u_q16 = {entry(b.y), entry(-b.x)};
     lattice.v_q16 = {entry(-a.y), entry(a.x)};
-    // At an intersection, each wave has the phase of its sum over all dots, modulo one cycle.
+    // At an intersection, the phase of each wave equals the phase of its sum over all dots, modulo
+    // one cycle.
     const std::int64_t i_q16 = angle_bam(periodogram.sum(first)) >> 16;
     const std::int64_t j_q16 = angle_bam(periodogram.sum(second)) >> 16;
     lattice.origin_q16 = {
@@ -143,14 +144,14 @@ void search_periodogram(std::span<const DetectedDot> dots, std::span<const std::
     Wave wave{angle_bam({lattice.u_q16.x / 2 + lattice.v_q16.y / 2,
                          lattice.u_q16.y / 2 - lattice.v_q16.x / 2}),
               static_cast<std::int32_t>(length_q16)};
-    // Dots within kNear_cells of the centre give a peak that is wide enough for a coarse raster.
+    // Uses the dots within kNear_cells of the centre. Their periodogram has a peak that is wide
+    // enough for a coarse raster.
     const Periodogram near(dots, seeds, centre_q8, wave.spacing_q16 / 256 * tuned::kNear_cells);
     wave = best_around(wave,
                        {tuned::kTurn_deg * kDegree_bam, wave.spacing_q16 / tuned::kStretchPart,
                         max_turn_deg / tuned::kTurn_deg, tuned::kStretches},
                        [&](const Wave& w) { return near.power_of_square(w); });
-    // If the camera is tilted, the two directions have different spacings and are not
-    // perpendicular.
+    // For a tilted camera, the two directions have different spacings and are not perpendicular.
     const Raster tilt{tuned::kTiltTurn_deg * kDegree_bam,
                       wave.spacing_q16 / tuned::kTiltStretchPart, tuned::kTiltSteps,
                       tuned::kTiltSteps};

@@ -13,14 +13,14 @@ namespace {
 
 namespace tuned = tuning::refine_grid;
 
-/// Maximum distance from cell (0, 0) along either axis, in cells. Dots in farther cells are
-/// ignored.
+/// Maximum distance of a cell from cell (0, 0) along either axis, in cells. The fit ignores dots in
+/// farther cells.
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
 /// Moves the origin by the median offset of the dots near the origin (paper, eq. 6). Unlike the
-/// paper, adds the median to the origin. The subtraction in eq. 6 is a sign error, because offsets
-/// are measured from the estimated origin. A larger origin gives smaller grid coordinates.
+/// paper, this function adds the median, because offsets are measured from the estimated origin.
+/// The subtraction in eq. 6 is a sign error.
 void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     std::array<std::int32_t, kMedianSample> x;
     std::array<std::int32_t, kMedianSample> y;
@@ -62,7 +62,7 @@ struct Target {
     FixedVec place_q16;
 };
 
-/// Returns an upper bound of a dot's distance from `centre_q8`, per axis, in whole px.
+/// Returns an upper bound on the distances between the dots and `centre_q8`, per axis, in whole px.
 int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
     std::int32_t reach = 1;
     for (const DetectedDot& dot : dots)
@@ -70,8 +70,8 @@ int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
     return reach;
 }
 
-/// Fits the plane to the dots' targets with one Gauss-Newton step. `target_of(g)` returns the
-/// target of a dot at grid point g. Does not change the plane if the dots do not determine the
+/// Fits the plane to the targets of the dots with one Gauss-Newton step. `target_of(g)` returns the
+/// target of a dot at grid point g. Leaves the plane unchanged if the dots do not determine the
 /// step.
 template <typename TargetOf>
 void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, TargetOf target_of) {
@@ -105,9 +105,9 @@ void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, Ta
         plane = stepped(plane, scaled, step);
 }
 
-/// Fits the plane to the dots whose cells are at most `reach_cells` from the origin. Each dot is
-/// fitted to its nearest intersection. Unlike the paper, does not continue with median lengths
-/// after eq. 6, but determines all terms by least squares. Displacements count as noise.
+/// Fits the plane to the dots whose cells are at most `reach_cells` from the origin, each at its
+/// nearest intersection. Unlike the paper, which uses median lengths after eq. 6, this fit
+/// determines all terms by least squares. Displacements count as noise.
 void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
     fit_to_targets(dots, plane, [&](const GridPoint& g) {
@@ -117,8 +117,8 @@ void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOption
     });
 }
 
-/// Fits the plane to displaced dots, each at the nearest of its cell's four places. Ignores dots
-/// farther than kFar_q16 from this place.
+/// Fits the plane to displaced dots, each at the nearest of the four places of its cell. Ignores
+/// dots farther than kFar_q16 from this place.
 void fit_places(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
     constexpr std::int32_t kFar_q16 = tuned::kFar_q16;
     fit_to_targets(dots, plane, [](const GridPoint& g) {

@@ -1,5 +1,5 @@
-// Regularity: agreement of the dots with a grid whose fit grows outwards. The *reach* of the fit is
-// the maximum distance of a dot's cell from the origin, per axis, in cells.
+// Regularity: agreement of the dots with a grid whose fit grows outwards. The *reach* of a fit is
+// the maximum distance between the origin and the cells of its dots, per axis, in cells.
 #pragma once
 
 #include <algorithm>
@@ -10,20 +10,20 @@
 
 namespace dotpose::core {
 
-/// Nominal displacement of a dot from its intersection, in spacings.
+/// Nominal displacement of a dot from its intersection, in 2^-16 spacings.
 inline constexpr std::int32_t kDisplacement_q16 = 65536 / 6;
 
 /// Distance from the origin up to which the first estimate is reliable, in cells. Errors of 3 % in
 /// spacing, 1 degree in direction and 1/20 cell in the origin add up to less than 1/3 cell at this
-/// distance. A displaced dot is 1/3 cell away from the border of its cell.
+/// distance. A displaced dot is 1/3 cell from the nearest border of its cell.
 inline constexpr int kFirstReach_cells = 4;
 
 /// Statistics of the dots within the reach of a fit.
 struct Regularity {
     int dots = 0;
     int near_intersections = 0;
-    /// Largest distance of a dot's cell from the origin, in cells. Includes dots beyond the reach,
-    /// but callers ignore dots beyond kFarthest_cells.
+    /// Largest distance between the origin and the cell of a dot, in cells. Includes dots beyond
+    /// the reach. Callers ignore dots beyond kFarthest_cells.
     int farthest_cell = 0;
 
     /// Returns true if at least kSettled_20th / 20 of the dots are near an intersection. The reach
@@ -32,10 +32,9 @@ struct Regularity {
         return 20 * near_intersections >= tuning::regularity::kSettled_20th * dots;
     }
 
-    /// Returns the grid status for a mean squared offset of all dots, in spacings^2. For dots at
-    /// random places, the mean is 1/6, and half the dots are near an intersection. For displaced
-    /// dots on a grid, the mean is 1/36, and all dots are near an intersection. For a plain dot
-    /// grid, the mean is 0.
+    /// Returns the grid status for a mean squared offset of all dots, in spacings^2. The mean is
+    /// 1/6 for dots at random places, 1/36 for displaced dots on a grid, and 0 for a plain dot
+    /// grid. Half the dots at random places are near an intersection.
     Status verdict(std::int64_t mean_square_q20) const {
         constexpr std::int64_t kScattered_q20 = (1 << 20) / 10;
         constexpr std::int64_t kUndisplaced_q20 = (1 << 20) / 256;
@@ -47,11 +46,10 @@ struct Regularity {
     }
 };
 
-/// Extends a fit from kFirstReach_cells to the farthest dot. `fit(reach_cells)` fits the grid to
-/// the dots at most `reach_cells` from the origin, sets `found`, and returns false if the fit
-/// fails. Repeats the fit at each reach until enough dots are near an intersection, at most
-/// `max_rounds` times. A better fit assigns more dots to the correct cells. Returns false if a fit
-/// fails.
+/// Extends a fit from kFirstReach_cells to the farthest dot. `fit(reach_cells)` must fit the grid
+/// to the dots at most `reach_cells` from the origin, and set `found`. At each reach, repeats the
+/// fit up to `max_rounds` times until enough dots are near an intersection. Each fit assigns more
+/// dots to the correct cells. Returns false if `fit` returns false.
 template <typename Fit>
 bool fit_outwards(int max_rounds, const Regularity& found, Fit fit) {
     for (int reach = kFirstReach_cells;; reach += reach / 2 + 1) {

@@ -1,7 +1,10 @@
 // Tuning: empirical constants of grid detection. The constants of the second attempt were
-// determined on the hard frames listed in decode/tuning.hpp. Comments state how many frames
-// `dotpose evaluate --preset hard --frames 2000 --seed 404` locates with other values. With the
-// values below, it locates 1,994 frames.
+// determined on the hard frames listed in decode/tuning.hpp. Some comments compare a constant with
+// other values, by the number of frames located by
+//
+//     dotpose evaluate --preset hard --frames 2000 --seed 404
+//
+// The values in this file locate 1,994 frames.
 #pragma once
 
 namespace dotpose::core::tuning {
@@ -9,7 +12,7 @@ namespace dotpose::core::tuning {
 /// Growth of a grid fit (lattice/regularity).
 namespace regularity {
 /// Minimum fraction of dots near an intersection before the fit extends to farther dots, in 1/20.
-/// One dot in twenty may be dirt.
+/// The remaining dots may be dirt.
 inline constexpr int kSettled_20th = 19;
 /// Minimum fraction of dots near an intersection in a grid, in 1/10. At random places, half the
 /// dots are near an intersection.
@@ -20,24 +23,24 @@ inline constexpr int kMin_10ths = 7;
 namespace refine_grid {
 /// Maximum number of dots whose median offset corrects the origin.
 inline constexpr int kMedianSample = 256;
-/// Maximum number of fits before the fit extends to farther dots. A better fit assigns more dots to
-/// the correct cells.
+/// Maximum number of fits before the fit extends to farther dots. Each fit assigns more dots to the
+/// correct cells.
 inline constexpr int kMaxRounds = 4;
-/// Maximum distance of a dot from the nearest of its cell's four places, in 2^-16 spacings. Dots at
-/// a larger distance are false. The value is slightly less than the displacement. The value is not
-/// critical: with half or twice the value, 1,994 frames are located, too.
+/// Maximum distance between a dot and the nearest of the four places of its cell, in 2^-16
+/// spacings. Dots at a larger distance count as false dots. The limit is slightly less than the
+/// displacement. Half or twice this value also locates 1,994 frames.
 inline constexpr int kFar_q16 = 65536 / 8;
-/// Number of fits to the nearest places. The second fit assigns dots to places with the more
-/// precise plane of the first fit.
+/// Number of fits to the nearest places. The second fit starts from a more precise plane, and
+/// assigns more dots to their correct places.
 inline constexpr int kPlaceRounds = 2;
 }  // namespace refine_grid
 
 /// First grid of the second attempt, from the periodogram (lattice/periodogram_search).
 namespace periodogram_search {
 /// Half side of the central square whose dots are in the periodogram, in spacings. Raster searches
-/// use kNear_cells, and the ascent to the maximum uses kWider_cells. A smaller square has a wider
-/// peak, which a coarse raster cannot miss. A larger square has a more precise maximum. With
-/// kNear_cells = 3, 1,964 frames are located. With kNear_cells = 10, 1,993 frames are located.
+/// use kNear_cells, because the periodogram of a small square has a wide peak, which a coarse
+/// raster cannot miss. The ascent uses kWider_cells, because the peak of a larger square is more
+/// precise. kNear_cells = 3 locates 1,964 frames, and kNear_cells = 10 locates 1,993 frames.
 inline constexpr int kNear_cells = 5;
 inline constexpr int kWider_cells = 8;
 /// Raster of the first search: direction step in degrees, spacing divided by its step, and spacing
@@ -46,13 +49,13 @@ inline constexpr int kTurn_deg = 2;
 inline constexpr int kStretchPart = 40;
 inline constexpr int kStretches = 4;
 /// Raster of the separate search for each direction, for tilted cameras. Three steps to each side
-/// reach 9 degrees and 12 % of the spacing. At a tilt of 30 degrees, one spacing is 13 % shorter
-/// than the other.
+/// cover 9 degrees and 12 % of the spacing. At a tilt of 30 degrees, the two spacings differ by 13
+/// %.
 inline constexpr int kTiltTurn_deg = 3;
 inline constexpr int kTiltStretchPart = 25;
 inline constexpr int kTiltSteps = 3;
 /// First steps of the ascent to the maximum: direction step in degrees, and spacing divided by its
-/// step. The last steps are 1/kFinest of the first.
+/// step. The last steps are 1/kFinest of the first steps.
 inline constexpr int kFirstTurn_deg = 1;
 inline constexpr int kFirstStretchPart = 80;
 inline constexpr int kFinest = 8;
@@ -68,43 +71,44 @@ inline constexpr int kMinDots = 40;
 /// at least 12 directions.
 inline constexpr int kMinCentralDots = 14;
 inline constexpr int kMaxCentralDots = 64;
-/// Limits for the total power of both waves, divided by the square of the dot count. A grid without
-/// displacements reaches about 2. Above kClearWaves, no further spacings are tried. Below
-/// kFaintWaves, the waves are rejected.
+/// Limits for the total power of the two waves, divided by the squared number of dots. A grid
+/// without displacements reaches about 2. The search stops trying other spacings above kClearWaves,
+/// and rejects waves below kFaintWaves.
 inline constexpr float kClearWaves = 0.2F;
 inline constexpr float kFaintWaves = 0.12F;
-/// Range of spacings in the smoothed patch, in patch pixels. In a finer grid, neighbouring dots
-/// merge. In a coarser grid, a dot has more than one minimum.
+/// Range of spacings in the smoothed patch, in patch pixels. Dots of a finer grid merge. Dots of a
+/// coarser grid have more than one minimum.
 inline constexpr float kFinest_px = 5.2F;
 inline constexpr float kCoarsest_px = 40;
 /// Limits of a plausible fit: minimum and maximum spacing relative to the first spacing, and
-/// maximum change in scale within the reach. These limits reject fits with half or twice the true
-/// spacing.
+/// maximum difference between the perspective divisor and 1 within the reach. These limits reject
+/// fits with half or twice the true spacing.
 inline constexpr float kMinSpacing = 0.7F;
 inline constexpr float kMaxSpacing = 1.4F;
 inline constexpr float kMaxFold = 0.7F;
-/// Reach and maximum offset from an intersection in the first rounds, in spacings. Displacements
-/// count as noise in these rounds.
+/// Reach and maximum offset from an intersection in the first rounds, in spacings. These rounds
+/// treat displacements as noise.
 inline constexpr float kFirstReach = 3;
 inline constexpr float kFirstMaxOffset = 0.42F;
 /// Range of the displacement in a first grid, in spacings. This range is slightly wider than the
 /// range of 0.12 to 0.30 in docs/limits.md.
 inline constexpr float kMinDisplacement = 0.11F;
 inline constexpr float kMaxDisplacement = 0.32F;
-/// Maximum distance of a dot from the nearest of its cell's four places. This is kMaxOffsetPart
-/// times the displacement, but at most kMaxOffset spacings. Larger circles around the places would
-/// nearly touch.
+/// Maximum distance between a dot and the nearest of the four places of its cell. The limit is
+/// kMaxOffsetPart times the displacement, but at most kMaxOffset spacings. Larger circles around
+/// the places would nearly touch.
 inline constexpr float kMaxOffsetPart = 0.75F;
 inline constexpr float kMaxOffset = 0.18F;
-/// Minimum number of dots that a fit uses, and minimum fraction of the dots within
-/// `CellPass::reach_px` that are near one of their cell's places. Below either minimum, the search
-/// ends without a grid. kMaxRounds is the maximum number of fits.
+/// Limits below which the search ends without a grid: minimum number of dots that a fit uses, and
+/// minimum fraction of the dots within `CellPass::reach_px` that are near one of the four places of
+/// their cell. kMaxRounds is the maximum number of fits.
 inline constexpr float kMinUsed = 12;
 inline constexpr float kMinFraction = 0.4F;
 inline constexpr int kMaxRounds = 16;
 /// Growth factors of `CellPass::reach_px` from round to round. The factor depends on the fraction
-/// of dots near one of their cell's places: above kGoodFraction, above kFairFraction, or less. If
-/// the plane is poor, the reach shrinks, to improve the plane near the middle first.
+/// of dots near one of the four places of their cell: above kGoodFraction, above kFairFraction, or
+/// less. If the plane is poor, the reach shrinks, because the plane must first improve near the
+/// middle.
 inline constexpr float kGoodFraction = 0.9F;
 inline constexpr float kGoodGrowth = 1.8F;
 inline constexpr float kFairFraction = 0.8F;

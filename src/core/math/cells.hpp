@@ -41,8 +41,8 @@ class Cells {
   private:
     static constexpr std::int32_t kHalf_q16 = 1 << 15;
 
-    // Plane centre minus 1/16 px, and plane point of the centre plus half a spacing. With these
-    // offsets, the right shifts round to the nearest 1/8 px and to the nearest cell.
+    // Plane centre minus 1/16 px, and plane point at the centre plus half a spacing. With these
+    // offsets, right shifts round to the nearest 1/8 px and to the nearest cell.
     FixedVec rounding_centre_q8_;
     FixedVec rounding_at_centre_q16_;
     FixedVec du_q18_;

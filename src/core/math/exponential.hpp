@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// ln 2 as a sum of two numbers. kLn2High has nine significant bits, so products of kLn2High with
-/// integers up to 2^15 are exact.
+/// ln 2 = kLn2High + kLn2Low. kLn2High has nine significant bits, so its products with integers up
+/// to 2^15 are exact.
 inline constexpr float kLn2High = 0.693359375F;
 inline constexpr float kLn2Low = -2.121944401e-4F;
 
@@ -39,7 +39,7 @@ inline float natural_log(float x) {
         mantissa *= 2;
         --exponent;
     }
-    // ln m = 2 artanh t, computed from the series up to the ninth power.
+    // ln m = 2 artanh t. Uses the series of artanh up to the ninth power.
     const float t = (mantissa - 1) / (mantissa + 1);
     const float square = t * t;
     constexpr float kSeries[] = {1.0F / 7, 1.0F / 5, 1.0F / 3, 1};

@@ -6,7 +6,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Angles of CORDIC (Volder 1959): atan(2^-i) as binary angles, for i = 0..29.
+/// Rotation angles of CORDIC (Volder 1959): atan(2^-i) as binary angles, for i = 0..29.
 constexpr std::array<std::int32_t, 30> kAtan{
     536870912, 316933406, 167458907, 85004756, 42667331, 21354465, 10679838, 5340245,
     2670163,   1335087,   667544,    333772,   166886,   83443,    41722,    20861,
@@ -68,7 +68,7 @@ std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
 
 std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift) {
     if (shift > 0) {
-        // Shifts the numerator left by at most `shift` bits, to at most 62 bits. Shifts the
+        // Shifts the numerator left by as many bits as keep it within 62 bits. Shifts the
         // denominator right by the remaining bits.
         const auto bits = std::bit_width(static_cast<std::uint64_t>(magnitude(numerator)));
         const int up = std::clamp(62 - static_cast<int>(bits), 0, shift);
@@ -119,8 +119,8 @@ std::int32_t angle_bam(FixedVec direction) {
         y = -y;
         angle = static_cast<std::uint32_t>(kHalfTurn);
     }
-    // Scales the vector to 41 bits. The truncation errors then add up to far less than the last
-    // angle in the table.
+    // Scales the vector to 41 bits. The truncation errors of all steps then add up to much less
+    // than the last angle in the table.
     const auto bits = std::bit_width(static_cast<std::uint64_t>(x + magnitude(y)));
     x <<= 41 - static_cast<int>(bits);
     y *= std::int64_t{1} << (41 - bits);
@@ -135,9 +135,9 @@ std::int32_t angle_bam(FixedVec direction) {
             angle -= static_cast<std::uint32_t>(kAtan[i]);
         }
     };
-    // First step in which |y| fits in 32 bits. The rotations increase the length to at most 1.65 *
-    // 2^41. Before step i, |y| is at most 2^(1 - i) times the length. From step 12 on, |y| and the
-    // amount subtracted from y fit in 32 bits.
+    // First step in which |y| fits in 32 bits. The rotations lengthen the vector to at most 1.65 *
+    // 2^41. Before step i, |y| is at most 2^(1 - i) times this length. From step 12 on, |y| and the
+    // terms subtracted from y fit in 32 bits.
     constexpr std::size_t kNarrow = 12;
     for (std::size_t i = 0; i < kNarrow; ++i)
         turn(x, y, x >> i, i);

@@ -68,8 +68,8 @@ constexpr FixedVec divided_q30(FixedVec n, std::int64_t d_q30) {
             static_cast<std::int32_t>(divide_rounded(n.y * kOne_q30, d_q30))};
 }
 
-/// Returns the number of set bits. Counts in parallel in fields of two, four and eight bits, the
-/// fastest method on small processors.
+/// Returns the number of set bits. Adds up fields of two, four and eight bits in parallel, which is
+/// the fastest method on processors without a popcount instruction.
 constexpr int bits_in(std::uint32_t word) {
     word -= word >> 1 & 0x55555555;
     word = (word & 0x33333333) + (word >> 2 & 0x33333333);
@@ -115,12 +115,13 @@ constexpr std::int64_t exp2_q16(int n_q8) {
     return std::int64_t{mantissa_q16} << (n_q8 >> 8);
 }
 
-/// Value that represents log2(0), in units of 2^-8.
+/// Logarithm of zero, in units of 2^-8.
 inline constexpr int kNever_q8 = -(1 << 20);
 
-/// log2(1 + 2^-d) in units of 2^-8, for d = 0, 1, ..., rounded up. The first value is 255 instead
-/// of 256 to fit in a byte, and `add_log2` adds 1. The function is convex, so linear interpolation
-/// gives an upper bound. Not local to `add_log2`, because each inlined call would copy the table.
+/// log2(1 + 2^-d) in units of 2^-8, for d = 0, 1, ..., rounded up. The first entry is 255 instead
+/// of 256 to fit in a byte, so `add_log2` adds 1. Linear interpolation gives an upper bound,
+/// because the function is convex. The table is not local to `add_log2`, because each inlined call
+/// would copy it.
 inline constexpr std::array<std::uint8_t, 12> kGain{255, 150, 83, 44, 23, 12, 6, 3, 2, 1, 1, 1};
 
 /// Returns an upper bound on log2(n) in units of 2^-8, for 0 < n < 2^24. Uses the bound log2(1 + f)
@@ -148,8 +149,8 @@ std::int32_t median(std::span<std::int32_t> values);
 /// Returns the upper quartile, or 0 if there are no values. Reorders the values.
 std::int32_t upper_quartile(std::span<std::int32_t> values);
 
-/// Returns the sine of a phase, times 2^14. Phases are in units of 2^-16 turns. The sine is
-/// approximated by two parabolas, with an error of at most 6 %.
+/// Returns the sine of a phase, times 2^14. Phases are in units of 2^-16 turns. The approximation
+/// by two parabolas has an error of at most 6 %.
 constexpr std::int32_t rough_sine(std::int32_t phase_q16) {
     const std::int32_t x = static_cast<std::int16_t>(phase_q16 & 0xFFFF);
     return x * (32768 - magnitude(x)) >> 14;

@@ -33,7 +33,7 @@ FloatPlane recentred(const FloatPlane& plane, FloatVec to_px) {
 }
 
 bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px) {
-    // Largest coordinate, in spacings: the range of PlaneFromImage::at_centre_q16.
+    // Limit for coordinates, in spacings. This is the range of PlaneFromImage::at_centre_q16.
     constexpr float kFarthest = 32768;
     constexpr float kFinest_px = 3;
     constexpr float kCoarsest_px = 400;
@@ -44,7 +44,7 @@ bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_h
                                   (plane.dv_x * plane.dv_x + plane.dv_y * plane.dv_y));
     const float fold =
         std::abs(plane.tilt_x) * half_width_px + std::abs(plane.tilt_y) * half_height_px;
-    // Comparisons with NaN are false, so planes with NaN are rejected.
+    // Comparisons with NaN are false, so a plane with a NaN is rejected.
     return std::abs(plane.at_x) < kFarthest && std::abs(plane.at_y) < kFarthest &&
            area * kFinest_px * kFinest_px < 1 && area * kCoarsest_px * kCoarsest_px > 1 &&
            area > kFlattest * sides && fold < 0.75F && std::isfinite(plane.bend);

@@ -39,8 +39,8 @@ struct FloatVec {
 /// Clamps the divisor to at least 1/4, because the map folds where the divisor reaches 0.
 FloatVec plane_point(const FloatPlane& plane, FloatVec px);
 
-/// Returns the same plane with its centre moved to the image point `to_px`. Approximate if the
-/// plane has a lens term.
+/// Returns the same plane with its centre moved to the image point `to_px`. The result is
+/// approximate if the plane has a lens term.
 FloatPlane recentred(const FloatPlane& plane, FloatVec to_px);
 
 /// Returns the grid spacing at the plane centre, in px.
@@ -49,9 +49,8 @@ inline float spacing_px(const FloatPlane& plane) {
 }
 
 /// Returns true if the plane is a plausible view of paper. The spacing must be measurable, and the
-/// paper must face the camera at an angle that is not grazing. Perspective must not fold the map
-/// within the image, and the coordinates must fit in PlaneFromImage. Returns false if a value is
-/// NaN.
+/// view of the paper must not be grazing. Perspective must not fold the map within the image. The
+/// coordinates must fit in PlaneFromImage. Returns false if a value is NaN.
 bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px);
 
 PlaneFromImage fixed_plane(const FloatPlane& plane, FixedVec centre_q8);

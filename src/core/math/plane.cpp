@@ -53,7 +53,7 @@ GridPoint grid_point(const PlaneFromImage& plane, FixedVec image_point_q8) {
 
 FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point) {
     // Maximum number of Newton steps, each with the slope at the current point. For an affine
-    // plane, one step is exact up to truncation.
+    // plane, one step is exact except for truncation.
     constexpr int kMaxRounds = 12;
     // Limit for the coordinates. The iteration may not converge where the map folds.
     constexpr std::int32_t kFarthest_q8 = 1 << 21;

@@ -18,8 +18,8 @@ struct GridPoint {
 inline constexpr std::int32_t kBeyondReason = 1 << 28;
 
 /// Returns k |r|^2 in units of 2^-48, for an offset r from the distortion centre. Clamps |r| to
-/// 4096 px, so the result fits in 64 bits for any k. Image points are rarely farther away, but
-/// projected points on steeply tilted planes may be.
+/// 4096 px, so the result fits in 64 bits for any k. Projected points on steeply tilted planes may
+/// be farther away than 4096 px.
 inline std::int64_t bend_q48(std::int32_t k_q40, FixedVec r_q8) {
     constexpr std::int64_t kFarthest_q8 = 0xFFFFFFFF;
     return k_q40 * std::min(squared(r_q8) >> 8, kFarthest_q8);
@@ -34,8 +34,8 @@ inline bool is_affine(const PlaneFromImage& plane) {
 PlaneFromImage plane_from_lattice(const Lattice& lattice, FixedVec centre_q8);
 
 /// Returns the plane point of an image point, in 2^-16 spacings (paper, eq. 3). Unlike the paper,
-/// does not project the point onto u and v. The projection is correct only for perpendicular axes
-/// and a camera without tilt.
+/// which projects the point onto u and v, this function inverts the map. The projection is correct
+/// only for perpendicular axes and a camera without tilt.
 FixedVec plane_point_q16(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the intersection nearest to an image point, and the point's offset from this
@@ -43,7 +43,7 @@ FixedVec plane_point_q16(const PlaneFromImage& plane, FixedVec image_point_q8);
 GridPoint grid_point(const PlaneFromImage& plane, FixedVec image_point_q8);
 
 /// Returns the image point of a plane point, in 2^-8 px. This is the inverse of `plane_point_q16`.
-/// Where the map folds, the result may be wrong, but the coordinates are at most 2^21 in magnitude.
+/// The result may be wrong where the map folds. Its coordinates are at most 2^21 in magnitude.
 FixedVec image_point_q8(const PlaneFromImage& plane, FixedVec plane_point_q16);
 
 /// Returns the tangent at an image point: the affine plane with the same value and slope at this

@@ -17,7 +17,7 @@ inline constexpr float kPower40 = kPower24 * kPower16;
 inline std::int32_t rounded(float value) {
     constexpr float kMax = kBeyondReason;
     const float whole = value + (value < 0 ? -0.5F : 0.5F);
-    // The order of min and max determines the result for NaN.
+    // With this order of min and max, NaN gives -kMax.
     return static_cast<std::int32_t>(std::min(std::max(-kMax, whole), kMax));
 }
 

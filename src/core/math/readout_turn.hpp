@@ -14,8 +14,8 @@ struct UnitVec {
     float sin = 0;
 };
 
-/// Returns the unit vector of an angle, which is clamped to -1 to 1 rad, with an error of at most
-/// 3e-6. Unlike the functions of the C library, gives the same bits on every processor.
+/// Returns the unit vector of an angle. The angle is clamped to [-1, 1] rad. The error is at most
+/// 3e-6. Unlike the functions of the C library, the result has the same bits on every processor.
 inline UnitVec small_unit(float rad) {
     rad = std::clamp(rad, -1.0F, 1.0F);
     const float q = rad * rad;
@@ -27,24 +27,24 @@ inline FloatVec rotated(FloatVec v, UnitVec by) {
     return {by.cos * v.x - by.sin * v.y, by.sin * v.x + by.cos * v.y};
 }
 
-/// A scene that rotates and moves in the image at constant rates, while the rows are read from top
-/// to bottom. Points are in px relative to the image centre, so the middle row is row 0. It shows
-/// the scene before any motion.
+/// Rotation and motion of a scene at constant rates, while a rolling shutter reads the rows from
+/// top to bottom. Points are in px relative to the image centre. The middle row is row 0, and it
+/// shows the scene at time 0.
 ///
-/// The scene moves by drift + rad_per_row (p - axis)', where ' is a turn by a right angle, for each
-/// row that is read. Its point p is seen at
+/// During each row, the scene moves by drift + rad_per_row (p - axis)'. The prime denotes a
+/// rotation by 90 degrees. The scene point p appears in the image at
 ///
 ///     seen = axis + R(row rad_per_row) (p - axis) + way(row), where row = seen.y.
 ///
-/// Without the rotation, it would be seen at p + row drift, an affine map of the scene. The
-/// functions convert between these two images. Without a rotation, both are equal.
+/// Without the rotation, p would appear at p + row drift, which is an affine map. The functions
+/// convert between the image with rotation and the image without rotation.
 struct ReadoutTurn {
     float rad_per_row = 0;
-    FloatVec axis;   ///< the point that the rotation does not move
-    FloatVec drift;  ///< motion of this point in the image, in px per row; below 1 down
+    FloatVec axis;   ///< fixed point of the rotation
+    FloatVec drift;  ///< motion of `axis` in the image, in px per row; its y component is less than
+                     ///< 1
 
-    /// Returns the point at which the scene that is seen at `seen` would be seen without the
-    /// rotation.
+    /// Returns the point of the image without rotation that shows the same scene point as `seen`.
     FloatVec without_turn(FloatVec seen) const {
         const float row = seen.y;
         const FloatVec moved = way(row);
@@ -54,11 +54,11 @@ struct ReadoutTurn {
         return {p.x + axis.x + still_row * drift.x, still_row};
     }
 
-    /// The inverse of `without_turn`, by Newton's method: correct where a row is read faster than
-    /// the scene moves down. `row` is the approximate row of the result.
+    /// Returns the inverse of `without_turn`, by Newton's method. `row` is the approximate row of
+    /// the result. Valid where the scene moves down more slowly than the rows are read.
     FloatVec seen_from(FloatVec still, float row, int steps) const {
         constexpr float kMinClosing = 0.05F;
-        constexpr float kMaxRow = 4096;  // beyond every image
+        constexpr float kMaxRow = 4096;  // exceeds the rows of every image
         const FloatVec p{still.x - still.y * drift.x - axis.x,
                          still.y - still.y * drift.y - axis.y};
         for (;; --steps) {
@@ -73,8 +73,8 @@ struct ReadoutTurn {
     }
 
   private:
-    /// Returns the motion of the point `axis` of the scene until a row is read. Its direction
-    /// turns with the scene, so the way is an arc.
+    /// Returns the displacement of the scene point `axis` until `row` is read. The direction of
+    /// motion turns with the scene, so the path is an arc.
     FloatVec way(float row) const {
         const float half = rad_per_row * row / 2;
         const FloatVec chord = rotated(drift, small_unit(half));
@@ -83,8 +83,9 @@ struct ReadoutTurn {
     }
 };
 
-/// Returns the drift at which a camera straight above the paper sees the grid of a plane. The image
-/// of a square grid is sheared and stretched along the columns only by the motion of the scene.
+/// Computes the drift from a plane, for a camera that looks straight down at the paper. In this
+/// case, only the motion of the scene shears the image of a square grid, and stretches it along the
+/// columns.
 inline FloatVec drift_of(const FloatPlane& plane) {
     const float square = plane.du_x * plane.du_x + plane.du_y * plane.du_y;
     return {-(plane.dv_x * plane.du_x + plane.dv_y * plane.du_y) / square,

@@ -1,5 +1,5 @@
-// Vectors: arithmetic on four numbers at a time, with the processor's vector instructions if
-// available.
+// Vectors: arithmetic on four numbers at a time. Compilers use vector instructions where the
+// processor has them.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@ inline FourInts four_at(const std::int32_t* first) {
     return vector_at<FourInts>(first);
 }
 
-/// Adds the elements of a to the first sum, the elements of b to the second sum, and so on. The
-/// elements are added in order.
+/// Adds the elements of `a` to the first sum, in order. Does the same with `b` and the second sum,
+/// `c` and the third sum, and `d` and the fourth sum.
 inline void add_each(Four& sums, Four a, Four b, Four c, Four d) {
     const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
     const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);

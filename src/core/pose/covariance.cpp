@@ -7,7 +7,7 @@ namespace dotpose::core {
 namespace {
 
 /// Returns the gradient of the direction from place `from` to place `to`, in rad, with respect to
-/// the parameters. `scale` is the length unit of places, in spacings.
+/// the parameters. `scale` is the unit of places, in spacings.
 Parameters direction_gradient(const FourVecs& places, float scale, std::size_t from,
                               std::size_t to) {
     const float x = (places.x[to] - places.x[from]) * scale;
@@ -23,7 +23,7 @@ Parameters direction_gradient(const FourVecs& places, float scale, std::size_t f
     return gradient;
 }
 
-/// Multiplies a tridiagonal covariance by a vector. Only neighbouring parameters are correlated.
+/// Multiplies a tridiagonal covariance by a vector. Only adjacent parameters are correlated.
 Parameters times(const std::array<Parameters, kPoseParameters>& covariance, const Parameters& a) {
     Parameters product;
     for (std::size_t k = 0; k < kPoseParameters; ++k) {
@@ -47,13 +47,14 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
                          FixedVec reference_q8, Fix& fix) {
     fix.dots_used = fit.dots;
     fix.surface = fit.surface;
-    // Predicted dots are measured even if they were not found as blobs, so `dots_used` may exceed
-    // `dots_seen`.
+    // `dots_used` may exceed `dots_seen`, because predicted dots are measured even if they were not
+    // found as blobs.
     fix.dots_seen = std::max(fix.dots_seen, fix.dots_used);
     fix.residual_px = std::sqrt(fit.variance) * static_cast<float>(fix.spacing_px_q16) / 65536.0F;
     const ScaledPlane plane(float_plane(pattern_from_image), static_cast<float>(fit.reach_px));
-    // Theta is the direction of the image's x axis in the pattern. Its gradient is computed from
-    // two points, kStep_px to the left and to the right of the reference point.
+    // Theta is the direction of the image's x axis in the pattern. Its gradient is the gradient of
+    // the direction between two points, kStep_px to the left and to the right of the reference
+    // point.
     constexpr float kStep_px = 8;
     const FixedVec from_centre_q8 = reference_q8 - pattern_from_image.centre_q8;
     const float x = static_cast<float>(from_centre_q8.x) / 256;

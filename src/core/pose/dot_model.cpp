@@ -11,7 +11,7 @@ constexpr auto kSide = DotPixels::kSide;
 
 /// Chords of a half ellipse, as cos(a), from the outermost chord to the innermost. The chord at
 /// parametric angle a is at v = radius.y cos(a), and its ends are at u = +-radius.x sin(a). The
-/// other half is symmetric. Neighbouring chords are less than a pixel apart. kChordsOfSmall is for
+/// other half is symmetric. Adjacent chords are less than a pixel apart. kChordsOfSmall is for
 /// small ellipses.
 constexpr float kChordsOfSmall[] = {0.99144486F, 0.92387953F, 0.79335334F,
                                     0.60876143F, 0.38268343F, 0.13052619F};
@@ -122,7 +122,7 @@ DotImages draw(const ModelDot& dot, int half_px) {
     for (std::size_t v = begin; v < end; ++v) {
         for (std::size_t u = begin; u < end; ++u) {
             // `fraction` is proportional to 1 / radius.x, so the derivative with respect to
-            // radius.x includes -dot / radius.x. Dividing by 2 * radius converts a derivative with
+            // radius.x includes -dot / radius.x. Division by 2 * radius converts a derivative with
             // respect to a half axis to a derivative with respect to its square.
             float& by = by_radius_u.all[v][u];
             by = (by - images.dot.all[v][u] / radius.x) / (2 * radius.x);

@@ -1,4 +1,4 @@
-// Dot offsets: measured dots in the pattern, and their distances from the printed places.
+// Dot offsets: measured dots in the pattern, and their residuals.
 #pragma once
 
 #include "core/math/float_plane.hpp"

@@ -10,9 +10,10 @@ namespace {
 
 namespace tuned = tuning::fit;
 
-/// Returns the squared step length below which the fit has converged, in units of the pose's
-/// standard deviation. The limit is larger for planes with little perspective and lens distortion.
-/// The fit of such planes is nearly linear, so one step ends close to the solution.
+/// Returns the squared step length below which the fit has converged, in units of the standard
+/// deviation of the pose. The limit is larger for planes with little perspective and lens
+/// distortion. The fit of such a plane is nearly linear, so a single step ends close to the
+/// solution.
 float settled(const FloatPlane& p, float reach) {
     const float nonlinear =
         (std::abs(p.tilt_x) + std::abs(p.tilt_y)) * reach + std::abs(p.bend) * reach * reach;
@@ -20,8 +21,8 @@ float settled(const FloatPlane& p, float reach) {
                       tuned::kMinSettled, tuned::kMaxSettled);
 }
 
-/// Returns true if the outlier limits `limit` and `next_limit` select the same inliers. Also
-/// returns true if the relative difference between the limits is below kSameLimit.
+/// Returns true if the outlier limits `limit` and `next_limit` select the same inliers, or if their
+/// relative difference is below kSameLimit.
 bool keeps_dots(const FitSums& sums, float limit, float next_limit) {
     return (sums.outliers == 0 && sums.farthest <= next_limit) ||
            std::abs(next_limit - limit) < tuned::kSameLimit * limit;
@@ -47,7 +48,7 @@ bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, f
         plane = scaled.changed(step);
         const bool is_settled = moved < std::min(settled_before, settled(plane, reach));
         const float next_limit = tuned::kOutlier * fit.variance + kExact;
-        // Converged: the step is small, and the inliers no longer change.
+        // The fit has converged: the step is small, and the inliers no longer change.
         if (is_settled && keeps_dots(sums, limit, next_limit)) return true;
         limit = next_limit;
     }

@@ -11,13 +11,13 @@ namespace dotpose::core {
 /// squares are in spacings^2.
 struct GroupScatter {
     float squares = 0;  ///< summed squared residuals of all dots
-    /// Number of dots times squared mean residual, summed over all groups.
+    /// Sum over all groups of the number of dots times the squared mean residual.
     float between = 0;
     float dots = 0;
     float groups = 0;
 
-    /// Returns the degrees of freedom of the group means. Each group has two coordinates. The
-    /// parameters of the fit are subtracted.
+    /// Returns the degrees of freedom of the group means. Each group adds two coordinates, and the
+    /// fitted parameters are subtracted.
     float freedom() const {
         constexpr float kFitted = 6;
         return std::max(2 * groups - kFitted, 1.0F);
@@ -27,11 +27,13 @@ struct GroupScatter {
         constexpr float kExact = 1e-12F;
         return std::max(squares - between, 0.0F) / std::max(2 * (dots - groups), 1.0F) + kExact;
     }
-    /// Returns how far the scatter between groups exceeds chance, in standard deviations.
+    /// Returns the amount by which the scatter between groups exceeds chance, in standard
+    /// deviations.
     float excess() const {
         return (between / (freedom() * variance_within()) - 1) * std::sqrt(freedom() / 2);
     }
-    /// Returns the variance of the displacement that all dots in a group share, along one axis.
+    /// Returns the variance of the displacement that all dots of a group have in common, along one
+    /// axis.
     float variance_between() const {
         return std::max(between - freedom() * variance_within(), 0.0F) / std::max(2 * dots, 1.0F);
     }

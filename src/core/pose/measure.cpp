@@ -37,7 +37,7 @@ struct Window {
     int half_px = 0;
     std::int32_t sigma_q8 = 0;
 
-    /// Derives both sizes from the spacing. `sigma_q8` is the standard deviation of a blurred dot,
+    /// Computes both sizes from the spacing. `sigma_q8` is the standard deviation of a blurred dot,
     /// about a tenth of the spacing.
     explicit Window(std::int32_t spacing_q8)
         : half_px(std::min<std::int32_t>(
@@ -49,8 +49,8 @@ struct Window {
                                           tuned::kMinSigma_q8)) {}
 
     /// Crops a window to the pixels that have all neighbours in the image. Returns nullopt if a
-    /// neighbour of the central pixel is outside the image. Windows at the image border are cropped
-    /// instead of rejected, because border dots contribute most to angle and tilt.
+    /// neighbour of the central pixel is outside the image. Border dots are not rejected, because
+    /// they contribute most to angle and tilt.
     std::optional<Box> box_around(const ImageView& image, int u, int v) const {
         const int last_u = image.width_px - 2;
         const int last_v = image.height_px - 2;
@@ -61,7 +61,7 @@ struct Window {
 };
 
 constexpr int kMaxSide_px = 2 * kMaxHalf_px + 1;
-/// Maximum number of columns, padded to a multiple of four.
+/// Maximum number of columns, with padding for vectors of four.
 constexpr std::size_t kMaxInFours = kMaxSide_px + 3;
 
 /// Grey levels of a box, with defective pixels replaced.
@@ -89,16 +89,16 @@ class Patch {
     std::array<std::array<float, kMaxInFours>, kMaxSide_px> levels_;
 };
 
-/// Linear model of the paper level around a dot, in grey levels, computed from the window border.
+/// Linear model of the paper level around a dot, in grey levels, fitted to the window border.
 struct BorderBackground {
     float middle = 0;
     float slope_u = 0;  ///< grey levels per px
     float slope_v = 0;
 };
 
-/// Computes the paper level from the window sides that are in the image. There are at least two
-/// such sides, because no image is smaller than a window. If one of two opposite sides is missing,
-/// the slope between these sides is 0.
+/// Computes the paper level from the window sides that are in the image. At least two sides are in
+/// the image, because no image is smaller than a window. If one of two opposite sides is missing,
+/// the slope between them is 0.
 BorderBackground border_background(const Patch& patch, FixedVec pixel, int half) {
     const auto side = [](bool is_inside, int first, int last, auto level) -> std::optional<float> {
         if (!is_inside) return {};
@@ -130,7 +130,8 @@ BorderBackground border_background(const Patch& patch, FixedVec pixel, int half)
 }
 
 /// Fits a Gaussian dot to a window by one Gauss-Newton step. The dot is as wide as the window, and
-/// at a small `offset` from the window centre. With d and offset in units of sigma, the darkness is
+/// has a small `offset` from the window centre. With d and offset in units of sigma, the darkness
+/// is
 ///
 ///     darkness(d) = height exp(-d^2 / 2) (1 + offset . d).
 ///
@@ -152,8 +153,8 @@ class DotFit {
         float offset_x;
         float offset_y;
     };
-    /// Returns the fitted height and offset. Returns nullopt if the height is not positive, because
-    /// the window then contains no dark spot.
+    /// Returns the fitted height and offset. Returns nullopt if the height is not positive: the
+    /// window contains no dark spot.
     std::optional<Result> solve() const {
         const float one = one_x_y_xx_[0];
         const float sum_x = one_x_y_xx_[1];
@@ -249,7 +250,7 @@ std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
         };
         const FixedVec step{step_q8(fit->offset_x), step_q8(fit->offset_y)};
         dot.centre_q8 = dot.centre_q8 + step;
-        // Dividing by the paper level makes the mass independent of the illumination.
+        // Dividing by the paper level makes the mass independent of the light.
         const float mass = 16384 * fit->height / std::max(light.middle, 1.0F);
         dot.mass = static_cast<std::uint16_t>(std::min(mass, 65535.0F));
         if (squared(dot.centre_q8 - start_q8) > farthest) return {};

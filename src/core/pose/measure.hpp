@@ -1,7 +1,6 @@
-// Measure: measures the precise centres of all dots, near their predicted places. The second
-// attempt needs this step, because the filter of the second attempt blurs the dots, and the
-// threshold misses some dots. Unlike the paper, this step uses windowed centroids, up to the image
-// border (docs/differs-from-paper.md).
+// Measure: measures the precise centres of all dots, near their predicted places. In the second
+// attempt, the filter blurs the dots, and the threshold misses some dots. Unlike the paper, this
+// stage uses windowed centroids, up to the image border. See docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/grid.hpp"
@@ -13,8 +12,8 @@ namespace dotpose::core {
 
 /// Measures the predicted dot of each cell. Replaces `dots` by the measured dots, and links the
 /// cells to them. Centres are Gaussian-windowed centroids (Bertin, SExtractor: XWIN), iterated from
-/// the predicted places. Windows at the image border are cropped. Skips hidden places, and unlinks
-/// dots with an untypical mass. Stops when `dots` is full. The mass of a dot is its peak darkness
+/// the predicted places. Crops windows at the image border. Skips hidden places, and unlinks dots
+/// with an untypical mass. Stops when `dots` is full. The mass of a dot is its peak darkness
 /// relative to the paper level, in units of 2^-14. Returns the number of dots, including unlinked
 /// dots.
 int measure_dots(const ImageView& image, const FixedLens& lens,

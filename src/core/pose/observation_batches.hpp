@@ -33,8 +33,8 @@ struct ObservationBatch {
         dy[count] = dotpose::dy(symbol);
         noise[count++] = its_noise;
     }
-    /// Pads the batch to a multiple of four dots. `count` excludes the padding. Padding dots are
-    /// too far away to be inliers.
+    /// Pads the batch to a multiple of four dots. `count` excludes the padding. Padding is too far
+    /// away to count as inliers.
     void fill_up();
 };
 

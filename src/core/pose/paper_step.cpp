@@ -21,15 +21,15 @@ constexpr float kLinesPerSpacing = 2;
 constexpr int kDirections = 8;
 constexpr float kBehind = tuned::kBehind;
 
-/// Sums over the dots in one part of the sheet. A dot is coherent if a displacement of the whole
+/// Sums over the dots in one part of the sheet. A dot is *coherent* if a displacement of the whole
 /// part can explain its residual.
 struct PartSums {
-    /// Four values: number of dots, their summed log odds for the plane of the whole sheet, number
-    /// of coherent dots, and their summed squared residuals.
+    /// Number of dots, sum of their log odds for the plane of the whole sheet, number of coherent
+    /// dots, and sum of the squared residuals of the coherent dots.
     Four counts;
-    Four places;  ///< coherent dots: summed x and y, and summed residuals along x and y
-    /// Coherent dots: summed xx, xy and yy, and summed cross products of place and residual. Places
-    /// are relative to the reference point.
+    Four places;  ///< coherent dots: sums of x and y, and of the residuals along x and y
+    /// Coherent dots: sums of xx, xy and yy, and of the cross products of place and residual.
+    /// Places are relative to the reference point.
     Four moments;
 
     PartSums& operator+=(const PartSums& o) {
@@ -92,14 +92,13 @@ struct Symmetric3 {
     }
 };
 
-/// Least-squares affine map from the places of all coherent dots to their residuals. Gains are
-/// computed relative to this map, because the map absorbs most of a step in the middle of the view.
+/// Least-squares affine map from the places of all coherent dots to their residuals. The plane
+/// absorbs most of a step in the middle of the view. Gains are therefore relative to this map.
 class AffineFit {
   public:
     AffineFit() = default;
-    /// `x_off` contains the sums of r, x r and y r over all coherent dots. Here, (x, y) is the
-    /// place of a dot, and r is its residual along x. `y_off` contains the same sums for the
-    /// residual along y.
+    /// `x_off` contains the sums of r, x r and y r over all coherent dots. (x, y) is the place of a
+    /// dot, and r is its residual along x. `y_off` contains the same sums for the residual along y.
     AffineFit(const PartSums& all, const Triple& x_off, const Triple& y_off)
         : inverse_(Symmetric3{all.dots(), all.places[0], all.places[1], all.moments[0],
                               all.moments[1], all.moments[2]}
@@ -110,7 +109,8 @@ class AffineFit {
 
     /// Returns the summed squared residuals of all coherent dots, after subtracting the map.
     float squares() const { return squares_; }
-    /// Returns how much a displacement of the part `beyond` reduces the summed squared residuals.
+    /// Returns the reduction of the summed squared residuals by a displacement of the part
+    /// `beyond`.
     float explained_by_displacement(const PartSums& beyond) const {
         const Triple step{beyond.dots(), beyond.places[0], beyond.places[1]};
         const float spread = step[0] - inner_product(step, inverse_ * step);
@@ -119,8 +119,8 @@ class AffineFit {
         const float y = beyond.places[3] - inner_product(step, y_);
         return (x * x + y * y) / spread;
     }
-    /// Returns how much a displacement and rotation of the part `beyond` reduce the summed squared
-    /// residuals.
+    /// Returns the reduction of the summed squared residuals by a displacement and rotation of the
+    /// part `beyond`.
     float explained_by_step(const PartSums& beyond) const {
         const float xx = beyond.moments[0];
         const float xy = beyond.moments[1];
@@ -147,8 +147,8 @@ class AffineFit {
     }
 
   private:
-    /// Minimum spread at which the dots determine a step. The part's indicator function is 1 for
-    /// dots beyond the line, and 0 for all other dots. The spread is the squared norm of this
+    /// Minimum spread at which the dots determine a step. The indicator function of the part is 1
+    /// for dots beyond the line, and 0 for all other dots. The spread is the squared norm of this
     /// function after subtracting an affine fit.
     static constexpr float kMinSpread = 1;
 
@@ -182,8 +182,8 @@ class Search {
         const auto wanted = static_cast<std::size_t>(kLinesPerSpacing * length);
         lines_ = std::clamp(wanted, std::size_t{4}, kLines);
         per_spacing_ = static_cast<float>(lines_) / length;
-        // Frequent outliers, for example in printed text, are only weak evidence that the paper is
-        // displaced.
+        // If outliers are frequent, for example in printed text, they are only weak evidence of a
+        // displacement of the paper.
         off_plane_ = natural_log((outliers + 1) / static_cast<float>(count_ + 1));
         for (std::size_t k = 0; k < count_; ++k)
             sums_[k] = sums_of(dots_[k]);
@@ -210,8 +210,8 @@ class Search {
             if (max_gain_of(part, here) > best.gain) consider(line, gain_of(part, here));
         }
         if (likeliest == 0) return;
-        // A pure displacement explains most at the line `likeliest`. Rotations are tested only
-        // within kNear lines of this line.
+        // A pure displacement explains the most at line `likeliest`. Tests rotations only within
+        // kNear lines of this line.
         constexpr std::size_t kNear = 2;
         const std::size_t last = std::min(likeliest + kNear, lines_ - 1);
         for (std::size_t line = std::max(likeliest, kNear + 1) - kNear; line <= last; ++line) {
@@ -259,8 +259,8 @@ class Search {
         affine_ = AffineFit(all_, x_off, y_off);
     }
 
-    /// Returns the gain of a step relative to the affine map, as a log likelihood ratio. For n
-    /// coherent dots, the gain is n ln(s / r). s and r are the summed squared residuals without and
+    /// Returns the gain of a step over the affine map, as a log likelihood ratio. For n coherent
+    /// dots, the gain is n ln(s / r), where s and r are the summed squared residuals without and
     /// with the step. Returns 0 if the upper bound n (s - r) / r is at most `min_gain`.
     float gain_of_step(const PartSums& beyond, float min_gain) const {
         const float explained = affine_.explained_by_step(beyond);
@@ -270,14 +270,14 @@ class Search {
         return dots * natural_log(affine_.squares() / remaining);
     }
 
-    /// Returns the log odds of a part's dots, for a plane fitted to this part alone.
+    /// Returns the log odds of the dots of a part, for a plane fitted to this part alone.
     float on_own_plane(const PartSums& part) const {
         return kOnPlane * part.dots() - part.remaining() / (2 * variance_) +
                off_plane_ * (part.seen() - part.dots());
     }
 
-    /// Returns an upper bound on `gain_of`, as if separate planes explained all coherent dots
-    /// exactly.
+    /// Returns an upper bound on `gain_of`. Assumes that the separate planes explain all coherent
+    /// dots exactly.
     float max_gain_of(const PartSums& beyond, const PartSums& here) const {
         const auto max_of = [this](const PartSums& part) {
             return kOnPlane * part.dots() + off_plane_ * (part.seen() - part.dots());
@@ -286,10 +286,10 @@ class Search {
                           std::max(max_of(here) - here.on_plane(), 0.0F));
     }
 
-    /// Returns the gain of separate planes over one plane for the whole sheet, as a log likelihood
-    /// ratio. The part with the reference point also has its own plane, because the plane of the
-    /// whole sheet may be a compromise. If the dots beyond the line have no common plane, their log
-    /// odds are 0.
+    /// Returns the log likelihood ratio between separate planes and one plane for the whole sheet.
+    /// The part with the reference point also gets its own plane, because the plane of the whole
+    /// sheet may be a compromise. If the dots beyond the line have no common plane, their log odds
+    /// are 0.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));
@@ -323,7 +323,7 @@ PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, con
         search.try_direction(direction, best);
         direction = turned(direction, kSin, kSin);
     }
-    // A small rotation of the best line can increase the gain, but rarely doubles the gain.
+    // A small rotation of the best line increases the gain, but rarely doubles it.
     if (best.gain < PaperStep::kPossible / 2) return best;
     float s = kSin;
     for (int halving = 0; halving < 5; ++halving) {

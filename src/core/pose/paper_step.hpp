@@ -1,6 +1,6 @@
-// Paper step: finds a line where the print is displaced, because a printer fed the sheet badly or
-// because two sheets meet. Unlike the paper, dotpose does not assume that all dots are in one
-// plane.
+// Paper step: finds a line across which the print is displaced, because a printer fed the sheet
+// badly or because two sheets meet. Unlike the paper, dotpose does not assume that all dots are in
+// one plane.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -10,13 +10,13 @@ namespace dotpose::core {
 
 /// A line in the pattern that divides the sheet.
 struct PaperStep {
-    /// Thresholds for `gain`. By chance, 1 in 100 flat sheets exceeds kPossible. A gain above
-    /// kCertain is not due to chance. The thresholds are high because steps are rare, and because
-    /// the search tries many lines, each with three parameters.
+    /// Thresholds for `gain`. By chance, 1 in 100 flat sheets exceeds kPossible. Chance does not
+    /// explain a gain above kCertain. The thresholds are high because steps are rare, and because
+    /// the search tries many lines with three parameters each.
     static constexpr float kPossible = 12;
     static constexpr float kCertain = 23;
 
-    FloatVec direction{1, 0};  ///< unit normal of the line, pointing beyond it
+    FloatVec direction{1, 0};  ///< unit normal of the line, towards the part beyond the line
     /// Distance from the reference point to the line, in spacings. Negative if the reference point
     /// is beyond the line.
     float distance = 0;

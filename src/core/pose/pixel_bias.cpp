@@ -72,7 +72,7 @@ struct CentroidError {
 enum class Along : std::uint8_t { u, v };
 
 /// Returns the centroid error along one axis. `dot_px` and `window_px` are coordinates along this
-/// axis, relative to a pixel centre. Like the kernels, uses the slope along u for both axes.
+/// axis, relative to a pixel centre. Uses the slope along u for both axes, as the kernels do.
 CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, float window_px,
                              float radius_px) {
     const bool is_u = axis == Along::u;
@@ -94,8 +94,8 @@ CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, fl
     return error;
 }
 
-/// Centroid bias along one axis: amplitude * sin(2 pi phase). Applies to windows that are centred
-/// on their dots.
+/// Centroid bias along one axis: amplitude * sin(2 pi phase). Applies to windows centred on their
+/// dots.
 class AxisBias {
   public:
     AxisBias(const DotShape& shape, Along axis, float radius_px) {
@@ -112,17 +112,17 @@ class AxisBias {
     }
 
     float amplitude_px() const { return amplitude_px_; }
-    /// Returns the slope of the moment along this axis, relative to the slope along u. The ratio is
-    /// shrunk towards 1 if noise can explain its difference from 1.
+    /// Returns the slope of the moment along this axis, relative to the slope along u. Shrinks the
+    /// ratio towards 1 if noise can explain the difference from 1.
     float slopes() const { return slopes_; }
-    /// Returns the bias of a dot, in px. Also adds the sine of its phase to the mean.
+    /// Returns the bias of a dot, in px. Also adds the sine of the phase to the mean.
     float of(float phase) {
         const float sine = sine_of_turns(phase);
         sines_ += sine;
         dots_ += 1;
         return amplitude_px_ * sine;
     }
-    /// Returns the remaining variance of the mean centre after the correction, in px^2.
+    /// Returns the variance of the mean centre that remains after the correction, in px^2.
     float variance_of_mean() const {
         const float mean = sines_ / std::max(dots_, 1.0F);
         return variance_ * mean * mean;
@@ -137,9 +137,9 @@ class AxisBias {
 };
 
 /// Returns the centroid error, in px, of a dot at offset `d` from its window centre. The moment is
-/// proportional to d - bend d^3. The kernels take a single Newton step, as if the moment were
-/// linear in d. The kernels divide the moments of both axes by the slope along u at the window
-/// centre. `slopes` is the slope along v divided by the slope along u.
+/// proportional to d - bend d^3. The kernels take a single Newton step, which assumes that the
+/// moment is linear in d. They also divide the moments of both axes by the slope along u at the
+/// window centre. `slopes` is the slope along v divided by the slope along u.
 FloatVec error_off_centre(float bend, float slopes, FloatVec d) {
     return {2 * bend * d.x * d.x * d.x,
             d.y * (slopes * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1)};
@@ -216,7 +216,7 @@ FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window
                    });
     DotShape shape;
     if (!shape.fit(stacks)) return {};
-    // Strong blur removes the bias. Strong blur also makes the dots larger than the model image.
+    // Strong blur removes the bias. It also makes the dots larger than the model image.
     if (std::min(shape.blur_2().x, shape.blur_2().y) > tuned::kBlurred_px2) return {};
     AxisBias along_u(shape, Along::u, window.radius_px);
     AxisBias along_v(shape, Along::v, window.radius_px);

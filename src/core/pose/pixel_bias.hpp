@@ -19,8 +19,8 @@ struct CentroidWindow {
     FloatVec centre_px;
 };
 
-/// Moves the windows to the current centres, before the dots are measured again. Drops dots if
-/// their window is not completely in the image.
+/// Moves the windows to the current centres. The dots must be measured again afterwards. Drops dots
+/// whose window is not completely in the image.
 void recentre_windows(const ImageView& image, const CentroidWindow& window, MeasuredDots& dots);
 
 /// Subtracts the bias from the centres of all inliers. Returns the variance of the mean centre due

@@ -13,10 +13,10 @@ namespace tuned = tuning::fit;
 
 constexpr float kPower30 = 1073741824.0F;
 
-/// Linear model of a dot's squared residual as a function of its pixel noise
+/// Linear model of the squared residual of a dot as a function of its pixel noise
 /// (`Observations::noise`). The constant term is due to print errors, which do not depend on the
-/// illumination. The linear term is due to pixel noise, which is larger relative to the contrast in
-/// dim light.
+/// light. The linear term is due to pixel noise, which is larger relative to the contrast in dim
+/// light.
 class Scatter {
   public:
     void add(float noise, float squared_residual) {
@@ -65,7 +65,7 @@ class Round {
             y_q16[i] = offset.y;
             values[i] = offset.x * sample.dx[i] + offset.y * sample.dy[i];
         }
-        // The displacement is measured in each frame, because ink spread and blur vary.
+        // Measures the displacement in each frame, because ink spread and blur vary.
         displacement_q16_ = median(std::span(values).first(sample.count));
         for (std::size_t i = 0; i < sample.count; ++i) {
             values[i] = squared_q30({x_q16[i] - sample.dx[i] * displacement_q16_,

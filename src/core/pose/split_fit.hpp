@@ -6,8 +6,7 @@
 namespace dotpose::core {
 
 /// Restricts fits to one side of a line during the lifetime of the object. Moves the cells of all
-/// other dots far away, so fits reject these dots as outliers. Dots near the line belong to neither
-/// side.
+/// other dots far away, which makes these dots outliers. Dots near the line belong to neither side.
 class HalfPlane {
   public:
     /// The side to fit: the side of the reference point, or the side beyond the line.
@@ -24,21 +23,21 @@ class HalfPlane {
     MeasuredDots& dots_;
 };
 
-/// Result of a split fit: the likeliest dividing line, and the plane fitted to the reference
-/// point's side.
+/// Result of a split fit: the most likely dividing line, and the plane fitted to the side of the
+/// reference point.
 struct SplitFit {
     FloatPlane plane;
     PoseFit fit;
     PaperStep step = {};
 };
 
-/// Finds the likeliest dividing line, and fits the plane to the reference point's side. On entry,
-/// `split` contains the fit to all dots. Returns false if no line is likely enough, or if the dots
-/// on this side do not determine a plane.
+/// Finds the most likely dividing line, and fits the plane to the side of the reference point. On
+/// entry, `split` contains the fit to all dots. Returns false if no line is likely enough, or if
+/// the dots on this side do not determine a plane.
 bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    SplitFit& split);
 
-/// Fits a plane to the dots beyond the line. Returns false if too few of these dots share a
+/// Fits a plane to the dots beyond the line. Returns false if too few of these dots have a common
 /// displacement, or if the dots do not determine a plane.
 bool fit_far_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                   const SplitFit& split, FloatPlane& beyond);

@@ -52,7 +52,7 @@ float StackedDots::mass() const {
 }
 
 float StackedDots::noise_2() const {
-    constexpr float kMinVariance = 1e-6F;  // due to the quantization of grey levels
+    constexpr float kMinVariance = 1e-6F;  // variance due to the quantization of grey levels
     float between = 0;
     float freedom = 0;
     visit([&](const Stack& stack) {

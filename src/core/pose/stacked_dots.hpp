@@ -27,8 +27,7 @@ class StackedDots {
         DotPixels darkness;
     };
 
-    /// Uses the pixels within `reach_px` of the central pixel, but at most kHalf_px away along each
-    /// axis.
+    /// Uses the pixels within `reach_px` of the central pixel, and within kHalf_px along each axis.
     explicit StackedDots(float reach_px);
 
     /// Adds a dot if all its pixels are in the image.

@@ -16,8 +16,8 @@ namespace {
 
 /// Writes the pose at the centre of a plane that has neither perspective nor lens terms.
 void write_pose(const PlaneFromImage& there, CodeVariant code, const Place& place, Fix& fix) {
-    // The decoded position plus the vector to the reference point, in grid units (paper, eq.
-    // 10-12).
+    // Computes the decoded position plus the vector to the reference point, in grid units (paper,
+    // eq. 10-12).
     const FixedVec t = there.at_centre_q16;
     const Place at = moved(code, place, t.x >> 16, t.y >> 16);
     fix.cell = at.cell;

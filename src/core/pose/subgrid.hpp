@@ -1,5 +1,5 @@
-// Subgrid: computes the angle, and the place of the reference point between intersections.
-// Implements section II-B.8 of the paper (eq. 10-12), and the angle at the end of section II-B.6.
+// Subgrid: computes the angle, and the place of the reference point between intersections (paper,
+// section II-B.8, eq. 10-12, and the end of section II-B.6).
 #pragma once
 
 #include "dotpose/fix.hpp"
@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Returns the plane of the grid, rotated upright. The plane's origin is `Decoding::place`.
+/// Returns the plane of the grid, rotated upright. The origin of the plane is `Decoding::place`.
 PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn pattern_from_grid);
 
 /// Writes the plane and the place of its origin into the fix. Also writes the position, section,

@@ -1,6 +1,7 @@
-// Tuning: empirical constants of the pose fit. Constants of the second attempt were tuned on the
-// hard frames listed in decode/tuning.hpp. Comments that compare values give the number of located
-// frames, and the median and 95 % quantile of their errors. These numbers are from
+// Tuning: empirical constants of the pose fit. The constants of the second attempt were determined
+// on the hard frames listed in decode/tuning.hpp. Some comments compare a constant with other
+// values, by the number of located frames, and the median and 95 % quantile of their errors. The
+// command is
 //
 //     dotpose evaluate --preset hard --frames 2000 --seed 404
 //
@@ -11,7 +12,7 @@ namespace dotpose::core::tuning {
 
 /// Measurement of dots in a window (pose/measure).
 namespace measure {
-/// Half the window side, in 1/32 of the spacing, and its minimum, in 1/256 px. At this size, the
+/// Half the window side, in 1/32 of the spacing, and its minimum, in 1/256 px. With this size, the
 /// window border is on paper even if the dot is off centre, and the window contains no other dot.
 inline constexpr int kHalf_32nds = 9;
 inline constexpr int kMinHalf_q8 = 768;
@@ -21,8 +22,8 @@ inline constexpr int kMinHalf_q8 = 768;
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
 /// Maximum squared distance between a dot and its predicted place, in units of sigma^2. The limit
-/// can be large, because the pose fit rejects dirt as outliers. A smaller limit would also reject
-/// badly printed dots. This would cost accuracy and hide print errors.
+/// is large, because the pose fit rejects dirt as outliers. A smaller limit would also reject badly
+/// printed dots, which would cost accuracy and hide print errors.
 inline constexpr int kFarthest_2 = 9;
 /// Maximum number of Gauss-Newton iterations. The fit ends early after a step shorter than
 /// kSettled_q8, in 1/256 px.
@@ -31,23 +32,24 @@ inline constexpr int kSettled_q8 = 4;
 /// Maximum darkness of a dot, in halves of the typical darkness. The minimum is half the typical
 /// darkness. These limits reject dirt, graphics, and bare paper where a dot is missing.
 inline constexpr int kTooDark_halves = 3;
-/// Maximum sample size for the typical darkness, which is the sample median.
+/// Maximum sample size for the typical darkness. The typical darkness is the median of the sample.
 inline constexpr int kMedianSample = 256;
 }  // namespace measure
 
 /// Pose fit to all dots (pose/refine_pose, pose/float_fit).
 namespace fit {
-/// Maximum number of Gauss-Newton iterations in `refine_pose` and `fit_plane`, respectively.
+/// Maximum number of Gauss-Newton iterations in `refine_pose` (kMaxRounds) and `fit_plane`
+/// (kMaxRoundsOfFloats).
 inline constexpr int kMaxRounds = 4;
 inline constexpr int kMaxRoundsOfFloats = 5;
-/// Squared step length at which `refine_pose` stops, in units of the pose's standard deviation. The
-/// next step would be much smaller.
+/// Squared step length below which `refine_pose` stops, in units of the standard deviation of the
+/// pose. The next step would be much smaller.
 inline constexpr float kSettled = 0.01F;
 /// Outlier limit for squared residuals, in units of their median. The median is 1.39 sigma^2, so
-/// the limit is 4.1 sigma. By chance, 1 dot in 4,000 exceeds it.
+/// the limit is 4.1 sigma. By chance, 1 dot in 4,000 exceeds this limit.
 inline constexpr int kOutlier_medians = 12;
 /// Outlier limit for squared residuals, in units of a known variance. The limit is 4.1 sigma. By
-/// chance, 1 dot in 4,000 exceeds it.
+/// chance, 1 dot in 4,000 exceeds this limit.
 inline constexpr float kOutlier = 16.6F;
 /// Relative change of the outlier limit below which the inliers count as unchanged.
 inline constexpr float kSameLimit = 0.04F;
@@ -55,10 +57,10 @@ inline constexpr float kSameLimit = 0.04F;
 inline constexpr float kMaxByNoise = 0.9F;
 /// Minimum number of dots for `fit_plane`.
 inline constexpr int kMinDots = 20;
-/// Squared step length below which the fit has converged, in units of the pose's standard
-/// deviation. The limit is kNonlinearSettled / n^2, clamped to [kMinSettled, kMaxSettled]. n is the
-/// nonlinearity of the plane (`settled` in float_fit.cpp). After the last step, the remaining error
-/// is about a fifth of a standard deviation.
+/// Squared step length below which the fit has converged, in units of the standard deviation of the
+/// pose. The limit is kNonlinearSettled / n^2, clamped to [kMinSettled, kMaxSettled], where n is
+/// the nonlinearity of the plane (`settled` in float_fit.cpp). After the last step, the remaining
+/// error is about a fifth of a standard deviation.
 inline constexpr float kMinSettled = 0.2F;
 inline constexpr float kMaxSettled = 30;
 inline constexpr float kNonlinearSettled = 0.04F;
@@ -68,7 +70,7 @@ inline constexpr float kNonlinearSettled = 0.04F;
 namespace shape {
 /// Prior: standard deviation of the common offset of all dots, along each axis.
 inline constexpr float kOff_px = 0.1F;
-/// Prior: mean and standard deviation of the blur variance, in px^2.
+/// Prior: mean and standard deviation of the blur variance, both equal, in px^2.
 inline constexpr float kBlur_2 = 0.25F;
 /// Prior: standard deviation of the relative difference between the squared half axes.
 inline constexpr float kSigmaOfWidth = 0.3F;
@@ -81,8 +83,8 @@ inline constexpr float kMin_px2 = 0.005F;
 inline constexpr float kFirstDamping = 0.01F;
 inline constexpr float kMaxDamping = 1e4F;
 inline constexpr float kDampingGrows = 10;
-/// The fit ends after kMaxRounds iterations, or after a step that reduces the cost by less than
-/// kSettled. The cost is the sum of squared residuals in units of their variances.
+/// Maximum number of iterations, and the reduction of the cost below which the fit ends. The cost
+/// is the sum of squared residuals in units of their variances.
 inline constexpr float kSettled = 0.3F;
 inline constexpr int kMaxRounds = 30;
 }  // namespace shape
@@ -95,38 +97,36 @@ inline constexpr float kSure = 4;
 
 /// Pixel bias of dots with the same sub-pixel phase (pose/pixel_bias).
 namespace bias {
-/// Maximum number of stacked dots. More dots are not needed to determine the dot shape.
+/// Maximum number of stacked dots. The dot shape does not become more accurate with more dots.
 inline constexpr int kDots = 256;
-/// Width of the stacked border around a dot. The border contains the blurred edge.
+/// Width of the stacked border around a dot, which contains the blurred edge.
 inline constexpr float kBeyondEdge_px = 1.5F;
 /// Blur variance above which the bias is negligible.
 inline constexpr float kBlurred_px2 = 0.7F * 0.7F;
-/// Variance of the remaining bias after a correction, divided by the squared bias: kOfModel +
-/// kOfMisfit * max(misfit - kMisfit, 0). misfit is `DotShape::misfit()`. Round dots need only
-/// kOfModel.
+/// Variance of the remaining bias after a correction, divided by the squared bias. The variance is
+/// kOfModel + kOfMisfit * max(misfit - kMisfit, 0), where misfit is `DotShape::misfit()`. For round
+/// dots, the second term is 0.
 inline constexpr float kOfModel = 0.01F;
 inline constexpr float kMisfit = 2.5F;
 inline constexpr float kOfMisfit = 0.025F;
 /// Relative difference between the moment slopes along u and v (`AxisBias::slopes`) that noise
-/// alone causes for round dots.
+/// causes for round dots.
 inline constexpr float kSlopes = 0.03F;
 }  // namespace bias
 
 /// Correlation of residuals (pose/uneven).
 namespace uneven {
 /// Limits for the scatter between blocks. The scatter is measured as its excess over chance, in
-/// standard deviations.
+/// standard deviations. `dotpose_tables slips` measures the fractions of flat sheets.
 /// - kMaybeLine: above this limit, the second attempt searches for a line that divides the sheet.
-///   The limit is low because the plane absorbs most of a step. The dots of the second attempt are
-///   also noisier than those of fast attempts.
+///   The limit is low because the plane absorbs most of a step, and because the dots of the second
+///   attempt are noisier than those of fast attempts.
 /// - kShared: above this limit, the mean block residuals increase the covariance. 1 in 20 flat
 ///   sheets exceeds this limit.
 /// - kSuspect: above this limit, fast attempts search for a line. Up to this limit, one side of a
 ///   line counts as even.
 /// - kUneven: above this limit, a sheet without a line counts as uneven. At most about 1 in 1,000
 ///   flat sheets exceeds this limit.
-///
-/// `dotpose_tables slips` measures these fractions.
 inline constexpr float kMaybeLine = 0.9F;
 /// Number of dots up to which kMaybeLine applies. With more dots, the limit is kMaybeLine *
 /// sqrt(dots / kMaybeLineDots), because block residuals become more significant on any sheet.
@@ -134,29 +134,31 @@ inline constexpr float kMaybeLineDots = 200;
 inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
 inline constexpr float kUneven = 5;
-/// Number of outliers that chance explains: a constant, plus a fraction of the dots.
+/// Number of outliers that chance can explain: a constant, plus a fraction of the dots.
 inline constexpr float kFewOutliers = 3;
 inline constexpr float kOutlierFraction = 0.02F;
-/// Number of dots above which each image side is divided into nine blocks instead of kFewAlong.
+/// Number of dots above which each image side is divided into nine blocks. With fewer dots, the
+/// maximum is kFewAlong blocks.
 inline constexpr int kManyDots = 1000;
-/// Number of blocks along each side of the image, for at most kManyDots dots: the largest number,
-/// from kMinAlong to kFewAlong, with kDotsPerBlock dots in each block. If blocks contain only one
-/// or two dots, the scatter within blocks is unknown, and flat sheets seem uneven.
+/// Number of blocks along each side of the image, for at most kManyDots dots. This is the largest
+/// number from kMinAlong to kFewAlong for which a block contains kDotsPerBlock dots on average.
+/// With only one or two dots per block, the scatter within blocks is unknown, and flat sheets seem
+/// uneven.
 inline constexpr int kMinAlong = 2;
 inline constexpr int kFewAlong = 6;
 inline constexpr int kDotsPerBlock = 4;
-/// Factors for the pose variance that block displacements cause. Let v be the variance of a block's
-/// displacement along one axis, and s the block side. The pose variance grows by kOfPlace * v for x
-/// and for y, and by kOfTurn * v / s^2 for the angle. docs/integrity.md compares the result with
-/// the errors on bent sheets.
+/// Factors for the additional pose variance due to block displacements. Let v be the variance of
+/// the displacement of a block along one axis, and s the block side. The pose variance grows by
+/// kOfPlace * v for x and for y, and by kOfTurn * v / s^2 for the angle. docs/integrity.md compares
+/// the result with the errors on bent sheets.
 inline constexpr float kOfPlace = 2;
 inline constexpr float kOfTurn = 8;
-/// Standard deviation of mean block residuals due to pixel bias. If the phase drifts slowly over
-/// the view, this bias differs between blocks and averages out over the view. Such a bias is not
-/// evidence of an uneven sheet.
+/// Standard deviation of the mean block residuals due to pixel bias. If the phase drifts slowly
+/// across the view, this bias differs between blocks and averages out over the view. Such a bias is
+/// not evidence of an uneven sheet.
 inline constexpr float kPixelBias_px = 0.004F;
-/// Distance from the dividing line, in spacings, within which the reference point may be on either
-/// side.
+/// Distance from the dividing line within which the reference point may be on either side, in
+/// spacings.
 inline constexpr float kNearLine = 1.2F;
 }  // namespace uneven
 
@@ -168,35 +170,35 @@ inline constexpr float kOnPlane = 5;
 /// Maximum squared residual that a displaced part of the sheet can explain, in units of the
 /// residual variance.
 inline constexpr float kTogether = 36;
-/// Maximum distance, in spacings, by which the reference point may be beyond the line.
+/// Maximum distance by which the reference point may be beyond the line, in spacings.
 inline constexpr float kBehind = 0.5F;
 /// Minimum number of dots beyond the line.
 inline constexpr float kMinBeyond = 12;
 /// Outlier limit in the first iteration of a fit to one side, in spacings^2. This iteration starts
 /// from a plane fitted to both sides.
 inline constexpr float kFarOff = 0.04F;
-/// Distance from the line, in spacings, within which dots belong to neither side. The line's
-/// position is uncertain by about this distance.
+/// Distance from the line within which dots belong to neither side, in spacings. The position of
+/// the line is uncertain by about this distance.
 inline constexpr float kMargin = 0.8F;
-/// Search for a residual that the dots beyond the line share. Uses dots within kReach spacings of
+/// Search for a common residual of the dots beyond the line. Uses dots within kReach spacings of
 /// the reference point. At least kMinAgreeing dots must have this residual, up to a squared
 /// difference of kAgreement, in spacings^2.
 inline constexpr float kReach = 10;
 inline constexpr int kMinAgreeing = 8;
 inline constexpr float kAgreement = 0.08F * 0.08F;
-/// Number of iterations. Each iteration fits a plane to the dots on the reference point's side. All
-/// iterations except the last then search for the line again.
+/// Number of iterations. Each iteration fits a plane to the dots on the side of the reference
+/// point. All iterations except the last then search for the line again.
 inline constexpr int kRounds = 3;
 }  // namespace paper_step
 
 /// Rotation during the readout of a rolling shutter (pose/turn_fit).
 namespace turn {
-/// Steps with which derivatives are computed: the distance by which the dots in the corners move,
-/// and the drift, as a fraction.
+/// Steps for numerical derivatives: kStep_px is the motion of the dots in the image corners, and
+/// kDriftStep is the change of the drift, in px per row.
 inline constexpr float kStep_px = 0.3F;
 inline constexpr float kDriftStep = 0.02F;
-/// Standard deviation of the drift that is computed from the plane: a camera that is tilted by 14
-/// degrees sees the paper shortened by 3 %.
+/// Standard deviation of the drift that is computed from the plane, in px per row. A camera tilted
+/// by 14 degrees sees the paper shortened by 3 %.
 inline constexpr float kDrift = 0.02F;
 }  // namespace turn
 

@@ -18,7 +18,7 @@ float limit_of(const PoseFit& fit) {
     return tuning::fit::kOutlier * fit.variance;
 }
 
-/// Returns a dot that was measured without one rotation as it would be measured without another.
+/// Converts a dot that was measured without the rotation `from` to a dot without the rotation `to`.
 FloatVec transferred(const ReadoutTurn& from, const ReadoutTurn& to, FloatVec dot) {
     constexpr int kSteps = 4;
     return to.without_turn(from.seen_from(dot, dot.y, kSteps));
@@ -41,7 +41,7 @@ Vec3 change_of_pose(const FloatPlane& from, const FloatPlane& to, FloatVec refer
             (a.du_x * b.du_y - a.du_y * b.du_x) / (a.du_x * a.du_x + a.du_y * a.du_y)};
 }
 
-/// A small change of one parameter of the rotation, with the plane fitted to the changed dots.
+/// A small change of one parameter of the rotation. Contains the plane fitted to the changed dots.
 struct Trial {
     ReadoutTurn turn;
     float step = 0;
@@ -49,7 +49,7 @@ struct Trial {
     PoseFit fit;
 };
 
-/// Returns the residual of a dot, which was measured without the rotation `turn`, in a trial.
+/// Returns the residual of dot `k` in a trial. The dot was measured without the rotation `turn`.
 FloatVec residual_in(const Trial& trial, const ReadoutTurn& turn, std::size_t k,
                      MeasuredDots& dots) {
     const FloatVec at{dots.x[k], dots.y[k]};
@@ -100,8 +100,8 @@ bool fit_turn(const Kernels& kernels, const ReadoutTurn& turn, FloatVec referenc
         transfer(trial.turn, turn, dots);
         if (!is_fitted) return false;
     }
-    // Regression of the residuals on their changes. The plane is fitted in each trial, so a change
-    // is the part that the plane cannot explain. All steps are in units of Trial::step.
+    // Regression of the residuals on their changes. Each trial fits the plane again, so the changes
+    // exclude the part that the plane can explain. All steps are in units of Trial::step.
     Matrix3 normal{};
     Vec3 right{};
     for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
@@ -119,7 +119,8 @@ bool fit_turn(const Kernels& kernels, const ReadoutTurn& turn, FloatVec referenc
                 normal[i][j] += changes[i].x * changes[j].x + changes[i].y * changes[j].y;
         }
     }
-    // The drift of the plane is an observation of the drift, which a tilt of the camera falsifies.
+    // Uses the drift computed from the plane as an observation. A tilt of the camera makes this
+    // drift inaccurate.
     const FloatVec expected = drift_of(plane);
     const float weight =
         fit.variance * tuned::kDriftStep * tuned::kDriftStep / (tuned::kDrift * tuned::kDrift);

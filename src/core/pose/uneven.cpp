@@ -51,7 +51,8 @@ class Blocks {
     const GroupScatter& scatter() const { return scatter_; }
     float outliers() const { return outliers_; }
     float side() const { return side_; }  ///< side of a block, in spacings
-    /// Returns the variance of the sheet's displacement at a block, along one axis, in spacings^2.
+    /// Returns the variance of the displacement of the sheet at a block, along one axis, in
+    /// spacings^2.
     float variance_of_sheet() const {
         return std::max(scatter_.variance_between() - variance_of_bias_, 0.0F);
     }
@@ -63,7 +64,7 @@ class Blocks {
     float variance_of_bias_;
 };
 
-/// Returns the blocks on the reference point's side.
+/// Returns the blocks on the side of the reference point.
 Blocks blocks_here(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const SplitFit& split) {
     const HalfPlane only(HalfPlane::Side::here, dots, split.plane, reference_px, split.step);
@@ -76,7 +77,7 @@ bool has_outliers(const Blocks& blocks) {
 }
 
 /// Adds the squared difference between two planes at the reference point to the covariance, times
-/// `weight`. Either plane may be the correct one.
+/// `weight`, because either plane may be correct.
 void add_difference(const FloatPlane& plane, const FloatPlane& other, FloatVec reference_px,
                     float weight, PoseFit& fit) {
     const FloatVec p = plane_point(plane, reference_px);
@@ -96,7 +97,7 @@ void add(float variance, std::size_t i, PoseFit& fit) {
     fit.uneven[i][i] += variance;
 }
 
-/// Adds the uncertainty of place and rotation due to displacements between blocks. The mean block
+/// Adds the uncertainty of place and rotation due to displacements of the blocks. The mean block
 /// residuals determine the variance of these displacements.
 void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     const float variance = blocks.variance_of_sheet();
@@ -113,17 +114,17 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
     FloatPlane beyond;
     if (fit_far_side(kernels, dots, reference_px, split, beyond))
         return add_difference(split.plane, beyond, reference_px, 1, fit);
-    // The plane beyond the line is unknown. Assumes that its displacement is uniformly distributed
+    // The plane beyond the line is unknown. Assumes a displacement that is uniformly distributed
     // between -1/2 and 1/2 cell, with a variance of 1/12. Assumes a standard deviation of 0.02 rad
-    // for its rotation.
+    // for the rotation.
     add(1.0F / 12, 0, fit);
     add(1.0F / 12, 1, fit);
     add(0.02F * 0.02F, 2, fit);
 }
 
-/// Fits the plane to the reference point's side if a line certainly divides the sheet and this side
-/// is even. Otherwise, keeps the plane. If a line was found, adds the difference between the two
-/// planes to the covariance.
+/// Fits the plane to the side of the reference point if a line certainly divides the sheet and this
+/// side is even. Otherwise, keeps the plane. If a line was found, adds the difference between the
+/// two planes to the covariance.
 void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const Blocks& blocks, FloatPlane& plane, PoseFit& fit) {
     SplitFit split{plane, fit};
@@ -134,7 +135,7 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
         plane = split.plane;
         fit = split.fit;
         fit.surface = Surface::divided;
-        // Without outliers, the sheet may be bent, not divided.
+        // Without outliers, the sheet may be bent instead of divided.
         if (!has_outliers(blocks)) widen_by_blocks(blocks, fit);
     } else {
         const float excess = blocks.scatter().excess();
@@ -158,9 +159,9 @@ void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dot
 }
 
 /// Returns the value of `GroupScatter::excess` above which the second attempt searches for a line.
-/// With more dots, small block residuals become more significant on any sheet, for example due to
-/// pixel bias. The limit therefore increases. Residuals at a line also become more significant, and
-/// still exceed the limit.
+/// The limit increases with the number of dots, because small block residuals, for example due to
+/// pixel bias, become more significant on any sheet. The residuals at a line also become more
+/// significant, and still exceed the limit.
 float patient_excess(const Blocks& blocks) {
     return tuned::kMaybeLine *
            std::sqrt(std::max(blocks.scatter().dots / tuned::kMaybeLineDots, 1.0F));
@@ -195,7 +196,7 @@ void fit_uneven(const Kernels& kernels, const Observations& observations, FixedV
         dots.row[k] = static_cast<float>(o.pattern_step.y);
         dots.bits[k] = static_cast<std::int32_t>(o.symbol);
     });
-    // The kernels process eight dots at a time, so the arrays need padding.
+    // The arrays need padding, because the kernels process eight dots at a time.
     for (std::size_t k = 0; k < 8; ++k)
         dots.x[static_cast<std::size_t>(dots.count) + k] = kNoDot_px;
     FloatPlane better = float_plane(plane);

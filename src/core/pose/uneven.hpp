@@ -1,5 +1,5 @@
 // Uneven: tests the residuals of neighbouring dots for correlation. Correlated residuals mean that
-// the sheet is not flat, and that the fix is less accurate than it seems. Unlike the paper, dotpose
+// the sheet is not flat, and that the covariance of the fix is too small. Unlike the paper, dotpose
 // does not assume that all dots are in one plane.
 #pragma once
 
@@ -9,14 +9,14 @@
 namespace dotpose::core {
 
 /// Tests the residuals of the fit for correlation. If a line certainly divides the sheet and the
-/// reference point's side is even, fits the plane again to this side. Sets `surface` and `uneven`
-/// of `fit`.
+/// side of the reference point is even, fits the plane again to this side. Sets `surface` and
+/// `uneven` of `fit`.
 void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                 FloatPlane& plane, PoseFit& fit);
 
-/// Overload for a plane that was fitted to observations. Takes longer, because this overload
-/// searches for a line at a much lower correlation. `dots` provides memory for the observations. If
-/// this memory is too small, the surface counts as even.
+/// Overload for a plane that was fitted to observations. Takes longer, because it searches for a
+/// line at a much lower correlation. `dots` provides memory for the observations. If this memory is
+/// too small, the surface counts as even.
 void fit_uneven(const Kernels& kernels, const Observations& observations, FixedVec reference_q8,
                 MeasuredDots& dots, PlaneFromImage& plane, PoseFit& fit);
 

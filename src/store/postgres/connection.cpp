@@ -10,7 +10,7 @@
 namespace dotpose::store {
 namespace {
 
-/// Joins the lines of a message of libpq, which may be indented.
+/// Joins the lines of a libpq message into one line. The lines may be indented.
 std::string in_one_line(std::string_view text) {
     std::string line;
     for (const char c : text) {
@@ -44,7 +44,8 @@ std::int64_t Rows::integer(int row, int column) const {
 }
 
 PostgresConnection::PostgresConnection(const std::string& url) : connection_(nullptr, &PQfinish) {
-    // Defaults, which the URL may replace. The timeouts detect a server that vanished.
+    // Default parameters, which the URL can override. The timeouts detect a server that no longer
+    // responds.
     constexpr std::array keys = {"connect_timeout",  "tcp_user_timeout", "keepalives_idle",
                                  "application_name", "client_encoding",  "dbname"};
     std::array<const char*, keys.size() + 1> names{};
@@ -52,7 +53,7 @@ PostgresConnection::PostgresConnection(const std::string& url) : connection_(nul
     const std::array<const char*, keys.size() + 1> values = {
         "5", "10000", "10", "dotpose fleet", "UTF8", url.c_str(), nullptr};
     connection_.reset(PQconnectdbParams(names.data(), values.data(), 1));
-    // Notices would appear on standard error.
+    // Discards notices, which libpq would print to standard error.
     PQsetNoticeProcessor(
         connection_.get(), [](void*, const char*) {}, nullptr);
     if (PQstatus(connection_.get()) == CONNECTION_OK) return;

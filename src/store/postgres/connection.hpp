@@ -1,4 +1,4 @@
-// A connection to PostgreSQL by libpq, with exceptions and parameters.
+// A connection to PostgreSQL with libpq. Errors are exceptions.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@
 
 namespace dotpose::store {
 
-/// The database refused a statement.
+/// Thrown if the database rejects a statement.
 struct Refused : Error {
     Refused(const std::string& message, std::string state)
         : Error(message), sql_state(std::move(state)) {}
-    std::string sql_state;  ///< code of five characters; empty if the connection broke
+    std::string sql_state;  ///< code of five characters, or empty if the connection broke
 };
 
 class Rows {
@@ -26,7 +26,7 @@ class Rows {
     int size() const { return PQntuples(result_.get()); }
     bool is_null(int row, int column) const { return PQgetisnull(result_.get(), row, column) != 0; }
     std::string_view text(int row, int column) const;
-    /// Returns 0 if the value is null.
+    /// Returns the value as an integer, or 0 if the value is null.
     std::int64_t integer(int row, int column) const;
     PGresult* get() const { return result_.get(); }
 
@@ -36,7 +36,7 @@ class Rows {
 
 class PostgresConnection {
   public:
-    /// Connects within 5 s. Throws Error.
+    /// Connects to the server. Throws Error if this takes more than 5 s or fails.
     explicit PostgresConnection(const std::string& url);
 
     /// Runs statements without parameters, separated by semicolons. Throws Refused.
@@ -47,10 +47,12 @@ class PostgresConnection {
 
     /// Starts a statement whose rows are returned one at a time by `next`. Throws Refused.
     void start(const std::string& statement, std::initializer_list<std::string> parameters);
-    /// Returns the next row as the only element, or nothing at the end. Throws Refused.
+    /// Returns the next row as the only element of the result. Returns an empty result after the
+    /// last row. Throws Refused.
     Rows next();
 
-    /// Sends `data`, in the binary format, by a statement COPY ... FROM STDIN. Throws Refused.
+    /// Runs a statement COPY ... FROM STDIN and sends `data`, in the binary format, to it. Throws
+    /// Refused.
     void copy(const std::string& statement, std::string_view data);
 
   private:
@@ -60,8 +62,8 @@ class PostgresConnection {
     std::unique_ptr<PGconn, decltype(&PQfinish)> connection_;
 };
 
-/// Returns host and database of a URL, without user and password. Throws BadArgument if the URL is
-/// not valid.
+/// Returns the host and the database of a URL, without user and password. Throws BadArgument if the
+/// URL is not valid.
 std::string label_of(const std::string& url);
 
 }  // namespace dotpose::store

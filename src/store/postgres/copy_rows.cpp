@@ -4,12 +4,12 @@
 
 namespace dotpose::store {
 
-// Format: PostgreSQL documentation, COPY, section "Binary Format".
+// PostgreSQL documentation of COPY, section "Binary Format", specifies the format.
 CopyRows::CopyRows() {
     using namespace std::string_literals;
     data_ = "PGCOPY\n\377\r\n\0"s;
     add_integer(0, 4);  // flags
-    add_integer(0, 4);  // length of the extension of the header
+    add_integer(0, 4);  // length of the header extension
 }
 
 void CopyRows::add(const State& state, std::int64_t robot_id, std::int64_t place_id) {

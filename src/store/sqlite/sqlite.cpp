@@ -1,5 +1,5 @@
-// States in a file of SQLite. The table is sorted by robot and time, so the states of a robot are
-// adjacent.
+// Stores states in a SQLite file. The table is sorted by robot and time, so the states of a robot
+// are adjacent.
 #include <memory>
 #include <optional>
 #include <utility>
@@ -28,7 +28,8 @@ class Connection {
     Connection(const std::string& path, Access access) : path_(path) {
         constexpr int kBusy_ms = 5000;
         sqlite3* database = nullptr;
-        // Readers must write the shared memory of the journal, too.
+        // Readers also need write access, because they update the shared-memory file of the
+        // write-ahead log.
         const int flags =
             SQLITE_OPEN_READWRITE | (access == Access::write ? SQLITE_OPEN_CREATE : 0);
         const int code = sqlite3_open_v2(path.c_str(), &database, flags, nullptr);
@@ -61,7 +62,7 @@ class Statement {
         statement_.reset(statement);
     }
 
-    /// Binds the next parameter. A text must exist until the statement was run.
+    /// Binds the next parameter. A text must remain valid until the statement has run.
     Statement& bind(std::int64_t value) {
         connection_.require(sqlite3_bind_int64(statement_.get(), ++bound_, value));
         return *this;
@@ -76,13 +77,13 @@ class Statement {
                                               static_cast<int>(text.size()), SQLITE_STATIC));
         return *this;
     }
-    /// Returns true if there is a row.
+    /// Advances to the next row. Returns false if there are no more rows.
     bool step() {
         const int code = sqlite3_step(statement_.get());
         connection_.require(code);
         return code == SQLITE_ROW;
     }
-    /// Runs the statement, and prepares it for other parameters.
+    /// Runs the statement, and resets it for the next parameters.
     void run() {
         while (step()) {
         }
@@ -117,7 +118,8 @@ class Sqlite : public Database {
         if (connection_) return;
         Connection connection(path_, access_);
         if (access_ == Access::write) {
-            // Readers do not wait for the writer, and each transaction survives a power failure.
+            // With a write-ahead log, readers do not wait for the writer. With full
+            // synchronization, each transaction survives a power failure.
             connection.run(
                 "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA cache_size = -65536;"
                 "BEGIN IMMEDIATE;" +
@@ -154,7 +156,8 @@ class Sqlite : public Database {
 
     void remove_days_before(std::int64_t time_us) override {
         run([&](const Connection& connection) {
-            // One transaction for each robot, so other programs can write in between.
+            // Each robot has its own transaction, to let other programs write between the
+            // transactions.
             std::vector<std::int64_t> ids;
             Statement select(connection, "SELECT robot FROM robots");
             while (select.step())
@@ -205,7 +208,7 @@ class Sqlite : public Database {
     }
 
   private:
-    /// Calls `work(connection)`. After an Error, closes the file, which undoes the transaction.
+    /// Calls `work(connection)`. After an Error, closes the file, which rolls back the transaction.
     template <typename Work>
     void run(const Work& work) {
         try {

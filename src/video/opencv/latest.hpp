@@ -1,5 +1,5 @@
-// Passes the newest of a series of values from one thread to another. There is no queue: a value
-// that is not taken before the next one arrives is dropped and counted.
+// Passes the newest of a series of values from one thread to another. There is no queue. A value
+// that is not taken before the next value arrives is dropped and counted.
 #pragma once
 
 #include <chrono>

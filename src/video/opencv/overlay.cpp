@@ -63,7 +63,7 @@ void draw_captions(const Scene& scene, cv::Mat panel) {
     }
 }
 
-/// The panel with a view of the sheets and the path from above, scaled to fit.
+/// The panel that shows the sheets and the path from above, scaled to fit.
 class Plan {
   public:
     Plan(const Scene& scene, cv::Mat panel) : panel_(std::move(panel)), y_up_(scene.y_up) {

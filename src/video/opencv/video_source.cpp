@@ -152,8 +152,8 @@ class VideoFile : public capture::FrameSource {
         if (stream_->duration > 0) {
             return static_cast<double>(stream_->duration) * av_q2d(stream_->time_base);
         }
-        // The duration of a file is the maximum over its streams, so it is used only if there is
-        // one stream.
+        // The duration of a file is the maximum over its streams. It is therefore used only if the
+        // file has one stream.
         const bool is_of_video = file_->nb_streams == 1 && file_->duration > 0;
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }
@@ -206,8 +206,8 @@ class VideoFile : public capture::FrameSource {
     }
 
     /// Corrects the time of a packet in an AVI file with the index of the file. AVI stores no
-    /// times: FFmpeg counts packets, which is wrong after damage. The index contains the positions
-    /// of all frames.
+    /// times. FFmpeg counts packets instead, which gives wrong times after damage. The index
+    /// contains the positions of all frames.
     void correct_time() {
         if (std::string_view(file_->iformat->name) != "avi") return;
         int first = 0;

@@ -46,7 +46,7 @@ bool keep_camera(const std::filesystem::path& folder) {
 
 }  // namespace
 
-// A program that only reads camera and sheet files links neither printing nor calibration.
+// The program only reads camera and sheet files, and links neither printing nor calibration.
 int main() {
     const std::filesystem::path folder = "consumer-out";
     std::filesystem::create_directories(folder);

@@ -124,10 +124,10 @@ TEST(CheckPrint, tells_other_print_from_faults) {
     EXPECT_LT(field.missing_share(), 0.002);
     EXPECT_LT(field.merged_share(), 0.002);
     EXPECT_LT(field.wrong_share(), 0.002);
-    // A bar covers the cells whose intersections are at most half a cell from the bar: a stripe of
-    // 1 mm plus one cell. There is a bar every 5 mm, and a bar is 30 mm long on a page of 60 mm.
-    // Along the edge of the grey area, cells in up to one tile of 24 cells (12 mm) differ from the
-    // paper.
+    // A bar covers the cells whose intersections are at most half a cell from the bar. These cells
+    // are a stripe of 1 mm plus one cell. There is a bar every 5 mm, and a bar is 30 mm long on a
+    // page of 60 mm. Along the edge of the grey area, cells in up to one tile of 24 cells (12 mm)
+    // differ from the paper.
     const double bars = (1 + 0.508) / 5 * 30 / 60;
     const double edge = 12.0 * (25 + 30 + 25) / (60 * 80);
     EXPECT_GT(field.covered_share(), 0.9 * bars);
@@ -178,7 +178,7 @@ TEST(CheckPrint, maps_distortion) {
 }
 
 TEST(CheckPrint, bits_of_another_place_are_wrong) {
-    // The lower 12 rows are printed from another cell, as by a driver that prints a page in tiles.
+    // The lower 12 rows continue at another cell, as if a driver printed the page in tiles.
     Sheet upper = small_sheet();
     Sheet lower = upper;
     upper.rows -= 12;

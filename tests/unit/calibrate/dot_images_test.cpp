@@ -13,7 +13,8 @@
 namespace dotpose {
 namespace {
 
-/// Dots of a frame: their true pixels, and expected pixels that are wrong by a fraction of a pixel.
+/// The dots of a frame. Contains their true pixels, and expected pixels with errors of a fraction
+/// of a pixel.
 struct Frame {
     GreyImage image;
     std::vector<Eigen::Vector2d> truth;

@@ -17,7 +17,7 @@ constexpr int kColumns = 40;
 constexpr int kRows = 30;
 constexpr std::uint32_t kDotSeed = 5;
 
-/// Light that falls by 40 % from the middle to the corners, and by a tenth from left to right.
+/// Light that decreases by 40 % from the middle to the corners, and by a tenth from left to right.
 double light_at(double u, double v) {
     const double x = 2 * u / (kColumns - 1) - 1;
     const double y = 2 * v / (kRows - 1) - 1;
@@ -63,8 +63,9 @@ TEST(CalibrateFlatField, FindsTheLight) {
             EXPECT_NEAR(field[j][i], light_at(u, v) / brightest, 0.03) << i << ", " << j;
         }
     }
-    // A pixel that is a dot of 23 % of the level in a tenth of the frames deviates by 23 % / 90 %
-    // from the mean, and by a 20th of this from the mean of 400 frames.
+    // A tenth of the pixels are dots, with 23 % of the level of the paper. The standard deviation
+    // of a pixel is therefore 25 % of its mean in one frame, and a 20th of this value, 1.26 %, in
+    // the mean of 400 frames.
     EXPECT_NEAR(found.residual, 0.0127, 0.004);
     validate(found.camera);
 }

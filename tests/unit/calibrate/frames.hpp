@@ -83,8 +83,9 @@ inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int 
 inline constexpr double kPivot_x_mm = 60'000;
 inline constexpr double kPivot_y_mm = 45'000;
 
-/// Mean error of the position of a located robot, along the axes of the robot, and mean error of
-/// its heading. The means over many directions contain only the error of the calibration.
+/// Mean error of the position of a robot, along the axes of the robot, and mean error of its
+/// heading. Averaged over many directions, the errors of single fixes cancel, and the error of the
+/// calibration remains.
 struct RobotError {
     Vec2 place_mm;
     double heading_rad = 0;

@@ -51,8 +51,8 @@ TEST(CalibrateLens, FindsThePapersLens) {
     expect_lens(result, truth);
     ASSERT_TRUE(result.is_mounted);
     const PaperScale& paper = result.camera.paper.value();
-    // The scale is a mean over the field of 188 x 120 px, which is determined more accurately than
-    // the scale at its centre.
+    // The scale is a mean over the field of 188 x 120 px. This mean is more accurate than the scale
+    // at the centre of the field.
     EXPECT_NEAR(paper.mm_per_px_x, truth.mm_per_px, 5e-4 * truth.mm_per_px);
     EXPECT_NEAR(paper.mm_per_px_y, truth.mm_per_px, 5e-4 * truth.mm_per_px);
     expect_near_truth(result.camera, "mm_per_px_x", paper.mm_per_px_x, truth.mm_per_px);
@@ -60,7 +60,8 @@ TEST(CalibrateLens, FindsThePapersLens) {
     expect_near_truth(result.camera, "skew", paper.skew, 0);
     // Frames seen from straight above do not determine the focal length.
     EXPECT_FALSE(result.camera.focal_px.has_value());
-    // Without correction of the lens distortion, noise is only a small part of the residual.
+    // Without correction of the lens distortion, noise contributes only a small part of the
+    // residual.
     EXPECT_GT(result.residual_before_px, 3 * result.residual_px);
     EXPECT_EQ(result.coverage, 1);
 }

@@ -74,11 +74,11 @@ TEST(ReadoutVelocity, IsWithinItsStandardDeviation) {
     }
 }
 
-/// Adds a rotation of the camera during the readout to a frame. The velocity is that of the point
-/// under the image centre, so it does not change.
+/// Adds a rotation of the camera during the readout to a frame. The velocity refers to the point
+/// under the image centre and does not change.
 RollingFrame draw_turning(const CameraModel& camera, double motion, double turn_deg, int index) {
     RollingFrame frame = draw_rolling(camera, motion, index);
-    // If theta grows, the scene turns anticlockwise in the image.
+    // If theta increases, the scene turns anticlockwise in the image.
     frame.shot.camera.readout_turn_rad = -turn_deg * std::numbers::pi / 180;
     return frame;
 }

@@ -67,8 +67,8 @@ Matrix3 about_y(double angle) {
     return {{{c, 0, s}, {0, 1, 0}, {-s, 0, c}}};
 }
 
-/// Rotation from the camera to the paper by the definition of CameraLean: a turn, and then a lean.
-/// A camera that leans towards +x has an optical axis that points towards -x.
+/// Returns the rotation from the camera to the paper according to the definition of CameraLean: a
+/// turn, followed by a lean. If a camera leans towards +x, its optical axis points towards -x.
 Matrix3 rotation_of(const CameraLean& lean) {
     return product(product(about_z(lean.azimuth_rad),
                            product(about_y(-lean.tilt_rad), about_z(-lean.azimuth_rad))),
@@ -199,7 +199,7 @@ TEST(SpaceFit, HasTrueCovariancesForErrorsOfPrintAndImage) {
             const auto fit = calibrate::fit_space(
                 dots_of(view, 30, 0.5, noise.print_mm, noise.centre_px, rng), {600, 600});
             ASSERT_TRUE(fit);
-            // Rotation vector in the camera frame, for small angles.
+            // Rotation vector of the error in the camera frame, for small angles.
             const Matrix3 turn = product(transposed(rotation_of(fit->state)), view.rotation);
             const std::array error = {view.position_mm[0] - fit->state.position_mm.x(),
                                       view.position_mm[1] - fit->state.position_mm.y(),
@@ -219,7 +219,8 @@ TEST(SpaceFit, HasTrueCovariancesForErrorsOfPrintAndImage) {
 }
 
 TEST(SpaceFit, ReportsTheMirroredTiltOfANarrowView) {
-    // 15 x 15 dots in 1 degree: the perspective over the view is a fraction of the noise.
+    // 15 x 15 dots within 1 degree. The effect of perspective over the view is a fraction of the
+    // noise.
     const CameraLean lean{10 * kDegree_rad, 0.5, 1};
     const CameraLean mirrored{10 * kDegree_rad, 0.5 - pi, 1};
     int ambiguous = 0;
@@ -281,9 +282,9 @@ TEST(CameraLean, IsTurnThenLean) {
             for (int turn = -170; turn <= 180; turn += 50) {
                 const CameraLean wanted{tilt * kDegree_rad, azimuth * kDegree_rad,
                                         turn * kDegree_rad};
-                // The quaternion of this rotation is a product. The first factor rotates about an
-                // axis in the paper, at right angles to the azimuth. The second factor rotates
-                // about the optical axis.
+                // The quaternion is the product of two rotations. The first factor rotates about an
+                // axis in the paper, perpendicular to the azimuth. The second factor rotates about
+                // the optical axis.
                 const double sine = std::sin(wanted.tilt_rad / 2);
                 const std::array lean = {std::cos(wanted.tilt_rad / 2),
                                          sine * std::sin(wanted.azimuth_rad),
@@ -305,7 +306,7 @@ TEST(CameraLean, IsTurnThenLean) {
     }
 }
 
-/// Camera file of a simulated camera.
+/// Returns the camera file of a simulated camera.
 Camera camera_of(const CameraModel& model) {
     Camera camera;
     camera.width_px = model.width_px;
@@ -382,8 +383,8 @@ TEST(SpacePose, OfAStraightCameraIsItsPlaneAndDistance) {
 }
 
 TEST(SpacePose, LeansToTheSideOnWhichThePaperIsNear) {
-    // The paper is near at the top of the image, and the image x axis is the x axis of the paper,
-    // so the camera leans towards -y, and its optical axis points towards +y.
+    // The paper is nearest at the top of the image, and the image x axis is the x axis of the
+    // paper. The camera therefore leans towards -y, and its optical axis points towards +y.
     Shot shot = tilted_shot(21, 20, 0);
     shot.pose.theta_rad = 0;
     const auto pose = located(shot, camera_of(shot.camera));
@@ -427,8 +428,8 @@ TEST(SpacePose, IsMovedToTheSheetAndTheWorld) {
     EXPECT_NEAR(on_page.y_mm, 20 + 50 * 0.508, 1e-6);
     EXPECT_EQ(on_page.z_mm, -30);
 
-    // The page is turned by a quarter to the left, so its x axis points up in the world, and its y
-    // axis (down on the page) to the right.
+    // The page is turned to the left by a quarter turn. Its x axis points up in the world, and its
+    // y axis (down on the page) points to the right.
     SpaceCovariance covariance{};
     covariance[0][0] = 4;
     covariance[3][3] = 1e-6;
@@ -437,7 +438,7 @@ TEST(SpacePose, IsMovedToTheSheetAndTheWorld) {
     EXPECT_NEAR(world.y_m, 6.1, 1e-12);
     EXPECT_NEAR(world.z_m, 0.03, 1e-12);
     const Matrix3 rotation = rotation_of(world.rotation);
-    // The image x axis points along the x axis of the page, and the optical axis down.
+    // The image x axis points along the x axis of the page. The optical axis points down.
     EXPECT_NEAR(rotation[1][0], 1, 1e-12);
     EXPECT_NEAR(rotation[2][2], -1, 1e-12);
     EXPECT_NEAR(world.covariance[1][1], 4e-6, 1e-15);

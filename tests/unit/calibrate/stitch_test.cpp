@@ -155,7 +155,7 @@ TEST(StitchSheets, OnlyAReferenceMakesPrintScalesTrue) {
     EXPECT_LT(off_mm(*by_width.sheets[1].world, table[1]), 0.02);
 }
 
-// Dots have the same printing error in all frames, so repeated frames add no information.
+// Dots have the same printing error in all frames. Repeated frames therefore add no information.
 TEST(StitchSheets, FramesThatRepeatDotsDoNotMakeItMoreCertain) {
     const CameraModel model = wide_camera();
     const FrameAt seam = upper_seam(kTable, model);

@@ -33,9 +33,9 @@ class ImageFileTest : public testing::Test {
     ~ImageFileTest() override { std::filesystem::remove_all(directory); }
 
     std::filesystem::path write(const Bytes& bytes) const {
-        auto path = directory / "image";  // no extension, because it must not matter
-        // The file is removed and not truncated, because some file systems flush truncated files,
-        // which made the test 10 times slower.
+        auto path = directory / "image";  // no extension, because the reader must not depend on it
+        // Removes the file instead of truncating it. Some file systems flush truncated files, which
+        // made the test 10 times slower.
         std::filesystem::remove(path);
         std::ofstream(path, std::ios::binary)
             .write(reinterpret_cast<const char*>(bytes.data()),
@@ -394,7 +394,8 @@ TEST_F(ImageFileTest, survives_random_damage) {
         int refused = 0;
         for (int round = 0; round < kRounds; ++round) {
             Bytes bytes = sample.bytes;
-            // Half of the damage is in the headers, where damage has the largest effect.
+            // Every second round damages only the first 200 bytes. They contain the headers, where
+            // damage has the largest effect.
             const std::size_t reach = round % 2 == 0 ? bytes.size() : std::size_t{200};
             for (std::uint32_t flips = 1 + random() % 8; flips > 0; --flips) {
                 bytes[random() % reach] = static_cast<std::uint8_t>(random());

@@ -184,7 +184,7 @@ TEST(Decode, RefusesPublishedWindowsThatStandTwice) {
         EXPECT_TRUE(ambiguous_places(8, 8, along_x).empty());
     }
     EXPECT_EQ(ambiguous_places(6, 32, true),
-              kTwinPlaces);  // long columns do not help on the x axis
+              kTwinPlaces);  // on the x axis, only the number of columns matters
     EXPECT_TRUE(ambiguous_places(8, 6, true).empty());
 }
 
@@ -298,8 +298,8 @@ Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int 
 }
 
 TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
-    // One of the 10 differences is wrong. The five differences on one side of the wrong difference
-    // determine the position, which the wrong difference contradicts.
+    // One of the 10 differences is wrong. The five differences on one side of it determine a
+    // position, and the wrong difference contradicts this position.
     std::mt19937 rng(kSeed);
     int found_in_8 = 0;
     constexpr int kDraws = 20'000;

@@ -1,5 +1,5 @@
-// A reference implementation of the position code, written from section II-A of the paper with
-// loops instead of tables, and with a separate copy of the sequences (patent US 6,667,695). Shares
+// A reference implementation of the position code, written from section II-A of the paper. It uses
+// loops instead of tables, and a separate copy of the sequences (patent US 6,667,695). It shares
 // only types with src/code.
 #pragma once
 

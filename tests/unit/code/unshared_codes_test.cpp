@@ -12,8 +12,8 @@
 namespace dotpose::code_test::unshared_codes_test {
 namespace {
 
-/// Returns the contribution of a4 to the roll of each of `lines` lines, starting at `place`: the
-/// weighted sum of all preceding digits of a4, modulo 63.
+/// Returns the contribution of a4 to the roll of each of `lines` lines, starting at `place`. The
+/// contribution is the weighted sum of all preceding digits of a4, modulo 63.
 std::vector<int> a4_rolls(CodeVariant code, std::size_t place, int lines) {
     const std::string_view a4 = secondary_texts(code)[3];
     std::vector<int> rolls;

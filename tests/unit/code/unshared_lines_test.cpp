@@ -29,8 +29,9 @@ Lines max_equal(const std::array<int, kMaxLines>& offsets, std::size_t lines, bo
     return most;
 }
 
-/// Returns the minimum numbers of lines that another place of the sequence does not share, at a
-/// single shift and at two shifts on the two sides of a border.
+/// Returns the minimum numbers of lines that another place of the sequence does not share. The
+/// first number is for a single shift. The second number is for two shifts, on the two sides of a
+/// border.
 Unshared counted(const Secondary& a, std::uint32_t place, std::size_t lines) {
     std::size_t max_at_one = 0;
     std::size_t max_on_both = 0;

@@ -1,4 +1,4 @@
-// Tests that a Locator allocates nothing after its construction: it uses only the memory passed to
+// Tests that a Locator allocates nothing after its construction, and uses only the memory passed to
 // it. scripts/check-core-symbols checks the same in the object code, including malloc.
 #include <cstdlib>
 #include <memory>
@@ -26,8 +26,8 @@ void* counted(std::size_t size, std::size_t alignment) {
 }
 }  // namespace
 
-// The forms for arrays and the non-throwing forms call the forms below. GCC warns about `new` and
-// `free` if it inlines only one of the two functions.
+// The array forms and the non-throwing forms call the two operators below. GCC warns about `new`
+// and `free` if it inlines only one of the two functions.
 [[gnu::noinline]] void* operator new(std::size_t size) {
     return counted(size, alignof(std::max_align_t));
 }

@@ -1,5 +1,5 @@
-// Tests the ranges of options: no stage overflows within the ranges, and values out of range are
-// refused.
+// Tests the ranges of options. No stage may overflow within the ranges, and values out of range
+// must be refused.
 #include <climits>
 #include <cstdint>
 #include <functional>

@@ -1,4 +1,4 @@
-// Tests device locators that know their sheets, with small frames.
+// Tests device locators with known sheets on small frames.
 #include "device/on_sheets.hpp"
 
 #include <cmath>

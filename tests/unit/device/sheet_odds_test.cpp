@@ -72,7 +72,8 @@ TEST(SheetOdds, BoundIsAboveTheSumOverAllPlaces) {
         is_certain(block, corner, kOnly, fix);
         const double sum_log2 = std::log2(odds_of_others(block, corner));
         EXPECT_GE(fix.p_wrong_log2, sum_log2) << trial;
-        // log2 of the chance of 4 * 145 * 135 places, from the binomial distribution of wrong bits.
+        // `chance` is the probability that random bits have at most `fix.bit_errors` errors at one
+        // place. The corner can have 4 * 145 * 135 places.
         double chance = 0;
         double term = std::exp2(-2 * block.dots());
         for (int k = 0; k <= fix.bit_errors; ++k) {
@@ -80,7 +81,7 @@ TEST(SheetOdds, BoundIsAboveTheSumOverAllPlaces) {
             term *= (2.0 * block.dots() - k) / (k + 1);
         }
         const double expected_log2 = std::log2(std::exp2(sum_log2) + 4 * 145 * 135 * chance);
-        // Rounding up costs 1. Chernoff's bound exceeds the binomial sum by at most 3.
+        // Rounding up adds at most 1. Chernoff's bound exceeds the binomial sum by at most 3.
         EXPECT_LE(fix.p_wrong_log2, expected_log2 + 4) << trial;
     }
 }
@@ -96,7 +97,8 @@ TEST(SheetOdds, MoreDotsAreNeededIfOtherSheetsArePossible) {
     const int only_log2 = fix.p_wrong_log2;
     const core::KnownSheets possible{{&kSheet, 1}, OtherSheets::possible};
     is_certain(block, corner, possible, fix);
-    // An unknown sheet may have the same columns: 3 rows of the class agree by 2^-36 each.
+    // An unknown sheet may have the same columns. Its rows can then have 3 positions. Each position
+    // agrees by chance with a probability of 2^-36.
     EXPECT_GE(fix.p_wrong_log2, -36);
     EXPECT_GT(fix.p_wrong_log2, only_log2);
 }
@@ -121,8 +123,8 @@ TEST(SheetOdds, TooManyWrongBitsAreRefused) {
 }
 
 TEST(SheetOdds, MaximumOfWrongBitsFollowsFromChance) {
-    // 4 * 145 * 135 places are 2^16.3 hypotheses. 48 bits without error leave 2^-31.7, and one
-    // wrong bit of 48 leaves 2^-26.
+    // 4 * 145 * 135 places are 2^16.3 hypotheses. 48 bits without an error leave a probability of
+    // 2^-31.7. One wrong bit of 48 leaves 2^-26.
     EXPECT_EQ(core::max_wrong_bits(kOnly, kSheet.code, 24, 6, {}), 0);
     EXPECT_EQ(core::max_wrong_bits(kOnly, kSheet.code, 22, 6, {}), -1);
     EXPECT_EQ(core::max_wrong_bits(kOnly, kSheet.code, 200, 16, {}), 400);

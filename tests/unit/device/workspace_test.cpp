@@ -1,5 +1,5 @@
-// Tests device workspaces for several frame sizes: they locate and track frames of these sizes, and
-// refuse larger frames.
+// Tests device workspaces for several frame sizes. They must locate and track frames of these
+// sizes, and refuse larger frames.
 #include "device/workspace.hpp"
 
 #include <cmath>
@@ -148,7 +148,7 @@ TYPED_TEST(DeviceWorkspace, TakesAnyNoise) {
     GreyImage image = render(shot);
     const Fix fix = this->locator_.locate(image.view());
     for (int n = 0; n < 20; ++n) {
-        // Fine and coarse noise, which fills the tables of runs, blobs and dots.
+        // Fine and coarse noise fills the tables of runs, blobs and dots.
         const auto grain = static_cast<std::size_t>(1 + n % 5);
         std::uint8_t grey = 0;
         for (std::size_t i = 0; i < image.pixels.size(); ++i) {
@@ -161,7 +161,8 @@ TYPED_TEST(DeviceWorkspace, TakesAnyNoise) {
 }
 
 TEST(DeviceMemories, HaveTheSizesThatAreStated) {
-    // Pointers make the memory larger on desktops. `make budget` reports the size on devices.
+    // The memory is larger on desktops, because pointers are larger. `make budget` reports the size
+    // on devices.
     EXPECT_LT(sizeof(DeviceMemoryFor<36, 36>), 5'000U);
     EXPECT_LT(sizeof(DeviceMemoryFor<160, 120>), 12'000U);
     EXPECT_LT(sizeof(DeviceMemoryFor<188, 120>), 13'400U);

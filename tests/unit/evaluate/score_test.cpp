@@ -55,8 +55,8 @@ TEST(Quantiles, AreNearestRanks) {
 }
 
 TEST(Score, IsWhatAHandComputes) {
-    // The distances are 0.025 spacings or 12.5 µm, from a 3-4-5 triangle of 0.015 and 0.020
-    // spacings, and zero.
+    // The first distance is 0.025 spacings (12.5 µm), the hypotenuse of 0.015 and 0.020 spacings.
+    // The second distance is zero.
     const std::vector<Outcome> outcomes = {outcome(0.015 * 65536, 0.020 * 65536, 0.5), outcome(),
                                            failure(Status::no_grid), failure(Status::no_grid)};
     const Score score = score_of(outcomes);

@@ -16,8 +16,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 /// Returns a sheet of 20 x 10 cells with a spacing of 0.5 mm. The first cell is 4 mm to the right
-/// of and 3 mm below the corner of the page, so the last is at (13.5, 7.5) mm, followed by margins
-/// of 6.5 and 2.5 mm.
+/// of and 3 mm below the corner of the page. The last cell is therefore at (13.5, 7.5) mm. Margins
+/// of 6.5 and 2.5 mm follow.
 SheetEntry small_entry(Cell origin) {
     SheetEntry entry;
     entry.name = "small";

@@ -21,8 +21,8 @@ Camera camera_with(std::vector<std::vector<double>> flat_field, int width_px, in
 }
 
 TEST(FlatField, IsInterpolatedBetweenItsValues) {
-    // The brightness falls from the first to the last column by half, and from the first to the
-    // last row by half.
+    // The brightness decreases by half from the first to the last column, and by half from the
+    // first to the last row.
     const FlatFieldCorrection correction(camera_with({{1, 0.5}, {0.5, 0.25}}, 3, 3));
     // Paper of level 200 under this light: 200 * (1 - u / 4) * (1 - v / 4).
     const GreyImage paper{{200, 150, 100, 150, 113, 75, 100, 75, 50}, 3, 3};
@@ -46,7 +46,7 @@ TEST(FlatField, BelongsToOneSizeOfImages) {
     EXPECT_THROW(correction.corrected(image.view()), BadArgument);
 }
 
-/// Returns the number of located frames of an optical mouse on a known sheet.
+/// Returns the number of frames of an optical mouse that are located on a known sheet.
 int located_frames(const FollowerOptions& options) {
     Setup setup;
     setup.preset = Preset::mouse;

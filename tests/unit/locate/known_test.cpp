@@ -1,5 +1,5 @@
-// Tests locators that know their sheets, with views that are too small to determine a position on
-// the whole plane.
+// Tests locators with known sheets. The views are too small to determine a position on the whole
+// plane.
 #include <array>
 #include <memory>
 

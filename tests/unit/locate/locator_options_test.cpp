@@ -162,7 +162,7 @@ TEST(LocatorOptions, TheCodeIsDetectedUnlessItIsGiven) {
               Status::ok);
 }
 
-/// Returns the frame with its contrast multiplied by `by`: the grey levels move towards 128.
+/// Returns the frame with its contrast multiplied by `by`. The grey levels move towards 128.
 GreyImage paled(GreyImage image, double by) {
     for (std::uint8_t& grey : image.pixels)
         grey = static_cast<std::uint8_t>(std::lround(128 + by * (grey - 128)));
@@ -188,7 +188,7 @@ Fix pushed(const GreyImage& image, const LocatorOptions& options) {
 using Way = std::function<Fix(const GreyImage&, const LocatorOptions&)>;
 
 /// Expects that an attempt locates a frame if the minimum contrast is a third of the contrast of
-/// the frame, and refuses it if the minimum is twice the contrast.
+/// the frame. Also expects that the attempt refuses the frame if the minimum is twice the contrast.
 void expect_contrast_counts(const Way& locate, const GreyImage& image, Attempt attempt) {
     const int contrast = contrast_of(image);
     ASSERT_GT(contrast, 15);

@@ -1,5 +1,5 @@
-// Tests locators that know the motion between frames: frames that are read together, and
-// predictions from motions.
+// Tests locators that receive the motion between frames. Frames are then read together, and a
+// motion predicts the next frame.
 #include <array>
 #include <cmath>
 #include <memory>
@@ -14,8 +14,8 @@ namespace {
 constexpr std::uint64_t kSeed = 7171;
 constexpr KnownRegion kSheet{CodeVariant::anoto, {}, {1024, 2048}, 393, 564};
 
-/// Returns the shot of a camera that has moved: its displacement along the axes of the image of
-/// `shot`, in mm, and its rotation. Noise and light are those of another frame.
+/// Returns the shot of a camera that has moved. The motion is the displacement along the axes of
+/// the image of `shot`, in mm, and the rotation. Noise and light are those of another frame.
 Shot moved_shot(const Shot& shot, const MeasuredMotion& motion) {
     Shot next = shot;
     CameraPose& pose = next.pose;
@@ -72,8 +72,9 @@ constexpr int kLength = 6;
 
 /// Results of several series of `kLength` frames each.
 struct Series {
-    std::array<int, kLength> located{};  ///< number of series with a fix in their first k frames
-    int with_earlier = 0;                ///< number of fixes from more than one frame
+    /// located[k] is the number of series with a fix in their first k + 1 frames.
+    std::array<int, kLength> located{};
+    int with_earlier = 0;  ///< number of fixes from more than one frame
     int wrong = 0;
 };
 
@@ -84,7 +85,7 @@ Series run_series(Locator& locator, const ShotSize& size, int count, float sigma
         const auto index = static_cast<std::uint64_t>(i);
         Shot shot = is_on_sheet ? shot_on_sheet(size, index) : shot_of(size, kSeed, index);
         Rng rng(kSeed, 1'000'000 + index);
-        // The first call of a series is without a motion, which makes the locator forget.
+        // The first call has no motion, and therefore ends the previous series.
         static_cast<void>(locator.locate(render_scene(Scene::white, shot).view()));
         MeasuredMotion motion;
         bool is_located = false;
@@ -111,7 +112,7 @@ TEST(MeasuredMotion, FollowsAnotherMotion) {
     const MeasuredMotion both = followed_by(quarter, ahead);
     EXPECT_NEAR(both.right_mm, 0, 1e-6);
     EXPECT_NEAR(both.down_mm, 3, 1e-6);
-    EXPECT_NEAR(both.sigma_mm, 0.05, 1e-6);  // 3 mm * 0.01 rad, and 0.04 mm
+    EXPECT_NEAR(both.sigma_mm, 0.05, 1e-6);  // 3 mm * 0.01 rad in quadrature with 0.04 mm
     EXPECT_NEAR(both.turn_rad, std::numbers::pi / 2, 1e-6);
 }
 
@@ -132,7 +133,7 @@ TEST_F(FramesReadTogether, SmallViewsOfTheWholePlaneBecomeCertain) {
     EXPECT_GT(series.with_earlier, 100);
 }
 
-// Alone, views of 4.9 cells are never certain on a sheet.
+// A single view of 4.9 cells per side never gives a certain place on a sheet.
 TEST_F(FramesReadTogether, SmallViewsOfKnownSheetsBecomeCertain) {
     ASSERT_EQ(locator_.set_known({&kSheet, 1}, OtherSheets::impossible), Status::ok);
     const Series series =
@@ -143,7 +144,8 @@ TEST_F(FramesReadTogether, SmallViewsOfKnownSheetsBecomeCertain) {
     EXPECT_EQ(series.located[3], 40);
 }
 
-// The dots that two frames share determine a motion of which only the order of magnitude is known.
+// Only the order of magnitude of the motion is known. The dots that two frames share determine the
+// motion.
 TEST_F(FramesReadTogether, CommonDotsReplaceAnInaccurateMotion) {
     const Series series =
         run_series(locator_, {.width_px = 90, .height_px = 90}, 40, 0.8F, 0.3F, false);
@@ -153,8 +155,8 @@ TEST_F(FramesReadTogether, CommonDotsReplaceAnInaccurateMotion) {
     EXPECT_EQ(series.located[5], 40);
 }
 
-// The robot is lifted between frames, and its odometry does not notice. Its place becomes certain
-// after more frames, and is never wrong.
+// The robot is lifted between frames, and its odometry does not detect this. Its place becomes
+// certain after more frames, and is never wrong.
 TEST_F(FramesReadTogether, AWrongMotionGivesNoWrongFix) {
     constexpr ShotSize kSize{.width_px = 80, .height_px = 80};
     const MeasuredMotion none{.sigma_mm = 0.05F, .sigma_rad = 0.02F};
@@ -168,7 +170,7 @@ TEST_F(FramesReadTogether, AWrongMotionGivesNoWrongFix) {
     EXPECT_EQ(located, 0);
 }
 
-// Frames without a pattern between the views of a series change nothing but the distance.
+// Frames without a pattern between the views of a series increase only the distance.
 TEST_F(FramesReadTogether, FramesWithoutAPatternAreSkipped) {
     constexpr ShotSize kSize{.width_px = 80, .height_px = 80};
     int located = 0;
@@ -204,7 +206,7 @@ TEST_F(FramesReadTogether, ALocatorDoesNotContinueTheSeriesOfAnEarlierOne) {
     EXPECT_FALSE(other.locate(render(moved_shot(next, motion)).view(), motion));
 }
 
-// A motion predicts the next frame after a fix, so the tracked attempt reads it.
+// After a fix, the motion predicts the next frame. The tracked attempt therefore reads this frame.
 TEST_F(FramesReadTogether, AMotionPredictsTheNextFrame) {
     Shot shot = shot_of({}, kSeed, 3);
     const MeasuredMotion motion{.right_mm = 2.5F,

@@ -17,8 +17,8 @@ std::int32_t bam(double rad) {
     return static_cast<std::int32_t>(std::lround(rad * kBamPerRadian));
 }
 
-/// Returns the prediction that matches the geometry of the shot: the plane of a camera that looks
-/// straight down, or of a tilted camera.
+/// Returns the prediction that matches the geometry of the shot. The camera looks straight down or
+/// is tilted.
 Prediction true_prediction(const Shot& shot) {
     Prediction prediction;
     const Pattern& pattern = shot.page.pattern;

@@ -1,5 +1,5 @@
-// Tests frames of a rolling shutter in which the scene turns while the rows are read: fresh frames,
-// and drives with predictions from the last fix.
+// Tests frames of a rolling shutter in which the scene turns while the rows are read. The frames
+// are fresh frames, and drives with predictions from the last fix.
 #include <cmath>
 #include <numbers>
 
@@ -33,7 +33,8 @@ Shot turned_shot(const ShotSize& size, double turn_deg, Vec2 motion, int index) 
 
 struct Counts {
     int located = 0;
-    double squares = 0;  ///< squared errors of x and y over their variances, of all frames
+    double squares = 0;  ///< sum over all frames of the squared errors of x and y, divided by their
+                         ///< variances
 };
 
 Counts locate_turned(const ShotSize& size, double turn_deg, Vec2 motion, int frames) {
@@ -91,7 +92,7 @@ constexpr int kIntervals = 2;  ///< frame interval, in readouts
 
 /// A camera on a robot that drives in a circle.
 struct Drive {
-    double motion;    ///< motion during the readout, over the height of the image
+    double motion;    ///< motion during the readout, relative to the height of the image
     double turn_deg;  ///< turn of the camera during the readout
 };
 

@@ -40,8 +40,8 @@ Sheet small_sheet() {
 }
 
 // With a spacing of 0.508 mm, the spacing and the displacement are whole numbers of pixels. A
-// margin of 2 mm and a reach of 0.127 mm are 25.12 pixels of 1/300 inch, so the first intersection
-// is the centre of pixel 25, and an intersection follows every 6 pixels.
+// margin of 2 mm and a reach of 0.127 mm are 25.12 pixels of 1/300 inch. The first intersection is
+// therefore the centre of pixel 25, and an intersection follows every 6 pixels.
 constexpr int kFirst_px = 25;
 constexpr int kSpacing_px = 6;
 
@@ -66,7 +66,7 @@ void expect_exact_dots(const Bitmap& page, const Sheet& sheet, int scale) {
             }
         }
     }
-    // All expected pixels are different, so equal numbers mean that there are no other pixels.
+    // All expected pixels are different. If the numbers are equal, the page has no other pixels.
     EXPECT_EQ(page.count_ink(), sheet.columns * sheet.rows * static_cast<int>(shape.size()));
 }
 

@@ -16,7 +16,7 @@
 namespace dotpose::serve {
 namespace {
 
-/// A frame message, read as the page does.
+/// A frame message, parsed as the page parses it.
 struct Read {
     nlohmann::json head;
     GreyImage picture;
@@ -149,7 +149,7 @@ TEST(FrameMessage, ContainsOverlayAndPicture) {
     EXPECT_EQ(overlay["grid"].size(), located.overlay.grid.size());
     EXPECT_EQ(overlay["axes"].size(), 6U);
     ASSERT_EQ(read.picture.width_px, 376);
-    // JPEG changes grey levels a little.
+    // JPEG changes grey levels slightly.
     for (std::size_t i = 0; i < read.picture.pixels.size(); i += 97)
         EXPECT_NEAR(read.picture.pixels[i], located.image.pixels[i], 12);
 }

@@ -1,4 +1,4 @@
-// Tests of a server with a real socket. tests/web/hostile_clients tests its limits.
+// Tests a server with a real socket. tests/web/hostile_clients tests the limits of the server.
 #include "serve/server.hpp"
 
 #include <chrono>
@@ -53,7 +53,7 @@ class Socket {
         EXPECT_EQ(::send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL),
                   static_cast<ssize_t>(bytes.size()));
     }
-    /// Returns what arrives until the text ends with or contains `end`.
+    /// Returns the received text once it contains `end`.
     std::string receive(const std::string& end) const {
         std::string text;
         char byte = 0;
@@ -113,7 +113,8 @@ TEST(Server, DeliversValuesToClientsThatAcknowledge) {
     wait_until([&] { return topic.is_wanted(); });
     server.publish(topic, [] { return "value-2."; });
     EXPECT_THAT(client.receive("."), HasSubstr("value-2"));
-    // Without an acknowledgement, the client receives no third value, and none is produced.
+    // Without an acknowledgement, the client receives no third value, and the server does not
+    // produce one.
     server.publish(topic, [] { return "value-3."; });
     server.publish(topic, [] { return "value-4."; });
     EXPECT_FALSE(topic.is_wanted());

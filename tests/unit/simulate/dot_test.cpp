@@ -128,8 +128,8 @@ TEST(Dot, InkMassIsTheDotsAreaWhateverBlursIt) {
     }
 }
 
-// Light is additive: many dots together remove the sum of the light that they remove individually,
-// even if their blurred images overlap or the frame cuts them off.
+// Light is additive. Many dots together remove the sum of the light that they remove individually.
+// This is also true if their blurred images overlap or the frame cuts them off.
 TEST(Dot, ManyTakeAwayTheSumOfEach) {
     Rng rng(6);
     CameraModel camera;

@@ -1,4 +1,4 @@
-// Tests that pages given as images give the same frames as pages given as patterns.
+// Tests that a page given as an image and the same page given as a pattern produce the same frames.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace {
 constexpr double kPageWidth_mm = 14;
 constexpr double kPageHeight_mm = 12;
 constexpr double kFirst_mm =
-    1.3;  // position of the first intersection, from the left and from the top
+    1.3;  // position of the first intersection, from the left and from the top edge
 
 /// Returns a page with discs of solid ink, painted with 4 x 4 samples per pixel, without
 /// src/simulate.

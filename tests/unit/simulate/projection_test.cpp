@@ -84,8 +84,8 @@ TEST(Projection, ATurningSceneIsSeenInEachRowAtTheAngleOfItsTime) {
             const Vec2 offset_mm{kMm * still_px.x, kMm * still_px.y};
             const Vec2 seen = pixel(rolling, {}, offset_mm);
             const double time = (seen.y - kCentreV) / 120;
-            // The scene turns about a fixed point c of the image, at which the motion and that of
-            // the rotation cancel: 10 + 6 i + i turn c = 0, in complex numbers.
+            // The scene turns about a fixed point c of the image. At c, the motion and the effect
+            // of the rotation cancel: 10 + 6 i + i turn c = 0, in complex numbers.
             const std::complex<double> i(0, 1);
             const std::complex<double> c = std::complex(10.0, 6.0) * i / radians(turn_deg);
             const std::complex<double> expected = c + (std::complex(still_px.x, still_px.y) - c) *
@@ -97,10 +97,9 @@ TEST(Projection, ATurningSceneIsSeenInEachRowAtTheAngleOfItsTime) {
 }
 
 TEST(Projection, ADotToTheRightOfAClockwiseTurnIsSeenLower) {
-    // At row v, the scene has turned by v / 120 of a radian. The point (60, 0) is seen at the row
-    // with v = 60 sin(v / 120), that is at v = 0. The point (60, 10) solves
-    // v = 60 sin(v / 120) + 10 cos(v / 120), with the root v = 19.6450 found by iterating this
-    // equation.
+    // At row v, the scene has turned by v / 120 of a radian. The point (60, 0) appears in the row v
+    // = 60 sin(v / 120), which is v = 0. The point (60, 10) appears in the row v = 60 sin(v / 120)
+    // + 10 cos(v / 120). Iterating this equation gives v = 19.6450.
     CameraModel rolling;
     rolling.readout_turn_rad = 1;
     expect_near(pixel(rolling, {}, {60 * kMm, 0}), {kCentreU + 60, kCentreV}, 1e-9);

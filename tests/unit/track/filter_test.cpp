@@ -87,8 +87,9 @@ std::array<double, 6> solved(const Covariance9& covariance, std::array<double, 6
     return b;
 }
 
-/// A robot that moves as the filter assumes for an agility of 1: its accelerations have the
-/// deviations in TrackOptions, lose 1 % (0.5 / 0.505) per frame, and are constant within a frame.
+/// A robot that moves as the filter assumes for an agility of 1. Its accelerations have the
+/// deviations in TrackOptions. They decrease by 1 % (0.5 / 0.505) per frame, and are constant
+/// within a frame.
 struct ModelRobot {
     explicit ModelRobot(Rng& rng) {
         pose[2] = rng.uniform(-kPi, kPi);

@@ -1,4 +1,4 @@
-// Tests trackers that also know the motion between frames, from odometry.
+// Tests trackers that also use the measured motion between frames, from odometry.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -22,8 +22,8 @@ struct Pose {
     double theta_rad = 0;
 };
 
-/// Returns the pose on a circle with a radius of 50 mm, at 100 mm/s, seen by a camera whose x axis
-/// points ahead. If the y axis of the plane points up, the robot turns the other way.
+/// Returns a pose on a circle with a radius of 50 mm. The robot drives at 100 mm/s, and the x axis
+/// of its camera points ahead. If the y axis of the plane points up, the robot turns the other way.
 Pose pose_at(double time_s, bool is_y_up) {
     const double theta = 2 * time_s;
     const double sign = is_y_up ? -1 : 1;
@@ -49,8 +49,8 @@ Sighting sighting_at(std::int64_t time_us, bool is_y_up, Rng& rng) {
     return sighting;
 }
 
-/// Returns the measured motion of one frame: the displacement along the axes of the robot before
-/// it, and the rotation, with normally distributed errors.
+/// Returns the measured motion of one frame, with normally distributed errors. The displacement is
+/// along the axes of the robot before the motion.
 MeasuredMotion odometry_until(std::int64_t time_us, bool is_y_up, Rng& rng) {
     constexpr double kSigma_mm = 0.01;
     constexpr double kSigma_rad = 0.0005;
@@ -129,7 +129,8 @@ TEST_P(TrackMotion, OdometryCarriesThePoseAcrossAGap) {
         EXPECT_GT(sum / (3 * kDrives), 0.8);
         EXPECT_LT(sum / (3 * kDrives), 1.25);
     }
-    // 600 steps of 0.01 mm give 0.24 mm; their rotations, 0.012 rad in all, move the robot further.
+    // 600 steps with errors of 0.01 mm give 0.24 mm. The errors of their rotations, 0.012 rad in
+    // total, displace the robot further.
     EXPECT_GT(sigma_mm, 0.24);
     EXPECT_LT(sigma_mm, 1.5);
 }
@@ -148,7 +149,8 @@ TEST(TrackMotionLost, ARobotIsLostWhenItsOdometryIsTooUncertain) {
         tracker.update(t, nullptr, odometry_until(t, false, rng));
         if (tracker.track().events.lost) lost_us = t;
     }
-    // 100 steps of 0.01 mm give 0.1 mm, sooner with the errors of the rotation.
+    // 100 steps with errors of 0.01 mm give 0.1 mm. With the errors of the rotation, the limit is
+    // reached earlier.
     EXPECT_GT(lost_us, 20 * kFrame_us);
     EXPECT_LT(lost_us, 102 * kFrame_us);
 }

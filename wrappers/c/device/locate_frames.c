@@ -1,6 +1,6 @@
-/* Locates frames like a microcontroller: with fixed memory, and pushing each row as it is read. The
- * input is a file of golden frames (wrappers/golden/README.md). Locates the first frame of each
- * pair, and prints the same line as C++ for the method `device`. */
+/* Locates frames as a microcontroller does. The memory is fixed, and each row is pushed as soon as
+ * it is read. The input is a file of golden frames (wrappers/golden/README.md). Locates the first
+ * frame of each pair, and prints the same line as C++ for the method `device`. */
 #include <dotpose.h>
 #include <stdint.h>
 #include <string.h>

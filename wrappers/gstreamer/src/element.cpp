@@ -141,7 +141,8 @@ GstFlowReturn transform_ip(GstBaseTransform* base, GstBuffer* buffer) {
     }();
     std::optional<Reading> reading;
     try {
-        // Mapping for reading only does not copy memory that is shared with other elements.
+        // Maps the frame for reading only unless the overlay is drawn. This avoids a copy of memory
+        // that is shared with other elements.
         const MappedFrame frame(self->parent.in_info, buffer, self->state->stream->has_overlay());
         if (!frame.is_mapped()) {
             GST_ELEMENT_ERROR(self, STREAM, FORMAT, ("A frame cannot be mapped"), (nullptr));

@@ -105,8 +105,8 @@ void put_evidence(const Fields& fields, const Fix& fix) {
     if (is_known) fields.evidence(#name, fix.name);
 #include "dotpose/fix_fields.def"
     if (!fix) return;
-    // Smaller probabilities are raised to this limit, because the model of paper, ink and camera
-    // does not justify them.
+    // Lower limit of the reported probability. The model of paper, ink and camera does not justify
+    // smaller values.
     constexpr double kMin_p_wrong = 1e-30;
     fields.number("p_wrong", std::max(fix.p_wrong(), kMin_p_wrong));
     fields.number("spacing_px", fix.spacing_px());

@@ -17,8 +17,8 @@ struct Switches {
 };
 
 struct Settings {
-    std::string sheets;        ///< path of the sheet file; none if empty
-    std::string camera;        ///< path of the camera file; none if empty
+    std::string sheets;        ///< path of the sheet file, or empty for none
+    std::string camera;        ///< path of the camera file, or empty for none
     FollowerOptions options;   ///< options, without the contents of the files
     bool is_tracked = true;    ///< false to locate each frame independently
     bool has_overlay = false;  ///< true to draw dots and pose on the frames

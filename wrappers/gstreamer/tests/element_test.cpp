@@ -94,8 +94,8 @@ TEST_F(GstreamerElement, FollowsAnewAfterAJumpBack) {
     start("");
     EXPECT_EQ(locate(frame(170, 10 * GST_SECOND))["events"], "fix");
     EXPECT_EQ(locate(frame(171, 10 * GST_SECOND + 5 * GST_MSECOND))["attempt"], "tracked");
-    // The time jumps back, as after a seek. Without a restart, the robot would not be tracked for
-    // the next ten seconds.
+    // The time jumps back, as after a seek. Without a restart, the tracker would not follow the
+    // robot for the next ten seconds.
     EXPECT_EQ(locate(frame(170, 0))["events"], "fix");
     EXPECT_EQ(locate(frame(171, 5 * GST_MSECOND))["verdict"], "accepted");
     EXPECT_EQ(locate(frame(172, 10 * GST_MSECOND))["frame"], 4);

@@ -69,7 +69,7 @@ struct Arrived {
 struct Outcome {
     std::vector<nlohmann::json> messages;  ///< messages of the element, in order
     std::vector<Arrived> frames;
-    std::string error;  ///< first error; empty if there was none
+    std::string error;  ///< first error, or empty if there was none
 };
 
 namespace pipeline_detail {

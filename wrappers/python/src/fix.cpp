@@ -87,7 +87,7 @@ class Bits {
         }
         put(plane.lens_q40);
     }
-    /// Appends a number as its bytes in C, so that tests can compare the bits.
+    /// Appends a number as its bytes in C, to let tests compare the bits.
     template <typename Value>
     void put_bits(Value value) {
         list_.append(py::bytes(reinterpret_cast<const char*>(&value), sizeof value));
@@ -107,8 +107,8 @@ class Bits {
     py::list list_;
 };
 
-/// Returns the numbers of a line of wrappers/golden, with floating-point numbers as bytes. Tests
-/// compare their bits.
+/// Returns the numbers of a line of wrappers/golden. Floating-point numbers are returned as bytes,
+/// to let tests compare their bits.
 py::list bits(const SeenFix& self) {
     const Fix& fix = self.fix;
     Bits all;

@@ -41,7 +41,7 @@ def test_webcam_is_15_lines_and_follows_a_video(tmp_path, monkeypatch, capsys):
         writer.write(cv2.cvtColor(frame.image, cv2.COLOR_GRAY2BGR))
     writer.write(cv2.cvtColor(frames[0].image * 0 + 200, cv2.COLOR_GRAY2BGR))
     writer.release()
-    # The test has no screen.
+    # Records calls instead of opening a window, because the test has no screen.
     shown = []
     monkeypatch.setattr(cv2, "imshow", lambda title, image: shown.append(image))
     monkeypatch.setattr(cv2, "waitKey", lambda delay_ms: -1)

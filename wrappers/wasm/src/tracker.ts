@@ -12,7 +12,7 @@ import { kPredictionBytes, type Prediction } from "./prediction.js";
 export interface TrackOptions {
     /** Standard deviation of the acceleration while the robot manoeuvres. Default: 600. */
     acceleration_mm_s2?: number;
-    /** Standard deviation of the angular acceleration while it manoeuvres. Default: 6. */
+    /** Standard deviation of the angular acceleration while the robot manoeuvres. Default: 6. */
     angular_acceleration_rad_s2?: number;
     /** Maximum acceleration that the robot can have, for example in a collision. Default: 10000. */
     max_acceleration_mm_s2?: number;
@@ -39,11 +39,14 @@ export interface TrackOptions {
     min_sigma_rad?: number;
     /** Log2 of the maximum probability that an accepted fix is wrong. Default: -30. */
     max_p_wrong_log2?: number;
-    /** The same limit for a weak fix, regardless of the prior. At most -1. Default: -10. */
+    /** Log2 of the maximum `p_wrong` of a weak fix, without the prior. At most -1. Default: -10. */
     max_weak_p_wrong_log2?: number;
     /** Spacing of the printed grid. Default: 0.508. */
     spacing_mm?: number;
-    /** Time without an accepted fix and without a motion after which it is lost. Default: 70000. */
+    /**
+     * Time without an accepted fix and without a motion after which the robot is lost. Default:
+     * 70000.
+     */
     lost_after_us?: number;
     /** Time without movement after which the robot is stationary. Default: 500000. */
     stationary_after_us?: number;
@@ -122,7 +125,7 @@ const kTrackBytes = 232;
  *     const fix = locator.locate(image, { prediction: tracker.predict(time_us) });
  *     const track = tracker.update(time_us, fix);
  *
- * With odometry, the motions carry the pose across places without a pattern:
+ * With odometry, the tracker also follows the robot across places without a pattern:
  *
  *     const track = tracker.update(time_us, locator.locate(image, { motion }), motion);
  */
@@ -134,7 +137,10 @@ export class Tracker {
     readonly #motion: number;
     readonly #track: number;
     readonly #prediction: number;
-    /** Locators by code. They never locate, but the library predicts for the options of one. */
+    /**
+     * Locators by code. They never locate a frame. The library needs the options of a locator for a
+     * prediction.
+     */
     readonly #locators = new Map<Code, number>();
     /** Code of the newest fix. */
     #code: Code | undefined;
@@ -160,9 +166,9 @@ export class Tracker {
     }
 
     /**
-     * Updates the tracker with a frame: its time on any clock, as a whole number, and its fix,
-     * which need not be ok. `motion` is the motion since the previous update. Without fixes, the
-     * motions carry the pose on. A frame that is not newer than the previous frame is ignored.
+     * Updates the tracker with a frame. `time_us` is its time on any clock, as a whole number. The
+     * fix need not be ok. `motion` is the motion since the previous update. Without fixes, the
+     * motions move the pose. A frame that is not newer than the previous frame is ignored.
      */
     update(time_us: number, fix?: Fix | null, motion?: MeasuredMotion | null): Track {
         const time = timeOf(time_us);

@@ -7,7 +7,7 @@ import type { FrameOptions, Image, LocatorOptions } from "./locator.js";
 export interface Located {
     /** The pose computed from the image. */
     fix: Fix;
-    /** The image that was sent. It is returned so that its buffer can be reused. */
+    /** The image that was sent, with its buffer, which can be reused. */
     image: Image;
 }
 

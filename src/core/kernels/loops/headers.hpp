@@ -15,11 +15,12 @@
 
 #include "code/tables.hpp"
 #include "core/kernels/select.hpp"
+#include "core/math/odds.hpp"
 
 namespace dotpose::core {
 
-/// True if each loop has only its general version, without faster special cases. In WebAssembly,
-/// code size matters more than speed.
+/// True if each loop has only its general version, without faster special cases. WebAssembly uses
+/// this, because its code must be small.
 #if defined(__wasm__)
 inline constexpr bool kOneForm = true;
 #else

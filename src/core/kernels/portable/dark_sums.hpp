@@ -1,4 +1,4 @@
-// Dark sums: mass and moments of the dark pixels of a square, for processors without vector
+// Dark sums: mass and moments of the dark pixels in a square, for processors without vector
 // instructions.
 #pragma once
 
@@ -21,8 +21,8 @@ struct DarkSums {
 inline constexpr int kHalfOfDiamond = 2;
 
 /// Returns the sums of a square with 2 Half + 1 pixels per side. `row` is its upper left pixel.
-/// Skips the corners if Half is kHalfOfDiamond. The size is a compile-time constant, so each row is
-/// summed without a loop. Not inlined, so that small processors keep all variables in registers.
+/// Skips the corners if Half is kHalfOfDiamond. Half is a compile-time constant, so compilers
+/// unroll the loop over a row. Inlined code would need more registers than small processors have.
 template <int Half>
 DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t stride,
                                            std::int32_t level) {
@@ -32,7 +32,7 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
     const auto add_row = [&](int reach) {
 #pragma GCC unroll 16
         for (int x = -reach; x <= reach; ++x) {
-            // Most pixels are paper. A negative difference identifies paper without a second
+            // Most pixels are paper. The sign of the difference identifies paper without a second
             // comparison.
             const std::int32_t darkness = level - row[Half + x];
             if (darkness < 0) continue;
@@ -53,7 +53,7 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
             add_row(Half);
     }
     // Let m(y) be the mass of row y, with y from -Half to Half. Then `cumulative` is the sum of
-    // (Half + 1 - y) m(y), and the last element is the sum of y m(y).
+    // (Half + 1 - y) m(y), and the last element of the result is the sum of y m(y).
     return {mass, sum_x, (Half + 1) * mass - cumulative};
 }
 

@@ -84,11 +84,11 @@ TEST(ScoreLines, TellsByHowMuchTheBestOfEachLineLeads) {
 }
 
 TEST(FindAxis, FindsThePositionAmongWrongBits) {
-    // The search succeeds if some run has the correct roll among the best rolls of each line, or if
-    // the steps have the correct place among the best places of each sequence. Longer lines
-    // tolerate more wrong bits. With 12 rows and every fifth bit wrong, only half of the windows
-    // are found, although 240 bits with 0.28 bits of information each would distinguish all 4e8 *
-    // 63 hypotheses.
+    // The search succeeds in two cases. In the first case, some run has the correct roll among the
+    // best rolls of each line. In the second case, the steps have the correct place among the best
+    // places of each sequence. Longer lines tolerate more wrong bits. With 12 rows and every fifth
+    // bit wrong, only half of the windows are found. In principle, 240 bits with 0.28 bits of
+    // information each would suffice to distinguish all 4e8 * 63 hypotheses.
     for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::microdots}) {
         EXPECT_GE(found_of_200(code, 12, 0.08), 198) << "seed " << kSeed;
         EXPECT_GE(found_of_200(code, 20, 0.12), 198) << "seed " << kSeed;
@@ -161,8 +161,8 @@ TEST(FindAxis, RandomBitsAreNotInTheCodeOrScoreLow) {
         AxisReading reading;
         if (lines.find(CodeVariant::anoto, reading) == Status::not_in_code) continue;
         // A line of random bits agrees with its best roll in 9 or 10 of 12 bits. The 6 lines of the
-        // selected run reach this score, and the other 14 lines score 0 on average. Selecting the
-        // best of 15 runs adds a little.
+        // selected run reach this score. The other 14 lines score 0 on average. Selecting the best
+        // of 15 runs increases the score slightly.
         EXPECT_FALSE(reading.is_clear()) << i << ", seed " << kSeed;
         EXPECT_LT(reading.score, reading.max_possible * 7 / 10) << i << ", seed " << kSeed;
     }

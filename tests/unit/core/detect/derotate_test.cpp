@@ -53,15 +53,15 @@ TEST(ReadoutTurn, SeparatesTheRotationFromTheMotion) {
 }
 
 TEST(ReadoutTurn, ThePlaneOfASquareGridShowsTheDrift) {
-    // A grid of 10 px, turned by 30 degrees, is seen at p + row drift. The inverse of this map has
-    // the columns du and dv.
+    // A grid with a spacing of 10 px, turned by 30 degrees. The image shows its point p at p + row
+    // drift. The inverse of this map has the columns du and dv.
     const float c = std::sqrt(0.75F) / 10;
     const float s = 0.5F / 10;
     const core::FloatVec drift{0.2F, -0.3F};
     core::FloatPlane plane;
     plane.du_x = c;
     plane.du_y = s;
-    // The point (u, v) of the image is p = (u - drift.x v, v - drift.y v).
+    // The image point (u, v) shows p = (u - drift.x v, v - drift.y v).
     plane.dv_x = -c * drift.x - s * (1 - drift.y);
     plane.dv_y = -s * drift.x + c * (1 - drift.y);
     EXPECT_NEAR(core::drift_of(plane).x, drift.x, 1e-6);
@@ -69,8 +69,9 @@ TEST(ReadoutTurn, ThePlaneOfASquareGridShowsTheDrift) {
 }
 
 TEST(Derotated, IsTheImageOfAStillScene) {
-    constexpr int kBorder_px = 40;  // the rotation moves other parts of the scene into the corners
-    constexpr double kMaxMeanDifference = 1;  // most pixels are paper
+    constexpr int kBorder_px = 40;  // the rotation moves new parts of the scene into the corners
+    // In grey levels. The mean is small, because most pixels are paper and do not differ.
+    constexpr double kMaxMeanDifference = 1;
     dotpose::Setup setup;
     setup.preset = Preset::clean;
     Shot still = draw_shot(setup, 3);

@@ -101,8 +101,9 @@ TEST(Smooth, AGradientOfTheLightBecomesEven) {
                 ASSERT_NEAR(found.view().row(v)[u], kNormalLevel, 2) << u << ", " << v;
             }
         }
-        // Less than 4 px from the border, the border cuts off a part of the surroundings. Their
-        // middle is then up to 2 px from the pixel, so the slope changes the mean.
+        // Less than 4 px from the border, the border cuts off a part of the surroundings. The
+        // middle of the remaining part is up to 2 px from the pixel. The slope therefore changes
+        // the mean.
         expect_even(found, 5);
     }
 }

@@ -15,8 +15,9 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 71;
 
-/// Returns the mean of every fourth row, and the minimum mean of two adjacent pixels in these rows,
-/// the first of which is in an even column. Rows extend past the last column of the image.
+/// Returns the mean of every fourth row. Also returns the minimum mean of two adjacent pixels in
+/// these rows, where the first pixel is in an even column. Rows extend past the last column of the
+/// image.
 Tile expected_tile(const AdaptiveThreshold& threshold, int band, int tile) {
     const int begin = band_begin(threshold, band);
     const int end = band_end(threshold, band);

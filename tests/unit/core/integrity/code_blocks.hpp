@@ -74,8 +74,8 @@ inline int contradictions(const Block& block, bool is_x, const std::vector<int>&
     return wrong;
 }
 
-/// Returns the rolls of the lines of an axis, if one sequence is `further` digits ahead of its
-/// place at the position, and all rolls are increased by `shift`.
+/// Returns the rolls of the lines of an axis with two changes. One sequence is `further` digits
+/// ahead of its place at the position, and all rolls are increased by `shift`.
 inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequence, int further,
                                  int shift) {
     const Place& p = block.place;
@@ -97,9 +97,9 @@ inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequ
     return rolls;
 }
 
-/// Returns log2 of the sum of the odds, for both axes, of three kinds of alternatives: those that
-/// differ in one sequence and share a line, other sections, and chance. Uses the same odds per bit
-/// as the verdict.
+/// Returns log2 of the sum of the odds, for both axes, of three kinds of alternatives: alternatives
+/// that differ in one sequence and share a line, other sections, and chance. Uses the same odds per
+/// bit as the verdict.
 inline double exact_log2(const Block& block) {
     double sum = 0;
     core::Confidence both;

@@ -178,8 +178,8 @@ TEST(Chance, EachBitThatContradictsHasItsFactor) {
 }
 
 TEST(Chance, WeakBitsThatContradictSayLittle) {
-    // 200 full bits agree. Half of the 50 weak bits contradict, which is the least informative
-    // case.
+    // 200 full bits agree. Half of the 50 weak bits contradict, and the weak bits then contain the
+    // least information.
     const auto chance_with_weak = [](int weight) {
         Confidence bits;
         for (int i = 0; i < 200; ++i)
@@ -195,8 +195,8 @@ TEST(Chance, WeakBitsThatContradictSayLittle) {
 }
 
 TEST(Chance, ChanceHoldsForRandomBits) {
-    // Counts the trials, with random bits of random weights, whose agreement suffices for a claim
-    // of 2^-8 for one hypothesis.
+    // Counts the trials that would claim 2^-8 for one hypothesis. The trials consist of random bits
+    // with random weights.
     Rng rng(kSeed);
     constexpr int kTrials = 200'000;
     int beyond = 0;
@@ -205,7 +205,8 @@ TEST(Chance, ChanceHoldsForRandomBits) {
         for (int i = 0; i < 20; ++i)
             bits.add(static_cast<int>(rng.below(128)), rng.below(2) == 0);
         // The result includes a factor of 2^37, the number of hypotheses. A result of 37 - 8 is
-        // therefore a claim of 2^-8 for one hypothesis, which at most 781 of the trials may reach.
+        // therefore a claim of 2^-8 for one hypothesis. At most 781 of the trials may reach this
+        // claim.
         beyond += chance_log2(bits, odds_per_bit_q8(bits)) <= 37 - 8;
     }
     EXPECT_LE(beyond, kTrials / 256 + 100);

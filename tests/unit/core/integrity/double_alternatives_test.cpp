@@ -20,8 +20,8 @@ constexpr int kOdds_q8 = 3 * 256;
 /// Minimum of the sum: each of the 190,027 pairs of places counts at least 2^-64 at each shift.
 constexpr double kFloor = 190'027.0 * 63 * 0x1p-64;
 
-/// Lines that agree with a position. The rolls of the position have the score 1000. The scores of
-/// all other rolls are random, from `least` to `least` + 600.
+/// Lines that agree with a position. The rolls of the position have the score 1000. All other rolls
+/// have random scores from `least` to `least` + 600.
 struct Case {
     Case(Rng& rng, int least) : position(rng.below(kPositionsPerAxis)) {
         lines.all = storage;

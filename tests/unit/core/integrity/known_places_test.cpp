@@ -171,14 +171,15 @@ TEST(KnownPlaces, UnknownSheetsMayHaveTheSameRows) {
         return best ? wrong_at(block, sheets, *best) : 1;
     };
     // An unknown sheet may have the same rows and, by chance, the same 25 bits of the other axis.
-    // The factor 4 stands for two axes, and two positions with each roll.
+    // The factor 4 is the product of two axes and two positions with each roll.
     EXPECT_GE(wrong_if(OtherSheets::possible), 4 * std::exp2(-25.0));
     EXPECT_LT(wrong_if(OtherSheets::impossible), std::exp2(-25.0));
 }
 
 TEST(KnownPlaces, PlacesOnOtherSheetsAreAlternatives) {
     Rng rng(kSeed, 3);
-    // Columns 63 apart have the same rolls of rows, so only the x bits distinguish the sheets.
+    // Columns that are 63 apart have the same rolls of rows. Only the x bits distinguish the
+    // sheets.
     KnownRegion other = kSheet;
     other.first.x += 630;
     const std::array both{kSheet, other};

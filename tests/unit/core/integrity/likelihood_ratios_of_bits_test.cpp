@@ -1,5 +1,5 @@
-// Tests that the likelihood ratios of hard bits equal those of scored lines whose bits all have
-// weight 127, and that estimates of their sums are upper bounds.
+// Tests the likelihood ratios of hard bits. They must equal the ratios of scored lines whose bits
+// all have weight 127. The estimates of their sums must be upper bounds.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -159,9 +159,9 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSingleAlternatives) {
     EXPECT_GT(told, 100);
 }
 
-/// Returns the expected odds of one set of far alternatives (docs/integrity.md, the quick estimate)
-/// in double precision: the odds of the alternatives that share a run of lines, and of all other
-/// alternatives together.
+/// Returns the expected odds of one set of far alternatives in double precision (docs/integrity.md,
+/// the quick estimate). The odds consist of the odds of alternatives that share a run of lines, and
+/// the odds of all other alternatives.
 double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
     const auto power = [](int log2_q8) { return std::exp2(log2_q8 / 256.0); };
     const double equal = power(set.equal_q8 + kUnevenness_q8);

@@ -1,8 +1,9 @@
-// Tests lists of similar places against simple reference computations.
+// Tests lists of similar places and expected odds against simple reference computations.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -104,8 +105,8 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
                         lost += places.offset(k, place, line) == shift ? 0 : loss;
                     const std::array<int, 3> alternative{static_cast<int>(k),
                                                          static_cast<int>(place), shift};
-                    // The kernel adds up only the losses of lines after the shared line, so it may
-                    // list additional places, which this test does not check.
+                    // The kernel adds up only the losses of lines after the shared line. It may
+                    // therefore list additional places, which this test does not check.
                     if (lost >= enough) continue;
                     ASSERT_TRUE(found.count(alternative) > 0) << k << ' ' << place << ' ' << shift;
                     ++listed;
@@ -186,6 +187,84 @@ TEST(KernelsAlternatives, ExpectationsHaveTheSameBitsInEachForm) {
         kernels.sum_expected_doubles(places.basis, places.own, lines, anchors, by_shared);
         portable_kernels().sum_expected_doubles(places.basis, places.own, lines, anchors, expected);
         EXPECT_EQ(by_shared, expected);
+    });
+}
+
+/// Expected odds in double precision, indexed by the roll offset and by the length of the current
+/// run. The run consists of the adjacent lines, up to and including the newest line, in which the
+/// alternative has the digits of the reading and the roll offset 0.
+using OddsByRun = std::array<std::array<double, 66>, 63>;
+
+/// Adds the alternatives after a step, whose digits differ from those of the reading in the
+/// sequences `k` and above by `shift` in total. Visits all digits.
+void visit_digits(const OwnPlaces& places, unsigned different, std::size_t line, std::size_t k,
+                  int shift, bool are_equal, const auto& use) {
+    if (k == 4) return use((shift + 63 * 63) % 63, are_equal);
+    if ((different >> k & 1) == 0)
+        return visit_digits(places, different, line, k + 1, shift, are_equal, use);
+    const code::Secondary& a = places.basis[k];
+    const int own = a.digits[(places.own[k] + line) % a.length];
+    for (int digit = 0; digit < a.base; ++digit) {
+        visit_digits(places, different, line, k + 1, shift + a.weight * (digit - own),
+                     are_equal && digit == own, use);
+    }
+}
+
+double expected_in_double(const OwnPlaces& places, unsigned different,
+                          const std::vector<OddsByOffset>& lines, int max_shared) {
+    double alternatives = 1;
+    double equal = 1.03;  // the safety factor per step
+    for (std::size_t k = 0; k < 4; ++k) {
+        if ((different >> k & 1) == 0) continue;
+        alternatives *= places.basis[k].length;
+        equal /= places.basis[k].base;
+    }
+    OddsByRun odds{};
+    for (std::size_t shift = 0; shift < 63; ++shift)
+        odds[shift][shift == 0 ? 1 : 0] = static_cast<double>(lines[0][shift]);
+    for (std::size_t line = 1; line < lines.size(); ++line) {
+        OddsByRun next{};
+        for (std::size_t offset = 0; offset < 63; ++offset) {
+            for (std::size_t run = 0; run <= static_cast<std::size_t>(max_shared); ++run) {
+                if (odds[offset][run] == 0) continue;
+                visit_digits(places, different, line - 1, 0, 0, true, [&](int shift, bool same) {
+                    const std::size_t now = (offset + static_cast<std::size_t>(shift)) % 63;
+                    const std::size_t run_now = now != 0 ? 0 : same && run > 0 ? run + 1 : 1;
+                    next[now][run_now] +=
+                        odds[offset][run] * equal * static_cast<double>(lines[line][now]);
+                });
+            }
+        }
+        odds = next;
+    }
+    double sum = 0;
+    for (const auto& by_run : odds)
+        sum += std::accumulate(by_run.begin(), by_run.begin() + max_shared + 1, 0.0);
+    return alternatives * sum;
+}
+
+/// In views of two patterns, the lines of one pattern contradict an alternative and the lines of
+/// the other pattern confirm it. In between, the odds are far outside the range of a float.
+TEST(KernelsAlternatives, ExpectationsOfTwoPatternsAreThoseInDoublePrecision) {
+    repeat_with_each_form(3, [&](const Kernels& kernels, Rng& rng) {
+        const OwnPlaces places(rng);
+        const bool loses_first = rng.below(2) == 0;
+        constexpr std::size_t kLosing = 12;
+        std::vector<OddsByOffset> lines(21);
+        for (std::size_t n = 0; n < lines.size(); ++n) {
+            const std::size_t rank = loses_first ? n : lines.size() - 1 - n;
+            for (float& odds : lines[n]) {
+                odds = static_cast<float>(
+                    std::exp2(rank < kLosing ? -rng.uniform(20, 64) : rng.uniform(6, 14)));
+            }
+            lines[n].front() = 1;
+            lines[n].back() = 0;
+        }
+        const auto different = static_cast<unsigned>(whole(rng, 1, 15));
+        const double expected = expected_in_double(places, different, lines, 5);
+        const double sum = static_cast<double>(
+            kernels.sum_expected_alternatives(places.basis, places.own, different, lines, 5));
+        EXPECT_NEAR(sum / expected, 1, 1e-3) << different << ' ' << loses_first;
     });
 }
 

@@ -167,7 +167,7 @@ TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
         double across = 0;
         for (std::size_t k = 0; k < 8; ++k) {
             if (k == 5) continue;
-            // At larger offsets, a large dot extends beyond the window, so its weight decreases
+            // A large dot with a large offset extends beyond the window. Its weight then decreases
             // faster than at small offsets.
             const double max_px = 0.02 + 0.2 * std::pow(std::abs(off[k]), 3);
             EXPECT_NEAR(dots.x[k], u, max_px) << off[k];

@@ -51,10 +51,9 @@ inline std::vector<PlacedDot> displaced_dots(const Mesh& mesh, int reach, Vec2 i
     return placed_dots(mesh, reach, image_px, [&](int, int) { return random_displacement(rng); });
 }
 
-/// Returns the tolerance, at a corner of the image, of a fit of three parameters per axis to dots
-/// that are displaced by 1/6 along one random axis, which is 0.12 per dot. The variance at the
-/// corner is 1 / n for the mean and 3 / n for each slope. The tolerance is five standard
-/// deviations.
+/// Returns the tolerance of a fit of three parameters per axis, at a corner of the image. The dots
+/// are displaced by 1/6 along one random axis, which is 0.12 per dot. The variance at the corner is
+/// 1 / n for the mean and 3 / n for each slope. The tolerance is five standard deviations.
 inline double affine_tolerance(const std::vector<PlacedDot>& dots) {
     return 5 * 0.118 * std::sqrt(7.0 / static_cast<double>(dots.size()));
 }

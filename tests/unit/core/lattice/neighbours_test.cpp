@@ -37,8 +37,9 @@ bool may_be_neighbours(const DetectedDot& a, const DetectedDot& b) {
 
 constexpr int kKinds = 6;
 
-/// Returns points of one of several kinds: scattered, in clumps, on a line, on a grid, partly
-/// duplicated, or on a grid whose last row has a single dot when the list is full.
+/// Returns points of one of several kinds: scattered, in clumps, on a line, on a grid, or partly
+/// duplicated. In the last kind, the points are on a grid, and the list is full when its last row
+/// has a single dot.
 std::vector<DetectedDot> points(Rng& rng, int count, int kind) {
     std::vector<DetectedDot> dots;
     for (int i = 0; i < count; ++i) {

@@ -106,8 +106,8 @@ TEST(FindGrid, FindsThePlaneOfTiltedCameras) {
         EXPECT_NEAR(grid.displacement, 1 / 6.0, 0.03);
         EXPECT_LT(grid.variance, 0.003);
         // The plane must be accurate enough for windows around the intersections to contain the
-        // dots. A grid that ended early may miss dots farther out, and is refused when its dots are
-        // measured.
+        // dots. If the growth of a grid ended early, the windows may miss dots farther out. Such a
+        // grid is refused when its dots are measured.
         exact += difference(grid.grid_from_image, truth, {56, 40}) < 0.15 &&
                  difference(grid.grid_from_image, truth, {112, 80}) < 0.45;
     }

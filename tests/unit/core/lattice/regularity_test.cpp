@@ -1,4 +1,4 @@
-// Tests the common properties of growing and refining a grid: both stages extend the grid from a
+// Tests the common properties of growing and refining a grid. Both stages extend the grid from a
 // rough estimate in the middle over the whole image, and refuse dots that do not form a grid.
 #include "core/lattice/regularity.hpp"
 
@@ -19,7 +19,7 @@ constexpr std::uint64_t kSeed = 47;
 constexpr Vec2 kImage_px{188, 120};
 
 /// Returns the tolerance if displacements count as noise of 0.12 spacings. The error is largest at
-/// the corners. There, a fit of 8 parameters to at least 100 dots has 2, rarely 3 times the error
+/// the corners. At a corner, a fit of 8 parameters to at least 100 dots has 2 to 3 times the error
 /// 0.12 sqrt(8 / 100).
 double perspective_tolerance(const std::vector<PlacedDot>&) {
     return 0.25;

@@ -91,8 +91,7 @@ TEST(Plane, ImagePointsAreTheInverse) {
 
 TEST(Plane, TheSearchForImagePointsEndsWhereTheMapFolds) {
     // The lens term has any value that a fit can represent, and the points are far outside the dots
-    // of a fit. There may be no image point for such a point, and no intermediate result may
-    // overflow.
+    // of a fit. Such a point may have no image point. No intermediate result may overflow.
     Rng rng(kSeed);
     for (int i = 0; i < 2000; ++i) {
         SCOPED_TRACE(testing::Message() << "plane " << i << ", seed " << kSeed);

@@ -1,5 +1,5 @@
-// Tests the correction of the bias of facing dots: the measured centres of two facing dots are
-// shifted towards each other, unlike the centres of other neighbours.
+// Tests the correction of the bias of facing dots. The measured centres of two facing dots are
+// shifted towards each other. The centres of other neighbours are not.
 #include "core/pose/facing_dots.hpp"
 
 #include <map>
@@ -79,7 +79,8 @@ class FacingFrame {
 core::PoseFit fit_with(double pull) {
     core::PoseFit fit;
     fit.displacement = static_cast<float>(kDisplacement);
-    // One coordinate in eight is shifted: a quarter of the dots face a neighbour, along one axis.
+    // One coordinate in eight is shifted, because a quarter of the dots face a neighbour along one
+    // axis.
     fit.variance = static_cast<float>(kNoise * kNoise + pull * pull / 8);
     return fit;
 }

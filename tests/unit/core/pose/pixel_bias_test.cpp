@@ -26,7 +26,7 @@ struct MeanError {
     core::FloatVec variance_px2;
 };
 
-/// A frame of dots with equal sub-pixel phases: the spacing is a whole number of pixels, and the
+/// A frame of dots with equal sub-pixel phases. The spacing is a whole number of pixels, and the
 /// displacement is two pixels.
 class AlikeFrame {
   public:

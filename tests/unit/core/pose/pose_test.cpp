@@ -60,8 +60,8 @@ TEST(Pose, FittedToExactDotsIsExact) {
         const Reading reading = reading_off_grid(i, rng);
         const Fitted fit = fitted(reading);
         ASSERT_TRUE(fit.ok);
-        // The rounding to 1/256 px varies across the image, which has the same effect as a slight
-        // lens distortion.
+        // The rounding to 1/256 px varies across the image. This variation has the same effect as a
+        // slight lens distortion.
         expect_pose(reading, fit.pose, reading.view.centre_px(), 2e-4);
         EXPECT_GE(fit.fix.dots_used, static_cast<int>(reading.dots.size()) * 9 / 10);
     }
@@ -240,8 +240,9 @@ struct HalfDark {
 
 TEST(Pose, DotsInTheDarkCountLess) {
     // Noise of 0.02 px in the light part corresponds to 0.08 px in the dark part, which is 16 times
-    // the variance. Compared with the same number of dots in the light part, the variance of the
-    // plain mean is 8.5 times as large, and the variance of the weighted mean 1.9 times as large.
+    // the variance. The comparison is with the same number of dots in the light part. The variance
+    // of the plain mean is 8.5 times as large, and the variance of the weighted mean 1.9 times as
+    // large.
     Rng rng(kSeed);
     const HalfDark paper;
     const View view = random_view(rng);

@@ -148,8 +148,8 @@ TEST(FitUneven, SeesASmallStepInTheMiddle) {
         ASSERT_TRUE(sheet.is_fitted);
         claim_too_much += sheet.sigmas_off() > 4 ? 1 : 0;
     }
-    // The fast attempts do not search for a line if the scatter between blocks is small, so they
-    // miss a few small steps.
+    // The fast attempts do not search for a line if the scatter between blocks is small. They
+    // therefore miss a few small steps.
     EXPECT_LE(claim_too_much, 2);
 }
 

@@ -28,8 +28,8 @@ using sensor_msgs::msg::CameraInfo;
 using sensor_msgs::msg::Image;
 
 /// Declares a parameter and returns its value. The parameters are read-only, so `ros2 param set`
-/// refuses them. Dynamic typing allows numbers without a decimal point; settings_of checks the
-/// types.
+/// refuses to change them. Dynamic typing allows numbers without a decimal point. settings_of
+/// checks the types.
 Value declare(rclcpp::Node& node, const Parameter& parameter) {
     rcl_interfaces::msg::ParameterDescriptor descriptor;
     descriptor.description = parameter.description;
@@ -100,8 +100,8 @@ class LocatorNode : public rclcpp::Node {
             tf_ = create_publisher<tf2_msgs::msg::TFMessage>("/tf", rclcpp::QoS(100));
         status_ = create_publisher<diagnostic_msgs::msg::DiagnosticArray>("/diagnostics",
                                                                           rclcpp::QoS(10));
-        // With intra-process communication, processes that start later would not receive the
-        // message.
+        // Disables intra-process communication, because it does not deliver the message to
+        // processes that start later.
         rclcpp::PublisherOptions kept;
         kept.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
         tf_static_ = create_publisher<tf2_msgs::msg::TFMessage>(

@@ -21,12 +21,13 @@ struct RawImage {
 };
 
 /// Returns the grey levels of an image: a view of its data if the encoding has 8-bit grey levels,
-/// otherwise a view of `buffer`. Colours are converted to luma (Rec. 601). Levels with more than 8
-/// bits are divided by the smallest power of two that reduces the brightest pixel to 8 bits,
-/// because cameras with 10 and 12 bits use 16-bit encodings. In a Bayer mosaic, each pixel becomes
-/// the weighted mean of 3 x 3 pixels, in which every colour has the same weight everywhere. Throws
-/// dotpose::Error with a remedy if the encoding is not supported, or if the data are shorter than
-/// the image size requires.
+/// otherwise a view of `buffer`. Colours are converted to luma (Rec. 601).
+/// Levels with more than 8 bits are divided by the smallest power of two that reduces the brightest
+/// pixel to 8 bits, because cameras with 10 and 12 bits use 16-bit encodings. In a Bayer mosaic,
+/// each pixel becomes the weighted mean of 3 x 3 pixels. Every colour has the same weight in every
+/// mean.
+/// Throws dotpose::Error with a remedy if the encoding is not supported, or if the data are shorter
+/// than the image size requires.
 dotpose::ImageView grey_view(const RawImage& image, dotpose::GreyImage& buffer);
 
 }  // namespace dotpose_ros

@@ -14,7 +14,7 @@ namespace ros = dotpose::ros;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-/// Number of consecutive images with non-increasing stamps that causes an error message.
+/// Number of consecutive images without an increase of the stamp that causes an error message.
 constexpr int kStandstill = 3;
 
 /// Formats a lens as the text of a camera_info file. Reading this text applies all checks.
