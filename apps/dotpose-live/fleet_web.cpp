@@ -42,10 +42,9 @@ FleetWeb::FleetWeb(FleetWebOptions options, const FleetState& fleet, const Fleet
       trails_{server_.add_topic("trails", serve::Format::binary), kTrailPeriod} {
     server_.start();
     server_.set_route("/metrics", [this] {
-        const FleetState& fleet = fleet_;
         return serve::Answer{
             .type = kMetricsType,
-            .body = metrics_text(fleet, fleet.robots(options_.now()), map_, options_.services())};
+            .body = metrics_text(fleet_, fleet_.robots(options_.now()), map_, options_.services())};
     });
     server_.publish(setup_,
                     [text = setup_value(map_, options_.limits, options_.device)] { return text; });
