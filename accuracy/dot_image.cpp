@@ -98,6 +98,13 @@ GreyImage draw_with(const DotTable& dot, const Shot& shot) {
     const double c = std::cos(shot.pose.theta_rad);
     const double s = std::sin(shot.pose.theta_rad);
 
+    const Imperfections& of = shot.imperfections;
+    const Vec2 fall{of.fall * std::cos(of.fall_direction_rad),
+                    of.fall * std::sin(of.fall_direction_rad)};
+    const auto light_at = [&](Vec2 at) {
+        return 1 - fall.x * (at.x - centre_px.x) / width - fall.y * (at.y - centre_px.y) / height;
+    };
+
     std::vector<double> darkness(static_cast<std::size_t>(width * height));
     const int reach = static_cast<int>(std::hypot(width, height) / 2 / spacing_px) + 2;
     for (int row = -reach; row <= reach; ++row) {
@@ -115,25 +122,22 @@ GreyImage draw_with(const DotTable& dot, const Shot& shot) {
             for (int v = first(at.y); v < std::min(height * 1.0, at.y + DotTable::kReach_px); ++v) {
                 for (int u = first(at.x); u < std::min(width * 1.0, at.x + DotTable::kReach_px);
                      ++u) {
+                    // The light falls on the paper, before the image is blurred.
                     darkness[static_cast<std::size_t>(width * v + u)] +=
-                        dot.darkness({u - at.x, v - at.y});
+                        light_at(at) * dot.darkness({u - at.x, v - at.y});
                 }
             }
         }
     }
 
-    const Imperfections& of = shot.imperfections;
-    const Vec2 fall{of.fall * std::cos(of.fall_direction_rad),
-                    of.fall * std::sin(of.fall_direction_rad)};
     Rng rng(shot.seed, 2);
     GreyImage image{{}, width, height};
     for (int v = 0; v < height; ++v) {
         for (int u = 0; u < width; ++u) {
-            const double light = 1 - fall.x * (u - centre_px.x) / width  //
-                                 - fall.y * (v - centre_px.y) / height;
             const double ink = darkness[static_cast<std::size_t>(width * v + u)];
-            const double level = of.paper_level * light * (1 - (1 - of.ink_reflectance) * ink) +
-                                 of.noise_sigma * rng.normal();
+            const double level =
+                of.paper_level * (light_at({1.0 * u, 1.0 * v}) - (1 - of.ink_reflectance) * ink) +
+                of.noise_sigma * rng.normal();
             image.pixels.push_back(
                 static_cast<std::uint8_t>(std::clamp(std::floor(level + 0.5), 0.0, 255.0)));
         }

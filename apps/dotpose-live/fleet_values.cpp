@@ -10,14 +10,11 @@
 #include <nlohmann/json.hpp>
 
 #include "dotpose/files/degrees.hpp"
+#include "json_text.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
-
-std::string text_of(const nlohmann::json& value) {
-    return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
 
 double rounded(double value, double steps_per_unit) {
     return std::round(value * steps_per_unit) / steps_per_unit;

@@ -95,6 +95,7 @@ struct WatchArguments {
     DdsArguments dds;
     WebArguments web;
     std::string web_recordings = ".";
+    bool web_edits_sheets = false;
     SaveOptions save;
     bool lists_cameras = false;
     bool has_no_window = false;
@@ -209,6 +210,15 @@ std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
     return images > 0 ? images : source.length();
 }
 
+/// Follows the robot over the new sheets if the page or another program changed them.
+void use_changed_sheets(Follower& follower, WatchOutputs& outputs) {
+    std::optional<std::vector<SheetEntry>> sheets = outputs.take_changed_sheets();
+    if (!sheets) return;
+    const bool was_in_world = follower.is_in_world();
+    follower.set_sheets(std::move(*sheets));
+    outputs.use_sheets(was_in_world);
+}
+
 /// Follows the robot over all frames. `length` is the number of frames, or 0 if unknown. Returns
 /// the exit status. Throws BadArgument if the arguments do not match the frames.
 int follow(const WatchArguments& arguments, capture::FrameSource& source, std::int64_t length,
@@ -222,6 +232,7 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
         ProgressLine progress("following", arguments.outputs.lines.out);
         while (goes_on && source.next(frame)) {
             if (arguments.is_realtime) pace.wait_for(frame);
+            use_changed_sheets(follower, outputs);
             if (arguments.follower.is_inverted) invert(frame.image);
             const Reading reading = read(frame, follower);
             report_problems(reading, frame.image.view(), follower, source.bits_per_px(), hint,
@@ -245,8 +256,13 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
 std::optional<WebOptions> web_options(const WatchArguments& arguments) {
     const auto server = arguments.web.options();
     if (!server) return std::nullopt;
-    return WebOptions{*server, arguments.sources.names, arguments.web_recordings,
-                      arguments.outputs.log, arguments.outputs.messages};
+    return WebOptions{
+        *server,
+        arguments.sources.names,
+        arguments.web_recordings,
+        arguments.outputs.log,
+        arguments.outputs.messages,
+        {arguments.follower.sheets, arguments.web_edits_sheets, arguments.follower.camera.camera}};
 }
 
 void print_cameras() {
@@ -391,6 +407,11 @@ void add_web_options(Command& command, WatchArguments& arguments) {
                     "Folder of the recordings that are started in the page of --web")
         ->type_name("DIR")
         ->capture_default_str();
+    command
+        .add_flag("--web-edit-sheets", arguments.web_edits_sheets,
+                  "The page of --web may change the sheet file, and print and measure sheets")
+        ->needs(command.get_option("--web"))
+        ->needs(command.get_option("--sheets"));
 }
 
 void add_track_options(Command& command, TrackOptions& track) {

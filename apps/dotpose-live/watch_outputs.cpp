@@ -117,6 +117,17 @@ bool WatchOutputs::show(const capture::Frame& frame, const Reading& reading, std
     return screen_.show(scene);
 }
 
+std::optional<std::vector<SheetEntry>> WatchOutputs::take_changed_sheets() {
+    return web_ ? web_->take_changed_sheets() : std::nullopt;
+}
+
+void WatchOutputs::use_sheets(bool was_in_world) {
+    sheets_ = map_sheets(follower_.sheets(), plane_of(follower_));
+    // The earlier path is in another plane.
+    if (was_in_world != follower_.is_in_world()) path_ = PathMemory();
+    if (web_) web_->use_sheets();
+}
+
 double WatchOutputs::rate() const {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begun_;
     return elapsed.count() > 0 ? static_cast<double>(tally_.frames) / elapsed.count() : 0;

@@ -10,6 +10,7 @@
 
 #include "dotpose/tools/grey_image.hpp"
 #include "image_copy.hpp"
+#include "json_text.hpp"
 #include "metrics_text.hpp"
 #include "reading_fields.hpp"
 #include "serve/frame_message.hpp"
@@ -31,10 +32,6 @@ constexpr int kMaxSmallSide_px = 480;
 /// Maximum number of points of the path that a message contains.
 constexpr std::size_t kMaxPathPoints = 2000;
 
-std::string dump(const json& value) {
-    return value.dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
 /// Removes user and password from the URL of a camera.
 std::string without_user(const std::string& source) {
     const std::size_t scheme = source.find("://");
@@ -46,7 +43,7 @@ std::string without_user(const std::string& source) {
     return source.substr(0, begin) + source.substr(at + 1);
 }
 
-std::string text_of(const std::vector<std::string>& sources) {
+std::string names_of(const std::vector<std::string>& sources) {
     std::string text;
     for (const std::string& source : sources)
         text += (text.empty() ? "" : " ") + without_user(source);
@@ -74,8 +71,13 @@ WebView::WebView(WebOptions options, const Follower& follower)
       history_topic_(server_.add_topic("history", serve::Format::text)),
       path_topic_(server_.add_topic("path", serve::Format::text)),
       advice_(server_.add_topic("advice", serve::Format::text)),
+      sheet_topics_(server_),
       adviser_([this](const std::string& reason) { publish_reason(reason); }) {
+    if (!options_.sheets.path.empty()) {
+        sheet_view_.emplace(options_.sheets, server_, sheet_topics_);
+    }
     server_.start();
+    if (sheet_view_) sheet_view_->start();
     // A pipe has one reader, which is not the page.
     if (!std::filesystem::is_regular_file(options_.log)) options_.log.clear();
     if (!options_.log.empty()) {
@@ -99,11 +101,12 @@ void WebView::publish_setup() {
         sheets.push_back({{"name", sheet.name}, {"corners_mm", std::move(corners)}});
     }
     const json setup = {{"robot", options_.messages.robot},
-                        {"source", text_of(options_.sources)},
+                        {"source", names_of(options_.sources)},
                         {"plane", follower_.is_in_world() ? "world" : "pattern"},
                         {"sheets", std::move(sheets)},
+                        {"has_sheet_file", sheet_view_.has_value()},
                         {"log", options_.log.empty() ? json(nullptr) : json("/log.csv")}};
-    server_.publish(setup_, [text = dump(setup)] { return text; });
+    server_.publish(setup_, [text = text_of(setup)] { return text; });
 }
 
 bool WebView::is_time_for(const serve::Topic& topic, Timer& timer, milliseconds period,
@@ -123,6 +126,7 @@ void WebView::take(const capture::Frame& frame, const Reading& reading, const Wa
     offer_recordings();
     const bool has_image = !frame.image.pixels.empty();
     if (has_image) publish_frame(reading, now);
+    if (has_image && sheet_view_) sheet_view_->take(reading, follower_.image());
     if (is_time_for(state_, state_timer_, kStatePeriod, now)) publish_state(reading, tally, source);
     if (is_time_for(history_topic_, history_timer_, kSlowPeriod, now)) publish_history();
     if (is_time_for(path_topic_, path_timer_, kSlowPeriod, now)) publish_path(path);
@@ -175,7 +179,7 @@ void WebView::publish_state(const Reading& reading, const WatchTally& tally,
     // The line is the JSON line of the frame, so its keys are those of docs/schema.
     std::string line = json_line(fields(reading, Units::mm));
     server_.publish(state_, [state = std::move(state), line = std::move(line)] {
-        std::string text = dump(state);
+        std::string text = text_of(state);
         text.back() = ',';
         return text + "\"line\":" + line + "}";
     });
@@ -190,7 +194,7 @@ void WebView::publish_history() {
         seconds.push_back({{"second", second.second}, {"frames", std::move(frames)}});
     }
     server_.publish(history_topic_,
-                    [text = dump({{"seconds", std::move(seconds)}})] { return text; });
+                    [text = text_of({{"seconds", std::move(seconds)}})] { return text; });
 }
 
 void WebView::publish_path(const PathMemory& path) {
@@ -206,7 +210,7 @@ void WebView::publish_path(const PathMemory& path) {
         strokes.back().push_back(std::round(marks[i].y * 1000) / 1000);
     }
     server_.publish(path_topic_, [strokes = std::move(strokes), visited = visited_] {
-        return dump({{"strokes_mm", strokes}, {"visited", visited}});
+        return text_of({{"strokes_mm", strokes}, {"visited", visited}});
     });
 }
 
@@ -221,11 +225,21 @@ void WebView::publish_advice(const Reading& reading, const SourceState& source) 
 }
 
 void WebView::publish_reason(const std::string& reason) {
-    server_.publish(advice_, [text = dump({{"reason", reason}})] { return text; });
+    server_.publish(advice_, [text = text_of({{"reason", reason}})] { return text; });
+}
+
+std::optional<std::vector<SheetEntry>> WebView::take_changed_sheets() {
+    return sheet_view_ ? sheet_view_->take_changed() : std::nullopt;
+}
+
+void WebView::use_sheets() {
+    sheets_ = map_sheets(follower_.sheets(), plane_of(follower_));
+    publish_setup();
 }
 
 void WebView::obey() {
     while (const std::optional<serve::Command> command = server_.take_command()) {
+        if (sheet_view_ && sheet_view_->obey(*command)) continue;
         const bool* is_on = command->argument<bool>("on");
         if (command->name != "record" || is_on == nullptr) continue;
         if (*is_on) {

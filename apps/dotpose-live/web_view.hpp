@@ -18,6 +18,7 @@
 #include "watch_metrics.hpp"
 #include "watch_tally.hpp"
 #include "web_recording.hpp"
+#include "web_sheets.hpp"
 
 namespace dotpose::cli {
 
@@ -27,6 +28,7 @@ struct WebOptions {
     std::string recordings = ".";      ///< folder of the recordings that are started in the page
     std::string log;                   ///< log of the run; empty if there is none
     RobotOutputOptions messages;       ///< robot of the recordings
+    WebSheetsOptions sheets;           ///< without a sheet file, the path is empty
 };
 
 /// State of the source of the frames.
@@ -44,6 +46,11 @@ class WebView {
     /// Sends a frame to the clients that are ready, and obeys their commands.
     void take(const capture::Frame& frame, const Reading& reading, const WatchTally& tally,
               const PathMemory& path, const SourceState& source);
+
+    /// Returns the sheets once after they were changed.
+    std::optional<std::vector<SheetEntry>> take_changed_sheets();
+    /// Shows the new sheets of the follower.
+    void use_sheets();
 
     /// Completes a running recording.
     void finish() { recordings_.stop(); }
@@ -97,6 +104,8 @@ class WebView {
     serve::Topic& history_topic_;
     serve::Topic& path_topic_;
     serve::Topic& advice_;
+    SheetTopics sheet_topics_;
+    std::optional<WebSheets> sheet_view_;  ///< none without a sheet file
     AdviceWorker adviser_;  ///< destroyed before the server, to which its thread publishes
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "dotpose/tools/flip.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
@@ -29,8 +30,19 @@ void Follower::require_space_camera() const {
     require_focal_length(*options_.camera);
 }
 
+void Follower::set_sheets(std::vector<SheetEntry> sheets) {
+    if (sheets.empty()) throw BadArgument("a follower needs at least one sheet");
+    options_.sheets = std::move(sheets);
+    // The track and the prediction are in the coordinates of the previous sheets.
+    tracker_ = Tracker(options_.track);
+    seen_.reset();
+    use_sheets();
+}
+
 void Follower::use_sheets() {
     codes_.clear();
+    known_.clear();
+    is_in_world_ = false;
     unplaced_spacing_mm_ = options_.sheets.front().sheet.pattern.spacing_mm;
     for (const SheetEntry& entry : options_.sheets) {
         const Pattern& pattern = entry.sheet.pattern;

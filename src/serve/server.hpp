@@ -90,6 +90,9 @@ class Server {
     /// Adds or replaces a route.
     void set_route(const std::string& path, Route route);
 
+    /// Removes a route if it exists.
+    void remove_route(const std::string& path);
+
     /// Replaces the value of a topic and wakes the server.
     void publish(Topic& topic, Topic::Encode encode);
 

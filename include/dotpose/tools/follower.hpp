@@ -117,6 +117,12 @@ class Follower {
     /// pattern frame.
     bool is_in_world() const { return is_in_world_; }
     const std::vector<SheetEntry>& sheets() const { return options_.sheets; }
+
+    /// Replaces the sheets, for example after one of them was moved in the world. The next image
+    /// starts a new track. Invalidates `SheetPlace::entry` of earlier results. Throws BadArgument
+    /// if there are no sheets, or if a sheet is not in the plane of the code.
+    void set_sheets(std::vector<SheetEntry> sheets);
+
     bool fits_space_pose() const { return options_.fits_space_pose; }
 
     /// Return results for the latest image: the image that was located (possibly flipped, reduced,

@@ -26,6 +26,8 @@ std::string Server::url() const {
 
 void Server::set_route(const std::string&, Route) {}
 
+void Server::remove_route(const std::string&) {}
+
 void Server::publish(Topic&, Topic::Encode) {}
 
 void Server::publish_for_each(Topic&, Topic::EncodeFor) {}

@@ -108,6 +108,11 @@ void Server::Service::set_route(const std::string& path, Route route) {
     routes_[path] = std::move(route);
 }
 
+void Server::Service::remove_route(const std::string& path) {
+    const std::lock_guard lock(routes_mutex_);
+    routes_.erase(path);
+}
+
 void Server::Service::publish(Topic& topic, Topic::Encode encode) {
     topic.publish(std::move(encode));
     lws_cancel_service(context_);
@@ -204,6 +209,10 @@ std::string Server::url() const {
 
 void Server::set_route(const std::string& path, Route route) {
     service_->set_route(path, std::move(route));
+}
+
+void Server::remove_route(const std::string& path) {
+    service_->remove_route(path);
 }
 
 void Server::publish(Topic& topic, Topic::Encode encode) {

@@ -62,8 +62,11 @@ export class Connection {
         this.send({ do: "unsubscribe", topic });
     }
 
-    send(command: Request): void {
-        if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(command));
+    /** Sends a command. Returns false if there is no connection. */
+    send(command: Request): boolean {
+        if (this.#socket?.readyState !== WebSocket.OPEN) return false;
+        this.#socket.send(JSON.stringify(command));
+        return true;
     }
 
     async #take(data: string | ArrayBuffer): Promise<void> {

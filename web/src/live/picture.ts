@@ -69,10 +69,10 @@ export class Picture {
         this.request();
     }
 
-    /** Requests frames in the size that the page shows; none while the page is hidden. */
+    /** Requests frames in the size that the page shows; none while the page or the picture is hidden. */
     request(): void {
         const shown_px = this.#canvas.clientWidth * window.devicePixelRatio;
-        const wanted = document.hidden ? "" : this.#is_slow || shown_px <= kSmall_px ? kSmall : kLarge;
+        const wanted = document.hidden || shown_px === 0 ? "" : this.#is_slow || shown_px <= kSmall_px ? kSmall : kLarge;
         if (wanted === this.#topic) return;
         if (this.#topic !== "") this.#connection.unsubscribe(this.#topic);
         this.#topic = wanted;
