@@ -274,9 +274,10 @@ CodeReading locate_checked(const ImageView& image, const DeviceOptions& options,
     return reading;
 }
 
-/// Sets the other place of `reading` to the place of `any`, a reading of the same frame in any
-/// code. If both readings are in the same code, copies the other place of `any` instead. Does
-/// nothing if `any` has no place, or if `any` has more than one bit error per kBitsPerError dots.
+/// Sets `other_code`, `other_cell` and `other_section` of `reading` to the code and place of `any`,
+/// a reading of the same frame in any code. If both readings are in the same code, copies these
+/// members from `any` instead. Does nothing if `any` has no place, or if `any` has more than one
+/// bit error per kBitsPerError dots.
 void note_other_reading(const CodeReading& any, CodeReading& reading) {
     const bool is_read = any.fix.status == Status::ok || any.fix.status == Status::ambiguous_code;
     if (!is_read || tuned::kBitsPerError * any.fix.bit_errors > any.fix.dots_seen) return;

@@ -14,7 +14,8 @@ namespace {
 
 /// log2(741) in units of 2^-8, rounded up. The four sequences have 741 places.
 constexpr int kSingles_q8 = 2441;
-/// Odds of the far alternatives below which no tighter bound is needed, as log2 in units of 2^-8.
+/// Limit for the odds of the far alternatives, as log2 in units of 2^-8. Below this limit, no
+/// tighter bound is needed.
 constexpr int kSmallOdds_q8 = -36 * 256;
 /// Default limit of the error probability, as log2 in units of 2^-8. Bounds are as tight as this
 /// limit requires, even if the caller permits larger odds.
@@ -305,9 +306,9 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
     return sequences;
 }
 
-/// Returns an upper bound on the odds of the single alternatives that share a line, in the given
-/// sequences, as log2 in units of 2^-8. Counts kSkippedOdds_q8 for every alternative and every
-/// line. Evaluates individually the few alternatives that may lose less than `loss_limit`.
+/// Returns an upper bound on the odds of the single alternatives of the given sequences that share
+/// a line, as log2 in units of 2^-8. Adds kSkippedOdds_q8 for every alternative and every line.
+/// Only a few alternatives may lose less than `loss_limit`. Their odds are computed individually.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();

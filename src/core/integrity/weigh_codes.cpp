@@ -17,7 +17,7 @@ constexpr std::size_t kA4 = 3;
 /// Upper bound on the odds of each skipped place, as log2 in units of 2^-8 and as a number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
-/// Summed odds below which no tighter bound is needed.
+/// Limit for the summed odds. Below this limit, no tighter bound is needed.
 constexpr float kNegligibleOdds = 1e-12F;
 
 /// Lower bounds on the losses of a place in another code. A place loses at least of[line] in each

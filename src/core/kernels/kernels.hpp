@@ -146,7 +146,8 @@ struct DotOffsets {
     float squared = 0;  ///< sum of squared offsets
     float off_u = 0;    ///< sums of the offsets
     float off_v = 0;
-    /// Sum of dot((u, v), offset). `across` is the sum of cross((u, v), offset).
+    /// Sum of the inner products of (u, v) and the offset. `across` is the sum of their cross
+    /// products.
     float along = 0;
     float across = 0;
     /// Sums of d_x times the offset along u and along v, where d is the direction of the dot's
@@ -192,8 +193,8 @@ struct LineLoss {
     std::uint8_t loss = 0;
 };
 
-/// Places in the secondary sequences where an alternative may have bits similar to the reading.
-/// Each entry contains a line that the alternative shares with the reading.
+/// Places in the secondary sequences where the bits of an alternative may be similar to the bits of
+/// the reading. Each entry contains a line that the alternative shares with the reading.
 struct SimilarPlaceList {
     static constexpr int kMax = 512;
     struct Entry {
@@ -337,7 +338,7 @@ struct Kernels {
     void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float limit, float reach_px, int side, BlockSums& sums);
     /// Returns the places in a sequence where an alternative may lose less than the loss limit.
-    /// `steps` gives a lower bound on the loss at each place. Excludes `own`, the place of the
+    /// `steps` contains a lower bound on the loss in each step. Excludes `own`, the place of the
     /// reading.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);

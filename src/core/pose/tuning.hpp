@@ -118,7 +118,7 @@ inline constexpr float kSlopes = 0.03F;
 /// Correlation of residuals (pose/uneven).
 namespace uneven {
 /// Limits for the scatter between blocks. The limits apply to `GroupScatter::excess`, in standard
-/// deviations. `dotpose_tables slips` measures the fractions of flat sheets.
+/// deviations. `dotpose_tables slips` measures the fractions of flat sheets that exceed them.
 /// - kMaybeLine: above this limit, the second attempt searches for a line that divides the sheet.
 ///   The limit is low because the plane fitted to all dots explains most of a step, and because the
 ///   dots of the second attempt are noisier than those of the other attempts.
@@ -159,8 +159,8 @@ inline constexpr float kOfTurn = 8;
 /// dots changes slowly across the view, the bias differs between blocks, but averages out over the
 /// view. Such a bias is not evidence of an uneven sheet.
 inline constexpr float kPixelBias_px = 0.004F;
-/// Distance from the dividing line within which the reference point may be on either side, in
-/// spacings.
+/// If the reference point is closer to the dividing line than this, in spacings, it may be on
+/// either side.
 inline constexpr float kNearLine = 1.2F;
 }  // namespace uneven
 
@@ -179,7 +179,7 @@ inline constexpr float kMinBeyond = 12;
 /// Outlier limit in the first iteration of a fit to one side, in spacings^2. This iteration starts
 /// from a plane fitted to both sides.
 inline constexpr float kFarOff = 0.04F;
-/// Distance from the line within which dots belong to neither side, in spacings. The position of
+/// Dots that are closer to the line than this, in spacings, belong to neither side. The position of
 /// the line is uncertain by about this distance.
 inline constexpr float kMargin = 0.8F;
 /// Search for a common residual of the dots beyond the line. Uses dots within kReach spacings of

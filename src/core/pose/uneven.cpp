@@ -149,9 +149,9 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     if (is_divided) widen_near_line(kernels, dots, reference_px, split, fit);
 }
 
-/// Searches for a line if there are many outliers, or if the scatter between blocks is high. If
-/// not, but the scatter is significant, widens the covariance. `min_excess` is the limit for
-/// `GroupScatter::excess`, in standard deviations.
+/// Searches for a line if there are many outliers, or if the scatter between blocks is high.
+/// Otherwise, widens the covariance if the scatter is significant. `min_excess` is the limit of
+/// `GroupScatter::excess`, in standard deviations, above which the scatter is high.
 void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dots,
                      const Blocks& blocks, FloatVec reference_px, FloatPlane& plane, PoseFit& fit) {
     const float excess = blocks.scatter().excess();
