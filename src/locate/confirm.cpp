@@ -261,7 +261,7 @@ void write_fix(const ImageView& image, const DeviceOptions& options, const Hypot
     write_pose(w.pattern_from_image, reference, options.code, hypothesis.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
     if (!(from_q8 == FixedVec{})) {
-        // Predictions need a plane relative to the image centre.
+        // Moves the centre of the plane to the image centre, because predictions need such a plane.
         w.fix.pattern_from_image =
             fixed_plane(recentred(hypothesis.pattern_from_image, {-from.x, -from.y}), centre_q8);
     }

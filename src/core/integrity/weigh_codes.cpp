@@ -79,7 +79,7 @@ class OtherPlaces {
           theirs_(code::basis(other)[kA4]),
           shift_here_(code::roll_further(read, other, ratios.position, ratios.places[kA4])),
           here_(offsets_of(ratios.places[kA4])) {
-        // Lines in which both codes have the same roll lose nothing.
+        // There is no loss in lines in which both codes have the same roll.
         const int shared = modulo(here_[0] - shift_here_);
         int lost = 0;
         for (std::size_t line = 0; line < count_ && !ratios_.is_hopeless(lost); ++line) {

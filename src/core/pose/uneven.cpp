@@ -137,7 +137,8 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
         plane = split.plane;
         fit = split.fit;
         fit.surface = Surface::divided;
-        // Without outliers, the sheet may be bent instead of divided.
+        // Without outliers, the sheet may be bent instead of divided, so the blocks may be
+        // displaced.
         if (!has_outliers(blocks)) widen_by_blocks(blocks, fit);
     } else {
         const float excess = blocks.scatter().excess();
