@@ -184,8 +184,9 @@ class Cascade {
     }
 
     /// Returns the certain fix, or a better fix if there is one. Reads the frame again in another
-    /// code if the other code is more likely. If the residuals of a first attempt show a rotation,
-    /// searches for the rotation. If the residuals are large, makes a second attempt.
+    /// code if the other code is more likely. After a first attempt, searches for a rotation if the
+    /// residuals show one. If this gives no certain fix, or if there is no rotation, makes a second
+    /// attempt if the residuals are large.
     CodeReading best_of(Step step, CodeVariant code, Judgement judgement) {
         const auto remake = [&](Step other_step, CodeVariant other) {
             if (!attempt(other_step, other)) return false;

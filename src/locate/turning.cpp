@@ -158,9 +158,9 @@ bool is_significant(const TurnFit& fit, int dots, Surface surface) {
            min_gain * static_cast<float>(dots) * fit.variance;
 }
 
-/// Calls `locate(view)` with the image from which the rotation is removed. Then fits the rotation
-/// to the measured dots. Repeats both steps until the rotation no longer changes. Sets `turn` to
-/// the rotation.
+/// Calls `locate(view)` with the image from which the rotation is removed. `locate` must call
+/// `confirm`, which fits the rotation to the measured dots. Repeats this with the fitted rotation
+/// until the rotation no longer changes. Sets `turn` to the rotation.
 template <typename Locate>
 Confirmation settle(const ImageView& image, DesktopWorkspace& w, ReadoutTurn& turn, Locate locate) {
     RollingImage& rolling = w.rolling;
