@@ -161,7 +161,7 @@ struct Limits {
     int readings;  ///< per run
 };
 
-/// Reads runs of lines, clearest run first, until a reading is clear.
+/// Reads up to `limits.runs` runs of lines, clearest run first. Stops when a reading is clear.
 void search_by_runs(CodeVariant code, const Lines& lines, const Limits& limits, AxisReading& best) {
     const int length = run_length(code);
     std::int32_t max_possible = 0;
