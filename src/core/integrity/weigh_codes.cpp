@@ -51,8 +51,8 @@ struct Losses {
         return steps;
     }
 
-    /// Returns true if a place loses more than `loss_limit`. `shared` is an upper bound on the
-    /// summed losses in its shared lines, in units of kUnit.
+    /// Returns true if a place loses more than `loss_limit`. `shared` is an upper bound on the sum
+    /// of `of` over the lines that the place shares, in units of kUnit.
     bool exceed_limit(int shared) const { return kUnit * (all - shared) > loss_limit; }
 
     /// Unit of `all` and `of`, in score units. Losses are rounded down to this unit, because their

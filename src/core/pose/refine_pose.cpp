@@ -142,7 +142,7 @@ class Round {
     const PlaneFromImage& pose_;
     ScaledPlane plane_;
     std::int32_t displacement_q16_ = 0;
-    float limit_ = 0;  ///< outlier limit of squared residuals, in spacings^2
+    float limit_ = 0;  ///< outlier limit of weighted squared residuals, in spacings^2
 };
 
 }  // namespace

@@ -122,11 +122,15 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
     add(0.02F * 0.02F, 2, fit);
 }
 
-/// Handles a sheet that may be divided by a line. If the line is certain, and the dots on the
-/// reference point's side are in one plane, replaces the plane by a fit to this side, and sets the
-/// surface to divided. Otherwise, keeps the plane. In this case, if a line was found, adds the
-/// difference between the plane and the fit to this side to the covariance. Also widens the
-/// covariance for block displacements, and if the reference point is close to a certain line.
+/// Handles a sheet that may be divided by a line:
+/// - If the line is certain, and the dots on the reference point's side are in one plane, replaces
+///   the plane by a fit to this side, and sets the surface to divided.
+/// - Otherwise, keeps the plane, and sets the surface to uneven if the line is certain or if the
+///   scatter between blocks exceeds kUneven. If a line was found, adds the difference between the
+///   plane and the fit to this side to the covariance.
+///
+/// In both cases, also widens the covariance if the blocks may be displaced, and if the reference
+/// point is close to a certain line.
 void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const Blocks& blocks, FloatPlane& plane, PoseFit& fit) {
     SplitFit split{plane, fit};
