@@ -53,9 +53,10 @@ inline constexpr int kReliabilityDark_q4 = 12;
 inline constexpr int kTooDark_10ths = 16;
 /// Reliability of a cell whose darkest place is probably dirt, in 1/16.
 inline constexpr int kReliabilityTooDark_q4 = 6;
-/// Weight of a bit, before clamping to 127, if the darkness at its two values differs by the
-/// darkness of a typical dot. Two fifths of this difference already give a weight of about 127.
-/// With a value of 150, 1,994 frames are located. With a value of 600, 1,992 frames are located.
+/// Weight of a bit, before clamping to 127, if the darkest place for bit value 1 and the darkest
+/// place for bit value 0 differ by the darkness of a typical dot. Two fifths of this difference
+/// already give a weight of about 127. With a value of 150, 1,994 frames are located. With a value
+/// of 600, 1,992 frames are located.
 inline constexpr int kGain = 300;
 /// Maximum light at a cell relative to the image centre, in 1/256. A brighter cell has the same
 /// weights as a cell at this limit.

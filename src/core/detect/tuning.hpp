@@ -42,8 +42,8 @@ inline constexpr int kMinLevel_5ths = 4;
 
 /// Dot detection in a patch (detect/patch).
 namespace patch {
-/// A patch is small if its shorter side is less than this, in patch pixels. Small patches have too
-/// few tiles for `kMinTiles`.
+/// A patch is small if its shorter side is below this limit, in patch pixels. Small patches have
+/// too few tiles for `kMinTiles`.
 inline constexpr int kSmall_px = 48;
 /// Minimum darkness of a tile's darkest smoothed pixel, in grey levels below the paper level. Other
 /// tiles are blank. A patch must have at least kMinTiles tiles that are not blank. In a small

@@ -20,9 +20,9 @@ namespace dotpose::core {
 /// The hard bits of one axis, near the middle of the view. Each hard bit has the full weight, 127.
 struct AxisBits {
     std::span<const ComparedLine> lines;
-    AxisReading reading;    ///< reading of the first line, at bit 0
-    Confidence confidence;  ///< agreement with the code of all bits read on this axis, including
-                            ///< bits outside the middle
+    AxisReading reading;  ///< reading of the first line, at bit 0
+    /// Agreement with the code. Includes all bits read on this axis, also bits outside the middle.
+    Confidence confidence;
     std::span<const std::uint8_t> rolls;  ///< roll of each line
 };
 

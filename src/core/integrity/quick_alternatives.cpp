@@ -308,7 +308,8 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
 
 /// Returns an upper bound on the odds of the single alternatives of the given sequences that share
 /// a line, as log2 in units of 2^-8. Adds kSkippedOdds_q8 for every alternative and every line.
-/// Only a few alternatives may lose less than `loss_limit`. Their odds are computed individually.
+/// Only a few alternatives may lose less than `loss_limit`. Their odds are computed individually
+/// and added.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();

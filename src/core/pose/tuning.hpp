@@ -159,8 +159,8 @@ inline constexpr float kOfTurn = 8;
 /// dots changes slowly across the view, the bias differs between blocks, but averages out over the
 /// view. Such a bias is not evidence of an uneven sheet.
 inline constexpr float kPixelBias_px = 0.004F;
-/// If the reference point is closer to the dividing line than this, in spacings, it may be on
-/// either side.
+/// The reference point may be on either side of the dividing line if its distance from the line is
+/// below this limit, in spacings.
 inline constexpr float kNearLine = 1.2F;
 }  // namespace uneven
 
@@ -179,8 +179,8 @@ inline constexpr float kMinBeyond = 12;
 /// Outlier limit in the first iteration of a fit to one side, in spacings^2. This iteration starts
 /// from a plane fitted to both sides.
 inline constexpr float kFarOff = 0.04F;
-/// Dots that are closer to the line than this, in spacings, belong to neither side. The position of
-/// the line is uncertain by about this distance.
+/// Dots belong to neither side of the line if their distance from the line is below this limit, in
+/// spacings. The position of the line is uncertain by about this distance.
 inline constexpr float kMargin = 0.8F;
 /// Search for a common residual of the dots beyond the line. Uses dots within kReach spacings of
 /// the reference point. At least kMinAgreeing dots must agree with this residual. A dot agrees if

@@ -129,8 +129,8 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
 ///   scatter between blocks exceeds kUneven. If a line was found, adds the difference between the
 ///   plane and the fit to this side to the covariance.
 ///
-/// In both cases, also widens the covariance if the blocks may be displaced, and if the reference
-/// point is close to a certain line.
+/// In both cases, also widens the covariance if the blocks may be displaced, or if the line is
+/// certain and close to the reference point.
 void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const Blocks& blocks, FloatPlane& plane, PoseFit& fit) {
     SplitFit split{plane, fit};
