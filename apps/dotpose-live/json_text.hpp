@@ -1,4 +1,4 @@
-/// Text of JSON values for the page of `dotpose watch --web`.
+/// Text of JSON values for the pages of dotpose-live.
 #pragma once
 
 #include <string>

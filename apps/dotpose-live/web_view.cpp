@@ -11,6 +11,7 @@
 #include "dotpose/tools/grey_image.hpp"
 #include "image_copy.hpp"
 #include "json_text.hpp"
+#include "metrics_text.hpp"
 #include "reading_fields.hpp"
 #include "serve/frame_message.hpp"
 #include "terminal_text.hpp"
@@ -85,6 +86,9 @@ WebView::WebView(WebOptions options, const Follower& follower)
             return serve::Answer{.type = "text/csv", .file = log, .download = "log.csv"};
         });
     }
+    server_.set_route("/metrics", [this] {
+        return serve::Answer{.type = kMetricsType, .body = metrics_.text()};
+    });
     publish_setup();
     tell("the page is at " + server_.url());
 }
@@ -117,6 +121,7 @@ void WebView::take(const capture::Frame& frame, const Reading& reading, const Wa
                    const PathMemory& path, const SourceState& source) {
     const Clock::time_point now = Clock::now();
     count(reading, now);
+    metrics_.take(reading.record.fix.status, tally, source.dropped, rate_hz_);
     obey();
     recordings_.take(frame, reading);
     offer_recordings();

@@ -16,6 +16,7 @@
 #include "reading.hpp"
 #include "refusal_history.hpp"
 #include "serve/server.hpp"
+#include "watch_metrics.hpp"
 #include "watch_tally.hpp"
 #include "web_calibration.hpp"
 #include "web_recording.hpp"
@@ -87,6 +88,7 @@ class WebView {
     std::vector<draw::MapSheet> sheets_;
     std::set<std::string> visited_;  ///< names of the sheets on which frames were located
     RefusalHistory history_;
+    WatchMetrics metrics_;
     WebRecordings recordings_;
     std::size_t offered_ = 0;  ///< number of files that can be downloaded
 

@@ -1,4 +1,4 @@
-// Basis: the four secondary sequences that define a code variant.
+// Basis: the four secondary sequences that define a code.
 #pragma once
 
 #include <array>

@@ -19,7 +19,7 @@ int roll(CodeVariant code, std::uint32_t p) noexcept {
     //     periods = (p - place) / length
     //
     // To avoid the division, (p - place) is multiplied by `period_roll`, which is rolls[length]
-    // times the inverse of `length` modulo 63. `lines` is equal to p modulo 63. Its term 4 * 63
+    // times the inverse of `length` modulo 63. `lines` is congruent to p modulo 63. Its term 4 * 63
     // keeps `lines - place` positive.
     const std::uint32_t lines = code::modulo_sections(p) + 4 * kSections;
     std::uint32_t sum = code::kMinDelta * lines;

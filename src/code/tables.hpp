@@ -11,7 +11,7 @@
 
 namespace dotpose::code {
 
-/// Index of a string of digits that does not occur in a sequence.
+/// Table entry of a string of digits that does not occur in a sequence.
 inline constexpr std::uint8_t kAbsent = 255;
 /// Number of consecutive roll differences that determine a place in a secondary sequence. Each
 /// difference contains one digit of the sequence. In the a4 of `libdots`, some strings of this
@@ -94,7 +94,8 @@ consteval Digits<Length + kLinesAhead + kVectorAhead> rolls(const Digits<Length>
     return result;
 }
 
-/// Returns the bit set in `Secondary::places_of` for one digit.
+/// Returns the element of `Secondary::places_of` for a digit: bit i is 1 if place i contains the
+/// digit.
 template <std::size_t Length>
 consteval auto places_of(const Digits<Length>& sequence, int digit) {
     std::array<std::uint32_t, (256 + kLinesAhead) / 32> words{};
@@ -155,8 +156,8 @@ struct Tables {
 
 using Basis = std::array<Secondary, 4>;
 
-/// The four sequences of a code variant. A roll difference is d = 5 + a1 + 3 a2 + 9 a3 + 18 a4
-/// (paper, section II-A).
+/// The four sequences of a code. A roll difference is d = 5 + a1 + 3 a2 + 9 a3 + 18 a4 (paper,
+/// section II-A).
 template <const auto& A4>
 inline constexpr Basis kBasis{Tables<3, kA1, 1>::kSecondary, Tables<3, kA2, 3>::kSecondary,
                               Tables<2, kA3, 9>::kSecondary, Tables<3, A4, 18>::kSecondary};

@@ -1,5 +1,5 @@
-// Other codes: how well a frame agrees with each code variant other than the variant that was read.
-// The attempts compute this agreement, and `Locator` compares the variants.
+// Other codes: how well a frame agrees with each code other than the code that was read. The
+// attempts compute this agreement, and `Locator` compares the codes.
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@
 
 namespace dotpose::core {
 
-/// Likelihood ratios in another code variant, along one axis. A ratio is the likelihood of a place
-/// in the other variant divided by the likelihood of the place that was read.
+/// Likelihood ratios in another code, along one axis. A ratio is the likelihood of a place in the
+/// other code divided by the likelihood of the place that was read.
 struct OtherAxis {
-    float here = 1;  ///< ratio of the same place in the other variant
+    float here = 1;  ///< ratio of the same place in the other code
     /// Upper bound on the summed ratios of all other places.
     float elsewhere = 0;
-    /// Largest ratio of any examined place, except for the place that was read.
+    /// Largest ratio of any examined place that is not the place that was read.
     float best = 0;
     std::uint32_t position = 0;  ///< position of the first compared line at the place with the
                                  ///< ratio `best`
@@ -23,30 +23,29 @@ struct OtherAxis {
                                  ///< in the reading
 };
 
-/// Likelihood ratios in one other code variant, along both axes.
+/// Likelihood ratios in one other code, along both axes.
 struct OtherCode {
     OtherAxis x;
     OtherAxis y;
 
-    /// Returns the likelihood ratio of the same place in the other variant, with both axes
-    /// combined.
+    /// Returns the likelihood ratio of the same place in the other code, with both axes combined.
     float here() const { return x.here * y.here; }
     /// Returns an upper bound on the summed likelihood ratios of all other places, with both axes
     /// combined.
     float elsewhere() const { return x.here * y.elsewhere + x.elsewhere * (y.here + y.elsewhere); }
 };
 
-/// Likelihood ratios in all other code variants.
+/// Likelihood ratios in all other codes.
 struct OtherCodes {
     bool are_wanted = false;
-    /// Value of `log2_in_question_q8` if the code variant is given.
+    /// Value of `log2_in_question_q8` if the code is given.
     static constexpr int kNoneInQuestion = -1;
-    /// Upper bound on the weighted number of possible code variants, as log2 in units of 2^-8. The
-    /// weight of a variant is its odds relative to the variant that was read.
+    /// Upper bound on the weighted number of possible codes, as log2 in units of 2^-8. The weight
+    /// of a code is its odds relative to the code that was read.
     int log2_in_question_q8 = 0;
-    /// Positions of the first compared column and row, in the code variant that was read.
+    /// Positions of the first compared column and row, in the code that was read.
     Cell first;
-    /// Indexed by code variant. The entry for the variant that was read is unused.
+    /// Indexed by code. The entry for the code that was read is unused.
     std::array<OtherCode, kCodeVariantCount> of;
 };
 

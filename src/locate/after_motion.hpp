@@ -14,8 +14,8 @@ inline float spacing_mm(const DeviceOptions& options) {
     return static_cast<float>(options.spacing_nm) * 1e-6F;
 }
 
-/// Returns the prediction for the frame after `motion`. `last` is the fix before the motion, and
-/// must be ok. The options must contain the spacing.
+/// Returns the prediction for the frame after `motion`. `last` is the fix before the motion. Its
+/// status must be ok. The options must contain the spacing.
 Prediction after(const MeasuredMotion& motion, const Fix& last, const DeviceOptions& options);
 
 }  // namespace dotpose::core

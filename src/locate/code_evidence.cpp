@@ -8,8 +8,8 @@
 namespace dotpose {
 namespace {
 
-/// Distance below which two frames are at the same place, in cells along each axis. Such frames may
-/// contain the same dots.
+/// Two frames count as frames of the same place if their distance along each axis is below this
+/// limit, in cells. Such frames may contain the same dots.
 constexpr std::uint32_t kSamePlace_cells = 64;
 /// Maximum number of frames counted at one place. Floats represent all integers up to this number.
 constexpr std::uint32_t kMaxFrames = 1U << 23;

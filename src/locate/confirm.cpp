@@ -261,16 +261,16 @@ void write_fix(const ImageView& image, const DeviceOptions& options, const Hypot
     write_pose(w.pattern_from_image, reference, options.code, hypothesis.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
     if (!(from_q8 == FixedVec{})) {
-        // Predictions need a plane relative to the image centre.
+        // Moves the centre of the plane to the image centre, because predictions need such a plane.
         w.fix.pattern_from_image =
             fixed_plane(recentred(hypothesis.pattern_from_image, {-from.x, -from.y}), centre_q8);
     }
     w.fix.status = Status::ok;
 }
 
-/// Returns true if the fit moved the plane by more than kFar spacings along an axis, in a corner of
-/// the measured part. The measured part is within `reach_px` of the image centre. Small centroid
-/// windows do not measure such offsets accurately.
+/// Returns true if the fit moved a corner of the measured part by more than kFar spacings along an
+/// axis. The measured part is the part of the image within `reach_px` of the image centre. Small
+/// centroid windows do not measure such large offsets accurately.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);

@@ -21,7 +21,7 @@ enum class Confirmation : std::uint8_t {
     implausible,   ///< the plane is not plausible, or the dots or their bits contradict the
                    ///< hypothesis
     uncertain,     ///< the hypothesis is plausible, but its position is not certain
-    too_few_bits,  ///< same as `uncertain`, but all bits are clear and agree with the code
+    too_few_bits,  ///< same as `uncertain`, but all bits in view are clear and agree with the code
 };
 
 /// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose.

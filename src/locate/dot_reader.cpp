@@ -37,7 +37,7 @@ void fetch_pixels(const ImageView& image, const CellsInView& view) {
 
 /// Drops windows that are much darker than the paper. Such windows are on the table beyond the
 /// sheet, where noise can look like dots. `paper` is the mean level around dots. If `paper` is 0,
-/// only sets this level.
+/// only sets `paper` to the measured level.
 void drop_table(MeasuredDots& dots, float& paper) {
     float sum = 0;
     float count = 0;

@@ -40,8 +40,8 @@ void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, Des
         find_place_exactly(options.code, turned(likeliest_turn(kernels, block), block), place);
 }
 
-/// Returns true if the patch predicts all dots in the image to within a fraction of a pixel. The
-/// patch must cover the whole image, because only such a patch has a grid that is fitted to all
+/// Returns true if the grid of the patch predicts all dots in the image to within a fraction of a
+/// pixel. The patch must cover the whole image, because otherwise its grid is not fitted to all
 /// dots. The spacing must be at least kMinSpacingForPrediction_px.
 bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane& plane) {
     return patch.width_px == image.width_px && patch.height_px == image.height_px &&

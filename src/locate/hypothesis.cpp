@@ -67,7 +67,7 @@ CellsInView cells_in_view(const ImageView& image, const DeviceOptions& options,
     view.height_px = static_cast<float>(image.height_px);
     view.reach_px = reach_px;
     view.displacement = hypothesis.displacement;
-    // A dot that touches the image border is incomplete.
+    // The margin excludes dots that touch the image border, because their images are incomplete.
     view.margin_px = std::max(1.7F, 0.15F * spacing_px(hypothesis.pattern_from_image));
     // Small views of known sheets also need the dots closer to the border.
     const auto shorter_px = static_cast<float>(std::min(image.width_px, image.height_px));

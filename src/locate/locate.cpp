@@ -184,8 +184,9 @@ class Cascade {
     }
 
     /// Returns the certain fix, or a better fix if there is one. Reads the frame again in another
-    /// code if the other code is more likely. If the residuals of a first attempt show a rotation,
-    /// searches for the rotation. If the residuals are large, makes a second attempt.
+    /// code if the other code is more likely. After a first attempt, searches for a rotation if the
+    /// residuals show one. If this gives no certain fix, or if there is no rotation, makes a second
+    /// attempt if the residuals are large.
     CodeReading best_of(Step step, CodeVariant code, Judgement judgement) {
         const auto remake = [&](Step other_step, CodeVariant other) {
             if (!attempt(other_step, other)) return false;
@@ -274,9 +275,10 @@ CodeReading locate_checked(const ImageView& image, const DeviceOptions& options,
     return reading;
 }
 
-/// Sets the other place of `reading` to the place of `any`, a reading of the same frame in any
-/// code. If both readings are in the same code, copies the other place of `any` instead. Does
-/// nothing if `any` has no place, or if `any` has more than one bit error per kBitsPerError dots.
+/// Sets `other_code`, `other_cell` and `other_section` of `reading` to the code and place of `any`,
+/// a reading of the same frame in any code. If both readings are in the same code, copies these
+/// members from `any` instead. Does nothing if `any` has no place, or if `any` has more than one
+/// bit error per kBitsPerError dots.
 void note_other_reading(const CodeReading& any, CodeReading& reading) {
     const bool is_read = any.fix.status == Status::ok || any.fix.status == Status::ambiguous_code;
     if (!is_read || tuned::kBitsPerError * any.fix.bit_errors > any.fix.dots_seen) return;

@@ -27,7 +27,8 @@ Line here(CodeVariant read, CodeVariant other, std::uint32_t position, int roll_
     return {position, roll_read + roll(other, position) - roll(read, position)};
 }
 
-/// Returns the most likely line in the other code, except for the line that was read.
+/// Returns the most likely line in the other code among all lines that differ from the line that
+/// was read.
 Line elsewhere(const OtherAxis& axis, int roll_read) {
     return {axis.position, roll_read + axis.roll};
 }

@@ -6,13 +6,15 @@
 
 namespace dotpose::core {
 
-/// Sets the other place of `reading` if another code also explains the frame. This is the case if a
-/// different place in the other code is about as likely as the fix. It is also the case if the
-/// place of the fix is much more likely in the other code than in the code of the fix.
+/// Sets `has_other`, `other_code`, `other_cell` and `other_section` of `reading` if another code
+/// also explains the frame. This is the case if a different place in the other code is about as
+/// likely as the fix. It is also the case if the place of the fix is much more likely in the other
+/// code than in the code of the fix.
 void name_code_that_explains(const OtherCodes& others, CodeReading& reading);
 
-/// Sets the other place of `reading` to the most likely place in the code `other`, except for the
-/// place of the fix. `read` is the code of the fix.
+/// Sets `other_code`, `other_cell` and `other_section` of `reading` to the most likely place in the
+/// code `other` that is not the place of the fix. Also sets `has_other`. `read` is the code of the
+/// fix.
 void name_other_place(CodeVariant read, CodeVariant other, const OtherCodes& others,
                       CodeReading& reading);
 

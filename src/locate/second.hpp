@@ -18,7 +18,7 @@ class SecondAttempt {
     SecondAttempt(const ImageView& image, DesktopWorkspace& w) : image_(image), w_(w) {}
 
     /// Locates the image in the code of the options. Returns true if there is a fix. The workspace
-    /// then contains the fix, or otherwise the status. If the position is not certain,
+    /// then contains the fix. Otherwise, it contains the status. If the position is not certain,
     /// `Resampling::if_doubtful` fits the grid to the dots of the position, and reads and decodes
     /// the bits again.
     bool read(const DeviceOptions& options, Resampling resampling);

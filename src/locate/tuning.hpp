@@ -16,24 +16,24 @@ inline constexpr int kPatchHeight_px = 160;
 /// Minimum spacing at which a patch predicts dots well enough for direct sampling. In finer grids,
 /// direct sampling is less accurate than windows.
 inline constexpr float kMinSpacingForPrediction_px = 9.5F;
-/// Maximum number of uncertain hypotheses away from the image centre. Each uncertain hypothesis
-/// increases the probability of a wrong fix.
+/// Maximum number of uncertain hypotheses away from the image centre. The number is limited,
+/// because each uncertain hypothesis increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
-/// Wave search away from the image centre: numbers of central dots, and factors for the estimated
-/// spacing. The search tries all combinations, because large displacements weaken the waves, and
-/// then only some combinations find the grid.
+/// Parameters of the wave search away from the image centre: the numbers of central dots, and
+/// factors for the estimated spacing. The search tries all combinations. Large displacements weaken
+/// the waves, and only some combinations find a grid with weak waves.
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
-/// Factors for the estimated spacing if sheets are known. A strip of three rows can then be
-/// certain. The spacing of such a strip is overestimated, because the estimate assumes that the
-/// nearest dots around a dot fill a disc.
+/// Factors for the estimated spacing if sheets are known. On a known sheet, the place of a strip of
+/// three rows can be certain. The spacing of such a strip is overestimated, because the estimate
+/// assumes that the nearest dots around a dot fill a disc.
 inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F};
 }  // namespace first
 
 /// Search for a rotation of the scene during the readout (locate/turning).
 namespace turning {
-/// Maximum rotation during the readout. kMaxFall is the maximum distance by which the rotation
-/// moves the scene down at the side of the image while a row is read, in rows.
+/// Maximum rotation during the readout. kMaxFall is the maximum downward motion of the scene while
+/// a row is read, in rows, due to the rotation, at the left or right border of the image.
 inline constexpr float kMaxTurn_rad = 1.2F;
 inline constexpr float kMaxFall = 0.95F;
 /// Maximum motion of the scene while a row is read, in rows.
@@ -42,13 +42,13 @@ inline constexpr float kMaxDrift = 0.9F;
 /// corners of the patch move, in spacings. The search ends at steps of kStep / kStepParts.
 inline constexpr float kStep = 0.4F;
 inline constexpr float kStepParts = 32;
-/// Minimum factor by which the agreement of a better grid exceeds the agreement of the best grid so
-/// far.
+/// A grid is better than the best grid so far if its agreement is larger by at least this factor.
 inline constexpr float kBetter = 1.0005F;
-/// Minimum ratio of the squared residuals that the rotation explains, summed over both axes, to the
-/// number of dots times the remaining variance along one axis. The two values correspond to a fifth
-/// and to three fifths of all squared residuals. kMinGainIfEven applies if the remaining residuals
-/// of neighbouring dots are not correlated, and kMinGain otherwise.
+/// Minimum of explained / (dots * variance) for a significant rotation. `explained` is the part of
+/// the squared residuals that the rotation explains, summed over both axes. `variance` is the
+/// remaining variance along one axis. The values 0.5 and 3 correspond to a fifth and to three
+/// fifths of all squared residuals. kMinGainIfEven applies if the remaining residuals of
+/// neighbouring dots are not correlated, and kMinGain otherwise.
 inline constexpr float kMinGainIfEven = 0.5F;
 inline constexpr float kMinGain = 3;
 /// Maximum variance of the offset between a dot and the nearest place of its cell, per axis, in
@@ -58,9 +58,9 @@ inline constexpr float kMaxVariance = 0.002F;
 /// Maximum number of grids whose bits are searched for in the code. If these grids have no place in
 /// the code, further rotations often lead to the same grids again.
 inline constexpr int kMaxClimbs = 3;
-/// Correction of the rotation below which the image is not measured again. The correction is
-/// measured as the distance by which the dots in the corners move. Smaller corrections are applied
-/// to the measured dots. kMaxRounds is the maximum number of measurements.
+/// The image is measured again if the correction of the rotation moves the dots in its corners by
+/// at least kSettled_px. Smaller corrections are applied to the measured dots. kMaxRounds is the
+/// maximum number of measurements.
 inline constexpr float kSettled_px = 0.5F;
 inline constexpr int kMaxRounds = 5;
 /// Minimum fraction of the dots that `keep_isolated` must keep before a search for a rotation. If
@@ -71,14 +71,14 @@ inline constexpr float kMinIsolated = 0.88F;
 
 /// Tracked attempt (locate/tracked).
 namespace tracked {
-/// Dots within this distance of the point where a prediction is corrected are used for the
-/// correction, in spacings along each axis. At this distance, an angular error of the prediction
-/// does not yet assign a dot to the wrong intersection.
+/// Half side of the square that contains the dots for a correction, in spacings. The square is
+/// centred on the point where the prediction is corrected. At this distance from the point, an
+/// angular error of the prediction does not yet assign a dot to the wrong intersection.
 inline constexpr float kNear = 2.6F;
 /// Minimum number of dots for a correction.
 inline constexpr int kMinNear = 10;
-/// Maximum prediction error that the search covers, in spacings. Beyond half a spacing, a
-/// neighbouring dot is closer than the correct dot.
+/// Maximum prediction error that the search covers, in spacings. The limit is only slightly larger
+/// than half a spacing. At larger errors, a neighbouring dot is closer than the correct dot.
 inline constexpr float kMaxOff = 0.6F;
 /// Range of spacings that can be tracked.
 inline constexpr float kFinest_px = 5;
@@ -93,8 +93,8 @@ inline constexpr float kSecondOff = 0.15F;
 inline constexpr float kMaxOffset_px = 1.5F;
 /// Offset of a typical dot, in px, at a moment-to-weight ratio of 1. Accurate to 20 %.
 inline constexpr float kWeight_px = 0.84F;
-/// Motion of the dots at the image border, due to the scale and rotation of a correction, above
-/// which the dots are measured again.
+/// The dots are measured again if the scale and rotation of a correction move the dots at the image
+/// border by at least this distance.
 inline constexpr float kTurned_px = 2;
 /// Maximum number of measurements in one correction.
 inline constexpr int kMaxLooks = 3;
@@ -117,8 +117,8 @@ inline constexpr float kDenseAtMost = 17;
 inline constexpr float kDenseOfPart = 6;
 /// Distance within which the bits of a partial view must make the position certain, in spacings.
 inline constexpr float kDecidingOfPart = 32;
-/// Maximum growth factor of the reading distance from round to round. The plane fitted in one round
-/// must predict the dots of the next round.
+/// Maximum growth factor of the reading distance from round to round. The factor is limited,
+/// because the plane fitted in one round must predict the dots of the next round.
 inline constexpr float kFarther = 3.5F;
 /// Limits for clean bits, which need no second reading. At least kClear_percent of the dots must be
 /// clear. If n dots were read, at most max(kMaxWrong, n / kDotsPerWrong) bits may be wrong.
@@ -129,8 +129,8 @@ inline constexpr int kDotsPerWrong = 200;
 /// Outlier limit: squared residual divided by the mean squared residual. The limit is four standard
 /// deviations of one coordinate.
 inline constexpr float kOutlier = 8.3F;
-/// Maximum distance by which a fit may move the plane, in spacings, in a corner of the measured
-/// part. After a larger motion, the dots are measured again, because small centroid windows do not
+/// Maximum distance by which a fit may move a corner of the measured part, in spacings along an
+/// axis. After a larger motion, the dots are measured again, because small centroid windows do not
 /// measure large offsets accurately.
 inline constexpr float kFar = 0.055F;
 /// Maximum number of measurements for an exact hypothesis. The hypothesis is implausible if the
@@ -154,13 +154,15 @@ inline constexpr float kMinWindowRadius_px = 3.3F;
 /// between the two dots. Facing dots are adjacent dots that are displaced towards each other. See
 /// pose/facing_dots.hpp.
 inline constexpr float kFacing = 0.55F;
-/// Maximum deviation of a grid step from whole pixels at which the dots of a row or column have
-/// about the same sub-pixel phase. At larger deviations, the phases in view are evenly distributed.
+/// If a grid step deviates from whole pixels by at most this distance, the dots of a row or column
+/// have about the same sub-pixel phase. At larger deviations, the phases in view are evenly
+/// distributed.
 inline constexpr float kDrift_px = 0.05F;
-/// Maximum phase drift across the view at which the pixel bias is corrected. The correction takes
-/// several times as long as all other steps of a frame.
+/// The pixel bias is corrected only if the phase drift across the view is at most this distance,
+/// because the correction takes several times as long as all other steps of a frame.
 inline constexpr float kDriftInView_px = 0.35F;
-/// Maximum variance of the mean centre, along one axis, at which the pixel bias matters.
+/// The pixel bias matters only if the variance of the mean centre along one axis is at most this
+/// value. Otherwise, other errors are larger.
 inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
 /// Minimum and maximum size of image parts that are prefetched. Smaller parts are already in the
 /// cache. Larger parts would evict their own first rows.
@@ -182,9 +184,10 @@ inline constexpr float kRough = 0.027F;
 
 /// Views of known sheets (locate/hypothesis, locate/on_sheets).
 namespace known {
-/// Shorter image side, in spacings, below which dots are read up to kMargin_px from the border. In
-/// 300 views of 36 x 36 px at 6 px per spacing, a margin of 1.0 px locates 97 %. The usual margin
-/// of 1.7 px locates 88 %, with equal errors (`dotpose_tables known`).
+/// Shorter image side, in spacings, below which dots are read up to kMargin_px from the border. The
+/// usual margin is 1.7 px. Of 300 views of 36 x 36 px at 6 px per spacing, 97 % are located with a
+/// margin of 1.0 px, and 88 % with the usual margin. The pose errors are equal (`dotpose_tables
+/// known`).
 inline constexpr float kSmallView = 9;
 inline constexpr float kMargin_px = 1;
 /// Minimum weight of a bit, in 1/127. The second attempt uses a cell only if each of its two bits
@@ -214,8 +217,8 @@ inline constexpr float kMaxReach = 24;
 /// Second attempt (locate/second).
 namespace second {
 /// Factors for the thresholds of a filtered image. Filtering reduces noise to a third, and makes
-/// dots paler and wider. With dirt on 5 % of the area, these factors locate 93 % of 200 frames, and
-/// the original thresholds locate 80 % (docs/limits.md).
+/// dots paler and wider. With dirt on 5 % of the area, 93 % of 200 frames are located with these
+/// factors, and 80 % with the original thresholds (docs/limits.md).
 inline constexpr int kLow_3rds = 2;
 inline constexpr int kHigh_10ths = 9;
 /// Divisor of the minimum contrast for a second detection if an image has too few dots. The
@@ -234,14 +237,15 @@ namespace cascade {
 /// Minimum odds of another code, relative to the code of the fix, at which a frame is read again in
 /// the other code.
 inline constexpr float kBetterOdds = 2;
-/// Minimum number of dots per wrong bit at which a reading in another code is reported. Dots have
-/// two bits, so at most one bit in a hundred is wrong. Misread bits can cause this error rate.
+/// Minimum number of dots per wrong bit at which a reading in another code is reported. A dot has
+/// two bits, so at most one bit in a hundred is wrong in such a reading. Misread bits can cause
+/// this error rate.
 inline constexpr int kBitsPerError = 50;
-/// Minimum odds at which a different place in another code is reported with a certain fix. Odds are
-/// relative to the fix.
+/// Minimum odds, relative to the fix, at which a different place in another code is reported in
+/// addition to a certain fix.
 inline constexpr float kNamedElsewhere = 0.99F;
-/// Minimum odds at which the place of the fix in another code is reported with a certain fix. Odds
-/// are relative to the fix.
+/// Minimum odds, relative to the fix, at which the place of the fix in another code is reported in
+/// addition to a certain fix.
 inline constexpr float kNamedHere = 1024;
 }  // namespace cascade
 

@@ -149,18 +149,18 @@ void write_turn(const ReadoutTurn& turn, const ImageView& image, const FixedLens
 }
 
 /// Returns true if the rotation explains enough of the squared residuals that the dots have without
-/// the rotation: about a fifth, or three fifths if the remaining residuals are correlated (see
-/// kMinGainIfEven and kMinGain). The residuals of a wrinkled sheet may be similar to those of a
-/// rotation.
+/// the rotation. The minimum is about a fifth, or three fifths if the remaining residuals are
+/// correlated (see kMinGainIfEven and kMinGain). It is larger for correlated residuals, because the
+/// residuals of a wrinkled sheet may be similar to those of a rotation.
 bool is_significant(const TurnFit& fit, int dots, Surface surface) {
     const float min_gain = surface == Surface::even ? tuned::kMinGainIfEven : tuned::kMinGain;
     return fit.turn.rad_per_row * fit.turn.rad_per_row >=
            min_gain * static_cast<float>(dots) * fit.variance;
 }
 
-/// Calls `locate(view)` with the image from which the rotation is removed. Then fits the rotation
-/// to the measured dots. Repeats both steps until the rotation no longer changes. Sets `turn` to
-/// the rotation.
+/// Calls `locate(view)` with the image from which the rotation is removed. `locate` must call
+/// `confirm`, which fits the rotation to the measured dots. Repeats this with the fitted rotation
+/// until the rotation no longer changes. Sets `turn` to the rotation.
 template <typename Locate>
 Confirmation settle(const ImageView& image, DesktopWorkspace& w, ReadoutTurn& turn, Locate locate) {
     RollingImage& rolling = w.rolling;

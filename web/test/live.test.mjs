@@ -170,7 +170,7 @@ test("axe finds no violation, and nothing is wider than the screen", async () =>
         for (const colorScheme of ["light", "dark"]) {
             for (const width of [1200, 390, 320]) {
                 const { page } = await open(browser.context, run.url);
-                await page.emulateMedia({ colorScheme });
+                await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
                 await page.setViewportSize({ width, height: 800 });
                 await page.waitForFunction(isLive);
                 // Scripts of the test are not bound by the content security policy of the page.

@@ -84,7 +84,8 @@ int backwardness(const Kernels& kernels, const BitLines& lines) {
     const LineRange range = lines_with_bits(lines, BitBlock::kSide);
     int sum = 0;
     for (int voter = 0; voter < kVoters; ++voter) {
-        // The lines in the middle half of the range are the longest.
+        // Chooses the voters from the middle half of the range, because these lines are the
+        // longest.
         const auto i = static_cast<std::size_t>(range.first + range.count / 4 +
                                                 range.count * voter / (2 * kVoters));
         if (i >= lines.bits.size()) break;

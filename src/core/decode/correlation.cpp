@@ -99,7 +99,7 @@ void correlate_both(Line a, Line b, LineScores& scores_a, LineScores& scores_b) 
     const auto are_zero = [&](std::size_t i) {
         return (i >= a.size() || a[i] == 0) && (i >= b.size() || b[i] == 0);
     };
-    // Skips empty cells at both ends. Most lines of a rotated grid have empty cells.
+    // Skips empty cells at both ends, because most lines of a rotated grid have such cells.
     std::size_t end = std::max(a.size(), b.size());
     std::size_t first = 0;
     while (first < end && are_zero(first))

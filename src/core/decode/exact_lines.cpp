@@ -37,7 +37,8 @@ bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange&
     };
     const auto length = static_cast<std::size_t>(run_length(code));
     std::array<std::uint8_t, BitBlock::kSide> rolls;
-    // Skips the first quarter of the lines. Lines near the middle are longer and more reliable.
+    // Skips the first quarter of the lines, because lines near the middle are longer and more
+    // reliable.
     std::size_t end = count / 4;
     for (std::size_t run = 0; run < length; ++end) {
         if (end == count) return false;

@@ -75,7 +75,8 @@ BothWays agreement(const Voters& voters) {
     return {agreement_by_pairs(voters, false), agreement_by_pairs(voters, true)};
 }
 
-/// Returns the maximum agreement of any sequence with the voting lines: the sum of all |weight|.
+/// Returns the maximum agreement of any sequence with the voting lines, which is the sum of the
+/// absolute weights.
 std::int32_t max_possible(const Voters& voters) {
     std::int32_t sum = 0;
     Line storage;

@@ -135,8 +135,9 @@ void try_run(CodeVariant code, const Lines& lines, int first, int length, int ma
     }
 }
 
-/// Returns the first line of the clearest run that is not marked in `taken`, or -1. Runs have
-/// `length` lines. The clearest run has the largest sum of line margins (`BestScore::margin`).
+/// Returns the first line of the clearest run, or -1 if there is no run. Skips runs whose first
+/// line is marked in `taken`. Runs have `length` lines. The clearest run has the largest sum of
+/// line margins (`BestScore::margin`).
 int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLines>& taken) {
     int clearest = -1;
     int largest = INT32_MIN;
@@ -160,7 +161,7 @@ struct Limits {
     int readings;  ///< per run
 };
 
-/// Reads runs of lines, clearest run first, until a reading is clear.
+/// Reads up to `limits.runs` runs of lines, clearest run first. Stops when a reading is clear.
 void search_by_runs(CodeVariant code, const Lines& lines, const Limits& limits, AxisReading& best) {
     const int length = run_length(code);
     std::int32_t max_possible = 0;

@@ -45,7 +45,8 @@ StepLosses losses_of(const LineScores& line, const LineScores& next) {
     return losses;
 }
 
-/// Number of places with the smallest losses that are kept for each secondary sequence.
+/// Number of places kept for each secondary sequence. These are the places with the smallest
+/// losses.
 constexpr std::size_t kChoices = tuning::step_search::kChoices;
 using Choices = std::array<std::uint32_t, kChoices>;
 
@@ -73,7 +74,7 @@ Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
     return places;
 }
 
-/// Returns the reading with the first line at `position`, and with the roll that has the highest
+/// Returns the reading whose first line is at `position`. Its roll is the roll with the highest
 /// total score.
 AxisReading evaluate(CodeVariant code, const Lines& lines, std::uint32_t position) {
     std::array<std::uint8_t, kMaxLines> rolls;

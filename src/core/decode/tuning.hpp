@@ -19,8 +19,9 @@ namespace sample_cells {
 /// Maximum number of cells in the sample for the median darkness and the median shade of a dot. The
 /// medians hardly change if graphics cover a quarter of the cells.
 inline constexpr std::size_t kMedianSample = 256;
-/// Spacing divided by half the width of the square over which the darkness is averaged to get the
-/// shade. The square is wider than a dot, but does not reach the dots of neighbouring cells.
+/// The shade of a place is the mean darkness of a square around it. kShadePart is the spacing
+/// divided by half the side of this square. The square is wider than a dot, but does not reach the
+/// dots of neighbouring cells.
 inline constexpr int kShadePart = 5;
 /// Offsets of the squares that are tested for graphics around a place, in 1/60 spacing. Four
 /// squares are offset along one axis, and four squares diagonally. Together, the squares detect
@@ -36,8 +37,8 @@ inline constexpr int kSolidInk_q8 = 230;
 inline constexpr std::array<int, 5> kReliabilityBySeen_q4{0, 6, 8, 10, 16};
 /// Reliability of a cell with a place under graphics, in 1/16.
 inline constexpr int kReliabilityCovered_q4 = 10;
-/// Shade beside a place above which the cell counts as near graphics, in fifths of the shade above
-/// which a place counts as graphics.
+/// A cell counts as near graphics if the shade beside one of its places exceeds this limit. The
+/// limit is in fifths of the shade above which a place counts as graphics.
 inline constexpr int kNearGraphics_5ths = 3;
 /// Reliability of a cell near graphics, in 1/16. With a value of 3, 1,993 frames are located. With
 /// a value of 14, 1,994 frames are located.
@@ -52,9 +53,10 @@ inline constexpr int kReliabilityDark_q4 = 12;
 inline constexpr int kTooDark_10ths = 16;
 /// Reliability of a cell whose darkest place is probably dirt, in 1/16.
 inline constexpr int kReliabilityTooDark_q4 = 6;
-/// Weight of a bit whose two values differ by the darkness of a typical dot, before clamping to
-/// 127. About two fifths of this difference already gives a weight of 127. A value of 150 locates
-/// 1,994 frames, and a value of 600 locates 1,992 frames.
+/// Weight of a bit, before clamping to 127, if the darkest place for bit value 1 and the darkest
+/// place for bit value 0 differ by the darkness of a typical dot. Two fifths of this difference
+/// already give a weight of about 127. With a value of 150, 1,994 frames are located. With a value
+/// of 600, 1,992 frames are located.
 inline constexpr int kGain = 300;
 /// Maximum light at a cell relative to the image centre, in 1/256. A brighter cell has the same
 /// weights as a cell at this limit.
@@ -73,21 +75,21 @@ inline constexpr int kMaxCrowded_8ths = 3;
 namespace search {
 /// Maximum number of rolls to try per line.
 inline constexpr int kChoices = 8;
-/// Maximum number of runs, and readings per run, in the second attempt. Halving or doubling either
-/// value does not change the number of located frames. The limits leave a margin for frames with
-/// more misread bits.
+/// Maximum number of runs, and maximum number of readings per run, in the second attempt. Halving
+/// or doubling either value does not change the number of located frames. The limits leave a margin
+/// for frames with more misread bits.
 inline constexpr int kRuns = 24;
 inline constexpr int kReadings = 64;
-/// Maximum number of runs, and readings per run, in the first attempt and on devices. These limits
-/// bound the time for unreadable frames. None of 2,000 nominal frames needed more runs or readings,
-/// and 4 of 2,000 hard frames did.
+/// Maximum number of runs, and maximum number of readings per run, in the first attempt and on
+/// devices. These limits bound the time for unreadable frames. None of 2,000 nominal frames and 4
+/// of 2,000 hard frames needed more runs or readings.
 inline constexpr int kRunsBriefly = 3;
 inline constexpr int kReadingsBriefly = 8;
 }  // namespace search
 
 /// Search by steps between adjacent lines (decode/step_search).
 namespace step_search {
-/// Number of places that are kept for each secondary sequence. All combinations of these places are
+/// Number of places kept for each secondary sequence. All combinations of these places are
 /// evaluated.
 inline constexpr std::size_t kChoices = 3;
 }  // namespace step_search

@@ -36,8 +36,8 @@ void keep_row(const std::uint8_t* pixels, const AdaptiveThreshold& threshold, st
     const std::uint8_t* const end = pixels + threshold.width_px;
     std::uint8_t* const whole = row + whole_width(threshold);
     if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {
-        // Compilers inline copies of constant size. The `memcpy` functions of small devices copy
-        // single bytes.
+        // Copies blocks of constant size, because compilers inline such copies. The `memcpy`
+        // functions of small devices copy single bytes.
         copy_blocks<28>(pixels, end, row);
         copy_blocks<12>(pixels, end, row);
         copy_blocks<4>(pixels, end, row);

@@ -67,7 +67,7 @@ void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold
 
 /// Returns the contrast below which a tile in the next band is blank, in grey levels. The limit
 /// grows from `options.min_contrast` to 2 * `options.min_contrast` as the largest contrast so far
-/// grows. After the first tiles with dots, this rejects noise in blank tiles.
+/// grows. After the first tiles with dots, the larger limit rejects noise in blank tiles.
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold);
 
 inline int band_count(const AdaptiveThreshold& threshold) {

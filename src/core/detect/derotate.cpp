@@ -65,7 +65,7 @@ ImageView derotated(const ImageView& image, const ReadoutTurn& turn,
             const Quadratic v_q8(to_q8(first.y, centre_v), to_q8(middle.y, centre_v),
                                  to_q8(last.y, centre_v));
             const int count = std::min(kStep_px, image.width_px - u);
-            // Separate loops, because compilers vectorize the first loop but not the second.
+            // Uses separate loops, because compilers vectorise the first loop but not the second.
             std::array<int, kStep_px> us;
             std::array<int, kStep_px> vs;
             for (int i = 0; i < kStep_px; ++i) {

@@ -71,7 +71,8 @@ bool measure_contrast(Patch& patch) {
     patch.dot_contrast_q8 = 4 * static_cast<int>(median) + 2;
     const int contrast_q16 = patch.dot_contrast_q8 * tuned::kThreshold_q8;
     for (int row = 0; row < rows; ++row) {
-        // Computes a whole row of tiles, including unused tiles, in one vector operation.
+        // Computes the thresholds of the whole row, including unused tiles, because compilers
+        // vectorise loops of constant length.
         const auto paper = std::span(patch.brightest).subspan(tile(0, row), Patch::kTilesPerRow);
         std::array<std::uint8_t, Patch::kTilesPerRow> thresholds;
         for (std::size_t i = 0; i < thresholds.size(); ++i)

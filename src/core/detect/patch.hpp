@@ -18,9 +18,9 @@ bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int w
 /// contrast and the tile's paper level. Returns false if too few tiles have contrast.
 bool measure_contrast(Patch& patch);
 
-/// Removes minima that are not dots: minima on plateaus, in tiles without contrast, and with dark
-/// surroundings in more than two of eight directions. A dark table beyond the sheet has minima with
-/// dark surroundings.
+/// Removes minima that are not dots: minima on plateaus, minima in tiles without contrast, and
+/// minima with dark surroundings in more than two of eight directions. For example, minima on a
+/// dark table beyond the sheet have dark surroundings.
 void keep_isolated(Patch& patch);
 
 /// Return the middle of the patch, in image pixels.

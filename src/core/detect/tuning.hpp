@@ -42,7 +42,8 @@ inline constexpr int kMinLevel_5ths = 4;
 
 /// Dot detection in a patch (detect/patch).
 namespace patch {
-/// Shorter side below which a patch has too few tiles for `kMinTiles`, in patch pixels.
+/// A patch is small if its shorter side is below this limit, in patch pixels. Small patches have
+/// too few tiles for `kMinTiles`.
 inline constexpr int kSmall_px = 48;
 /// Minimum darkness of a tile's darkest smoothed pixel, in grey levels below the paper level. Other
 /// tiles are blank. A patch must have at least kMinTiles tiles that are not blank. In a small
@@ -52,8 +53,8 @@ inline constexpr int kMinTiles = 12;
 /// Minimum darkness of a dot relative to a typical dot, in 1/256. Lighter minima count as noise.
 inline constexpr int kThreshold_q8 = 150;
 /// Distances at which the surroundings of a minimum are tested, along the axes and diagonally, in
-/// px. At most kMaxDark of the eight directions may be dark. A neighbouring dot may darken a
-/// direction.
+/// px. At most kMaxDark of the eight directions may be dark. The limit is not 0, because
+/// neighbouring dots may darken some directions.
 inline constexpr int kAway_px = 4;
 inline constexpr int kDiagonally_px = 3;
 inline constexpr int kMaxDark = 2;

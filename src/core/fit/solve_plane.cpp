@@ -19,7 +19,7 @@ constexpr std::array<DistortionPrior, 3> kTerms{{
 }};
 
 /// Shrinks the distortion terms of a step to their posterior means. Sets the covariance of `fit`.
-/// `whole` contains the whitened terms of the plane after the step without shrinkage.
+/// `whole` contains the whitened terms that the plane would have after the step without shrinkage.
 void shrink(const Parameters& whole, float unit, PoseFit& fit, Parameters& step) {
     fit.covariance = {};
     for (std::size_t i = 0; i < kTilt; ++i)

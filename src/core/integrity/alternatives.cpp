@@ -17,8 +17,8 @@ namespace {
 /// lines would have five equal digits in each sequence, and five digits determine a place. In
 /// `libdots`, some positions share more lines. The near alternatives include these positions.
 constexpr int kMaxSharedInARow = code::kOrder;
-/// Expected odds of the far alternatives at and above which the detailed evaluation is skipped,
-/// because it cannot make the fix certain.
+/// Limit for the expected odds of the far alternatives. At or above this limit, the detailed
+/// evaluation is skipped, because it cannot make the fix certain.
 constexpr float kBeyondHelp = 1e-4F;
 /// Default limit of the summed odds.
 constexpr float kUsualLimit = 0x1p-30F;
@@ -49,10 +49,10 @@ struct Expectation {
     float of_more;  ///< alternatives that differ in three or four sequences
 };
 
-/// Returns the sum of the odds of all alternatives. Counts more of the far alternatives one by one:
-/// the double alternatives, and the near alternatives that share kMaxSharedInARow - 1 lines. This
-/// reduces the part of the sum that is only an expectation. `known` is the sum of the odds of all
-/// other alternatives.
+/// Returns the sum of the odds of all alternatives. Adds the individual odds of more far
+/// alternatives: of the double alternatives, and of the near alternatives that share
+/// kMaxSharedInARow - 1 lines. This reduces the part of the sum that is only an expectation.
+/// `known` is the sum of the odds of all other alternatives.
 float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float known,
                         Expectation expected, float limit) {
     // The odds are as precise as the default limit requires, even if the caller permits larger

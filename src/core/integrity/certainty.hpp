@@ -20,8 +20,9 @@ namespace dotpose::core {
 /// The hard bits of one axis, near the middle of the view. Each hard bit has the full weight, 127.
 struct AxisBits {
     std::span<const ComparedLine> lines;
-    AxisReading reading;    ///< reading of the first line, at bit 0
-    Confidence confidence;  ///< all bits read on this axis, including bits outside the middle
+    AxisReading reading;  ///< reading of the first line, at bit 0
+    /// Agreement with the code. Includes all bits read on this axis, also bits outside the middle.
+    Confidence confidence;
     std::span<const std::uint8_t> rolls;  ///< roll of each line
 };
 
@@ -38,7 +39,7 @@ bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>&
 /// Bits and scores that determine whether a position is certain.
 struct Evidence {
     Place corner;                    ///< place where the first column and the first row cross
-    std::array<Confidence, 2> bits;  ///< bits on the x and y axes, compared with the code
+    std::array<Confidence, 2> bits;  ///< agreement of the bits with the code, on the x and y axes
     Lines columns;
     Lines rows;
 };

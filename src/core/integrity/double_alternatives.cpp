@@ -17,7 +17,8 @@ namespace {
 /// the reading.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// log2 of the odds above which an alternative is always counted individually.
+/// log2 of large odds. If it does not take too long, all alternatives with larger odds are counted
+/// individually.
 constexpr int kLargeOdds_log2 = -36;
 
 /// Set of anchors. Bit n is the anchor with index n, in the order of the lines. Anchors are the

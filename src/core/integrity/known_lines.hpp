@@ -86,13 +86,13 @@ struct ScoredTurn {
           columns(kernels, upright.columns, ranges.columns, ranges.rows.first),
           rows(kernels, upright.rows, ranges.rows, ranges.columns.first) {}
 
-    /// Returns the positions of the first column of the block at which at least one column is in
-    /// `region`.
+    /// Returns the range of positions of the block's first column for which at least one column of
+    /// the block is in `region`.
     PositionRange columns_of(const KnownRegion& region) const {
         return {region.first.x, region.columns, columns.count()};
     }
-    /// Returns the positions of the first row of the block at which at least one row is in
-    /// `region`.
+    /// Returns the range of positions of the block's first row for which at least one row of the
+    /// block is in `region`.
     PositionRange rows_of(const KnownRegion& region) const {
         return {region.first.y, region.rows, rows.count()};
     }

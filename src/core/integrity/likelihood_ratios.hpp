@@ -136,7 +136,7 @@ class LikelihoodRatios {
     /// Returns the loss in bits: the number of wrong bits at `roll` minus the number of wrong bits
     /// at the roll of the reading.
     int loss_of_bits(int line, int roll) const;
-    /// The rolls with the minimum loss in a line, except for the roll of the reading.
+    /// Among all rolls except the roll of the reading, the rolls with the minimum loss in a line.
     struct Nearest {
         int lost_bits = 0;      ///< loss of these rolls, in bits
         int log2_count_q8 = 0;  ///< upper bound on log2 of their number, in units of 2^-8

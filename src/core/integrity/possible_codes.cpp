@@ -9,8 +9,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Limit for the summed odds of other places in other codes. Above this limit, a fix is ambiguous.
-/// Below it, a second attempt may reduce the odds.
+/// A fix is ambiguous if the summed odds of other places in other codes exceed this limit. Smaller
+/// odds may make the fix uncertain, but a second attempt may reduce them.
 constexpr float kAmbiguousOdds = 1e-3F;
 /// A code is ruled out by earlier frames if its odds relative to the likeliest code are at most
 /// this value. The locator makes no attempt in a code that is ruled out.
@@ -88,8 +88,8 @@ CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others) {
     for (std::size_t i = 0; i < log2_q8.size(); ++i) {
         if (i == index(read)) continue;
         const float odds = others.of[i].here() + others.of[i].elsewhere();
-        // A code that explains the frame as well as the code `read` has a log ratio of exactly 0,
-        // because rounding errors would accumulate over frames.
+        // Sets the log ratio to exactly 0 if a code explains the frame as well as the code `read`.
+        // Otherwise, rounding errors would accumulate over frames.
         const bool is_equal = odds <= kRoundings && odds * kRoundings >= 1;
         log2_q8[i] = is_equal ? 0 : log2_of_odds_q8(odds);
     }

@@ -14,7 +14,8 @@ namespace {
 
 /// log2(741) in units of 2^-8, rounded up. The four sequences have 741 places.
 constexpr int kSingles_q8 = 2441;
-/// Odds of the far alternatives below which no tighter bound is needed, as log2 in units of 2^-8.
+/// Limit for the odds of the far alternatives, as log2 in units of 2^-8. Below this limit, no
+/// tighter bound is needed.
 constexpr int kSmallOdds_q8 = -36 * 256;
 /// Default limit of the error probability, as log2 in units of 2^-8. Bounds are as tight as this
 /// limit requires, even if the caller permits larger odds.
@@ -305,9 +306,10 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
     return sequences;
 }
 
-/// Returns an upper bound on the odds of the single alternatives that share a line, in the given
-/// sequences, as log2 in units of 2^-8. Counts kSkippedOdds_q8 for every alternative and every
-/// line. Evaluates individually the few alternatives that may lose less than `loss_limit`.
+/// Returns an upper bound on the odds of the single alternatives of the given sequences that share
+/// a line, as log2 in units of 2^-8. Adds kSkippedOdds_q8 for every alternative and every line.
+/// Only a few alternatives may lose less than `loss_limit`. Their odds are computed individually
+/// and added.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();
@@ -355,7 +357,8 @@ int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
         constexpr int kLittle_q8 = -5 * 256;
         const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
         sequences = add_by_tables(ratios, little_q8, sequences, singles);
-        // A single alternative without a shared line loses at least as much as another section.
+        // Adds the single alternatives without a shared line. Each of them loses at least as much
+        // as another section.
         singles = add_log2(singles, kSingles_q8 + other_sections);
     }
     if (sequences != 0) singles = add_log2(singles, singles_log2_q8(ratios, sequences));

@@ -16,7 +16,7 @@ class RankedLines {
     int count() const { return ratios.lines.count(); }
     int rank(std::uint32_t line) const { return ranks_[line]; }
     /// Returns the odds of an alternative in each line, by roll offset. The odds are at least
-    /// kNegligible, except for the padding.
+    /// kNegligible, and the padding is 0.
     std::span<const OddsByOffset> odds() const {
         return std::span(odds_).first(static_cast<std::size_t>(count()));
     }

@@ -71,7 +71,7 @@ Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptio
     decoding.bits = agreements[0].bits() + agreements[1].bits();
     fix.bit_errors = agreements[0].wrong() + agreements[1].wrong();
     for (const Confidence& agreement : agreements) {
-        // Too many wrong bits indicate two patterns in view.
+        // Refuses a position with too many wrong bits, because they indicate two patterns in view.
         if (agreement.wrong() > agreement.bits() * options.max_bit_error_q8 / 256) return {};
     }
     // Combines both axes, because their bits come from the same dots and have the same error rate.
@@ -104,9 +104,9 @@ int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limi
     return std::min(sum_q8, 0);
 }
 
-/// Returns an upper bound on the probability that an axis is wrong, for each axis, as log2 in units
-/// of 2^-8. `alternatives_q8(axis, ratios)` must return the odds of the alternatives. The result is
-/// 0 (probability 1) for an axis whose bound on chance exceeds `limit_q8`.
+/// For each axis, returns an upper bound on the probability that this axis is wrong, as log2 in
+/// units of 2^-8. `alternatives_q8(axis, ratios)` must return the odds of the alternatives. The
+/// result is 0 (probability 1) for an axis whose bound on chance exceeds `limit_q8`.
 template <typename Alternatives>
 std::array<int, 2> with_alternatives(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                      std::span<ScoredLine> storage, const Doubt& doubt,
@@ -145,8 +145,8 @@ Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& deco
     return is_sure ? Status::ok : Status::not_certain;
 }
 
-/// Returns an upper bound on the probability that an axis is wrong, for each axis, as log2 in units
-/// of 2^-8. Uses the bound on the alternatives from quick_alternatives.hpp.
+/// For each axis, returns an upper bound on the probability that this axis is wrong, as log2 in
+/// units of 2^-8. Uses the bound on the alternatives from quick_alternatives.hpp.
 std::array<int, 2> estimate_quickly(const Grid& grid, CodeVariant code, const Decoding& decoding,
                                     int limit_q8, std::span<ScoredLine> storage,
                                     const Doubt& doubt) {

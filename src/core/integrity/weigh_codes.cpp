@@ -17,7 +17,7 @@ constexpr std::size_t kA4 = 3;
 /// Upper bound on the odds of each skipped place, as log2 in units of 2^-8 and as a number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
-/// Summed odds below which no tighter bound is needed.
+/// Limit for the summed odds. Below this limit, no tighter bound is needed.
 constexpr float kNegligibleOdds = 1e-12F;
 
 /// Lower bounds on the losses of a place in another code. A place loses at least of[line] in each
@@ -51,8 +51,8 @@ struct Losses {
         return steps;
     }
 
-    /// Returns true if a place loses more than `loss_limit`. `shared` is an upper bound on the
-    /// summed losses in its shared lines, in units of kUnit.
+    /// Returns true if a place loses more than `loss_limit`. `shared` is an upper bound on the sum
+    /// of `of` over the lines that the place shares, in units of kUnit.
     bool exceed_limit(int shared) const { return kUnit * (all - shared) > loss_limit; }
 
     /// Unit of `all` and `of`, in score units. Losses are rounded down to this unit, because their
@@ -79,7 +79,7 @@ class OtherPlaces {
           theirs_(code::basis(other)[kA4]),
           shift_here_(code::roll_further(read, other, ratios.position, ratios.places[kA4])),
           here_(offsets_of(ratios.places[kA4])) {
-        // Lines in which both codes have the same roll lose nothing.
+        // There is no loss in lines in which both codes have the same roll.
         const int shared = modulo(here_[0] - shift_here_);
         int lost = 0;
         for (std::size_t line = 0; line < count_ && !ratios_.is_hopeless(lost); ++line) {

@@ -146,7 +146,8 @@ struct DotOffsets {
     float squared = 0;  ///< sum of squared offsets
     float off_u = 0;    ///< sums of the offsets
     float off_v = 0;
-    /// Sum of dot((u, v), offset). `across` is the sum of cross((u, v), offset).
+    /// Sum of the inner products of (u, v) and the offset. `across` is the sum of their cross
+    /// products.
     float along = 0;
     float across = 0;
     /// Sums of d_x times the offset along u and along v, where d is the direction of the dot's
@@ -192,8 +193,8 @@ struct LineLoss {
     std::uint8_t loss = 0;
 };
 
-/// Places in the secondary sequences where an alternative may have bits similar to the reading.
-/// Each entry contains a line that the alternative shares with the reading.
+/// Places in the secondary sequences where the bits of an alternative may be similar to the bits of
+/// the reading. Each entry contains a line that the alternative shares with the reading.
 struct SimilarPlaceList {
     static constexpr int kMax = 512;
     struct Entry {
@@ -313,7 +314,8 @@ struct Kernels {
     /// dot. Each dot must be predicted to within a fraction of its displacement. `depth_q8` is the
     /// contrast of a typical dot, in 1/256 of the paper level. Compares the bits with the code, and
     /// adds them to lines, as `read_bits` does. Drops dots that are not read or have a wrong bit.
-    /// Sets `projected` and `squares` to 0.
+    /// Sets `projected` and `squares` to 0. Reads nothing if stride_bytes * height_px of the image
+    /// may exceed INT32_MAX.
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int depth_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Measures predicted dots as `refine_centres` does, with radius kPredictedCentroidRadius_px.
@@ -337,7 +339,7 @@ struct Kernels {
     void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float limit, float reach_px, int side, BlockSums& sums);
     /// Returns the places in a sequence where an alternative may lose less than the loss limit.
-    /// `steps` gives a lower bound on the loss at each place. Excludes `own`, the place of the
+    /// `steps` contains a lower bound on the loss in each step. Excludes `own`, the place of the
     /// reading.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);

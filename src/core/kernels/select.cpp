@@ -4,7 +4,7 @@ namespace dotpose::core {
 
 const Kernels& kernels() {
 #if defined(__wasm__) && !defined(__wasm_simd128__)
-    // Without SIMD instructions, compilers would split the vectors into scalars.
+    // Uses scalars, because without SIMD instructions, compilers would split the vectors.
     return portable_kernels();
 #else
     const Kernels* avx2 = avx2_kernels();

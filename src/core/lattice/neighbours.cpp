@@ -117,8 +117,9 @@ class Nearest {
     }
 
   private:
-    /// Keeps seed `p` if it is not `self` and is less than 128 px away along each axis. Returns the
-    /// squared distance below which the next seed is kept.
+    /// Inserts seed `p` if it is not `self_` and is less than 128 px away along each axis.
+    /// `squared_q16` is its squared distance, which must be less than that of the fourth nearest
+    /// seed. Returns the limit for the squared distances of further seeds.
     DOTPOSE_NOINLINE std::uint32_t consider(const BucketedSeed* p, std::uint32_t squared_q16) {
         const bool is_far = may_be_far_ && larger_component(p->at_q8 - self_.at_q8) >= kFarthest_q8;
         if (p != &self_ && !is_far) insert<3>(p, squared_q16);

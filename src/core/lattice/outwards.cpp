@@ -41,8 +41,8 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
         return waves.power < tuned::kFaintWaves * unit ? std::nullopt : std::optional(waves);
     }
     Waves best;
-    // Also tries other spacings. Missing dots increase the estimated spacing, and false dots reduce
-    // it.
+    // Also tries other spacings, because missing dots increase the estimated spacing, and false
+    // dots reduce it.
     for (const float by : {1.0F, 0.93F, 1.07F, 0.87F, 1.14F, 0.81F}) {
         const Waves waves =
             kernels.strongest_waves(x.data(), y.data(), static_cast<int>(count), by / spacing);
@@ -169,7 +169,8 @@ float growth(float fraction) {
     return fraction > tuned::kFairFraction ? tuned::kFairGrowth : tuned::kPoorGrowth;
 }
 
-/// Rank of the neighbour whose distance determines the spacing.
+/// Rank of the neighbour whose distance measures the density of the dots around a dot. The first
+/// estimate of the grid spacing follows from the largest density.
 constexpr std::size_t kNearest = 20;
 
 /// Returns the squared distance from the dot at `of` to its kNearest-th nearest neighbour, in px^2.

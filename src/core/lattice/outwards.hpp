@@ -12,7 +12,9 @@ namespace dotpose::core {
 /// The grid of a patch, and its fit to the dots.
 struct PatchGrid {
     FloatPlane grid_from_image;  ///< relative to the origin of the dot coordinates
-    float displacement = 0;      ///< root mean square displacement of the dots, in spacings
+    /// Root mean square displacement of the dots, in spacings, clamped to the range of a first
+    /// grid.
+    float displacement = 0;
     /// Variance of the offset between a dot and the nearest of the four places of its cell, per
     /// axis, in spacings^2.
     float variance = 0;

@@ -105,9 +105,10 @@ void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, Ta
         plane = stepped(plane, scaled, step);
 }
 
-/// Fits the plane to the dots whose cells are at most `reach_cells` from the origin, each at its
-/// nearest intersection. Unlike the paper, which uses median lengths after eq. 6, this fit
-/// determines all terms by least squares. Displacements count as noise.
+/// Fits the plane to the dots whose cells are at most `reach_cells` from the origin. Each dot is
+/// fitted to its nearest intersection, and ignored if its offset exceeds `max_offset_q16` along an
+/// axis. Unlike the paper, which uses median lengths after eq. 6, this fit determines all terms by
+/// least squares. Displacements count as noise.
 void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
     fit_to_targets(dots, plane, [&](const GridPoint& g) {

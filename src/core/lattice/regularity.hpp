@@ -13,7 +13,7 @@ namespace dotpose::core {
 /// Nominal displacement of a dot from its intersection, in 2^-16 spacings.
 inline constexpr std::int32_t kDisplacement_q16 = 65536 / 6;
 
-/// Distance from the origin up to which the first estimate is reliable, in cells. Errors of 3 % in
+/// The first estimate is reliable up to this distance from the origin, in cells. Errors of 3 % in
 /// spacing, 1 degree in direction and 1/20 cell in the origin add up to less than 1/3 cell at this
 /// distance. A displaced dot is 1/3 cell from the nearest border of its cell.
 inline constexpr int kFirstReach_cells = 4;
@@ -32,9 +32,11 @@ struct Regularity {
         return 20 * near_intersections >= tuning::regularity::kSettled_20th * dots;
     }
 
-    /// Returns the grid status for a mean squared offset of all dots, in spacings^2. The mean is
-    /// 1/6 for dots at random places, 1/36 for displaced dots on a grid, and 0 for a plain dot
-    /// grid. Half the dots at random places are near an intersection.
+    /// Returns the grid status. `mean_square_q20` is the mean squared distance from the dots to
+    /// their nearest intersections, in 2^-20 spacings^2. In spacings^2, the mean is 1/6 for dots at
+    /// random places, 1/36 for displaced dots on a grid, and 0 for a plain dot grid. A grid also
+    /// requires that at least kMin_10ths / 10 of the dots are near an intersection. At random
+    /// places, half the dots are.
     Status verdict(std::int64_t mean_square_q20) const {
         constexpr std::int64_t kScattered_q20 = (1 << 20) / 10;
         constexpr std::int64_t kUndisplaced_q20 = (1 << 20) / 256;

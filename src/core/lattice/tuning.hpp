@@ -28,7 +28,7 @@ inline constexpr int kMedianSample = 256;
 inline constexpr int kMaxRounds = 4;
 /// Maximum distance between a dot and the nearest of the four places of its cell, in 2^-16
 /// spacings. Dots at a larger distance count as false dots. The limit is slightly less than the
-/// displacement. Half or twice this value also locates 1,994 frames.
+/// displacement. With half or twice this value, 1,994 frames are also located.
 inline constexpr int kFar_q16 = 65536 / 8;
 /// Number of fits to the nearest places. The second fit starts from a more precise plane, and
 /// assigns more dots to their correct places.
@@ -40,7 +40,8 @@ namespace periodogram_search {
 /// Half side of the central square whose dots are in the periodogram, in spacings. Raster searches
 /// use kNear_cells, because the periodogram of a small square has a wide peak, which a coarse
 /// raster cannot miss. The ascent uses kWider_cells, because the peak of a larger square is more
-/// precise. kNear_cells = 3 locates 1,964 frames, and kNear_cells = 10 locates 1,993 frames.
+/// precise. With kNear_cells = 3, 1,964 frames are located. With kNear_cells = 10, 1,993 frames are
+/// located.
 inline constexpr int kNear_cells = 5;
 inline constexpr int kWider_cells = 8;
 /// Raster of the first search: direction step in degrees, spacing divided by its step, and spacing

@@ -226,8 +226,8 @@ DotFit fit_dot(const Patch& patch, const BorderBackground& light, std::int32_t s
     return fit;
 }
 
-/// Measures the dot near a point. Returns nullopt if the point is outside the image, if there is no
-/// dark spot, or if the dot is too far from the point.
+/// Measures the dot near a point. Returns nullopt if the point is outside the image or on its
+/// border, if there is no dark spot, or if the dot is too far from the point.
 std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
                                    FixedVec start_q8) {
     const std::int64_t farthest =

@@ -11,12 +11,16 @@
 
 namespace dotpose::core {
 
-/// Measures the predicted dot of each cell. Replaces `dots` by the measured dots, and links the
-/// cells to them. Centres are Gaussian-windowed centroids (Bertin, SExtractor: XWIN), iterated from
-/// the predicted places. Crops windows at the image border. Skips hidden places, and unlinks dots
-/// with an untypical mass. Stops when `dots` is full. The mass of a dot is its peak darkness
-/// relative to the paper level, in units of 2^-14. Returns the number of dots, including unlinked
-/// dots.
+/// Measures the predicted dot of each cell. Overwrites `dots`, and sets `GridCell::dot` of every
+/// cell. The value is kNoDot if the predicted dot was not measured: if it is hidden by graphics, if
+/// there is no dot near the predicted place, or if `dots` is full.
+///
+/// Centres are Gaussian-windowed centroids (Bertin, SExtractor: XWIN), iterated from the predicted
+/// places. Windows are cropped at the image border. The mass of a dot is its peak darkness relative
+/// to the paper level, in units of 2^-14. If the mass is untypical, the dot remains in `dots`, but
+/// `GridCell::dot` is kNoDot.
+///
+/// Returns the number of dots in `dots`.
 int measure_dots(const ImageView& image, const FixedLens& lens,
                  const PlaneFromImage& pattern_from_image, const Nominal& nominal, Grid& grid,
                  std::span<DetectedDot> dots);

@@ -183,8 +183,8 @@ class Search {
         const auto wanted = static_cast<std::size_t>(kLinesPerSpacing * length);
         lines_ = std::clamp(wanted, std::size_t{4}, kLines);
         per_spacing_ = static_cast<float>(lines_) / length;
-        // If outliers are frequent, for example because of printed text, they are only weak
-        // evidence of a displacement of the paper.
+        // Estimates the log odds from the number of outliers. If outliers are frequent, for example
+        // because of printed text, an outlier is only weak evidence of a displacement of the paper.
         off_plane_ = natural_log((outliers + 1) / static_cast<float>(count_ + 1));
         for (std::size_t k = 0; k < count_; ++k)
             sums_[k] = sums_of(dots_[k]);
@@ -326,7 +326,8 @@ PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, con
         search.try_direction(direction, best);
         direction = turned(direction, kSin, kSin);
     }
-    // A small rotation of the best line increases the gain, but rarely doubles it.
+    // Skips the refinement if the gain is less than half the threshold, because a small rotation of
+    // the line rarely doubles the gain.
     if (best.gain < PaperStep::kPossible / 2) return best;
     float s = kSin;
     for (int halving = 0; halving < 5; ++halving) {

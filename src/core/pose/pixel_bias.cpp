@@ -219,7 +219,8 @@ FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window
                    });
     DotShape shape;
     if (!shape.fit(stacks)) return {};
-    // Strongly blurred dots have no bias. They may also be larger than the model image.
+    // Skips strongly blurred dots, because they have no bias and may be larger than the model
+    // image.
     if (std::min(shape.blur_2().x, shape.blur_2().y) > tuned::kBlurred_px2) return {};
     AxisBias along_u(shape, Along::u, window.radius_px);
     AxisBias along_v(shape, Along::v, window.radius_px);

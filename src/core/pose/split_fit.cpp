@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::paper_step;
 
-/// Sets `common` to the residual with which the largest number of dots near a point agree, in
-/// spacings. Returns false if fewer than kMinAgreeing dots agree.
+/// Sets `common` to the residual, in spacings, with which the largest number of dots near a point
+/// agree. Returns false if fewer than kMinAgreeing dots agree.
 bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                         FloatVec near, FloatVec& common) {
     constexpr std::size_t kMaxDots = 256;

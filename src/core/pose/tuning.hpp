@@ -118,7 +118,7 @@ inline constexpr float kSlopes = 0.03F;
 /// Correlation of residuals (pose/uneven).
 namespace uneven {
 /// Limits for the scatter between blocks. The limits apply to `GroupScatter::excess`, in standard
-/// deviations. `dotpose_tables slips` measures the fractions of flat sheets.
+/// deviations. `dotpose_tables slips` measures the fractions of flat sheets that exceed them.
 /// - kMaybeLine: above this limit, the second attempt searches for a line that divides the sheet.
 ///   The limit is low because the plane fitted to all dots explains most of a step, and because the
 ///   dots of the second attempt are noisier than those of the other attempts.
@@ -159,8 +159,8 @@ inline constexpr float kOfTurn = 8;
 /// dots changes slowly across the view, the bias differs between blocks, but averages out over the
 /// view. Such a bias is not evidence of an uneven sheet.
 inline constexpr float kPixelBias_px = 0.004F;
-/// Distance from the dividing line within which the reference point may be on either side, in
-/// spacings.
+/// The reference point may be on either side of the dividing line if its distance from the line is
+/// below this limit, in spacings.
 inline constexpr float kNearLine = 1.2F;
 }  // namespace uneven
 
@@ -179,8 +179,8 @@ inline constexpr float kMinBeyond = 12;
 /// Outlier limit in the first iteration of a fit to one side, in spacings^2. This iteration starts
 /// from a plane fitted to both sides.
 inline constexpr float kFarOff = 0.04F;
-/// Distance from the line within which dots belong to neither side, in spacings. The position of
-/// the line is uncertain by about this distance.
+/// Dots belong to neither side of the line if their distance from the line is below this limit, in
+/// spacings. The position of the line is uncertain by about this distance.
 inline constexpr float kMargin = 0.8F;
 /// Search for a common residual of the dots beyond the line. Uses dots within kReach spacings of
 /// the reference point. At least kMinAgreeing dots must agree with this residual. A dot agrees if

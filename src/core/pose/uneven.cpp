@@ -122,11 +122,15 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
     add(0.02F * 0.02F, 2, fit);
 }
 
-/// Handles a sheet that may be divided by a line. If the line is certain, and the dots on the
-/// reference point's side are in one plane, replaces the plane by a fit to this side, and sets the
-/// surface to divided. Otherwise, keeps the plane. In this case, if a line was found, adds the
-/// difference between the plane and the fit to this side to the covariance. Also widens the
-/// covariance for block displacements, and if the reference point is close to a certain line.
+/// Handles a sheet that may be divided by a line:
+/// - If the line is certain, and the dots on the reference point's side are in one plane, replaces
+///   the plane by a fit to this side, and sets the surface to divided.
+/// - Otherwise, keeps the plane, and sets the surface to uneven if the line is certain or if the
+///   scatter between blocks exceeds kUneven. If a line was found, adds the difference between the
+///   plane and the fit to this side to the covariance.
+///
+/// In both cases, also widens the covariance if the blocks may be displaced, or if the line is
+/// certain and close to the reference point.
 void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const Blocks& blocks, FloatPlane& plane, PoseFit& fit) {
     SplitFit split{plane, fit};
@@ -137,7 +141,8 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
         plane = split.plane;
         fit = split.fit;
         fit.surface = Surface::divided;
-        // Without outliers, the sheet may be bent instead of divided.
+        // Without outliers, the sheet may be bent instead of divided, so the blocks may be
+        // displaced.
         if (!has_outliers(blocks)) widen_by_blocks(blocks, fit);
     } else {
         const float excess = blocks.scatter().excess();
@@ -149,9 +154,9 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     if (is_divided) widen_near_line(kernels, dots, reference_px, split, fit);
 }
 
-/// Searches for a line if there are many outliers, or if the scatter between blocks is high. If
-/// not, but the scatter is significant, widens the covariance. `min_excess` is the limit for
-/// `GroupScatter::excess`, in standard deviations.
+/// Searches for a line if there are many outliers, or if the scatter between blocks is high.
+/// Otherwise, widens the covariance if the scatter is significant. `min_excess` is the limit of
+/// `GroupScatter::excess`, in standard deviations, above which the scatter is high.
 void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dots,
                      const Blocks& blocks, FloatVec reference_px, FloatPlane& plane, PoseFit& fit) {
     const float excess = blocks.scatter().excess();

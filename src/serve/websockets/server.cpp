@@ -118,6 +118,11 @@ void Server::Service::publish(Topic& topic, Topic::Encode encode) {
     lws_cancel_service(context_);
 }
 
+void Server::Service::publish_for_each(Topic& topic, Topic::EncodeFor encode) {
+    topic.publish_for_each(std::move(encode));
+    lws_cancel_service(context_);
+}
+
 std::optional<Command> Server::Service::take_command() {
     const std::lock_guard lock(commands_mutex_);
     if (commands_.empty()) return std::nullopt;
@@ -213,6 +218,10 @@ void Server::remove_route(const std::string& path) {
 
 void Server::publish(Topic& topic, Topic::Encode encode) {
     service_->publish(topic, std::move(encode));
+}
+
+void Server::publish_for_each(Topic& topic, Topic::EncodeFor encode) {
+    service_->publish_for_each(topic, std::move(encode));
 }
 
 std::optional<Command> Server::take_command() {

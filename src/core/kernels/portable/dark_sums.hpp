@@ -16,8 +16,9 @@ struct DarkSums {
     std::int32_t y = 0;     ///< sum of y * darkness, with y = 0 in the middle row
 };
 
-/// Half side at which `dark_sums` sums only a diamond, without the corners. At trackable dot sizes,
-/// no corner pixel is more than half as dark as the centre of the dot.
+/// Half side of the squares in which `dark_sums` skips the corners and sums only a diamond. At
+/// trackable dot sizes, the corners contribute little, because no corner pixel is more than half as
+/// dark as the centre of the dot.
 inline constexpr int kHalfOfDiamond = 2;
 
 /// Returns the sums of a square with 2 Half + 1 pixels per side. `row` is its upper left pixel.
@@ -32,8 +33,8 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
     const auto add_row = [&](int reach) {
 #pragma GCC unroll 16
         for (int x = -reach; x <= reach; ++x) {
-            // Most pixels are paper. The sign of the difference identifies paper without a second
-            // comparison.
+            // Skips paper, which covers most of the pixels. The sign of the difference identifies
+            // paper without a second comparison.
             const std::int32_t darkness = level - row[Half + x];
             if (darkness < 0) continue;
             mass += darkness;
