@@ -129,7 +129,7 @@ class LossCounter {
 
 using Sinks = std::vector<std::unique_ptr<ReadingSink>>;
 
-/// Opens the broker and the page, if they are wanted.
+/// Connects to the broker and starts the page, if the options request them.
 Sinks open_sinks(const ListenArguments& arguments) {
     Sinks sinks;
     sinks.push_back(open_publisher(arguments.publish, arguments.sheets));

@@ -8,8 +8,8 @@
 namespace dotpose::cli {
 
 struct PageArguments {
-    std::string address;     ///< "[ADDRESS:]PORT"; empty: no page
-    std::string token_file;  ///< empty: no file
+    std::string address;     ///< "[ADDRESS:]PORT", or empty for no page
+    std::string token_file;  ///< path of the token file, or empty for none
 
     /// Adds --web and --web-token-file.
     void add_to(Command& command);

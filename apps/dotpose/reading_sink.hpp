@@ -29,8 +29,8 @@ class ReadingSink {
 std::unique_ptr<ReadingSink> open_publisher(const PublishArguments& arguments,
                                             const std::string& sheets);
 
-/// Starts the page of `listen` for a robot, or returns null without --web. Otherwise like
-/// `open_publisher`.
+/// Starts the page of `listen` for a robot, or returns null without --web. Replaces this process
+/// and throws Error as `open_publisher` does.
 std::unique_ptr<ReadingSink> open_page(const PageArguments& arguments, const std::string& robot,
                                        const std::string& sheets);
 

@@ -96,7 +96,7 @@ FixedVec window_corner(const Trace& trace);
 /// Returns the position of a grid cell in the code. Requires `Reached::place`.
 Place place_of(const Trace& trace, FixedVec grid_cell);
 
-/// Converts 1/256 pixels to pixels.
+/// Converts a point from units of 1/256 px to px.
 Point from_q8(FixedVec q8);
 Point from_q16(FixedVec q16);
 

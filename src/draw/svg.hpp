@@ -14,8 +14,8 @@
 
 namespace dotpose::draw {
 
-/// A 2D point or vector. The names of variables end with their unit, such as _px or _mm, where the
-/// unit matters.
+/// A 2D point or vector. Where the unit matters, the names of variables end with it, such as _px or
+/// _mm.
 struct Point {
     double x = 0;
     double y = 0;

@@ -74,7 +74,8 @@ class Axes {
     };
     /// Draws a curve through the points. NaN coordinates interrupt the curve.
     void curve(std::span<const Point> data, const Line& line) const;
-    /// Fills the area between two curves with the same x coordinates.
+    /// Fills the area between two curves. The points of both curves must have the same x
+    /// coordinates.
     void band(std::span<const Point> low, std::span<const Point> high, const char* colour) const;
 
   private:

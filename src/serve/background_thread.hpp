@@ -1,4 +1,4 @@
-// Threads that serve the page, beside the main thread that follows the robot.
+// Settings of the threads that serve the web page while the main thread follows the robot.
 #pragma once
 
 namespace dotpose::serve {

@@ -83,7 +83,7 @@ struct Subscription {
     Command request;          ///< the command with which the client subscribed
     bool is_changed = false;  ///< true if no value was sent for the request yet
 
-    /// Begins, or changes the request.
+    /// Begins the subscription, or changes its request.
     void begin(Command command = {}) {
         is_on = true;
         is_changed = true;
@@ -93,9 +93,10 @@ struct Subscription {
     void acknowledge() { unacknowledged -= unacknowledged > 0 ? 1 : 0; }
     /// Returns true if the client may receive a value.
     bool is_open() const { return is_on && unacknowledged < kMaxUnacknowledged; }
-    /// Returns true if the client should receive the value with the number `version`. A client with
-    /// a changed request receives the same value again, but only if it is not behind. Otherwise,
-    /// a client that changes its request all the time would receive no newer values.
+    /// Returns true if the client should receive the value with the number `version`. After a
+    /// change of its request, a client receives the same value again, but only if it has
+    /// acknowledged all messages. Without this condition, a client that changes its request
+    /// continuously would receive no newer values.
     bool is_due(std::uint64_t version) const {
         const bool is_answer_due = is_on && is_changed && unacknowledged == 0 && version > 0;
         return is_answer_due || (is_open() && seen < version);

@@ -39,7 +39,8 @@ AffineFitInt32 fit_of(const std::vector<Pair>& pairs) {
     return fit;
 }
 
-/// Value and slopes (per px) of one coordinate, from the normal equations about the mean.
+/// Value and slopes (per px) of one coordinate. Solves the normal equations relative to the mean of
+/// the points.
 struct Solution {
     long double at_centre;
     long double du;

@@ -144,7 +144,7 @@ TEST(PosePacket, ComesBackAsItWasSent) {
     EXPECT_EQ(received(stream), sent);
 }
 
-/// Packets received if some bits of the first two of three packets were changed.
+/// Tests the packets that are received if some bits in the first two of three packets are changed.
 class DamagedStream : public testing::TestWithParam<int> {
   protected:
     void SetUp() override {

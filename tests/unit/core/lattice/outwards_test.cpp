@@ -18,7 +18,7 @@ constexpr std::uint64_t kSeed = 75;
 
 struct Trouble {
     double missing = 0;
-    double extra = 0;      ///< number of false dots at random places, per dot
+    double extra = 0;      ///< number of false dots at random places for each true dot
     double jitter_px = 0;  ///< standard deviation of the places of dots, per axis
     double displacement = 1 / 6.0;
 };
