@@ -36,8 +36,8 @@ std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_acros
     return code::modulo_sections(section + code::modulo_sections(position_across));
 }
 
-/// Sum of the odds of places that have the same lines and rolls on one axis as a given place. Only
-/// the lines of the other axis distinguish these places.
+/// Sum of the odds of places that have, on one axis, the same lines and rolls as a given place.
+/// Only the lines of the other axis distinguish these places.
 class OddsOfOthers {
   public:
     OddsOfOthers(CodeVariant code, int odds_per_bit_q8)

@@ -150,7 +150,7 @@ void Rounds::measure(int i, int j) {
     projections_q12_ += magnitude(p.x_q12) + magnitude(p.y_q12);
 }
 
-/// Calls `use` for the cells of ring `round` around the middle cell that may be in view.
+/// Calls `use` for each cell of ring `round` around the middle cell, if the cell may be in view.
 template <typename Use>
 void visit_round(const Tracking& tracking, FixedVec middle, int round, Use use) {
     const auto is_in = [&](int cell) {

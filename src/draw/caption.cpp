@@ -119,7 +119,8 @@ Shown on_sheet(const SheetPlace& place) {
                  place.covariance, 1e3);
 }
 
-/// Describes the pose in all coordinate frames except the frame of the large numbers.
+/// Describes the pose in all coordinate frames except the frame whose coordinates are in large
+/// letters.
 std::string other_frames(const Fix& fix, const DrawOptions& options) {
     const SheetPlace& place = *options.place;
     std::string text = "on sheet " + place.entry->name;

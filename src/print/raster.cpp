@@ -39,7 +39,7 @@ struct Run {
     int end = 0;
 };
 
-/// Returns the rows of a disc: the pixels of a square whose centres are in the inscribed circle.
+/// Returns the rows of a disc: the pixels whose centres are in the inscribed circle of a square.
 /// Discs of 1, 2 and 3 px are full squares. A disc of 4 px lacks the four corners.
 std::vector<Run> disc(int dot_px) {
     std::vector<Run> runs;

@@ -30,8 +30,8 @@ GreyImage plain_frame(const CameraModel& camera, int index) {
     return table_frame(kTable, camera, 62, index, 30, 30, 0.1 * index);
 }
 
-/// Returns a table of sheets with usual printing errors of up to 0.3 %, different along the axes.
-/// The mean scale of the first sheet is 1.
+/// Returns a table of sheets with usual printing errors of up to 0.3 %. The errors differ between
+/// the axes. The mean scale of the first sheet is 1.
 Table printed_table() {
     Table table = kTable;
     table[0].print = {1.0012, 1 / 1.0012};

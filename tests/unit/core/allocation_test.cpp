@@ -26,8 +26,8 @@ void* counted(std::size_t size, std::size_t alignment) {
 }
 }  // namespace
 
-// The array forms and the non-throwing forms call the two operators below. GCC warns about `new`
-// and `free` if it inlines only one of the two functions.
+// The array forms and the non-throwing forms call the two operators below. The operators are not
+// inlined, because GCC warns about `new` and `free` if it inlines only one of them.
 [[gnu::noinline]] void* operator new(std::size_t size) {
     return counted(size, alignof(std::max_align_t));
 }

@@ -113,7 +113,8 @@ inline std::vector<DetectedDot> dots_of(const std::vector<PlacedDot>& placed) {
     return dots;
 }
 
-/// Returns a sixth of the spacing in one of the four directions, at random.
+/// Returns a displacement by a sixth of the spacing. Its direction is a random one of the four
+/// directions.
 inline Vec2 random_displacement(Rng& rng) {
     const auto symbol = static_cast<Symbol>(rng.below(4));
     return {dx(symbol) / 6.0, dy(symbol) / 6.0};

@@ -95,8 +95,8 @@ TEST(find_sheet, a_margin_gives_way_to_the_neighbours_own_region) {
 
 TEST(find_sheet, the_margin_of_a_sheet_at_the_plane_s_corner_has_the_last_cells) {
     const std::vector<SheetEntry> sheets = {small_entry({0, 0})};
-    // The place is three cells to the upper left, in the section in which the pattern continues
-    // there.
+    // The place is three cells to the left of and above the first cell, where the pattern continues
+    // in another section.
     const Place place = moved(CodeVariant::anoto, {{0, 0}, {10, 20}}, -3, -3);
     ASSERT_EQ(place.cell, (Cell{kPositionsPerAxis - 3, kPositionsPerAxis - 3}));
     Fix fix = fix_at(place.cell, 0.5, 0);

@@ -275,8 +275,8 @@ Flood flood(GreyImage& image, int u, int v) {
 }
 
 bool is_at(const DetectedDot& dot, const Flood& blob) {
-    // Weights vary with the threshold from tile to tile, which moves the centroid by at most a
-    // tenth of the size of the blob.
+    // Weights vary with the threshold from tile to tile. This variation moves the centroid by at
+    // most a tenth of the size of the blob.
     const double size = std::max(blob.right - blob.left, blob.bottom - blob.top) + 1;
     return dot.area_px == blob.area && length(real(dot.centre_q8, 8) - blob.centre) <= 0.1 * size;
 }
