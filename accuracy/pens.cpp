@@ -14,6 +14,7 @@
 #include <fmt/core.h>
 
 #include "calibration.hpp"
+#include "dotpose/files/degrees.hpp"
 #include "dotpose/files/write_file.hpp"
 #include "dotpose/tools/calibrate.hpp"
 #include "dotpose/tools/follower.hpp"
@@ -24,20 +25,19 @@
 namespace dotpose::tables {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180;
-constexpr double kSpacing_mm = 0.3;
+constexpr double kPenSpacing_mm = 0.3;
 /// Print jitter: half that of the preset `nominal`, because the dots have about half the size.
-constexpr double kJitter_mm = 0.005;
-constexpr PenTip kTip{0.5, 5, 18, 0.1};
+constexpr double kPenJitter_mm = 0.005;
+constexpr PenTip kPenTip{0.5, 5, 18, 0.1};
 constexpr int kPivotFrames = 30;
-constexpr double kRate_hz = 200;
+constexpr double kPenRate_hz = 200;
 
 /// Returns a shot with the camera and the sheet of a pen.
 Shot pen_shot(std::uint64_t seed, std::uint64_t index) {
     Setup setup;
-    setup.pattern.spacing_mm = kSpacing_mm;
-    setup.pattern.displacement_mm = kSpacing_mm / 6;
-    setup.pattern.dot_mm = kSpacing_mm / 6;
+    setup.pattern.spacing_mm = kPenSpacing_mm;
+    setup.pattern.displacement_mm = kPenSpacing_mm / 6;
+    setup.pattern.dot_mm = kPenSpacing_mm / 6;
     setup.random_section = false;
     setup.camera.width_px = 320;
     setup.camera.height_px = 240;
@@ -46,7 +46,7 @@ Shot pen_shot(std::uint64_t seed, std::uint64_t index) {
     setup.seed = seed;
     Shot shot = draw_shot(setup, index);
     shot.page.seed = seed;
-    shot.imperfections.jitter_mm = kJitter_mm;
+    shot.imperfections.jitter_mm = kPenJitter_mm;
     return shot;
 }
 
@@ -61,7 +61,7 @@ Camera pen_camera() {
 
 PivotCalibration calibrated(std::uint64_t seed, double max_tilt_deg) {
     CalibrateOptions options;
-    options.pattern.spacing_mm = kSpacing_mm;
+    options.pattern.spacing_mm = kPenSpacing_mm;
     Rng rng(seed, 7);
     const double x_mm = rng.uniform(1000, 5000);
     const double y_mm = rng.uniform(1000, 5000);
@@ -69,13 +69,13 @@ PivotCalibration calibrated(std::uint64_t seed, double max_tilt_deg) {
     for (PenPose& pose : poses) {
         pose.x_mm = x_mm;
         pose.y_mm = y_mm;
-        pose.tilt_rad = rng.uniform(0, max_tilt_deg) * kDegree_rad;
+        pose.tilt_rad = rng.uniform(0, max_tilt_deg) / kDegrees;
         pose.azimuth_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
         pose.turn_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
     }
     const auto frame_at = [&](int i) {
         const auto index = static_cast<std::size_t>(i);
-        return render(shot_of_pen(pen_shot(seed, index), kTip, poses[index]));
+        return render(shot_of_pen(pen_shot(seed, index), kPenTip, poses[index]));
     };
     return calibrate_pivot(kPivotFrames, frame_at, pen_camera(), options);
 }
@@ -99,10 +99,10 @@ void measure_pivot(std::uint64_t seed, double max_tilt_deg, PivotTally& tally) {
     const auto add = [&](std::size_t i, double error_mm, const char* key) {
         tally.errors[i].add(error_mm, pivot.camera.sigma.at(key));
     };
-    add(0, tip.x_mm - kTip.x_mm, "tip_x_mm");
-    add(1, tip.y_mm - kTip.y_mm, "tip_y_mm");
-    add(2, tip.z_mm - kTip.z_mm, "tip_z_mm");
-    add(3, tip.rest_mm - kTip.rest_mm, "tip_rest_mm");
+    add(0, tip.x_mm - kPenTip.x_mm, "tip_x_mm");
+    add(1, tip.y_mm - kPenTip.y_mm, "tip_y_mm");
+    add(2, tip.z_mm - kPenTip.z_mm, "tip_z_mm");
+    add(3, tip.rest_mm - kPenTip.rest_mm, "tip_rest_mm");
     tally.residual_mm += pivot.residual_mm;
     tally.error_ratio += pivot.error_ratio;
 }
@@ -155,7 +155,7 @@ std::vector<StrokeFrames> true_strokes(const std::vector<PenSample>& path) {
 }
 
 std::int64_t frame_of(const InkPoint& point) {
-    return std::llround(point.t_s * kRate_hz);
+    return std::llround(point.t_s * kPenRate_hz);
 }
 
 void compare_strokes(const std::vector<PenSample>& path, const InkPage& page, InkTally& tally) {
@@ -182,14 +182,14 @@ void compare_strokes(const std::vector<PenSample>& path, const InkPage& page, In
 InkPage measure_ink(std::uint64_t seed, InkTally& tally) {
     FollowerOptions options;
     options.camera = calibrated(scramble(seed), 40).camera;
-    options.spacing_mm = kSpacing_mm;
+    options.spacing_mm = kPenSpacing_mm;
     options.fits_space_pose = true;
     Follower follower(options);
-    const std::vector<PenSample> path = simulate_handwriting({2000, 3000, 4, kRate_hz, seed});
+    const std::vector<PenSample> path = simulate_handwriting({2000, 3000, 4, kPenRate_hz, seed});
     std::vector<InkSample> samples;
     for (std::size_t i = 0; i < path.size(); ++i) {
         ++tally.frames;
-        const GreyImage image = render(shot_of_pen(pen_shot(seed, i), kTip, path[i].pose));
+        const GreyImage image = render(shot_of_pen(pen_shot(seed, i), kPenTip, path[i].pose));
         const auto time_us = static_cast<std::int64_t>(std::llround(path[i].t_s * 1e6));
         const Located now = follower.follow(image.view(), time_us).located;
         if (!now.tip) continue;

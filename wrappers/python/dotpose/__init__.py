@@ -29,6 +29,7 @@ from dotpose._dotpose import (
     MeasuredMotion,
     Options,
     PaperScale,
+    PenTip,
     Picture,
     Prediction,
     Shot,
@@ -62,6 +63,7 @@ try:
         SpinCalibration,
         Station,
         Stitching,
+        TipPose,
         WorldPlace,
         WorldPose,
         WorldSpacePose,
@@ -90,8 +92,8 @@ except ModuleNotFoundError as error:
             DriveCalibration Finding Follower LensCalibration Located
             OverlayReport PrintCheck PrintField PrintScale Protocol
             ProtocolResult Sheet SheetEntry SheetFile SheetPlace
-            SpacePose SpinCalibration Station Stitching WorldPlace WorldPose
-            WorldSpacePose
+            SpacePose SpinCalibration Station Stitching TipPose WorldPlace
+            WorldPose WorldSpacePose
             calibrate calibrate_drive calibrate_spin check_print make_sheet
             make_sheets overlay print_sheet print_sheets read_image
             read_sheets run_protocol stitch_sheets write_image
