@@ -1,13 +1,16 @@
 // Finds the tip of a pen from frames in which the pen pivots about its tip.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <vector>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <fmt/core.h>
 
+#include "calibrate/dots_in_view.hpp"
 #include "calibrate/pivot_fit.hpp"
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/files/sheet_place.hpp"
@@ -28,63 +31,76 @@ constexpr double kMinUsed = 2.0 / 3;
 constexpr double kDegrees_per_rad = 180 / std::numbers::pi;
 
 /// Poses of all frames that have a pose in space.
-struct PivotPoses {
-    std::vector<SpacePose> poses;
+struct PivotViews {
+    std::vector<PivotView> views;
     double spacing_mm = 0;  ///< spacing of the sheet in the last of these frames
 };
 
-/// Sets the spacing in `fix` and returns the print scale of its sheet. Returns none if the fix is
-/// not on any of the sheets.
-std::optional<AxisScale> use_spacing(const CalibrateOptions& options, CodeVariant code, Fix& fix) {
-    double spacing_mm = options.pattern.spacing_mm;
-    AxisScale print;
-    if (!options.sheets.empty()) {
-        const auto place = find_sheet(options.sheets, code, fix);
-        if (!place) return std::nullopt;
-        spacing_mm = place->entry->sheet.pattern.spacing_mm;
-        print = place->entry->print_scale();
-    }
-    fix.spacing_nm = static_cast<std::int32_t>(std::lround(spacing_mm * 1e6));
-    return print;
+/// Returns the printed spacing of the sheet of a fix. Returns none if the fix is not on any of the
+/// sheets.
+std::optional<AxisScale> spacing_of(const CalibrateOptions& options, CodeVariant code,
+                                    const Fix& fix) {
+    const double mm = options.pattern.spacing_mm;
+    if (options.sheets.empty()) return AxisScale{mm, mm};
+    const auto place = find_sheet(options.sheets, code, fix);
+    if (!place) return std::nullopt;
+    const double sheet_mm = place->entry->sheet.pattern.spacing_mm;
+    return AxisScale{sheet_mm * place->entry->print_scale_x,
+                     sheet_mm * place->entry->print_scale_y};
 }
 
-PivotPoses locate_poses(int frames, const FrameAt& frame_at, const Camera& camera,
+/// Returns the pose of the camera in the pattern frame. Returns none if there is no pose, or if it
+/// is ambiguous.
+std::optional<PivotView> view_of(const GreyImage& image, const Camera& camera, const Trace& trace,
+                                 const AxisScale& spacing_mm) {
+    const auto fit = calibrate::fit_to_image(
+        image.view(), {camera, *pinhole_of(camera), spacing_mm}, trace);
+    if (!fit || (fit->second && fit->second_odds_log2 > SpacePose::kMaxOdds_log2))
+        return std::nullopt;
+    const Cell start = trace.decoding.place.cell;
+    PivotView view;
+    view.rotation = fit->state.rotation;
+    view.position_mm = fit->state.position_mm +
+                       Eigen::Vector3d(spacing_mm.x * start.x, spacing_mm.y * start.y, 0);
+    view.covariance = fit->covariance;
+    for (std::size_t i = 0; i < fit->used.size(); ++i) {
+        const Eigen::Vector2d& place_mm = fit->used[i].intersection_mm;
+        const auto x = start.x + std::llround(place_mm.x() / spacing_mm.x);
+        const auto y = start.y + std::llround(place_mm.y() / spacing_mm.y);
+        view.influences.push_back(
+            {(static_cast<std::uint64_t>(x) << 32U) ^ static_cast<std::uint64_t>(y),
+             fit->influences[i]});
+    }
+    return view;
+}
+
+PivotViews locate_views(int frames, const FrameAt& frame_at, const Camera& camera,
                         const CalibrateOptions& options) {
-    PivotPoses result;
-    Camera plain = camera;
-    plain.reference_px.reset();
+    PivotViews result;
     Locator locator{DeviceOptions{}};
     CodeReader reader(given_code(options));
     for (int i = 0; i < frames; ++i) {
         const GreyImage image = frame_at(i);
         DeviceOptions how;
-        use_camera(plain, image.width_px, image.height_px, how);
+        use_camera(camera, image.width_px, image.height_px, how);
         how.show_stages = true;
         locator.set_options(how);
-        Fix fix = reader.locate(image.view(), locator);
+        const Fix fix = reader.locate(image.view(), locator);
         if (options.progress && !options.progress(i + 1, frames))
             throw Error("stopped; nothing was written");
         if (fix.status != Status::ok) continue;
-        const auto print = use_spacing(options, reader.code(), fix);
-        if (!print) continue;
-        const auto pose = space_pose(fix, camera, image.view(), locator.trace(), *print);
-        if (!pose || pose->is_ambiguous()) continue;
-        result.poses.push_back(*pose);
-        result.spacing_mm = fix.spacing_mm();
+        const auto spacing_mm = spacing_of(options, reader.code(), fix);
+        if (!spacing_mm) continue;
+        const auto view = view_of(image, camera, locator.trace(), *spacing_mm);
+        if (!view) continue;
+        result.views.push_back(*view);
+        result.spacing_mm = spacing_mm->x;
     }
     return result;
 }
 
-PivotView view_of(const SpacePose& pose) {
-    const Quaternion& q = pose.camera.rotation;
-    PivotView view{Eigen::Quaterniond(q.w, q.x, q.y, q.z).toRotationMatrix(),
-                   {pose.camera.x_mm, pose.camera.y_mm, pose.camera.z_mm},
-                   {}};
-    for (std::size_t i = 0; i < 6; ++i) {
-        for (std::size_t j = 0; j < 6; ++j)
-            view.covariance(Eigen::Index(i), Eigen::Index(j)) = pose.covariance[i][j];
-    }
-    return view;
+double tilt_rad(const PivotView& view) {
+    return std::acos(std::clamp(view.rotation(2, 2), -1.0, 1.0));
 }
 
 void require_pivot(double pivot_rad) {
@@ -145,35 +161,30 @@ void set_tip(const PivotFit& fit, Camera& camera) {
 PivotCalibration calibrate_pivot(int frames, const FrameAt& frame_at, const Camera& camera,
                                  const CalibrateOptions& options) {
     require_focal_length(camera);
-    const PivotPoses found = locate_poses(frames, frame_at, camera, options);
+    const PivotViews found = locate_views(frames, frame_at, camera, options);
+    const std::vector<PivotView>& views = found.views;
     PivotCalibration result;
     result.frames = frames;
-    result.located = static_cast<int>(found.poses.size());
+    result.located = static_cast<int>(views.size());
     if (result.located < kMinPivotFrames) {
         throw Error(
             fmt::format("only {} of {} frames have a pose in space; at least {} are needed, "
                         "preferably 30",
                         result.located, frames, kMinPivotFrames));
     }
-    std::vector<PivotView> views;
-    for (const SpacePose& pose : found.poses)
-        views.push_back(view_of(pose));
     require_pivot(calibrate::pivot_angle_rad(views));
     const PivotFit fit = calibrate::fit_pivot(views);
-    result.used = static_cast<int>(std::ranges::count(fit.is_used, true));
+    const std::vector<PivotView> used = used_views(views, fit);
+    result.used = static_cast<int>(used.size());
     result.residual_mm = fit.residual_mm;
     result.error_ratio = fit.error_ratio;
     require_rest(result, found.spacing_mm);
-    result.pivot_rad = calibrate::pivot_angle_rad(used_views(views, fit));
+    result.pivot_rad = calibrate::pivot_angle_rad(used);
     require_pivot(result.pivot_rad);
     require_accuracy(fit, found.spacing_mm);
-    result.min_tilt_rad = std::numbers::pi;
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        if (!fit.is_used[i]) continue;
-        const double tilt_rad = lean_of(found.poses[i].camera.rotation).tilt_rad;
-        result.min_tilt_rad = std::min(result.min_tilt_rad, tilt_rad);
-        result.max_tilt_rad = std::max(result.max_tilt_rad, tilt_rad);
-    }
+    const auto [least, most] = std::ranges::minmax(used, {}, tilt_rad);
+    result.min_tilt_rad = tilt_rad(least);
+    result.max_tilt_rad = tilt_rad(most);
     result.camera = camera;
     set_tip(fit, result.camera);
     try {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
+#include <unordered_map>
 
 #include <Eigen/Eigenvalues>
 
@@ -17,7 +17,9 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using Matrix36d = Eigen::Matrix<double, 3, 6>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr int kSubsets = 500;
 constexpr std::size_t kSubsetViews = 4;
@@ -37,13 +39,19 @@ Vector3d residual_mm(const PivotView& view, const Points& points) {
     return view.position_mm + view.rotation * points.tip_mm - points.rest_mm;
 }
 
-/// Returns the covariance of the tip on the paper, for an exactly known tip in the camera frame.
-Matrix3d covariance_on_paper(const PivotView& view, const Vector3d& tip_mm) {
+/// Returns the derivative of the tip on the paper with respect to the pose.
+Matrix36d by_pose(const PivotView& view, const Vector3d& tip_mm) {
     Matrix3d cross;
     cross << 0, -tip_mm.z(), tip_mm.y(), tip_mm.z(), 0, -tip_mm.x(), -tip_mm.y(), tip_mm.x(), 0;
-    Eigen::Matrix<double, 3, 6> by_pose;
-    by_pose << Matrix3d::Identity(), -view.rotation * cross;
-    return by_pose * view.covariance * by_pose.transpose();
+    Matrix36d result;
+    result << Matrix3d::Identity(), -view.rotation * cross;
+    return result;
+}
+
+/// Returns the transformation of residuals to independent residuals of variance 1, for an exactly
+/// known tip in the camera frame.
+Matrix3d whitening_at(const PivotView& view, const Vector3d& tip_mm) {
+    return whitening_of(propagated(by_pose(view, tip_mm), view.covariance));
 }
 
 /// Adds the three equations of a view, multiplied by `whitening`.
@@ -98,7 +106,7 @@ Points robust_start(const std::vector<PivotView>& views) {
 /// A weighted fit to the views that agree with `start`.
 struct Step {
     Points points;
-    Matrix6d covariance;
+    Matrix6d covariance;  ///< for independent poses
     std::vector<bool> is_used;
     double squares = 0;  ///< sum of the normalised squared residuals of `start`
 };
@@ -107,7 +115,7 @@ Step improved(const std::vector<PivotView>& views, const Points& start) {
     std::vector<Matrix3d> whitenings;
     std::vector<double> squares;
     for (const PivotView& view : views) {
-        whitenings.push_back(whitening_of(covariance_on_paper(view, start.tip_mm)));
+        whitenings.push_back(whitening_at(view, start.tip_mm));
         squares.push_back((whitenings.back() * residual_mm(view, start)).squaredNorm());
     }
     const double scale = std::max(median(squares) / kMedianSquare, 1.0);
@@ -122,6 +130,29 @@ Step improved(const std::vector<PivotView>& views, const Points& start) {
     step.points = points_of(equations);
     step.covariance = equations.unit_covariance();
     return step;
+}
+
+/// Returns the covariance of the points due to the errors of the dots, which all frames that show a
+/// dot have in common.
+Matrix6d covariance_of_dots(const std::vector<PivotView>& views, const Step& step) {
+    std::unordered_map<std::uint64_t, Vector6d> shifts;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        if (!step.is_used[i]) continue;
+        const PivotView& view = views[i];
+        const Matrix3d whitening = whitening_at(view, step.points.tip_mm);
+        Matrix36d rows;
+        rows << whitening * view.rotation, -whitening;
+        const Matrix6d gain = step.covariance * rows.transpose() * whitening *
+                              by_pose(view, step.points.tip_mm);
+        for (const DotInfluence& influence : view.influences) {
+            const auto [entry, is_new] = shifts.try_emplace(influence.dot, Vector6d::Zero());
+            entry->second += gain * influence.shift;
+        }
+    }
+    Matrix6d result = Matrix6d::Zero();
+    for (const auto& [dot, shift] : shifts)
+        result += shift * shift.transpose();
+    return result;
 }
 
 }  // namespace
@@ -151,11 +182,12 @@ PivotFit fit_pivot(const std::vector<PivotView>& given) {
         constexpr double kConverged_mm = 1e-7;
         if (moved_mm < kConverged_mm) break;
     }
-    PivotFit fit{points.tip_mm, points.rest_mm + origin_mm, step.covariance, step.is_used};
+    PivotFit fit{points.tip_mm, points.rest_mm + origin_mm, covariance_of_dots(views, step),
+                 step.is_used};
     const auto used = std::ranges::count(step.is_used, true);
     const auto freedom = static_cast<double>(std::max<std::ptrdiff_t>(3 * used - 6, 1));
     fit.error_ratio = std::sqrt(step.squares / freedom);
-    fit.covariance *= std::max(fit.error_ratio * fit.error_ratio, 1.0);
+    fit.covariance += std::max(fit.error_ratio * fit.error_ratio - 1, 0.0) * step.covariance;
     double squares_mm2 = 0;
     for (std::size_t i = 0; i < views.size(); ++i) {
         if (step.is_used[i]) squares_mm2 += residual_mm(views[i], points).squaredNorm();

@@ -1,11 +1,18 @@
 // Pivot fit: the point of a device that rests while the device turns about this point.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
 
 namespace dotpose::calibrate {
+
+/// Shift of a pose caused by the residual of one dot.
+struct DotInfluence {
+    std::uint64_t dot = 0;  ///< identifies the dot in all frames
+    Eigen::Matrix<double, 6, 1> shift;
+};
 
 /// Pose of the camera in one frame: X_paper = rotation * X_camera + position.
 struct PivotView {
@@ -13,13 +20,15 @@ struct PivotView {
     Eigen::Vector3d position_mm;
     /// Covariance of the position and of a small rotation vector in the camera frame.
     Eigen::Matrix<double, 6, 6> covariance;
+    std::vector<DotInfluence> influences;
 };
 
 struct PivotFit {
     Eigen::Vector3d tip_mm;   ///< in the camera frame
     Eigen::Vector3d rest_mm;  ///< on the paper, in the frame of the views
-    /// Covariance of the tip and of the resting point. Scaled by the residuals if they are larger
-    /// than the covariances of the poses.
+    /// Covariance of the tip and of the resting point. The frames show partly the same dots, whose
+    /// print errors shift all poses. The covariance is therefore computed from the residuals of
+    /// each dot in all frames. It is larger if the tip moved by more than the errors of the poses.
     Eigen::Matrix<double, 6, 6> covariance;
     std::vector<bool> is_used;  ///< by view
     double residual_mm = 0;     ///< rms per axis

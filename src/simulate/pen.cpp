@@ -57,6 +57,13 @@ struct Stroke {
     double slant_rad = 0;
     double lift_s = 0;
     double lift_mm = 0;
+    bool is_last = false;
+
+    /// Returns the height at a part of the move after the stroke, from 0 to 1. After the last
+    /// stroke, the pen stays above the paper.
+    double height_mm(double part) const {
+        return lift_mm * std::sin(std::numbers::pi * (is_last ? part / 2 : part));
+    }
 
     /// Returns the place at a part of the stroke, from 0 to 1.
     Vec2 at(double part) const {
@@ -90,6 +97,7 @@ std::vector<Stroke> strokes_of(const Handwriting& options) {
         stroke.slant_rad = rng.uniform(-0.6, 0.6);
         stroke.lift_s = rng.uniform(0.15, 0.3);
         stroke.lift_mm = rng.uniform(1, 3);
+        stroke.is_last = i + 1 == options.strokes;
         strokes.push_back(stroke);
         x_mm += stroke.width_mm + kGap_mm;
     }
@@ -118,7 +126,7 @@ PenSample sample_at(double t_s, double begin_s, const Stroke& stroke, const Vec2
         const double lift = (t_s - begin_s - stroke.duration_s) / stroke.lift_s;
         const double s = smooth_step(lift);
         place = {place.x + s * (next.x - place.x), place.y + s * (next.y - place.y)};
-        sample.pose.height_mm = stroke.lift_mm * std::sin(std::numbers::pi * lift);
+        sample.pose.height_mm = stroke.height_mm(lift);
     }
     sample.pose.x_mm = place.x;
     sample.pose.y_mm = place.y;
@@ -160,8 +168,7 @@ std::vector<PenSample> simulate_handwriting(const Handwriting& options) {
     double begin_s = 0;
     for (std::size_t i = 0; i < strokes.size(); ++i) {
         const Stroke& stroke = strokes[i];
-        const bool is_last = i + 1 == strokes.size();
-        const Vec2 next = is_last ? stroke.at(1) : strokes[i + 1].at(0);
+        const Vec2 next = stroke.is_last ? stroke.at(1) : strokes[i + 1].at(0);
         const double end_s = begin_s + stroke.duration_s + stroke.lift_s;
         for (;;) {
             const double t_s = static_cast<double>(samples.size()) / options.rate_hz;

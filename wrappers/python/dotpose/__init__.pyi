@@ -569,6 +569,16 @@ class LensCalibration:
     def coverage(self) -> float: ...
     def draw(self, path: Path) -> None: ...
 
+class PivotCalibration:
+    @property
+    def camera(self) -> Camera: ...
+    @property
+    def located(self) -> int: ...
+    @property
+    def used(self) -> int: ...
+    @property
+    def residual_mm(self) -> float: ...
+
 class SpinCalibration:
     @property
     def camera(self) -> Camera: ...
@@ -761,6 +771,13 @@ def calibrate(
     code: CodeOrAuto = "auto",
     spacing_mm: float = 0.508,
 ) -> LensCalibration: ...
+def calibrate_pivot(
+    images: Iterable[Union[Image, Path]],
+    camera: Camera,
+    *,
+    code: CodeOrAuto = "auto",
+    spacing_mm: float = 0.508,
+) -> PivotCalibration: ...
 def calibrate_spin(
     images: Iterable[Union[Image, Path]],
     camera: Optional[Camera] = None,
