@@ -240,10 +240,9 @@ bool pens_table(TableRun& run) {
         run.print_block("pivot", text);
     }
     if (words > 0) {
-        const auto count =
-            run.count<InkTally>("ink", words, [&](std::uint64_t i, InkTally& tally) {
-                measure_ink(scramble(run.seed + i), tally);
-            });
+        const auto count = run.count<InkTally>("ink", words, [&](std::uint64_t i, InkTally& tally) {
+            measure_ink(scramble(run.seed + i), tally);
+        });
         const InkTally& tally = count.tally;
         run.print_block(
             "ink",

@@ -50,8 +50,7 @@ std::string extension_of(const std::string& out) {
 /// Reads the tip of the pen in a row. Returns a sample without standard deviations if the row has
 /// no tip or, with sheets, if the tip is on no sheet. `index` is the index of the row.
 InkSample sample_of(const LogCells& row, std::int64_t index, double fps) {
-    if (row.number("tip_x_pattern_m"))
-        throw Error("its lengths are in m; write it in --units mm");
+    if (row.number("tip_x_pattern_m")) throw Error("its lengths are in m; write it in --units mm");
     InkSample sample;
     const bool has_sheets = row.has("sheet");
     const auto x_mm = row.number(has_sheets ? "tip_x_sheet_mm" : "tip_x_mm");
@@ -170,8 +169,7 @@ void add_ink(Command& app, int&) {
         ->type_name("FILE")
         ->required();
     add_sheets_option(*command, arguments->sheets, "Sheet file with the sizes of the pages");
-    command
-        ->add_option("--fps", arguments->fps, "Rate of the frames, for lines of locate")
+    command->add_option("--fps", arguments->fps, "Rate of the frames, for lines of locate")
         ->type_name("N")
         ->check(Range(1e-3, 1e6));
     command->callback([arguments] { run(*arguments); });

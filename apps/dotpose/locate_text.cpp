@@ -63,9 +63,9 @@ std::string text_line(const Record& record, Units units) {
         record.fix.status == Status::ok
             ? place_text(record, units) +
                   (record.space ? "; " + space_text(*record.space, record.place, units) : "") +
-                  (record.tip ? "; " + tip_text({record.tip, record.is_pen_down}, record.place,
-                                                units)
-                              : "")
+                  (record.tip
+                       ? "; " + tip_text({record.tip, record.is_pen_down}, record.place, units)
+                       : "")
             : fmt::format("no fix ({}): {}", name(record.fix.status), reason(record));
     for (const std::string& doubt : warnings(record)) {
         if (!doubt.empty()) text += "; warning: " + doubt;

@@ -48,7 +48,7 @@ class LogReader {
   public:
     /// Columns of a log of `watch --log` that `log_row` needs.
     static constexpr std::array<const char*, 13> kWatchColumns = {
-        "frame", "t_s",     "status", "dots_seen",  "p_wrong",    "state",   "events",
+        "frame",   "t_s",   "status",     "dots_seen",  "p_wrong", "state",  "events",
         "verdict", "plane", "track_x_mm", "track_y_mm", "vx_mm_s", "vy_mm_s"};
 
     /// Throws Error if a CSV file does not have all columns in `needed`.

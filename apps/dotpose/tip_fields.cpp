@@ -43,7 +43,9 @@ std::vector<Field> tip_fields(const TipRecord& record, const std::optional<Sheet
         {"sigma_tip_x" + unit, text(is_known, tip.sigma_mm(0))},
         {"sigma_tip_y" + unit, text(is_known, tip.sigma_mm(1))},
         {"sigma_tip_height" + unit, text(is_known, tip.sigma_mm(2))},
-        {"pen_down", !is_known ? "" : record.is_down ? "true" : "false"},
+        {"pen_down", !is_known        ? ""
+                     : record.is_down ? "true"
+                                      : "false"},
     };
     if (!has_sheets) return fields;
     const bool is_on_sheet = is_known && place;

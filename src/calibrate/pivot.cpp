@@ -53,15 +53,15 @@ std::optional<AxisScale> spacing_of(const CalibrateOptions& options, CodeVariant
 /// is ambiguous.
 std::optional<PivotView> view_of(const GreyImage& image, const Camera& camera, const Trace& trace,
                                  const AxisScale& spacing_mm) {
-    const auto fit = calibrate::fit_to_image(
-        image.view(), {camera, *pinhole_of(camera), spacing_mm}, trace);
+    const auto fit =
+        calibrate::fit_to_image(image.view(), {camera, *pinhole_of(camera), spacing_mm}, trace);
     if (!fit || (fit->second && fit->second_odds_log2 > SpacePose::kMaxOdds_log2))
         return std::nullopt;
     const Cell start = trace.decoding.place.cell;
     PivotView view;
     view.rotation = fit->state.rotation;
-    view.position_mm = fit->state.position_mm +
-                       Eigen::Vector3d(spacing_mm.x * start.x, spacing_mm.y * start.y, 0);
+    view.position_mm =
+        fit->state.position_mm + Eigen::Vector3d(spacing_mm.x * start.x, spacing_mm.y * start.y, 0);
     view.covariance = fit->covariance;
     for (std::size_t i = 0; i < fit->used.size(); ++i) {
         const Eigen::Vector2d& place_mm = fit->used[i].intersection_mm;

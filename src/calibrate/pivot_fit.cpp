@@ -142,8 +142,8 @@ Matrix6d covariance_of_dots(const std::vector<PivotView>& views, const Step& ste
         const Matrix3d whitening = whitening_at(view, step.points.tip_mm);
         Matrix36d rows;
         rows << whitening * view.rotation, -whitening;
-        const Matrix6d gain = step.covariance * rows.transpose() * whitening *
-                              by_pose(view, step.points.tip_mm);
+        const Matrix6d gain =
+            step.covariance * rows.transpose() * whitening * by_pose(view, step.points.tip_mm);
         for (const DotInfluence& influence : view.influences) {
             const auto [entry, is_new] = shifts.try_emplace(influence.dot, Vector6d::Zero());
             entry->second += gain * influence.shift;

@@ -319,8 +319,8 @@ std::optional<SpaceFit> fit_space(const std::vector<SpaceDot>& dots, const Vecto
     const Information inverse = inverse_of(first.sums.information);
     for (const auto& [dot, whitening] : solutions.dots) {
         const Prediction predicted = predict(first.state, dot, focal_px);
-        const Parameters gradient = (whitening * predicted.by_parameters).transpose() * whitening *
-                                    predicted.residual_px;
+        const Parameters gradient =
+            (whitening * predicted.by_parameters).transpose() * whitening * predicted.residual_px;
         fit.used.push_back(dot);
         fit.influences.push_back((inverse * gradient).head<6>());
     }

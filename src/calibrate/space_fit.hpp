@@ -38,7 +38,7 @@ struct SpaceFit {
     /// Shift of the pose caused by the residual of each of these dots, in the coordinates of the
     /// covariance. The shifts show the errors that frames of the same dots have in common.
     std::vector<Eigen::Matrix<double, 6, 1>> influences;
-    double residual_px = 0;      ///< rms residual of these dots, per axis
+    double residual_px = 0;  ///< rms residual of these dots, per axis
     std::optional<SpaceState> second;
     double second_odds_log2 = 0;
 };

@@ -1,4 +1,6 @@
 // Writes the strokes of a pen as SVG and InkML.
+#include "dotpose/tools/ink.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -8,7 +10,6 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/tools/ink.hpp"
 #include "draw/svg.hpp"
 
 namespace dotpose {

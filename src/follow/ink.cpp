@@ -36,8 +36,8 @@ std::vector<Run> runs_of(std::span<const InkSample> samples) {
 
 /// A coordinate of a sample, and its standard deviation.
 struct Axis {
-    double InkSample::* place_mm;
-    double InkSample::* sigma_mm;
+    double InkSample::*place_mm;
+    double InkSample::*sigma_mm;
 };
 constexpr Axis kX{&InkSample::x_mm, &InkSample::sigma_x_mm};
 constexpr Axis kY{&InkSample::y_mm, &InkSample::sigma_y_mm};
@@ -113,8 +113,8 @@ std::vector<InkPage> ink_of(std::span<const InkSample> samples) {
             if (!is_down[i]) continue;
             std::vector<InkStroke>& strokes = page_of(run[i].page, pages).strokes;
             if (i == 0 || !is_down[i - 1]) strokes.emplace_back();
-            strokes.back().push_back({run[i].t_s, x[i].place_mm, y[i].place_mm, run[i].tilt_rad,
-                                      run[i].azimuth_rad});
+            strokes.back().push_back(
+                {run[i].t_s, x[i].place_mm, y[i].place_mm, run[i].tilt_rad, run[i].azimuth_rad});
         }
     }
     return pages;

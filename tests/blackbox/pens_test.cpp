@@ -82,6 +82,10 @@ TEST_F(Pens, LinesHaveTheTip) {
     EXPECT_NEAR(down["tip_height_mm"], 0, 0.03);
     EXPECT_LT(down["sigma_tip_height_mm"], 0.02);
     EXPECT_EQ(down["pen_down"], true);
+    const JsonSchema schema{
+        json::parse(read_file(fs::path(source_dir()) / "docs/schema/lines-1.json"))};
+    EXPECT_THAT(schema.check(down).errors, IsEmpty());
+    EXPECT_THAT(schema.check(down).unknown, IsEmpty());
     const json up = json::parse(lines.at(1));
     EXPECT_NEAR(up["tip_height_mm"], 0.5, 0.03);
     EXPECT_EQ(up["pen_down"], false);
@@ -152,8 +156,9 @@ TEST_F(Pens, InkRefusesOtherLogs) {
     put_text("up.csv", std::string(kHeader) + "0,one,10,20,2,0.01,0.01,0.01\n");
     EXPECT_EQ(run("ink up.csv -o page.svg"), 1);
     EXPECT_THAT(errors_, HasSubstr("did not touch the paper"));
-    put_text("back.csv", std::string(kHeader) + "1,one,10,20,0,0.01,0.01,0.01\n"
-                                                "0,one,10,20,0,0.01,0.01,0.01\n");
+    put_text("back.csv", std::string(kHeader) +
+                             "1,one,10,20,0,0.01,0.01,0.01\n"
+                             "0,one,10,20,0,0.01,0.01,0.01\n");
     EXPECT_EQ(run("ink back.csv -o page.svg"), 1);
     EXPECT_THAT(errors_, HasSubstr("back.csv:3"));
     EXPECT_EQ(run("ink run.csv -o page.pdf"), 2);

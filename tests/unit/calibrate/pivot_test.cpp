@@ -9,9 +9,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../../pen_frames.hpp"
 #include "dotpose/tools/calibrate.hpp"
 #include "dotpose/tools/pen.hpp"
-#include "../../pen_frames.hpp"
 
 namespace dotpose {
 namespace {
@@ -33,8 +33,8 @@ std::vector<GreyImage> frames_of(int count, std::uint64_t seed, double max_tilt_
     for (int i = 0; i < count; ++i) {
         PenPose pose = test::pivoted(kX_mm, kY_mm, max_tilt_rad, rng);
         place_of(i, pose);
-        frames.push_back(render(shot_of_pen(
-            test::pen_shot(seed, static_cast<std::uint64_t>(i)), kTip, pose)));
+        frames.push_back(
+            render(shot_of_pen(test::pen_shot(seed, static_cast<std::uint64_t>(i)), kTip, pose)));
     }
     return frames;
 }
@@ -45,8 +45,8 @@ PivotCalibration calibrate(const std::vector<GreyImage>& frames) {
     CalibrateOptions options;
     options.pattern.spacing_mm = test::kPenSpacing_mm;
     return calibrate_pivot(
-        static_cast<int>(frames.size()),
-        [&](int i) { return frames[static_cast<std::size_t>(i)]; }, test::pen_camera(), options);
+        static_cast<int>(frames.size()), [&](int i) { return frames[static_cast<std::size_t>(i)]; },
+        test::pen_camera(), options);
 }
 
 std::string error_of(const std::vector<GreyImage>& frames) {
@@ -146,7 +146,8 @@ TEST(TipOf, IsTheTipOfTheSimulatedPen) {
     EXPECT_NEAR(tip.height_mm, 1.5, 4 * tip.sigma_mm(2));
     EXPECT_LT(tip.sigma_mm(2), 0.03);
     // An error of the tip in the camera file adds to the covariance.
-    const TipPose uncertain = tip_of(*space, kTip, {{"tip_x_mm", 1}, {"tip_y_mm", 1}, {"tip_z_mm", 1}});
+    const TipPose uncertain =
+        tip_of(*space, kTip, {{"tip_x_mm", 1}, {"tip_y_mm", 1}, {"tip_z_mm", 1}});
     EXPECT_NEAR(uncertain.sigma_mm(0), 1, 0.001);
     EXPECT_NEAR(uncertain.sigma_mm(2), 1, 0.001);
 }

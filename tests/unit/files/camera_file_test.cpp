@@ -115,8 +115,7 @@ TEST_F(CameraFile, WrongFilesAreRefusedByKey) {
     EXPECT_THAT(refusal_with("[0.5, -5, 18]", "[0.5, -5]"), HasSubstr("tip_mm"));
     EXPECT_THAT(refusal_with("[0.5, -5, 18]", "[0.5, -5, 1e5]"),
                 HasSubstr("tip_mm must be within 10000 mm"));
-    EXPECT_THAT(refusal_with("tip_mm: [0.5, -5, 18]\n", ""),
-                HasSubstr("tip_rest_mm needs tip_mm"));
+    EXPECT_THAT(refusal_with("tip_mm: [0.5, -5, 18]\n", ""), HasSubstr("tip_rest_mm needs tip_mm"));
     EXPECT_THAT(refusal_with("k_per_px2: -8.7e-06\n", ""), HasSubstr("k_per_px2 is missing"));
     EXPECT_THAT(refusal_with("k_per_px2: -8.7e-06", "k_per_px2: barrel"),
                 HasSubstr("k_per_px2 must be a number"));

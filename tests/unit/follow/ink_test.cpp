@@ -94,8 +94,7 @@ TEST(Ink, OfRenderedFramesIsWithin10Micrometres) {
         Shot shot = test::pen_shot(11, i);
         shot.page.seed = 11;
         const GreyImage image = render(shot_of_pen(shot, test::kTip, path[i].pose));
-        const Located now =
-            follower.follow(image.view(), std::llround(path[i].t_s * 1e6)).located;
+        const Located now = follower.follow(image.view(), std::llround(path[i].t_s * 1e6)).located;
         ASSERT_TRUE(now.tip) << i;
         const TipPose& tip = *now.tip;
         samples.push_back({path[i].t_s, "", tip.x_mm, tip.y_mm, tip.height_mm, tip.sigma_mm(0),

@@ -72,9 +72,10 @@ void define_view(py::module_& module) {
     py::class_<Tilt>(module, "Tilt", "Tilt of the paper relative to the image plane.")
         .def_readwrite("x_rad", &Tilt::x_rad, "About the image x axis, in rad.")
         .def_readwrite("y_rad", &Tilt::y_rad, "About the image y axis, in rad.");
-    py::class_<PenTip>(module, "PenTip",
-                       "Tip of a pen in the frame of its camera: x right and y down in the image, z "
-                       "forward.")
+    py::class_<PenTip>(
+        module, "PenTip",
+        "Tip of a pen in the frame of its camera: x right and y down in the image, z "
+        "forward.")
         .def(py::init<double, double, double, double>(), "x_mm"_a, "y_mm"_a, "z_mm"_a,
              "rest_mm"_a = 0.0, "Make a tip.")
         .def_readwrite("x_mm", &PenTip::x_mm, "x, in mm.")

@@ -114,8 +114,7 @@ void define_follower(py::module_& module) {
         .def_readonly("tip", &SeenLocated::tip,
                       "TipPose of the pen in the pattern frame; None unless the camera has a tip "
                       "and the pose in space is known and not ambiguous.")
-        .def_readonly("is_pen_down", &SeenLocated::is_pen_down,
-                      "True if the tip is on the paper.")
+        .def_readonly("is_pen_down", &SeenLocated::is_pen_down, "True if the tip is on the paper.")
         .def_readonly("track", &SeenLocated::track,
                       "Track after the image; None from Follower.locate.")
         .def_readonly("reduced_by", &SeenLocated::reduced_by,
