@@ -31,6 +31,8 @@ constexpr double kPenJitter_mm = 0.005;
 constexpr PenTip kPenTip{0.5, 5, 18, 0.1};
 constexpr int kPivotFrames = 30;
 constexpr double kPenRate_hz = 200;
+constexpr int kStrokesPerWord = 4;
+constexpr int kDrawnStrokes = 12;
 
 /// Returns a shot with the camera and the sheet of a pen.
 Shot pen_shot(std::uint64_t seed, std::uint64_t index) {
@@ -110,11 +112,11 @@ void measure_pivot(std::uint64_t seed, double max_tilt_deg, PivotTally& tally) {
 std::string pivot_row(double max_tilt_deg, const Count<PivotTally>& count) {
     std::string text = fmt::format("| {} | {} |", max_tilt_deg, count.done);
     for (const Errors& errors : count.tally.errors) {
-        text += fmt::format(" {:.1f} | {:.1f} | {} |", 1000 * errors.rms(), 1000 * errors.largest,
+        text += fmt::format(" {:.2f} | {:.2f} | {} |", 1000 * errors.rms(), 1000 * errors.largest,
                             errors.normalised_text());
     }
     const auto done = static_cast<double>(count.done);
-    return text + fmt::format(" {:.1f} | {:.2f} |\n", 1000 * count.tally.residual_mm / done,
+    return text + fmt::format(" {:.2f} | {:.2f} |\n", 1000 * count.tally.residual_mm / done,
                               count.tally.error_ratio / done);
 }
 
@@ -179,13 +181,14 @@ void compare_strokes(const std::vector<PenSample>& path, const InkPage& page, In
 }
 
 /// Writes with a pen whose tip was found by `calibrate_pivot`. Returns the ink.
-InkPage measure_ink(std::uint64_t seed, InkTally& tally) {
+InkPage measure_ink(std::uint64_t seed, int strokes, InkTally& tally) {
     FollowerOptions options;
     options.camera = calibrated(scramble(seed), 40).camera;
     options.spacing_mm = kPenSpacing_mm;
     options.fits_space_pose = true;
     Follower follower(options);
-    const std::vector<PenSample> path = simulate_handwriting({2000, 3000, 4, kPenRate_hz, seed});
+    const std::vector<PenSample> path =
+        simulate_handwriting({2000, 3000, strokes, kPenRate_hz, seed});
     std::vector<InkSample> samples;
     for (std::size_t i = 0; i < path.size(); ++i) {
         ++tally.frames;
@@ -216,7 +219,7 @@ bool pens_table(TableRun& run) {
     std::string picture;
     run.add_count("--pivots", pivots, "Number of calibrations for each largest tilt");
     run.add_count("--words", words, "Number of words to write");
-    run.command.add_option("--draw", picture, "Also draw the ink of one word (SVG)");
+    run.command.add_option("--draw", picture, "Also draw the ink of three lines (SVG)");
     run.add_seed();
     run.add_threads();
     run.add_update();
@@ -241,7 +244,7 @@ bool pens_table(TableRun& run) {
     }
     if (words > 0) {
         const auto count = run.count<InkTally>("ink", words, [&](std::uint64_t i, InkTally& tally) {
-            measure_ink(scramble(run.seed + i), tally);
+            measure_ink(scramble(run.seed + i), kStrokesPerWord, tally);
         });
         const InkTally& tally = count.tally;
         run.print_block(
@@ -249,7 +252,7 @@ bool pens_table(TableRun& run) {
             fmt::format("| frames | located | raw, µm rms | ink, µm rms | largest | strokes | "
                         "found | ends off by more than a frame | largest, frames |\n"
                         "|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
-                        "| {} | {} | {:.1f} | {:.1f} | {:.1f} | {} | {} | {} | {} |\n",
+                        "| {} | {} | {:.2f} | {:.2f} | {:.2f} | {} | {} | {} | {} |\n",
                         tally.frames, tally.located, 1000 * tally.raw.rms(),
                         1000 * tally.smoothed.rms(), 1000 * tally.smoothed.largest, tally.strokes,
                         tally.found, tally.late_ends, tally.largest_delay));
@@ -257,7 +260,7 @@ bool pens_table(TableRun& run) {
     }
     if (!picture.empty()) {
         InkTally tally;
-        write_file(picture, ink_svg(measure_ink(scramble(run.seed), tally)));
+        write_file(picture, ink_svg(measure_ink(scramble(run.seed), kDrawnStrokes, tally)));
     }
     run.update_document();
     return is_complete;

@@ -17,9 +17,9 @@ struct TipRecord {
     bool is_down = false;
 };
 
-/// Returns the fields of the tip. Their names begin with `tip_`, `sigma_tip_` or `pen_`. If
-/// `has_sheets` is true, also returns the fields of the sheet and the world. The fields are empty
-/// if there is no tip.
+/// Returns the fields of the tip: its place and height with their standard deviations, and
+/// `pen_down`. If `has_sheets` is true, also returns the place on the sheet and in the world. The
+/// fields are empty if there is no tip.
 std::vector<Field> tip_fields(const TipRecord& record, const std::optional<SheetPlace>& place,
                               bool has_sheets, Units units);
 

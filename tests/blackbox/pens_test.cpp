@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "../json_schema.hpp"
 #include "../pen_frames.hpp"
 #include "../xml_check.hpp"
 #include "dotpose/files/camera_file.hpp"
@@ -19,8 +20,10 @@
 namespace dotpose::test {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
 
 constexpr double kMaxTilt_rad = 40 * std::numbers::pi / 180;
@@ -84,8 +87,10 @@ TEST_F(Pens, LinesHaveTheTip) {
     EXPECT_EQ(down["pen_down"], true);
     const JsonSchema schema{
         json::parse(read_file(fs::path(source_dir()) / "docs/schema/lines-1.json"))};
-    EXPECT_THAT(schema.check(down).errors, IsEmpty());
-    EXPECT_THAT(schema.check(down).unknown, IsEmpty());
+    const JsonSchema::Verdict verdict = schema.check(down);
+    EXPECT_THAT(verdict.errors, IsEmpty());
+    for (const auto& [key, value] : down.items())
+        EXPECT_THAT(verdict.described_keys, Contains(key));
     const json up = json::parse(lines.at(1));
     EXPECT_NEAR(up["tip_height_mm"], 0.5, 0.03);
     EXPECT_EQ(up["pen_down"], false);
@@ -125,12 +130,12 @@ TEST_F(Pens, InkIsDrawnFromLogsAndLines) {
 }
 
 /// The columns that ink reads, with a page each.
-constexpr const char* kHeader =
+constexpr const char* kInkHeader =
     "t_s,sheet,tip_x_sheet_mm,tip_y_sheet_mm,tip_height_mm,sigma_tip_x_mm,sigma_tip_y_mm,"
     "sigma_tip_height_mm\n";
 
 TEST_F(Pens, InkOfSeveralPagesHasAFilePerPage) {
-    put_text("run.csv", std::string(kHeader) +
+    put_text("run.csv", std::string(kInkHeader) +
                             "0.00,one,10,20,0,0.01,0.01,0.01\n0.01,one,11,20,0,0.01,0.01,0.01\n"
                             "0.02,,,,,,,\n0.03,two/3,30,40,0,0.01,0.01,0.01\n");
     ASSERT_EQ(run("ink run.csv -o page.svg"), 0) << errors_;
@@ -141,22 +146,22 @@ TEST_F(Pens, InkOfSeveralPagesHasAFilePerPage) {
 
 TEST_F(Pens, InkHasTheSizeOfTheSheet) {
     ASSERT_EQ(run("print --paper A5 --name note --sheets sheets.json -o note.svg"), 0) << errors_;
-    put_text("run.csv", std::string(kHeader) + "0,note,10,20,0,0.01,0.01,0.01\n");
+    put_text("run.csv", std::string(kInkHeader) + "0,note,10,20,0,0.01,0.01,0.01\n");
     ASSERT_EQ(run("ink run.csv --sheets sheets.json -o page.svg"), 0) << errors_;
     EXPECT_THAT(file("page.svg"), HasSubstr(R"(width="148mm" height="210mm")"));
-    put_text("run.csv", std::string(kHeader) + "0,other,10,20,0,0.01,0.01,0.01\n");
+    put_text("run.csv", std::string(kInkHeader) + "0,other,10,20,0,0.01,0.01,0.01\n");
     EXPECT_EQ(run("ink run.csv --sheets sheets.json -o page.svg"), 1);
     EXPECT_THAT(errors_, HasSubstr("has no sheet 'other'"));
 }
 
 TEST_F(Pens, InkRefusesOtherLogs) {
-    put_text("run.csv", std::string(kHeader) + "0,,,,,,,\n");
+    put_text("run.csv", std::string(kInkHeader) + "0,,,,,,,\n");
     EXPECT_EQ(run("ink run.csv -o page.svg"), 1);
     EXPECT_THAT(errors_, HasSubstr("dotpose calibrate --pivot"));
-    put_text("up.csv", std::string(kHeader) + "0,one,10,20,2,0.01,0.01,0.01\n");
+    put_text("up.csv", std::string(kInkHeader) + "0,one,10,20,2,0.01,0.01,0.01\n");
     EXPECT_EQ(run("ink up.csv -o page.svg"), 1);
     EXPECT_THAT(errors_, HasSubstr("did not touch the paper"));
-    put_text("back.csv", std::string(kHeader) +
+    put_text("back.csv", std::string(kInkHeader) +
                              "1,one,10,20,0,0.01,0.01,0.01\n"
                              "0,one,10,20,0,0.01,0.01,0.01\n");
     EXPECT_EQ(run("ink back.csv -o page.svg"), 1);

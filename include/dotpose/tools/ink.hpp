@@ -4,7 +4,8 @@
 ///     for (const InkPage& page : pages)
 ///         write_file(page.name + ".svg", ink_svg(page));
 ///
-/// Functions are pure and thread-safe.
+/// `ink_of` is in the library for following, and the functions that write files are in the library
+/// for drawing. Functions are pure and thread-safe.
 #pragma once
 
 #include <span>
