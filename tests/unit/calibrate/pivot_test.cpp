@@ -81,6 +81,27 @@ TEST(CalibratePivot, FindsTheTip) {
     EXPECT_EQ(pivot.camera.focal_px, test::pen_camera().focal_px);
 }
 
+TEST(CalibratePivot, HasTrueDeviationsThoughAllFramesShowTheSamePrint) {
+    // If frames were taken as independent, the mean would be 3.3.
+    constexpr int kPens = 10;
+    double squares = 0;
+    for (std::uint64_t pen = 0; pen < kPens; ++pen) {
+        Rng rng(pen, 9);
+        std::vector<GreyImage> frames;
+        for (std::uint64_t i = 0; i < 15; ++i) {
+            Shot shot = test::pen_shot(40 + pen, i);
+            shot.page.seed = 40 + pen;
+            frames.push_back(
+                render(shot_of_pen(shot, kTip, test::pivoted(kX_mm, kY_mm, kMaxTilt_rad, rng))));
+        }
+        const Camera camera = calibrate(frames).camera;
+        squares += std::pow((camera.tip->x_mm - kTip.x_mm) / camera.sigma.at("tip_x_mm"), 2) +
+                   std::pow((camera.tip->y_mm - kTip.y_mm) / camera.sigma.at("tip_y_mm"), 2);
+    }
+    // The mean of 20 squares has a standard deviation of 0.32.
+    EXPECT_NEAR(squares / (2 * kPens), 1, 0.95);
+}
+
 TEST(CalibratePivot, RejectsFramesWithTheTipElsewhere) {
     const auto frames = frames_of(30, 2, kMaxTilt_rad, [](int i, PenPose& pose) {
         if (i % 8 == 0) pose.x_mm += 0.5;
