@@ -67,8 +67,8 @@ struct PenTip {
     double x_mm = 0;
     double y_mm = 0;
     double z_mm = 0;
-    /// Measured height of the point while the pen rests on the paper. The centre of the ball of a
-    /// ballpoint pen is above the paper, and an error of the focal length changes all heights.
+    /// Measured height of the point while the pen rests on the paper. The pen pivots about this
+    /// point, which is above the paper: the centre of the ball of a ballpoint pen, for example.
     double rest_mm = 0;
 };
 
