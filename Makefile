@@ -111,7 +111,7 @@ wasm: $(RELEASE)/build.ninja
 web: $(RELEASE)/build.ninja
 	wrappers/wasm/build
 	web/build
-	$(BUILD) release -j $(JOBS) --target dotpose_cli
+	$(BUILD) release -j $(JOBS) --target dotpose_cli dotpose_fleet_load
 	ctest --preset release -L web
 
 # Builds a wheel in build/python and an environment with it, and runs an example.

@@ -1,4 +1,4 @@
-/// Parts of the table `calibration`, and error statistics over many calibrations.
+/// Measurements of the table `calibration`, and the error statistics that they share.
 #pragma once
 
 #include <algorithm>

@@ -33,6 +33,7 @@ constexpr Table kTables[] = {
     {"adversarial", "How often images that resemble the code are located",
      tables::adversarial_table},
     {"alike", "Errors of frames whose dots all have the same sub-pixel phase", tables::alike_table},
+    {"bound", "Errors of positions beside the Cramer-Rao bound", tables::bound_table},
     {"calibration", "Errors of calibrations and of their standard deviations",
      tables::calibration_table},
     {"drive", "Errors of a robot that is tracked as by `dotpose watch`", tables::drive_table},

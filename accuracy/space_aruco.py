@@ -118,7 +118,7 @@ class Board:
         self.middle = (width / 2, height / 2)
 
     def frame(self, truth, random):
-        """Renders with 4 x 4 samples a pixel, then blur, noise and rounding."""
+        """Renders a frame with 4 x 4 samples per pixel, and adds blur, noise and rounding."""
         fine = 4
         rotation, position = truth
         # Pixels of the points (x, y, 1) on the paper.

@@ -10,6 +10,7 @@ namespace dotpose::tables {
 bool accuracy_table(TableRun& run);
 bool adversarial_table(TableRun& run);
 bool alike_table(TableRun& run);
+bool bound_table(TableRun& run);
 bool calibration_table(TableRun& run);
 bool drive_table(TableRun& run);
 bool golden_table(TableRun& run);

@@ -1,5 +1,5 @@
-// Counts how soon a moving camera is located by reading its frames together. Each view is too small
-// to be certain alone. Prints a table in Markdown.
+// Counts after how many frames a moving camera is located if the bits of its frames are joined.
+// Each view alone is too small for a certain fix. Prints a table in Markdown.
 //
 //   dotpose_tables together [--series N] [--seed S]
 //
@@ -40,7 +40,8 @@ constexpr std::array kKinds{
 
 struct SeriesTally {
     std::uint64_t series = 0;
-    std::array<std::uint64_t, kLength> located{};  ///< series with a fix in their first k frames
+    /// located[k] is the number of series with a fix in their first k + 1 frames.
+    std::array<std::uint64_t, kLength> located{};
     std::uint64_t fixes = 0;
     std::uint64_t wrong = 0;
 
@@ -66,8 +67,8 @@ Shot draw_first(const SeriesKind& kind, std::uint64_t seed, std::uint64_t index)
     return shot;
 }
 
-/// Moves the camera by half a view in any direction and turns it, and returns the motion as it is
-/// measured.
+/// Moves the camera by half a view in any direction and turns it. Returns the motion with simulated
+/// measurement errors.
 MeasuredMotion move(const SeriesKind& kind, Shot& shot, Rng& rng) {
     CameraPose& pose = shot.pose;
     const double distance_mm = kind.side_px * shot.camera.mm_per_px / 2;

@@ -1,4 +1,4 @@
-/// Parts of the table `tracked`, and their counts.
+/// Measurements of the table `tracked`, and the counts of their results.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// Parts of the program. Each part runs measurements and formats tables of the results.
+/// Measurements of dotpose_bench, grouped by source file, and the tables of their results.
 #pragma once
 
 #include <array>

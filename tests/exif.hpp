@@ -56,8 +56,8 @@ inline std::string exif_of(const std::vector<std::uint16_t>& tags, bool big_endi
     return bytes;
 }
 
-/// Returns a JPEG with EXIF data in a segment before `position`. Position 2 is the beginning of the
-/// file, as in files of phones. Position 20 is after the density.
+/// Returns a JPEG with EXIF data in a segment before the byte at `position`. Position 2 is the
+/// beginning of the file, as in files of phones. Position 20 is after the density.
 inline std::string with_exif(std::string jpeg, const std::string& exif, std::size_t position = 20) {
     const std::size_t length = 2 + 6 + exif.size();
     std::string segment = "\xFF\xE1";

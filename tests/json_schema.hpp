@@ -18,8 +18,9 @@ class JsonSchema {
     using Json = nlohmann::json;
 
     struct Verdict {
-        std::vector<std::string> errors;       ///< empty if the value is valid
-        std::set<std::string> described_keys;  ///< keys of the top-level object in the schema
+        std::vector<std::string> errors;  ///< empty if the value is valid
+        /// Keys of the top-level object that the schema describes.
+        std::set<std::string> described_keys;
     };
 
     explicit JsonSchema(Json schema) : root_(std::move(schema)) {}

@@ -4,29 +4,14 @@
 
 #include <atomic>
 #include <chrono>
-#include <optional>
 #include <string>
-#include <vector>
 
+#include "calibration_status.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/tools/calibration_coverage.hpp"
 #include "dotpose/trace.hpp"
 #include "video/screen.hpp"
 
 namespace dotpose::cli {
-
-struct CalibrationStatus {
-    explicit CalibrationStatus(const CalibrationCoverage& shown) : coverage(shown) {}
-
-    CalibrationCoverage coverage;
-    std::vector<CalibrationNeed> needs;  ///< unmet requirements, most urgent first
-    /// Standard deviation of the newest calibration in the corners of the image.
-    std::optional<double> corner_sigma_px;
-    std::optional<double> theta_rad;  ///< direction of the newest frame, if it was located
-    std::string now;                  ///< result of the newest frame
-    std::string remark;               ///< advice after the newest calibration; may be empty
-    bool is_taken = false;            ///< true if the newest frame was accepted for calibration
-};
 
 class CalibrationDisplay {
   public:

@@ -14,11 +14,14 @@
 #include "fleet_share.hpp"
 #include "fleet_store.hpp"
 #include "fleet_view.hpp"
+#include "fleet_web.hpp"
 #include "metrics_file.hpp"
 #include "mqtt_options.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
+#include "robot_remover.hpp"
 #include "run_files.hpp"
+#include "web_arguments.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -28,6 +31,7 @@ using std::chrono::steady_clock;
 constexpr const char* kFleetExamples =
     "Examples:\n"
     "  dotpose fleet --mqtt mqtt://broker --sheets table.json --draw fleet.svg\n"
+    "  dotpose fleet --mqtt mqtt://broker --sheets table.json --web 8080\n"
     "  dotpose fleet --mqtt mqtts://me@broker --mqtt-ca ca.pem --seconds 60\n"
     "  dotpose fleet --mqtt mqtt://broker --qos 1 --shard 1/3 --log part1.csv\n"
     "  dotpose fleet --mqtt mqtt://broker --qos 1 --share loggers --log states.csv\n"
@@ -45,6 +49,7 @@ struct FleetArguments {
     std::string log;
     std::string metrics;
     StoreArguments store;
+    WebArguments web;
     double seconds = 0;  ///< run time; 0 means until interrupted
     double every_s = 1;
     double silent_after_s = 5;
@@ -64,6 +69,7 @@ void register_files(const FleetArguments& arguments) {
     RunFiles files;
     files.reads("--sheets", arguments.sheets);
     files.reads("--mqtt-ca", arguments.mqtt.ca_file);
+    files.reads("--web-token-file", arguments.web.token_file());
     files.writes("--draw", arguments.map, Content::svg);
     files.writes("--log", arguments.log, Content::csv);
     files.writes("--metrics", arguments.metrics, Content::text);
@@ -94,6 +100,21 @@ std::optional<store::QueueStatus> store_status(const std::optional<FleetStore>& 
     return store ? std::optional(store->status()) : std::nullopt;
 }
 
+/// Returns the options of the page without functions that depend on the run, or none without --web.
+std::optional<FleetWebOptions> web_options(const FleetArguments& arguments,
+                                           const publish::MqttOptions& mqtt) {
+    auto server = arguments.web.options();
+    if (!server) return std::nullopt;
+    server->tell = mqtt.tell;
+    FleetWebOptions options;
+    options.server = *server;
+    options.limits = limits_of(arguments);
+    options.remove = [remover = std::make_shared<RobotRemover>(mqtt)](const std::string& robot) {
+        remover->remove(robot);
+    };
+    return options;
+}
+
 void run(const FleetArguments& arguments) {
     constexpr auto kTick = std::chrono::milliseconds(50);
     constexpr double kBetweenAlerts_s = 0.25;
@@ -118,11 +139,20 @@ void run(const FleetArguments& arguments) {
     };
     std::optional<MetricsFile> metrics;
     if (!arguments.metrics.empty()) metrics.emplace(arguments.metrics, mqtt->tell);
+    const auto services = [&] {
+        return FleetServices{input.is_connected(), delivery, store_status(store)};
+    };
     const auto write_metrics = [&] {
         if (!metrics) return;
-        metrics->write(metrics_text(input.fleet(), input.fleet().robots(input.now()), view.map(),
-                                    {input.is_connected(), delivery, store_status(store)}));
+        metrics->write(
+            metrics_text(input.fleet(), input.fleet().robots(input.now()), view.map(), services()));
     };
+    std::optional<FleetWeb> web;
+    if (auto options = web_options(arguments, *mqtt)) {
+        options->now = [&input] { return input.now(); };
+        options->services = services;
+        web.emplace(*options, input.fleet(), view.map());
+    }
     Periodically refresh(arguments.every_s);
     Periodically alert(kBetweenAlerts_s);
     while (!interrupted() && !is_over() && view.take_keys(input.fleet(), input.now())) {
@@ -137,6 +167,7 @@ void run(const FleetArguments& arguments) {
             input.flush();
         });
     }
+    web.reset();
     input.finish();
     view.finish(input.fleet(), input.now());
     if (alerts) alerts->finish();
@@ -177,6 +208,7 @@ void add_fleet(Command& app, int&) {
                      "File of metrics for Prometheus (.prom), replaced at each update")
         ->type_name("FILE");
     arguments->store.add_to(*command);
+    arguments->web.add_to(*command);
     arguments->share.add_to(*command);
     add_limits(*command, *arguments);
     command->add_option("--every", arguments->every_s, "Time between two updates")

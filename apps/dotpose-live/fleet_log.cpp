@@ -15,7 +15,6 @@ namespace {
 constexpr const char* kHeader =
     "robot,state,map,number,t_s,latency_ms,x_mm,y_mm,theta_deg,deviation_mm,vx_mm_s,vy_mm_s,"
     "turn_deg_s\n";
-constexpr double kMm_per_m = 1000;
 
 }  // namespace
 

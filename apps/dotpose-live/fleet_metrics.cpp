@@ -2,56 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
-#include <string_view>
 
 #include <fmt/core.h>
 
-#include "terminal_text.hpp"
+#include "metrics_text.hpp"
 
 namespace dotpose::cli {
 namespace {
-
-/// Collects samples of metrics. All samples of a metric follow its `begin`.
-class MetricsText {
-  public:
-    void begin(std::string_view name, std::string_view type, std::string_view help) {
-        name_ = name;
-        fmt::format_to(std::back_inserter(text_), "# HELP {} {}\n# TYPE {} {}\n", name, help, name,
-                       type);
-    }
-    /// Adds a sample. `labels` is a list such as `robot="anna"`, or empty.
-    template <typename Value>
-    void add(Value value, std::string_view labels = {}, std::string_view suffix = {}) {
-        fmt::format_to(std::back_inserter(text_), "{}{}{}{}{} {}\n", name_, suffix,
-                       labels.empty() ? "" : "{", labels, labels.empty() ? "" : "}", value);
-    }
-    template <typename Value>
-    void gauge(std::string_view name, std::string_view help, Value value) {
-        begin(name, "gauge", help);
-        add(value);
-    }
-    template <typename Value>
-    void counter(std::string_view name, std::string_view help, Value value) {
-        begin(name, "counter", help);
-        add(value);
-    }
-    std::string finish() && { return std::move(text_); }
-
-  private:
-    std::string name_;
-    std::string text_;
-};
-
-/// Returns a label, with the value escaped.
-std::string label(std::string_view name, std::string_view value) {
-    std::string escaped;
-    for (const char c : printable(value)) {
-        if (c == '\\' || c == '"') escaped += '\\';
-        escaped += c;
-    }
-    return fmt::format("{}=\"{}\"", name, escaped);
-}
 
 void add_conditions(MetricsText& text, const FleetRobots& robots, const FleetMap& map) {
     std::array<int, kConditionCount> counts{};
@@ -109,8 +66,10 @@ void add_frames(MetricsText& text, const CameraTotals& totals) {
 }
 
 void add_services(MetricsText& text, const FleetServices& services) {
-    text.gauge("dotpose_fleet_broker_connected", "1 if the broker is connected, otherwise 0.",
-               services.is_broker_connected ? 1 : 0);
+    if (services.is_broker_connected) {
+        text.gauge("dotpose_fleet_broker_connected", "1 if the broker is connected, otherwise 0.",
+                   *services.is_broker_connected ? 1 : 0);
+    }
     if (!services.store) return;
     text.gauge("dotpose_fleet_store_connected",
                "1 if the newest transaction of the database succeeded, otherwise 0.",

@@ -12,7 +12,7 @@ namespace dotpose::cli {
 
 /// Connections of `dotpose fleet`.
 struct FleetServices {
-    bool is_broker_connected = false;
+    std::optional<bool> is_broker_connected;  ///< none without a broker
     Delivery delivery = Delivery::all;
     std::optional<store::QueueStatus> store;  ///< none without a database
 };

@@ -12,24 +12,6 @@
 namespace dotpose::cli {
 namespace {
 
-constexpr double kMm_per_m = 1000;
-
-/// Returns the rank of a robot in the order of attention.
-int rank_of(const FleetRobot& robot, const FleetMap& map) {
-    switch (robot.condition) {
-        case Condition::silent:
-            return 0;
-        case Condition::lost:
-            return 1;
-        case Condition::gone:
-            return 4;
-        case Condition::moving:
-        case Condition::still:
-            break;
-    }
-    return map.has_place_of(robot) ? 3 : 2;
-}
-
 /// Returns map and sheet of the newest known place, with a question mark if they are not in the
 /// file.
 std::string place_text(const FleetRobot& robot, const FleetMap& map) {
@@ -77,9 +59,32 @@ bool FleetMap::has_place_of(const FleetRobot& robot) const {
     return state.map_id == id && (state.sheet.empty() || names.contains(state.sheet));
 }
 
+std::string shown_map(const FleetMap& map, const FleetRobots& robots) {
+    if (!map.id.empty()) return map.id;
+    for (const auto& [name, robot] : robots) {
+        if (robot.has_place) return robot.newest.map_id;
+    }
+    return {};
+}
+
+int attention_rank(const FleetRobot& robot, const FleetMap& map) {
+    switch (robot.condition) {
+        case Condition::silent:
+            return 0;
+        case Condition::lost:
+            return 1;
+        case Condition::gone:
+            return 4;
+        case Condition::moving:
+        case Condition::still:
+            break;
+    }
+    return map.has_place_of(robot) ? 3 : 2;
+}
+
 void sort_by_attention(FleetRobots& robots, const FleetMap& map) {
-    std::ranges::stable_sort(robots, {},
-                             [&map](const auto& entry) { return rank_of(entry.second, map); });
+    std::ranges::stable_sort(
+        robots, {}, [&map](const auto& entry) { return attention_rank(entry.second, map); });
 }
 
 std::string table_header(Layout layout) {

@@ -29,10 +29,18 @@ struct FleetMap {
     bool has_place_of(const FleetRobot& robot) const;
 };
 
-using FleetRobots = std::vector<std::pair<std::string, FleetRobot>>;
+using FleetEntry = std::pair<std::string, FleetRobot>;
+using FleetRobots = std::vector<FleetEntry>;
 
-/// Sorts the robots by the attention that they need: silent, lost, on an unknown map or sheet,
-/// moving or still, and gone. The order of robots that need equal attention is kept.
+/// Returns the name of the map to show: the world frame of the sheet file or, without a sheet file,
+/// the map of the first robot that has one. Returns an empty string if there is none.
+std::string shown_map(const FleetMap& map, const FleetRobots& robots);
+
+/// Returns the rank of a robot in the order of attention: silent, lost, on an unknown map or sheet,
+/// moving or still, and gone.
+int attention_rank(const FleetRobot& robot, const FleetMap& map);
+
+/// Sorts the robots by attention. The order of robots that need equal attention is kept.
 void sort_by_attention(FleetRobots& robots, const FleetMap& map);
 
 /// Columns of the table. `narrow` fits 80 characters and omits the counts of messages.

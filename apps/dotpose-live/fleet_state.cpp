@@ -62,6 +62,8 @@ void FleetState::take_state(std::string_view name, RobotState state, const Now& 
         count_frames(*state.camera, shown.camera);
         shown.camera = state.camera;
     }
+    // The planes of two maps are not related.
+    if (state.is_localized && state.map_id != shown.newest.map_id) robot.path_mm.clear();
     if (!state.is_localized && (shown.newest.is_localized || shown.newest.sent_us == 0)) {
         shown.lost_since_us = now.watched_us;
     }
@@ -88,6 +90,7 @@ FleetState::Robot& FleetState::touch(std::string_view name) {
     }
     if (robots_.size() == kMaxRobots) remove(std::string(*by_age_.front()));
     const auto added = robots_.emplace(name, Robot()).first;
+    added->second.shown.id = next_id_++;
     added->second.place = by_age_.insert(by_age_.end(), &added->first);
     return added->second;
 }
@@ -167,6 +170,18 @@ std::vector<draw::Point> FleetState::path_mm(std::string_view robot) const {
     const std::lock_guard lock(mutex_);
     const auto known = robots_.find(robot);
     return known == robots_.end() ? std::vector<draw::Point>() : known->second.path_mm;
+}
+
+std::vector<draw::Point> FleetState::trail_mm(std::string_view robot, std::size_t points,
+                                              std::size_t step) const {
+    const std::lock_guard lock(mutex_);
+    const auto known = robots_.find(robot);
+    std::vector<draw::Point> trail;
+    if (known == robots_.end()) return trail;
+    const auto& path = known->second.path_mm;
+    for (std::size_t i = path.size() - std::min(points, path.size()); i < path.size(); i += step)
+        trail.push_back(path[i]);
+    return trail;
 }
 
 StateCounts FleetState::counts() const {

@@ -33,6 +33,9 @@ struct Now {
 };
 
 struct FleetRobot {
+    /// Number of the robot in this run of the program. A robot that was removed and appears again
+    /// has another number.
+    std::uint32_t id = 0;
     /// Newest state. If the robot is lost, place and sheet are the last known ones.
     RobotState newest;
     bool has_place = false;  ///< true if `newest` contains a place, which may be an old one
@@ -98,6 +101,9 @@ class FleetState {
     std::vector<std::pair<std::string, FleetRobot>> robots(const Now& now) const;
     /// Returns the path of a robot in mm, or an empty path if the robot was removed.
     std::vector<draw::Point> path_mm(std::string_view robot) const;
+    /// Returns every `step`-th of the newest `points` points of the path, oldest first.
+    std::vector<draw::Point> trail_mm(std::string_view robot, std::size_t points,
+                                      std::size_t step) const;
     /// Returns the sum of the counts of all robots, including removed robots.
     StateCounts counts() const;
     std::int64_t bad() const;
@@ -137,6 +143,7 @@ class FleetState {
     std::map<std::string, Robot, NaturalOrder> robots_;
     std::list<const std::string*> by_age_;  ///< names of the robots, oldest message first
     StateCounts of_removed_;
+    std::uint32_t next_id_ = 1;
     std::vector<float> latencies_ms_;
     std::size_t next_latency_ = 0;
     LatencyHistogram latency_histogram_;

@@ -13,20 +13,6 @@
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
-namespace {
-
-/// Returns the name of the map to draw: the world frame of the sheet file or, without a sheet file,
-/// the map of the first robot that has one.
-std::string map_drawn(const FleetMap& map, const FleetRobots& robots) {
-    if (!map.id.empty()) return map.id;
-    for (const auto& [name, robot] : robots) {
-        if (robot.has_place) return robot.newest.map_id;
-    }
-    return {};
-}
-
-}  // namespace
-
 FleetMap read_fleet_map(const std::string& sheets) {
     if (sheets.empty()) return {};
     const std::vector<SheetEntry> entries = read_sheets(sheets);
@@ -117,7 +103,7 @@ void FleetView::show_page(const FleetState& fleet, const Now& now) {
 }
 
 void FleetView::draw(const FleetState& fleet, const Now& now) {
-    const std::string map_id = map_drawn(map_, fleet.robots(now));
+    const std::string map_id = shown_map(map_, fleet.robots(now));
     write_file(drawing_, draw::draw_map(drawing_of(fleet, map_id, map_, now)));
 }
 

@@ -6,8 +6,6 @@
 namespace dotpose::cli {
 namespace {
 
-constexpr double kMm_per_m = 1000;
-
 /// Converts a point of a page, in mm, to coordinates of `plane`. If `plane` is the world, the page
 /// must have a world pose.
 draw::Point in_plane(const SheetEntry& entry, Plane plane, double x_mm, double y_mm) {
@@ -22,7 +20,7 @@ draw::Point in_plane(const SheetEntry& entry, Plane plane, double x_mm, double y
     place.x_mm = x_mm;
     place.y_mm = y_mm;
     const auto world = world_place(place);
-    return {world->x_m * kMm_per_m, world->y_m * kMm_per_m};
+    return {world->x_m * 1000, world->y_m * 1000};
 }
 
 }  // namespace

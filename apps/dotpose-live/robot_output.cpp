@@ -61,6 +61,11 @@ void RobotOutput::take(const capture::Frame& frame, const Reading& reading) {
                            stamp_ns);
 }
 
+void RobotOutput::set_camera(const Camera& camera) {
+    options_.camera = camera;
+    has_mount_ = false;
+}
+
 void RobotOutput::finish() {
     if (recording_) recording_->finish();
     if (!publisher_) return;

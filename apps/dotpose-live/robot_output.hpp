@@ -48,6 +48,9 @@ class RobotOutput {
     /// Sends the messages of a frame. Throws Error.
     void take(const capture::Frame& frame, const Reading& reading);
 
+    /// Replaces the camera. The new mount is sent with the next frame.
+    void set_camera(const Camera& camera);
+
     /// Completes the file and reports the number of published messages. Throws Error.
     void finish();
 

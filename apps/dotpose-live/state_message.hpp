@@ -60,6 +60,9 @@ struct CameraReport {
     RefusedFrames refused{};  ///< frames without a fix; the element of Status::ok is 0
 };
 
+/// Messages contain metres, and reports millimetres.
+inline constexpr double kMm_per_m = 1000;
+
 struct RobotState {
     std::string robot;            ///< name of the sender, or empty in a parsed message
     std::uint64_t header_id = 0;  ///< sequence number of the message

@@ -1,9 +1,11 @@
 #include "state_output.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -33,7 +35,8 @@ void CameraCounter::count(const Reading& reading) {
     }
     newest_us_ = reading.time_us;
     const Status status = reading.record.fix.status;
-    if (status != Status::ok) ++total_.refused[static_cast<std::size_t>(status)];
+    if (status == Status::ok) return;
+    ++total_.refused[std::min(static_cast<std::size_t>(status), total_.refused.size() - 1)];
 }
 
 std::optional<CameraReport> CameraCounter::take_report() {
@@ -47,11 +50,27 @@ std::optional<CameraReport> CameraCounter::take_report() {
     return total_;
 }
 
-StateOutput::StateOutput(const PublishArguments& arguments, const std::string& sheets)
-    : robot_(arguments.robot),
+StateSource::StateSource(std::string robot, const std::string& sheets, double max_rate_hz)
+    : robot_(std::move(robot)),
       world_map_(std::filesystem::path(sheets).stem().string()),
-      period_us_(arguments.max_rate_hz > 0 ? std::llround(1e6 / arguments.max_rate_hz) : 0),
-      next_us_(std::numeric_limits<std::int64_t>::min()),
+      period_us_(max_rate_hz > 0 ? std::llround(1e6 / max_rate_hz) : 0),
+      next_us_(std::numeric_limits<std::int64_t>::min()) {}
+
+std::optional<RobotState> StateSource::next(const Reading& reading) {
+    camera_.count(reading);
+    const TrackEvents& events = reading.track.events;
+    const bool is_event =
+        events.fix || events.lost || events.kidnapped || events.stationary || events.moving;
+    if (reading.time_us < next_us_ && !is_event) return std::nullopt;
+    next_us_ = reading.time_us + period_us_;
+    RobotState state = state_of(reading, robot_, world_map_);
+    state.header_id = states_++;
+    state.camera = camera_.take_report();
+    return state;
+}
+
+StateOutput::StateOutput(const PublishArguments& arguments, const std::string& sheets)
+    : states_(arguments.robot, sheets, arguments.max_rate_hz),
       publisher_(with_presence(arguments)) {}
 
 void StateOutput::finish() {
@@ -63,16 +82,8 @@ void StateOutput::finish() {
 }
 
 void StateOutput::take(const Reading& reading) {
-    camera_.count(reading);
-    const TrackEvents& events = reading.track.events;
-    const bool is_event =
-        events.fix || events.lost || events.kidnapped || events.stationary || events.moving;
-    if (reading.time_us < next_us_ && !is_event) return;
-    next_us_ = reading.time_us + period_us_;
-    RobotState state = state_of(reading, robot_, world_map_);
-    state.header_id = messages_++;
-    state.camera = camera_.take_report();
-    publisher_.publish(topic_of(robot_, Subject::visualization), json_of(state));
+    if (const auto state = states_.next(reading))
+        publisher_.publish(topic_of(state->robot, Subject::visualization), json_of(*state));
 }
 
 std::unique_ptr<ReadingSink> open_publisher(const PublishArguments& arguments,

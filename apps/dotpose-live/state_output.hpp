@@ -27,11 +27,29 @@ class CameraCounter {
     std::uint64_t reported_frames_ = 0;
 };
 
+/// Makes the numbered states of a robot from its readings.
+class StateSource {
+  public:
+    /// `sheets` is the path of the sheet file, whose name is the map of poses in the world. At most
+    /// `max_rate_hz` states per second are made, except after events. 0 means a state per reading.
+    StateSource(std::string robot, const std::string& sheets, double max_rate_hz);
+
+    /// Counts the reading. Returns its state, or none if the state is not due.
+    std::optional<RobotState> next(const Reading& reading);
+
+  private:
+    std::string robot_;
+    std::string world_map_;
+    std::int64_t period_us_;
+    std::int64_t next_us_;
+    std::uint64_t states_ = 0;
+    CameraCounter camera_;
+};
+
 /// Publishes the state of the robot through a broker.
 class StateOutput : public ReadingSink {
   public:
-    /// `sheets` is the path of the sheet file, whose name is the map of poses in the world. Throws
-    /// Error if the broker refuses the connection.
+    /// `sheets` is the path of the sheet file. Throws Error if the broker refuses the connection.
     StateOutput(const PublishArguments& arguments, const std::string& sheets);
 
     void take(const Reading& reading) override;
@@ -41,12 +59,7 @@ class StateOutput : public ReadingSink {
     void finish() override;
 
   private:
-    std::string robot_;
-    std::string world_map_;
-    std::int64_t period_us_;
-    std::int64_t next_us_;
-    std::uint64_t messages_ = 0;
-    CameraCounter camera_;
+    StateSource states_;
     publish::MqttPublisher publisher_;
 };
 

@@ -27,6 +27,7 @@
 #include "follower_arguments.hpp"
 #include "frame_saver.hpp"
 #include "mqtt_arguments.hpp"
+#include "page_calibration_arguments.hpp"
 #include "progress.hpp"
 #include "reading.hpp"
 #include "robot_name.hpp"
@@ -95,6 +96,8 @@ struct WatchArguments {
     DdsArguments dds;
     WebArguments web;
     std::string web_recordings = ".";
+    bool web_edits_sheets = false;
+    PageCalibrationArguments calibration;
     SaveOptions save;
     bool lists_cameras = false;
     bool has_no_window = false;
@@ -114,7 +117,7 @@ RunFiles files_of(const WatchArguments& arguments, const Sources& sources) {
     const OutputOptions& outputs = arguments.outputs;
     RunFiles files;
     sources.add_files(files);
-    arguments.follower.add_files(files);
+    arguments.calibration.add_files(arguments.follower, files);
     files.reads("--mqtt-ca", outputs.publish.mqtt.ca_file);
     files.reads("--web-token-file", arguments.web.token_file());
     files.writes_lines(outputs.lines.out, content_of(outputs.lines.format));
@@ -209,6 +212,23 @@ std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
     return images > 0 ? images : source.length();
 }
 
+/// Follows the robot over the new sheets if the page or another program changed them.
+void use_changed_sheets(Follower& follower, WatchOutputs& outputs) {
+    std::optional<std::vector<SheetEntry>> sheets = outputs.take_changed_sheets();
+    if (!sheets) return;
+    const bool was_in_world = follower.is_in_world();
+    follower.set_sheets(std::move(*sheets));
+    outputs.use_sheets(was_in_world);
+}
+
+/// Locates the next frames with the camera that was calibrated in the page, if there is a new one.
+void use_calibrated_camera(WatchOutputs& outputs, Follower& follower) {
+    const std::optional<Camera> camera = outputs.take_camera();
+    if (!camera) return;
+    follower.set_camera(*camera);
+    tell("a calibration was saved in the page; the next frames are located with it");
+}
+
 /// Follows the robot over all frames. `length` is the number of frames, or 0 if unknown. Returns
 /// the exit status. Throws BadArgument if the arguments do not match the frames.
 int follow(const WatchArguments& arguments, capture::FrameSource& source, std::int64_t length,
@@ -222,12 +242,14 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
         ProgressLine progress("following", arguments.outputs.lines.out);
         while (goes_on && source.next(frame)) {
             if (arguments.is_realtime) pace.wait_for(frame);
+            use_changed_sheets(follower, outputs);
             if (arguments.follower.is_inverted) invert(frame.image);
             const Reading reading = read(frame, follower);
             report_problems(reading, frame.image.view(), follower, source.bits_per_px(), hint,
                             was_reported);
             if (saver) save(*saver, frame.image, reading.record.fix, arguments);
             goes_on = outputs.take(frame, reading, {source.dropped(), source.bits_per_px()});
+            use_calibrated_camera(outputs, follower);
             progress.update(outputs.tally().frames, length);
             if (arguments.frames > 0 && outputs.tally().frames >= arguments.frames) break;
         }
@@ -242,11 +264,17 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
 }
 
 /// Returns the options of the page, or none without --web.
-std::optional<WebOptions> web_options(const WatchArguments& arguments) {
+std::optional<WebOptions> web_options(const WatchArguments& arguments, const Follower& follower) {
     const auto server = arguments.web.options();
     if (!server) return std::nullopt;
-    return WebOptions{*server, arguments.sources.names, arguments.web_recordings,
-                      arguments.outputs.log, arguments.outputs.messages};
+    return WebOptions{
+        *server,
+        arguments.sources.names,
+        arguments.web_recordings,
+        arguments.outputs.log,
+        arguments.outputs.messages,
+        {arguments.follower.sheets, arguments.web_edits_sheets, arguments.follower.camera.camera},
+        arguments.calibration.options(arguments.follower, arguments.sources, follower)};
 }
 
 void print_cameras() {
@@ -275,6 +303,7 @@ int run(WatchArguments& arguments) {
     if (arguments.save.every > 0 && arguments.save.folder.empty()) {
         throw BadArgument("--save-every needs a folder: --save DIR");
     }
+    arguments.calibration.require_page(arguments.web);
     if (arguments.outputs.messages.has_images && arguments.outputs.messages.mcap.empty()) {
         throw BadArgument("--mcap-images needs a file: --mcap FILE");
     }
@@ -283,6 +312,7 @@ int run(WatchArguments& arguments) {
     }
     Sources sources(arguments.sources);
     const RunFiles files = files_of(arguments, sources);
+    arguments.calibration.require_writable_file();
     catch_interrupts();
     ignore_broken_pipes();
     bool is_unreadable = false;
@@ -307,7 +337,7 @@ int run(WatchArguments& arguments) {
     arguments.outputs.messages.robot = arguments.outputs.publish.robot;
     arguments.outputs.messages.camera = arguments.follower.camera.camera;
     arguments.outputs.screen.has_window = !arguments.has_no_window && video::has_display();
-    arguments.outputs.web = web_options(arguments);
+    arguments.outputs.web = web_options(arguments, follower);
     std::optional<FrameSaver> saver;
     if (!arguments.save.folder.empty()) saver.emplace(arguments.save);
     WatchOutputs outputs(arguments.outputs, follower);
@@ -391,6 +421,12 @@ void add_web_options(Command& command, WatchArguments& arguments) {
                     "Folder of the recordings that are started in the page of --web")
         ->type_name("DIR")
         ->capture_default_str();
+    command
+        .add_flag("--web-edit-sheets", arguments.web_edits_sheets,
+                  "The page of --web may change the sheet file, and print and measure sheets")
+        ->needs(command.get_option("--web"))
+        ->needs(command.get_option("--sheets"));
+    arguments.calibration.add_to(command);
 }
 
 void add_track_options(Command& command, TrackOptions& track) {
@@ -442,6 +478,7 @@ void add_watch(Command& app, int& exit_code) {
     add_dds_options(*command, arguments->dds);
     add_web_options(*command, *arguments);
     command->callback([arguments, &exit_code] {
+        arguments->calibration.use_replaced_camera(arguments->follower);
         arguments->follower.fit_to(arguments->sources);
         exit_code = run(*arguments);
     });

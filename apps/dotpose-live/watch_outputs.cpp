@@ -78,6 +78,13 @@ bool WatchOutputs::take(const capture::Frame& frame, const Reading& reading,
     return !screen_.is_on() || show(frame, reading, source.dropped);
 }
 
+std::optional<Camera> WatchOutputs::take_camera() {
+    if (!web_) return std::nullopt;
+    std::optional<Camera> camera = web_->take_camera();
+    if (camera && messages_) messages_->set_camera(*camera);
+    return camera;
+}
+
 /// Writes a line. If the reader has closed the pipe, no more lines are written, but the other
 /// outputs continue.
 void WatchOutputs::write_line(const std::string& line) {
@@ -115,6 +122,17 @@ bool WatchOutputs::show(const capture::Frame& frame, const Reading& reading, std
     scene.lines = panel_text(reading);
     scene.lines.push_back(fmt::format("{:.0f} frames/s, {} dropped", rate(), dropped));
     return screen_.show(scene);
+}
+
+std::optional<std::vector<SheetEntry>> WatchOutputs::take_changed_sheets() {
+    return web_ ? web_->take_changed_sheets() : std::nullopt;
+}
+
+void WatchOutputs::use_sheets(bool was_in_world) {
+    sheets_ = map_sheets(follower_.sheets(), plane_of(follower_));
+    // The earlier path is in another plane.
+    if (was_in_world != follower_.is_in_world()) path_ = PathMemory();
+    if (web_) web_->use_sheets();
 }
 
 double WatchOutputs::rate() const {

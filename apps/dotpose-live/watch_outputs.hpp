@@ -60,8 +60,16 @@ class WatchOutputs {
     /// cannot be written.
     bool take(const capture::Frame& frame, const Reading& reading, const SourceState& source);
 
+    /// Returns the camera that was calibrated in the page since the previous call, or none.
+    std::optional<Camera> take_camera();
+
     /// Writes the map, completes the recording and sends the last states. Throws Error on failure.
     void finish();
+
+    /// Returns the sheets once after the page or another program changed them. None without a page.
+    std::optional<std::vector<SheetEntry>> take_changed_sheets();
+    /// Uses the new sheets of the follower. `was_in_world` is the plane of the earlier frames.
+    void use_sheets(bool was_in_world);
 
     const WatchTally& tally() const { return tally_; }
     /// Returns the mean number of frames per second of real time.

@@ -5,28 +5,17 @@
 
 namespace dotpose::cli {
 
-void WebArguments::add_to(Command& command) {
-    command
-        .add_option("--web", address_,
-                    "Show the run in a browser; without ADDRESS, only on this computer")
-        ->type_name("[ADDRESS:]PORT");
-    command
-        .add_option("--web-token-file", token_file_,
-                    "File with the token that the page of --web requires; an address other than "
-                    "localhost always requires a token, by default a new one")
-        ->type_name("FILE");
-}
-
 std::optional<serve::ServerOptions> WebArguments::options() const {
-    if (address_.empty()) {
-        if (!token_file_.empty()) throw BadArgument("--web-token-file needs --web [ADDRESS:]PORT");
+    if (page_.address.empty()) {
+        if (!page_.token_file.empty())
+            throw BadArgument("--web-token-file needs --web [ADDRESS:]PORT");
         return std::nullopt;
     }
     serve::ServerOptions options;
-    options.address = serve::parse_address(address_);
+    options.address = serve::parse_address(page_.address);
     options.tell = [](const std::string& message) { tell(message); };
-    if (!token_file_.empty()) {
-        options.token = serve::read_token(token_file_);
+    if (!page_.token_file.empty()) {
+        options.token = serve::read_token(page_.token_file);
     } else if (!options.address.is_loopback()) {
         options.token = serve::make_token();
     }

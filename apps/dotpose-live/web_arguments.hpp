@@ -3,27 +3,32 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
-#include "command_line.hpp"
+#include "page_arguments.hpp"
 #include "serve/server.hpp"
 
 namespace dotpose::cli {
 
 class WebArguments {
   public:
+    explicit WebArguments(PageArguments page = {}) : page_(std::move(page)) {}
+
     /// Adds --web and --web-token-file.
-    void add_to(Command& command);
+    void add_to(Command& command) { page_.add_to(command); }
+
+    /// Returns true if --web is given.
+    bool is_wanted() const { return !page_.address.empty(); }
 
     /// Returns the options of the server, without pages, or none without --web. Outside of the
     /// loopback interface, makes a token if no file contains one. Throws BadArgument or Error if
     /// the options are invalid.
     std::optional<serve::ServerOptions> options() const;
 
-    const std::string& token_file() const { return token_file_; }
+    const std::string& token_file() const { return page_.token_file; }
 
   private:
-    std::string address_;
-    std::string token_file_;
+    PageArguments page_;
 };
 
 }  // namespace dotpose::cli

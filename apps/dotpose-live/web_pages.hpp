@@ -1,4 +1,5 @@
-/// Files of the page of `dotpose watch --web`, built from web/ and embedded by CMake.
+/// Files of the pages of `dotpose watch --web` and `dotpose fleet --web`, built from web/ and
+/// embedded by CMake.
 #pragma once
 
 #include <span>
@@ -7,7 +8,8 @@
 
 namespace dotpose::cli {
 
-/// Returns the files, or none if this program was built without the page.
+/// Return the files, or none if this program was built without the pages.
 std::span<const serve::Page> live_pages();
+std::span<const serve::Page> fleet_pages();
 
 }  // namespace dotpose::cli

@@ -31,6 +31,9 @@ class WebRecordings {
     /// Completes the files of a running recording.
     void stop();
 
+    /// Sets the camera of the next recording.
+    void set_camera(const Camera& camera) { messages_.camera = camera; }
+
     bool is_running() const { return running_.has_value(); }
     /// Returns the name of the newest recording, without file extensions; empty if there is none.
     const std::string& name() const { return name_; }

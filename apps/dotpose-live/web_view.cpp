@@ -10,6 +10,8 @@
 
 #include "dotpose/tools/grey_image.hpp"
 #include "image_copy.hpp"
+#include "json_text.hpp"
+#include "metrics_text.hpp"
 #include "reading_fields.hpp"
 #include "serve/frame_message.hpp"
 #include "terminal_text.hpp"
@@ -30,10 +32,6 @@ constexpr int kMaxSmallSide_px = 480;
 /// Maximum number of points of the path that a message contains.
 constexpr std::size_t kMaxPathPoints = 2000;
 
-std::string dump(const json& value) {
-    return value.dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
 /// Removes user and password from the URL of a camera.
 std::string without_user(const std::string& source) {
     const std::size_t scheme = source.find("://");
@@ -45,7 +43,7 @@ std::string without_user(const std::string& source) {
     return source.substr(0, begin) + source.substr(at + 1);
 }
 
-std::string text_of(const std::vector<std::string>& sources) {
+std::string names_of(const std::vector<std::string>& sources) {
     std::string text;
     for (const std::string& source : sources)
         text += (text.empty() ? "" : " ") + without_user(source);
@@ -73,8 +71,14 @@ WebView::WebView(WebOptions options, const Follower& follower)
       history_topic_(server_.add_topic("history", serve::Format::text)),
       path_topic_(server_.add_topic("path", serve::Format::text)),
       advice_(server_.add_topic("advice", serve::Format::text)),
+      sheet_topics_(server_),
+      calibration_(options_.calibration, server_),
       adviser_([this](const std::string& reason) { publish_reason(reason); }) {
+    if (!options_.sheets.path.empty()) {
+        sheet_view_.emplace(options_.sheets, server_, sheet_topics_);
+    }
     server_.start();
+    if (sheet_view_) sheet_view_->start();
     // A pipe has one reader, which is not the page.
     if (!std::filesystem::is_regular_file(options_.log)) options_.log.clear();
     if (!options_.log.empty()) {
@@ -82,6 +86,9 @@ WebView::WebView(WebOptions options, const Follower& follower)
             return serve::Answer{.type = "text/csv", .file = log, .download = "log.csv"};
         });
     }
+    server_.set_route("/metrics", [this] {
+        return serve::Answer{.type = kMetricsType, .body = metrics_.text()};
+    });
     publish_setup();
     tell("the page is at " + server_.url());
 }
@@ -95,11 +102,12 @@ void WebView::publish_setup() {
         sheets.push_back({{"name", sheet.name}, {"corners_mm", std::move(corners)}});
     }
     const json setup = {{"robot", options_.messages.robot},
-                        {"source", text_of(options_.sources)},
+                        {"source", names_of(options_.sources)},
                         {"plane", follower_.is_in_world() ? "world" : "pattern"},
                         {"sheets", std::move(sheets)},
+                        {"has_sheet_file", sheet_view_.has_value()},
                         {"log", options_.log.empty() ? json(nullptr) : json("/log.csv")}};
-    server_.publish(setup_, [text = dump(setup)] { return text; });
+    server_.publish(setup_, [text = text_of(setup)] { return text; });
 }
 
 bool WebView::is_time_for(const serve::Topic& topic, Timer& timer, milliseconds period,
@@ -113,16 +121,33 @@ void WebView::take(const capture::Frame& frame, const Reading& reading, const Wa
                    const PathMemory& path, const SourceState& source) {
     const Clock::time_point now = Clock::now();
     count(reading, now);
+    metrics_.take(reading.record.fix.status, tally, source.dropped, rate_hz_);
     obey();
     recordings_.take(frame, reading);
     offer_recordings();
     const bool has_image = !frame.image.pixels.empty();
     if (has_image) publish_frame(reading, now);
+    if (has_image && sheet_view_) sheet_view_->take(reading, follower_.image());
     if (is_time_for(state_, state_timer_, kStatePeriod, now)) publish_state(reading, tally, source);
     if (is_time_for(history_topic_, history_timer_, kSlowPeriod, now)) publish_history();
     if (is_time_for(path_topic_, path_timer_, kSlowPeriod, now)) publish_path(path);
     if (has_image && is_time_for(advice_, advice_timer_, kAdvicePeriod, now))
         publish_advice(reading, source);
+    calibration_.take(frame, reading, has_image ? image_for_calibration(frame) : ImageView{},
+                      source.bits_per_px);
+}
+
+/// Returns the image that was located or, if it was reduced, the whole frame.
+ImageView WebView::image_for_calibration(const capture::Frame& frame) const {
+    const ImageView located = follower_.image();
+    return located.width_px == frame.image.width_px ? located : frame.image.view();
+}
+
+std::optional<Camera> WebView::take_camera() {
+    std::optional<Camera> camera = calibration_.take_camera();
+    if (camera) recordings_.set_camera(*camera);
+    if (camera && sheet_view_) sheet_view_->set_camera(*camera);
+    return camera;
 }
 
 void WebView::count(const Reading& reading, Clock::time_point now) {
@@ -170,7 +195,7 @@ void WebView::publish_state(const Reading& reading, const WatchTally& tally,
     // The line is the JSON line of the frame, so its keys are those of docs/schema.
     std::string line = json_line(fields(reading, Units::mm));
     server_.publish(state_, [state = std::move(state), line = std::move(line)] {
-        std::string text = dump(state);
+        std::string text = text_of(state);
         text.back() = ',';
         return text + "\"line\":" + line + "}";
     });
@@ -185,7 +210,7 @@ void WebView::publish_history() {
         seconds.push_back({{"second", second.second}, {"frames", std::move(frames)}});
     }
     server_.publish(history_topic_,
-                    [text = dump({{"seconds", std::move(seconds)}})] { return text; });
+                    [text = text_of({{"seconds", std::move(seconds)}})] { return text; });
 }
 
 void WebView::publish_path(const PathMemory& path) {
@@ -201,7 +226,7 @@ void WebView::publish_path(const PathMemory& path) {
         strokes.back().push_back(std::round(marks[i].y * 1000) / 1000);
     }
     server_.publish(path_topic_, [strokes = std::move(strokes), visited = visited_] {
-        return dump({{"strokes_mm", strokes}, {"visited", visited}});
+        return text_of({{"strokes_mm", strokes}, {"visited", visited}});
     });
 }
 
@@ -216,11 +241,26 @@ void WebView::publish_advice(const Reading& reading, const SourceState& source) 
 }
 
 void WebView::publish_reason(const std::string& reason) {
-    server_.publish(advice_, [text = dump({{"reason", reason}})] { return text; });
+    server_.publish(advice_, [text = text_of({{"reason", reason}})] { return text; });
+}
+
+std::optional<std::vector<SheetEntry>> WebView::take_changed_sheets() {
+    return sheet_view_ ? sheet_view_->take_changed() : std::nullopt;
+}
+
+void WebView::use_sheets() {
+    sheets_ = map_sheets(follower_.sheets(), plane_of(follower_));
+    calibration_.set_sheets(follower_.sheets());
+    publish_setup();
 }
 
 void WebView::obey() {
     while (const std::optional<serve::Command> command = server_.take_command()) {
+        if (sheet_view_ && sheet_view_->obey(*command)) continue;
+        if (command->name == "calibrate") {
+            calibration_.obey(*command);
+            continue;
+        }
         const bool* is_on = command->argument<bool>("on");
         if (command->name != "record" || is_on == nullptr) continue;
         if (*is_on) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,8 +16,11 @@
 #include "reading.hpp"
 #include "refusal_history.hpp"
 #include "serve/server.hpp"
+#include "watch_metrics.hpp"
 #include "watch_tally.hpp"
+#include "web_calibration.hpp"
 #include "web_recording.hpp"
+#include "web_sheets.hpp"
 
 namespace dotpose::cli {
 
@@ -26,6 +30,9 @@ struct WebOptions {
     std::string recordings = ".";      ///< folder of the recordings that are started in the page
     std::string log;                   ///< log of the run; empty if there is none
     RobotOutputOptions messages;       ///< robot of the recordings
+    WebSheetsOptions sheets;           ///< without a sheet file, the path is empty
+    /// Calibration in the page; none if the page may not calibrate.
+    std::optional<GuideOptions> calibration;
 };
 
 /// State of the source of the frames.
@@ -43,6 +50,13 @@ class WebView {
     /// Sends a frame to the clients that are ready, and obeys their commands.
     void take(const capture::Frame& frame, const Reading& reading, const WatchTally& tally,
               const PathMemory& path, const SourceState& source);
+
+    /// Returns the sheets once after they were changed.
+    std::optional<std::vector<SheetEntry>> take_changed_sheets();
+    /// Shows the new sheets of the follower.
+    void use_sheets();
+    /// Returns the camera that was calibrated in the page since the previous call, or none.
+    std::optional<Camera> take_camera();
 
     /// Completes a running recording.
     void finish() { recordings_.stop(); }
@@ -64,6 +78,7 @@ class WebView {
     void publish_advice(const Reading& reading, const SourceState& source);
     void obey();
     void offer_recordings();
+    ImageView image_for_calibration(const capture::Frame& frame) const;
     void count(const Reading& reading, Clock::time_point now);
     bool is_time_for(const serve::Topic& topic, Timer& timer, std::chrono::milliseconds period,
                      Clock::time_point now) const;
@@ -73,6 +88,7 @@ class WebView {
     std::vector<draw::MapSheet> sheets_;
     std::set<std::string> visited_;  ///< names of the sheets on which frames were located
     RefusalHistory history_;
+    WatchMetrics metrics_;
     WebRecordings recordings_;
     std::size_t offered_ = 0;  ///< number of files that can be downloaded
 
@@ -95,6 +111,9 @@ class WebView {
     serve::Topic& history_topic_;
     serve::Topic& path_topic_;
     serve::Topic& advice_;
+    SheetTopics sheet_topics_;
+    std::optional<WebSheets> sheet_view_;  ///< none without a sheet file
+    WebCalibration calibration_;
     AdviceWorker adviser_;  ///< destroyed before the server, to which its thread publishes
 };
 

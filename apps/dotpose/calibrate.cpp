@@ -20,6 +20,7 @@
 #include "dotpose/tools/draw.hpp"
 #include "dotpose/tools/flat_field.hpp"
 #include "dotpose/tools/space_pose.hpp"
+#include "kept_camera.hpp"
 #include "live_calibration.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
@@ -156,32 +157,6 @@ void write_result(const std::string& out, const Camera& camera) {
     output.finish();
 }
 
-/// Throws Error if the image sizes of the camera file and of the frames differ.
-void require_size(const Camera& file, const Camera& frames, const std::string& path) {
-    if (file.width_px == frames.width_px && file.height_px == frames.height_px) return;
-    throw Error(
-        fmt::format("{} is for images of {} x {} px, and the frames have {} x {} px: its mount "
-                    "cannot be kept; write another file with -o",
-                    path, file.width_px, file.height_px, frames.width_px, frames.height_px));
-}
-
-/// Copies mount, tip, flat field, readout time, exposure and gain from another calibration of the
-/// same camera. Also copies the standard deviations of mount, tip and readout time.
-void keep_mount(const Camera& from, Camera& to) {
-    to.reference_px = reference_in(to, from);
-    to.theta_offset_rad = from.theta_offset_rad;
-    to.tip = from.tip;
-    to.flat_field = from.flat_field;
-    to.readout_ms = from.readout_ms;
-    to.exposure_us = from.exposure_us;
-    to.gain = from.gain;
-    for (const char* key : {"reference_u_px", "reference_v_px", "theta_offset_rad", "tip_x_mm",
-                            "tip_y_mm", "tip_z_mm", "tip_rest_mm", "readout_ms"}) {
-        const auto sigma = from.sigma.find(key);
-        if (sigma != from.sigma.end()) to.sigma[key] = sigma->second;
-    }
-}
-
 /// Returns the camera for --pivot. Throws BadArgument without a camera, and Error without a focal
 /// length.
 Camera pivot_camera(const std::optional<Camera>& camera, const std::string& path) {
@@ -292,19 +267,11 @@ std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
 }
 
 /// If --camera is not given, reads the camera file that -o replaces. Values that this calibration
-/// does not determine, such as the mount, are kept. Throws Error if the file is not a camera file.
+/// does not determine, such as the mount, are kept.
 void keep_camera_of(const std::string& out, CameraArgument& camera) {
-    std::error_code failed;
-    if (!camera.path.empty() || !std::filesystem::is_regular_file(system::path_of(out), failed) ||
-        std::filesystem::file_size(system::path_of(out), failed) == 0) {
-        return;
-    }
-    try {
-        camera.camera = read_camera(system::path_of(out));
-    } catch (const Error& error) {
-        throw Error(
-            fmt::format("{}; -o replaces only a camera file: name another file", error.what()));
-    }
+    if (!camera.path.empty()) return;
+    camera.camera = replaced_camera("-o", out);
+    if (!camera.camera) return;
     camera.path = out;
     tell(fmt::format("{} exists: values that are not calibrated now, such as the mount, are kept",
                      out));

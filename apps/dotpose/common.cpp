@@ -32,16 +32,6 @@ const std::vector<std::string> kCodes = {"anoto", "libdots", "microdots"};
 
 std::vector<std::string> g_arguments;
 
-std::string quoted_for_shell(const std::string& word) {
-    constexpr const char* kPlain =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_./,:=@%+";
-    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-    std::string quoted = "'";
-    for (const char c : word)
-        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
-}
-
 /// Parses "A,B" with two integers from 0 to limit - 1.
 std::pair<std::uint32_t, std::uint32_t> parse_pair(const std::string& flag, const std::string& text,
                                                    std::uint32_t limit) {
@@ -275,6 +265,16 @@ void remember_command_line(int argc, const char* const* argv) {
 
 std::vector<std::string> given_arguments() {
     return {g_arguments.begin() + 1, g_arguments.end()};
+}
+
+std::string quoted_for_shell(const std::string& word) {
+    constexpr const char* kPlain =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_./,:=@%+";
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+    std::string quoted = "'";
+    for (const char c : word)
+        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
 }
 
 std::string command_line(const std::set<std::string>& without) {

@@ -136,6 +136,9 @@ void remember_command_line(int argc, const char* const* argv);
 /// Returns the arguments of `main` without the name of the program.
 std::vector<std::string> given_arguments();
 
+/// Returns the word in a form that can be pasted into a shell, quoted where necessary.
+std::string quoted_for_shell(const std::string& word);
+
 /// Returns the command line in a form that can be pasted into a shell, quoted where necessary.
 /// Omits the options in `without` and their values.
 std::string command_line(const std::set<std::string>& without = {});

@@ -39,7 +39,8 @@ constexpr const char* kListenExamples =
     "  dotpose listen /dev/ttyUSB0 --baud 115200\n"
     "  dotpose listen packets.bin --format csv -o poses.csv\n"
     "  nc robot 4000 | dotpose listen -\n"
-    "  dotpose listen /dev/ttyUSB0 --sheets hall.json --mqtt mqtt://broker --robot anna\n\n"
+    "  dotpose listen /dev/ttyUSB0 --sheets hall.json --mqtt mqtt://broker --robot anna\n"
+    "  dotpose listen /dev/ttyUSB0 --sheets hall.json --web 8080\n\n"
     "One line per packet. Damaged packets are skipped; their number is printed on standard\n"
     "error at the end. docs/pose-packet.md describes the format.\n";
 
@@ -54,6 +55,7 @@ struct ListenArguments {
     std::string sheets;
     std::string log;
     PublishArguments publish;
+    PageArguments page;
 };
 
 /// Reads bytes from a file, a pipe or a serial device.
@@ -125,14 +127,25 @@ class LossCounter {
     std::uint64_t lost_ = 0;
 };
 
+using Sinks = std::vector<std::unique_ptr<ReadingSink>>;
+
+/// Opens the broker and the page, if they are wanted.
+Sinks open_sinks(const ListenArguments& arguments) {
+    Sinks sinks;
+    sinks.push_back(open_publisher(arguments.publish, arguments.sheets));
+    sinks.push_back(open_page(arguments.page, arguments.publish.robot, arguments.sheets));
+    std::erase(sinks, nullptr);
+    return sinks;
+}
+
 /// Writes the outputs of `listen`.
 class ListenOutputs {
   public:
-    ListenOutputs(const ListenArguments& arguments, std::unique_ptr<ReadingSink> publisher)
+    ListenOutputs(const ListenArguments& arguments, Sinks sinks)
         : arguments_(arguments),
           follower_(sheets_of(arguments), arguments.spacing_mm),
           lines_(arguments.lines.out),
-          publisher_(std::move(publisher)) {
+          sinks_(std::move(sinks)) {
         if (arguments.lines.format == RecordFormat::csv) {
             lines_.write(csv_header(fields_of({})));
         }
@@ -149,12 +162,14 @@ class ListenOutputs {
         const auto reading = follower_.follow(packet);
         if (!reading) return;
         if (log_) log_->write(csv_line(fields(*reading, Units::mm)));
-        if (publisher_) publisher_->take(*reading);
+        for (const auto& sink : sinks_)
+            sink->take(*reading);
     }
 
     void finish(std::uint32_t damaged) {
         losses_.report(damaged);
-        if (publisher_) publisher_->finish();
+        for (const auto& sink : sinks_)
+            sink->finish();
     }
 
   private:
@@ -176,7 +191,7 @@ class ListenOutputs {
     PacketFollower follower_;
     Lines lines_;
     std::optional<Lines> log_;
-    std::unique_ptr<ReadingSink> publisher_;
+    Sinks sinks_;
     LossCounter losses_;
 };
 
@@ -185,13 +200,14 @@ void run(const ListenArguments& arguments) {
     files.reads("", arguments.source);
     files.reads("--sheets", arguments.sheets);
     files.reads("--mqtt-ca", arguments.publish.mqtt.ca_file);
+    files.reads("--web-token-file", arguments.page.token_file);
     files.writes_lines(arguments.lines.out, content_of(arguments.lines.format));
     files.writes("--log", arguments.log, Content::csv);
     // The first step, because this process may be replaced.
-    auto publisher = open_publisher(arguments.publish, arguments.sheets);
+    Sinks sinks = open_sinks(arguments);
     catch_interrupts();
     ByteSource source(arguments);
-    ListenOutputs outputs(arguments, std::move(publisher));
+    ListenOutputs outputs(arguments, std::move(sinks));
     PacketReader reader;
     for (auto bytes = source.next(); !bytes.empty(); bytes = source.next()) {
         for (const std::uint8_t byte : bytes) {
@@ -238,6 +254,7 @@ void add_listen(Command& app, int&) {
                      "Also write all packets as dotpose watch --log does, for dotpose replay")
         ->type_name("FILE");
     arguments->publish.add_to(*command, "Name of the robot on the broker");
+    arguments->page.add_to(*command);
     add_line_options(*command, arguments->lines);
     command->callback([arguments] { run(*arguments); });
 }

@@ -58,6 +58,12 @@ std::unique_ptr<ReadingSink> open_publisher(const PublishArguments& arguments, c
     throw_missing("--mqtt needs", become_live());
 }
 
+std::unique_ptr<ReadingSink> open_page(const PageArguments& arguments, const std::string&,
+                                       const std::string&) {
+    if (arguments.address.empty()) return nullptr;
+    throw_missing("--web needs", become_live());
+}
+
 void add_live(Command& app) {
     add_forwarded(app, "watch", "Follow a camera live, or a video frame by frame");
     add_forwarded(app, "fleet", "Show all robots that publish to a broker");

@@ -18,6 +18,7 @@
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "sheet_entries.hpp"
+#include "sheet_print.hpp"
 #include "system/path.hpp"
 #include "terminal_text.hpp"
 
@@ -72,15 +73,6 @@ PrintFormat format_of(const PrintArguments& arguments) {
 
 bool has_resolution(PrintFormat format) {
     return format != PrintFormat::text && format != PrintFormat::svg;
-}
-
-/// Returns the default margin in mm. The labels and rulers of a PDF need a margin wider than the
-/// unprintable margin of a printer.
-double default_margin_mm(PrintFormat format, const Paper& paper) {
-    constexpr double kWithLabels_mm = 10;
-    constexpr double kSmallPage_mm = 60;
-    const bool is_small = std::min(paper.width_mm, paper.height_mm) < kSmallPage_mm;
-    return format == PrintFormat::pdf && !is_small ? kWithLabels_mm : SheetOptions{}.margin_mm;
 }
 
 /// Returns the title of the document.

@@ -1,11 +1,13 @@
-/// Publishes readings through a broker. Only dotpose-live connects to brokers. `dotpose` and
-/// dotpose-live have different definitions of `open_publisher`.
+/// Publishes readings through a broker or in a page. Only dotpose-live connects to brokers and
+/// serves pages. `dotpose` and dotpose-live have different definitions of the functions that open a
+/// sink.
 #pragma once
 
 #include <memory>
 #include <string>
 
 #include "mqtt_arguments.hpp"
+#include "page_arguments.hpp"
 #include "reading.hpp"
 
 namespace dotpose::cli {
@@ -26,5 +28,10 @@ class ReadingSink {
 /// In `dotpose`, replaces this process with dotpose-live, with the same command line. Throws Error.
 std::unique_ptr<ReadingSink> open_publisher(const PublishArguments& arguments,
                                             const std::string& sheets);
+
+/// Starts the page of `listen` for a robot, or returns null without --web. Otherwise like
+/// `open_publisher`.
+std::unique_ptr<ReadingSink> open_page(const PageArguments& arguments, const std::string& robot,
+                                       const std::string& sheets);
 
 }  // namespace dotpose::cli

@@ -32,7 +32,7 @@ PrintOptions likely_options(const SheetEntry& entry) {
 
 }  // namespace
 
-void reprint_sheet(const SheetEntry& entry, const std::string& out) {
+PrintOptions reprint_options(const SheetEntry& entry) {
     if (entry.print && !entry.print->document.empty()) {
         throw Error(
             fmt::format("the dots of '{}' were laid over the document {}, which the sheet file "
@@ -41,6 +41,11 @@ void reprint_sheet(const SheetEntry& entry, const std::string& out) {
     }
     PrintOptions options = entry.print ? options_of(*entry.print) : likely_options(entry);
     options.first_page = entry.page;
+    return options;
+}
+
+void reprint_sheet(const SheetEntry& entry, const std::string& out) {
+    PrintOptions options = reprint_options(entry);
     if (!entry.print) {
         tell(
             fmt::format("note: the entry of '{}', from an earlier version, does not say how its "

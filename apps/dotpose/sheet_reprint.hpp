@@ -4,13 +4,18 @@
 #include <string>
 
 #include "dotpose/files/sheet_file.hpp"
+#include "dotpose/tools/print.hpp"
 
 namespace dotpose::cli {
 
+/// Returns the options that reprint the page of a sheet. If the entry was written by an earlier
+/// version, returns the most likely options. Throws Error if the dots were printed over a document,
+/// because the entry does not contain the document.
+PrintOptions reprint_options(const SheetEntry& entry);
+
 /// Reprints the page of a sheet from its entry alone. If the entry was written by an earlier
-/// version, reports the print options that it does not contain. Throws Error if the dots were
-/// printed over a document, because the entry does not contain the document. Also throws like
-/// `write_sheet`.
+/// version, reports the print options that it does not contain. Throws like `reprint_options`
+/// and `write_sheet`.
 void reprint_sheet(const SheetEntry& entry, const std::string& out);
 
 }  // namespace dotpose::cli

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
 #include <fmt/core.h>
 
 #include "common.hpp"
+#include "sheet_changes.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
-
-constexpr double kMmPerM = 1000;
 
 /// Formats a number with at most `decimals` decimal places, without trailing zeros. Converts -0 to
 /// 0.
@@ -71,11 +69,11 @@ std::optional<CodeVariant> common_code(const std::string& file,
 }
 
 std::string world_text(const SheetEntry& entry) {
-    if (!entry.world) return "its pose in the world is not known";
+    const std::optional<PagePose> pose = page_pose(entry);
+    if (!pose) return "its pose in the world is not known";
     return fmt::format("its top left corner is at x {} mm, y {} mm in the world, yaw {} deg",
-                       short_number(kMmPerM * entry.world->x_m, 3),
-                       short_number(kMmPerM * entry.world->y_m, 3),
-                       short_number(entry.world->yaw_rad * 180 / std::numbers::pi, 4));
+                       short_number(pose->x_mm, 3), short_number(pose->y_mm, 3),
+                       short_number(pose->yaw_deg, 4));
 }
 
 std::string list_text(const std::vector<SheetEntry>& sheets) {
@@ -85,10 +83,10 @@ std::string list_text(const std::vector<SheetEntry>& sheets) {
     for (const SheetEntry& entry : sheets) {
         std::array<std::string, kColumns> line = {
             printable(entry.name), page_text(entry.sheet), cells_text(entry.sheet), "-", "-", "-"};
-        if (entry.world) {
-            line[3] = short_number(kMmPerM * entry.world->x_m, 3);
-            line[4] = short_number(kMmPerM * entry.world->y_m, 3);
-            line[5] = short_number(entry.world->yaw_rad * 180 / std::numbers::pi, 4);
+        if (const std::optional<PagePose> pose = page_pose(entry)) {
+            line[3] = short_number(pose->x_mm, 3);
+            line[4] = short_number(pose->y_mm, 3);
+            line[5] = short_number(pose->yaw_deg, 4);
         }
         if (entry.is_reserved) line[5] += "  reserved";
         lines.push_back(line);

@@ -1,7 +1,6 @@
 // `dotpose sheets`: shows and modifies a sheet file.
 #include <filesystem>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 
@@ -15,6 +14,7 @@
 #include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
+#include "sheet_changes.hpp"
 #include "sheet_reprint.hpp"
 #include "sheet_text.hpp"
 #include "system/path.hpp"
@@ -29,6 +29,7 @@ constexpr const char* kSheetsExamples =
     "  dotpose sheets show table --sheets lab.json\n"
     "  dotpose sheets place table --x 1250 --y -500 --yaw 90\n"
     "  dotpose sheets scale table --measured 48.5 --of 50\n"
+    "  dotpose sheets offset table --right 9.6 --below 10.4\n"
     "  dotpose sheets reprint table -o table.pdf\n"
     "  dotpose sheets map -o map.svg\n\n"
     "dotpose sheets COMMAND --help has the options of each.\n";
@@ -48,7 +49,11 @@ constexpr const char* kScale =
     "  dotpose sheets scale table --measured 48.5 --of 50\n"
     "  dotpose sheets scale table --measured 199.2 --of 200 --along y\n";
 
-constexpr double kMmPerM = 1000;
+constexpr const char* kOffset =
+    "Measure from the left and the upper edge of the page to the centre of the first column and\n"
+    "the first row of dots. 'dotpose sheets show' prints the nominal distances.\n\n"
+    "Example:\n"
+    "  dotpose sheets offset table --right 9.6 --below 10.4\n";
 
 struct SheetsArguments {
     std::string sheets = "sheets.json";
@@ -60,9 +65,9 @@ struct SheetsArguments {
     std::optional<double> y_mm;
     std::optional<double> yaw_deg;
     bool is_unknown = false;
-    double measured_mm = 0;
-    double nominal_mm = 0;
-    std::string along = "both";
+    MeasuredLength length;
+    double right_mm = 0;
+    double below_mm = 0;
 
     SheetFileWait wait() const { return {wait_s, tell, interrupted}; }
 };
@@ -97,25 +102,30 @@ void place(const SheetsArguments& arguments) {
     if (!has_pose && !arguments.is_unknown) {
         throw BadArgument("a place needs all of --x, --y and --yaw, or --unknown alone");
     }
+    std::optional<PagePose> pose;
+    if (has_pose) pose = {*arguments.x_mm, *arguments.y_mm, *arguments.yaw_deg};
     change_sheet(arguments, [&](SheetFile& file, SheetEntry entry) {
-        entry.world.reset();
-        if (has_pose) {
-            entry.world = {*arguments.x_mm / kMmPerM, *arguments.y_mm / kMmPerM,
-                           *arguments.yaw_deg * std::numbers::pi / 180};
-        }
+        entry = placed(entry, pose);
         file.replace(entry);
         fmt::print("{}: {}\n", printable(entry.name), world_text(entry));
     });
 }
 
 void scale(const SheetsArguments& arguments) {
-    const double scale = arguments.measured_mm / arguments.nominal_mm;
     change_sheet(arguments, [&](SheetFile& file, SheetEntry entry) {
-        if (arguments.along != "y") entry.print_scale_x = scale;
-        if (arguments.along != "x") entry.print_scale_y = scale;
+        entry = scaled(entry, arguments.length);
         file.replace(entry);
         fmt::print("{}: print scale x {:.6g}, y {:.6g}\n", printable(entry.name),
                    entry.print_scale_x, entry.print_scale_y);
+    });
+}
+
+void offset(const SheetsArguments& arguments) {
+    change_sheet(arguments, [&](SheetFile& file, SheetEntry entry) {
+        entry = with_offset(entry, arguments.right_mm, arguments.below_mm);
+        file.replace(entry);
+        fmt::print("{}: first intersection {:g} mm right of and {:g} mm below the corner\n",
+                   printable(entry.name), entry.sheet.origin_x_mm, entry.sheet.origin_y_mm);
     });
 }
 
@@ -207,12 +217,24 @@ void add_scale(Command& sheets, const Arguments& arguments) {
             ->required()
             ->check(Range(1e-3, 1e6));
     };
-    add("--measured", arguments->measured_mm, "Length measured on the page");
-    add("--of", arguments->nominal_mm, "Length that it should be");
-    command.add_option("--along", arguments->along, "Direction: x, y or both")
+    add("--measured", arguments->length.measured_mm, "Length measured on the page");
+    add("--of", arguments->length.nominal_mm, "Length that it should be");
+    command.add_option("--along", arguments->length.along, "Direction: x, y or both")
         ->type_name("NAME")
         ->capture_default_str()
-        ->check(one_of({"x", "y", "both"}));
+        ->check(one_of(kDirections));
+}
+
+void add_offset(Command& sheets, const Arguments& arguments) {
+    Command& command = add_command_of_one(sheets, arguments, "offset",
+                                          "Enter where the dots are on the printed page", offset);
+    command.footer(kOffset);
+    add_wait_option(command, arguments);
+    const auto add = [&](const char* flag, double& distance_mm, const char* help) {
+        command.add_option(flag, distance_mm, help)->type_name("MM")->required();
+    };
+    add("--right", arguments->right_mm, "Distance of the first intersection from the left edge");
+    add("--below", arguments->below_mm, "Distance of the first intersection from the upper edge");
 }
 
 void add_place(Command& sheets, const Arguments& arguments) {
@@ -248,6 +270,7 @@ void add_sheets(Command& app, int& /*exit_code*/) {
         });
     add_place(*command, arguments);
     add_scale(*command, arguments);
+    add_offset(*command, arguments);
     Command& renaming = add_command_of_one(*command, arguments, "rename", "Rename a sheet", rename);
     renaming.add_option("new_name", arguments->new_name, "New name")->type_name("NAME")->required();
     add_wait_option(renaming, arguments);

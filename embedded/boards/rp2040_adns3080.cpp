@@ -2,11 +2,11 @@
 // optical mouse with 30 x 30 px, which is read by SPI. The port was compiled against replacements
 // of the SDK, but never run.
 //
-// The sensor sees about 5 x 5 cells. It is located on known sheets only, and rarely in one frame.
-// Add `locator_.set_known(kSheets, OtherSheets::impossible)` to PoseSender, with the regions of
-// your sheets as constants. Build with -DDOTPOSE_FRAME_WIDTH_PX=36 -DDOTPOSE_FRAME_HEIGHT_PX=36. A
-// lens must show the pattern at 5 to 6 px per spacing (docs/hardware.md). Link with pico_stdlib
-// hardware_spi.
+// The sensor sees about 5 x 5 cells. This is sufficient for a fix on known sheets only, and a
+// single frame is rarely sufficient. Add `locator_.set_known(kSheets, OtherSheets::impossible)` to
+// PoseSender, with the regions of your sheets as constants. Build with -DDOTPOSE_FRAME_WIDTH_PX=36
+// -DDOTPOSE_FRAME_HEIGHT_PX=36. A lens must show the pattern at 5 to 6 px per spacing
+// (docs/hardware.md). Link with pico_stdlib hardware_spi.
 //
 //     ADNS-3080   SCLK   MOSI   MISO   NCS   RESET   NPD   line   TX
 //     Pico        GP18   GP19   GP16   GP17  GP20    3V3          GP0

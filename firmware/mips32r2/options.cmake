@@ -10,7 +10,7 @@ compile_core(-Os code/basis.cpp code/decode.cpp code/encode.cpp device/locate.cp
              core/pose/subgrid.cpp device/tracked_pose.cpp)
 # -Os saves 32 bytes in each of these short functions.
 compile_core(-Os device/near_dot.cpp device/coded_cells.cpp)
-# In this file, -Os saves 128 bytes and costs 1,200 instructions per tracked frame.
+# In this file, -Os saves 128 bytes, but adds 1,200 instructions per tracked frame.
 compile_core(-Os code/rolls.cpp)
 # With -fivopts, GCC would use one pointer per array instead of one index for all arrays. This would take 48
 # bytes more.

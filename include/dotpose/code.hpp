@@ -2,10 +2,10 @@
 /// symbols.
 ///
 /// The code follows section II-A of the paper. Every column contains the same cyclic sequence,
-/// called *main*, read downwards. The *roll* of a column is the index at which its sequence starts.
-/// Rolls of adjacent columns differ by 5 to 58, modulo 63. Each difference has four digits, taken
-/// from the cyclic sequences a1 to a4. The lengths of these sequences are coprime, so consecutive
-/// differences determine the position of a column. Rows encode y in the same way.
+/// called *main*, read downwards. The *roll* of a column is the index in *main* of the bit in row
+/// 0. Rolls of adjacent columns differ by 5 to 58, modulo 63. Each difference has four digits,
+/// taken from the cyclic sequences a1 to a4. The lengths of these sequences are coprime, so
+/// consecutive differences determine the position of a column. Rows encode y in the same way.
 ///
 /// Coordinates: x points right and y points DOWN, as the printed page is read. All functions are
 /// pure and thread-safe, and do not allocate.
@@ -21,8 +21,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Positions per axis: 236 * 233 * 31 * 241. The four digit sequences repeat together after this
-/// number of positions.
+/// Positions per axis: 236 * 233 * 31 * 241. The combination of places in the four sequences of
+/// digits repeats after this number of positions.
 inline constexpr std::uint32_t kPositionsPerAxis = 410'815'348;
 /// Length of the main sequence. Also the number of sections per axis.
 inline constexpr int kSections = 63;
@@ -131,8 +131,7 @@ Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noe
 Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexcept;
 
 /// Computes the position of the first column (or row) from 6 to 32 consecutive rolls. Each roll
-/// must be in [0, 63). All rolls must be counted from the same row (or column). Errors: as for
-/// `decode`.
+/// must be in [0, 63). All rolls must refer to the same row (or column). Errors: as for `decode`.
 Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 

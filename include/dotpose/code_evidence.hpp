@@ -82,8 +82,8 @@ struct CodeReading {
     CodeEvidence evidence;                  ///< evidence including this frame
     /// True if a place in another code variant also explains the frame. The members below contain
     /// this place. `Locator::locate_in_any_code` sets the flag only with the status ambiguous_code.
-    /// `Locator::locate_in_code` lists its own cases. If the fix is ok, its `p_wrong_log2` excludes
-    /// the odds of this place.
+    /// The documentation of `Locator::locate_in_code` lists the cases in which that function sets
+    /// the flag. If the fix is ok, its `p_wrong_log2` excludes the odds of this place.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;
     Cell other_cell{};  ///< `Fix::cell` for the other place; fractions and angle are the same as in

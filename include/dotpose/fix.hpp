@@ -19,9 +19,9 @@ namespace dotpose {
 /// src/device.
 enum class Attempt : std::uint8_t {
     tracked,  ///< dots were measured where a prediction expected them
-    first,    ///< without a prediction, from patches of the image
-    second,   ///< on the filtered image, after the first attempt failed
-    device,   ///< in integer arithmetic, as on a microcontroller
+    first,    ///< the grid was found in patches of the image, without a prediction
+    second,   ///< the grid was found in the filtered image
+    device,   ///< the frame was located in integer arithmetic, as on a microcontroller
 };
 /// Returns the identifier, such as "tracked".
 const char* name(Attempt attempt) noexcept;

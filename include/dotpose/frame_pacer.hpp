@@ -22,7 +22,7 @@ namespace dotpose {
 
 /// Criteria for movement, and frame periods.
 struct PacerOptions {
-    /// Time without movement after which the device counts as stationary. A longer time costs
+    /// Time without movement after which the device counts as stationary. A longer time uses more
     /// energy. With a shorter time, brief stops count as stationary and delay the detection of the
     /// next movement.
     std::int64_t stationary_after_us = 5'000'000;

@@ -30,8 +30,8 @@ struct PlaneFromImage {
     FixedVec at_centre_q16;     ///< plane point at `centre`, in 2^-16 spacings
     FixedVec du_q24;            ///< spacings per px to the right, times 2^24
     FixedVec dv_q24;            ///< spacings per px down, times 2^24
-    FixedVec perspective_q30;   ///< per px, times 2^30
-    std::int32_t lens_q40 = 0;  ///< per px^2, times 2^40
+    FixedVec perspective_q30;   ///< in 1/px, times 2^30
+    std::int32_t lens_q40 = 0;  ///< in 1/px^2, times 2^40
 };
 
 }  // namespace dotpose

@@ -140,8 +140,8 @@ class Locator : public RowLocator {
     /// position from this image alone is not certain, reads the image together with the previous
     /// images of the series. Views that are too small or too dirty can therefore become certain as
     /// the camera moves. `Fix::frames` is the number of images read together. The series may
-    /// include images without a pattern. It ends if another function locates an image. If the
-    /// options do not contain the spacing of the printed grid, or if the motion is not usable,
+    /// include images without a pattern. The series ends if another function locates an image. If
+    /// the options do not contain the spacing of the printed grid, or if the motion is not usable,
     /// locates the image alone.
     Fix locate(const ImageView& image, const MeasuredMotion& since_last);
 
@@ -220,8 +220,8 @@ class DeviceLocator : public RowLocator {
     /// Sets the regions of the code plane on the printed sheets that may be in view, as
     /// Locator::set_known does. Searches the regions first, and the other parts of the plane only
     /// if other sheets are possible. Regions in a code other than `options().code` have no effect.
-    /// A search needs no memory. Its time is proportional to the columns and rows of the regions,
-    /// so the regions should be few.
+    /// A search needs no additional memory. Its time is proportional to the number of columns and
+    /// rows of all regions, so there should be few regions.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 

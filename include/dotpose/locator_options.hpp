@@ -90,7 +90,7 @@ inline const char* bad_option(const LocatorOptions& options) {
     return nullptr;
 }
 
-// Double precision is only in headers. The object code of the core contains none.
+// Double precision is used only in headers, not in the object code of the core.
 inline LocatorOptions::operator DeviceOptions() const {
     DeviceOptions fixed;
     if (bad_option(*this) != nullptr) {

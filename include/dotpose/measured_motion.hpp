@@ -16,9 +16,9 @@ struct MeasuredMotion {
     float right_mm = 0;  ///< displacement along the image x axis
     float down_mm = 0;   ///< displacement along the image y axis
     float turn_rad = 0;  ///< change in the fix's angle, clockwise as seen on the paper
-    /// Standard deviations for the displacement along each axis and for the rotation. The errors
-    /// are assumed to be independent and normally distributed. Values that are too small lead to
-    /// wrong fixes.
+    /// Standard deviations of the displacement along each axis, and of the rotation. The errors are
+    /// assumed to be independent and normally distributed. Values that are too small lead to wrong
+    /// fixes.
     float sigma_mm = 0;
     float sigma_rad = 0;
 

@@ -18,7 +18,7 @@ struct DeviceWorkspace;
 struct DesktopWorkspace;
 }  // namespace core
 
-/// Base class of the memories of a DeviceLocator.
+/// Base class of DeviceMemoryFor, independent of the frame size.
 class AnyDeviceMemory {
   public:
     AnyDeviceMemory(const AnyDeviceMemory&) = delete;

@@ -71,7 +71,8 @@ struct TrackOptions {
     float angular_acceleration_rad_s2 = 6;
 
     /// Maximum possible acceleration, for example in a collision. If this acceleration does not
-    /// explain a sighting, the tracker accepts it only after further sightings have confirmed it.
+    /// explain a sighting, the tracker accepts the sighting only after further sightings have
+    /// confirmed it.
     float max_acceleration_mm_s2 = 10'000;
     float max_angular_acceleration_rad_s2 = 200;
     /// Maximum speed. Limits how far the robot can have moved since its last sighting.
@@ -98,9 +99,9 @@ struct TrackOptions {
     float still_rad = 0.02F;
     std::int64_t stationary_after_us = 500'000;
 
-    /// Standard deviations of printing errors. Their squares are added to the covariance of each
-    /// sighting. Printing errors at one place are the same in every frame, so they do not average
-    /// out.
+    /// Standard deviations of printing errors. The squares of these values are added to the
+    /// covariance of each sighting. Printing errors at one place are the same in every frame, so
+    /// they do not average out.
     float min_sigma_mm = 0.0002F;
     float min_sigma_rad = 0.00002F;
 

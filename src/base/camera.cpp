@@ -1,4 +1,5 @@
-// The geometry of a camera, and its use in `locate`.
+// Implements the geometry of a camera: checks, lens distortion, scale on the paper, crops, and the
+// options of `locate`.
 #include "dotpose/files/camera.hpp"
 
 #include <algorithm>

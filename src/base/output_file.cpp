@@ -27,8 +27,8 @@ OutputFile::OutputFile(const fs::path& target) : target_(without_links(target)) 
     if (fs::exists(status) && !fs::is_regular_file(status)) {
         throw Error(fmt::format("cannot write {}: it is not a regular file", target_.string()));
     }
-    // A rename does not require write permission for the target. This check protects a read-only
-    // target.
+    // Renaming a file onto the target does not require write permission for the target. A read-only
+    // target is therefore rejected here.
     if (fs::exists(status) && !system::is_writable(target_)) {
         throw_system("write", target_, errno);
     }

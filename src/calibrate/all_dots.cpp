@@ -10,7 +10,8 @@ namespace {
 
 /// Maximum distance of a dot from its expected place: kReach_sigmas standard deviations of the fit,
 /// clamped to [kMinReach, kMaxReach] spacings. The limit exceeds the errors of print and fit. The
-/// next fit rejects outliers. All other dots are at least 2/3 of a spacing from the expected place.
+/// fit that follows rejects outliers. All other dots are at least 2/3 of a spacing from the
+/// expected place.
 constexpr double kReach_sigmas = 6;
 constexpr double kMinReach = 0.1;
 constexpr double kMaxReach = 1.0 / 3;

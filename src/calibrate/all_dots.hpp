@@ -13,8 +13,8 @@ namespace dotpose::calibrate {
 ///
 /// `locate` reads only the dots that a pose needs. In the corners of the image of a slightly tilted
 /// camera, the plane of `locate` fits badly, and `locate` omits the dots with large residuals. The
-/// perspective fitted to the remaining dots is too small. Without this function, the error at a
-/// tilt of 8 degrees is three standard deviations (unit test
+/// perspective fitted to the remaining dots is too small. Without this function, the focal length
+/// computed at a tilt of 8 degrees is wrong by three standard deviations (unit test
 /// ASlightTiltTellsAnUnbiasedFocalLength).
 void take_all_dots(const LensFit& fit, const FitSetting& setting, CodeVariant code,
                    std::vector<LocatedFrame>& frames);

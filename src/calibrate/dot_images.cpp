@@ -24,16 +24,16 @@ constexpr double kFitRadius = 0.36;
 /// Maximum distance of a dot from its expected place, in spacings.
 constexpr double kMaxOffset = 0.25;
 constexpr int kPasses = 4;
-/// First value of the variance due to blur and pixels, in px^2. The two constants below are the
-/// range of its estimate.
+/// Initial value of the variance due to blur and pixels, in px^2. The two constants below are the
+/// limits of the fitted value.
 constexpr double kUsualBlur_px2 = 0.5;
 constexpr double kMinBlur_px2 = 0.1;
 constexpr double kMaxBlur_px2 = 4;
 /// Minimum contrast of a dot relative to the median of all dots.
 constexpr double kMinContrast = 0.4;
 
-/// The image of a dot: level - contrast * exp(-d^T shape^-1 d / 2), where d is the distance from
-/// the centre.
+/// Model of the image of a dot: level - contrast * exp(-d^T shape^-1 d / 2). d is the vector from
+/// the centre, in px. shape is the covariance of the dot and the blur in the image (see sums_of).
 struct DotImage {
     double contrast = 0;
     double level = 0;
@@ -42,8 +42,9 @@ struct DotImage {
     bool is_valid = false;
 };
 
-/// Light on the paper: a polynomial of second degree in the image position, fitted to the levels of
-/// the dots. Without this polynomial, the fitted centres would be biased towards the darker side.
+/// Light on the paper: a polynomial of second degree in the image position, fitted to the paper
+/// levels around the dots. Without this polynomial, the fitted centres would be biased towards the
+/// darker side.
 class Light {
   public:
     explicit Light(const ImageView& image)

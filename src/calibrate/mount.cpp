@@ -27,8 +27,9 @@ using Eigen::Vector2d;
 constexpr int kMinSpinFrames = 3;
 constexpr double kMinTurn_rad = std::numbers::pi / 6;
 constexpr double kMinDrive_mm = 5;
-/// Limits of a straight drive: the maximum angle by which the robot turns, and by which its path
-/// deviates from the mean line.
+/// Maximum angle by which the robot may turn during a straight drive. Also the maximum angle
+/// between the mean line of the drive and the direction of a place, as seen from the middle of the
+/// drive.
 constexpr double kMaxSwerve_rad = std::numbers::pi / 36;
 /// Probability that noise is mistaken for a drift if the robot stays on the spot.
 constexpr double kFalseDrift = 1e-3;

@@ -158,10 +158,10 @@ class Meter {
         return offset;
     }
 
-    /// Returns true if the border of a cell is not blank. The darkness of the border then differs
-    /// from paper by more than `min_darkness` in either direction. A border is lighter than
-    /// `paper_` if grey print fills most of the tile. The middles of the four sides are not
-    /// checked, because swollen dots may merge there.
+    /// Returns true if the border of a cell is not blank, that is, if its darkness differs from the
+    /// paper by more than `min_darkness` in either direction. A border is lighter than `paper_` if
+    /// grey print fills most of the tile. The middles of the four sides are not checked, because
+    /// swollen dots may merge there.
     bool is_covered(const Vector2d& intersection_px, double min_darkness) const {
         const Vector2d x = map_.px_per_cell.col(0);
         const Vector2d y = map_.px_per_cell.col(1);

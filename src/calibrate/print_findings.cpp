@@ -16,7 +16,8 @@ constexpr double kDegree_rad = std::numbers::pi / 180;
 
 /// Limits of the deviation of the mean scale from 1. Deviations above kNotableScale are reported. A
 /// deviation above kDriverScale is attributed to the printer driver, because printers and paper
-/// cause smaller deviations.
+/// cause smaller deviations. If the scales along the two axes differ by more than kUnevenScale, the
+/// difference is reported.
 constexpr double kDriverScale = 0.015;
 constexpr double kNotableScale = 0.002;
 constexpr double kUnevenScale = 0.002;

@@ -12,9 +12,9 @@ using Eigen::Vector2d;
 /// photo. A camera held straight by hand is tilted by about a degree. Such a tilt changes lengths
 /// by 1 %. Scanners change lengths by less than 0.1 %.
 constexpr double kMinSign = 0.003;
-/// Ratio of the residuals of two fits, of a camera and of a flat page, below which an image may be
-/// a photo. Uneven motion of a scanner's carriage displaces dots along one axis only, so the fit of
-/// a camera hardly reduces the residual.
+/// Residual of the fit of a camera, divided by the residual of the fit of a flat page, below which
+/// an image may be a photo. Uneven motion of a scanner's carriage displaces dots along one axis
+/// only, so the fit of a camera hardly reduces the residual.
 constexpr double kMaxResidual = 0.8;
 
 /// Plane of the paper as seen by a camera with a given focal length and principal point.

@@ -19,8 +19,8 @@ constexpr double kBeyondPage_mm = 400;
 /// reliable.
 constexpr std::size_t kMinViewDots = 30;
 constexpr int kFieldsPerSide = 8;
-/// Minimum number of fields, out of 64, that must show dots of located sheets. At this number, the
-/// search locates no more parts of the frame. The number of dots in a fix is not a suitable
+/// Number of fields (SheetView::fields), out of 64, with dots of located sheets at which the search
+/// stops locating further parts of the frame. The number of dots in a fix is not a suitable
 /// criterion, because a fix includes only one sheet.
 constexpr int kNearlyAllFields = 58;
 
@@ -206,7 +206,8 @@ Camera SeamLocator::camera_of(const GreyImage& image, const Part& part) const {
         camera = *camera_;
         if (camera.width_px != image.width_px || camera.height_px != image.height_px) {
             DeviceOptions unused;
-            use_camera(camera, image.width_px, image.height_px, unused);  // throws the error
+            // Throws the error for a wrong image size.
+            use_camera(camera, image.width_px, image.height_px, unused);
         }
     } else {
         camera.centre_px = {(image.width_px - 1) / 2.0, (image.height_px - 1) / 2.0};

@@ -205,9 +205,8 @@ PlanePose SheetGraph::image_centre(const SheetView& view) const {
                                       print_scale(view.sheet));
 }
 
-/// Sets initial poses of the sheets by a breadth-first search from the fixed sheet. Among the
-/// frames that show two sheets, the search uses the frame with the most dots on the sheet with
-/// fewer dots.
+/// Sets initial poses of the sheets by a breadth-first search from the fixed sheet. For two sheets,
+/// the search uses the frame in which the sheet with fewer dots has the most dots.
 void SheetGraph::spread_from_fixed() {
     const auto start = [this](std::size_t sheet, const PlanePose& pose) {
         const AxisScale scale = sheets_[sheet].print_scale();

@@ -19,7 +19,8 @@ std::uint32_t position_at(const Basis& basis, const std::array<std::uint32_t, 4>
     constexpr std::uint32_t kM1 = 236, kM2 = 233, kM3 = 31, kM4 = 241;
     static_assert(kM1 * kM2 * kM3 * kM4 == kPositionsPerAxis);
     // Returns mixed-radix digit n: (places[n] - so_far) * `inverse`, modulo the length of sequence
-    // n. `inverse` must be the inverse of the product of the preceding lengths.
+    // n. `so_far` is the position modulo the product of the preceding lengths, and `inverse` is the
+    // inverse of this product.
     const auto digit = [&](std::size_t n, std::uint32_t so_far, std::uint32_t inverse) {
         const Secondary& a = basis[n];
         return a.place_of((places[n] + a.length - a.place_of(so_far)) * inverse);

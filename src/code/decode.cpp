@@ -22,8 +22,8 @@ struct Places {
     int count = 0;
 };
 
-/// Returns true if a.digits[place + i] is digit `digit` of deltas[i] for all i. Indices wrap
-/// around.
+/// Returns true if a.digits[place + i] equals digit `digit` of deltas[i] for all i. Indices into
+/// a.digits wrap around.
 bool matches_at(const code::Secondary& a, std::size_t digit, std::span<const std::uint8_t> deltas,
                 std::uint32_t place) {
     for (const std::uint8_t d : deltas) {
@@ -41,8 +41,8 @@ Places find(const code::Secondary& a, std::size_t digit, std::span<const std::ui
     Places places;
     if (first == code::kAbsent) return places;
     if (!a.has_twins) {
-        // Compares only the digits after the first kOrder digits, because the first kOrder digits
-        // occur only at `first`.
+        // The first kOrder digits occur only at `first`, so only the remaining digits have to be
+        // compared.
         std::uint32_t next = first + std::uint32_t{code::kOrder};
         if (next >= a.length) next -= a.length;
         return {first, matches_at(a, digit, deltas.subspan(code::kOrder), next) ? 1 : 0};

@@ -1,4 +1,4 @@
-// Encoding: computes the symbol at any position in constant time (paper, section II-A).
+// Encoding: computes the symbol at any place in constant time (paper, section II-A).
 #include "code/basis.hpp"
 #include "dotpose/code.hpp"
 
@@ -18,8 +18,9 @@ int roll(CodeVariant code, std::uint32_t p) noexcept {
     //     roll = 5 p + sum over a1 to a4 of (periods * rolls[length] + rolls[place])
     //     periods = (p - place) / length
     //
-    // `period_roll` is rolls[length] times the inverse of `length` modulo 63. Adding 4 * 63 keeps
-    // `lines - place` positive.
+    // To avoid the division, (p - place) is multiplied by `period_roll`, which is rolls[length]
+    // times the inverse of `length` modulo 63. `lines` is equal to p modulo 63. Its term 4 * 63
+    // keeps `lines - place` positive.
     const std::uint32_t lines = code::modulo_sections(p) + 4 * kSections;
     std::uint32_t sum = code::kMinDelta * lines;
     for (const code::Secondary& a : code::basis(code)) {
@@ -65,10 +66,10 @@ struct AxisPlace {
         place.position = static_cast<std::uint32_t>(target);
         return place;
     }
-    // The target is outside [0, L), where L = kPositionsPerAxis. Along x, the columns p and p + L
-    // differ by roll(L), so the column section changes by roll(L). The rows begin L cells later, so
-    // the row section changes by L modulo 63. Along y, the same holds with columns and rows
-    // exchanged.
+    // The target is outside [0, L), where L = kPositionsPerAxis. Along x, the rolls of columns p
+    // and p + L differ by roll(L), so the column section changes by roll(L). Each row continues L
+    // cells farther along the main sequence, so the row section changes by L modulo 63. Along y,
+    // the same holds with columns and rows exchanged.
     const auto shifted = [&](int section, int by) {
         const int sum = section + (is_before ? kSections - by : by);
         return static_cast<std::uint8_t>(sum % kSections);

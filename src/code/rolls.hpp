@@ -1,6 +1,6 @@
 // Rolls: computes the rolls of columns and rows. The roll of a line is the index in the main
-// sequence at which its bits begin. For adjacent lines, `follow_rolls` is faster than one call per
-// line.
+// sequence at which its bits begin. For adjacent lines, `follow_rolls` is faster than a call of
+// `roll_from` for each line.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ int roll_from(CodeVariant code, std::uint32_t position, int section, std::uint32
 int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, std::uint32_t place);
 
 /// Sets rolls[i] to the roll of line `position` + i. `first_roll` is the roll of line `position`.
-/// Lines beyond the last position are allowed, because the roll differences are periodic.
+/// The range may extend beyond the last position, because the roll differences are periodic.
 void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls);
 

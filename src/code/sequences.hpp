@@ -1,6 +1,6 @@
 // Sequences: the main sequence and the secondary sequences (paper, section II-A; US patent
-// 6,667,695). Proofs at compile time check the properties that decoding needs.
-// docs/position-code.md describes the variants of a4.
+// 6,667,695). Static assertions check the properties that decoding needs. docs/position-code.md
+// describes the variants of a4.
 #pragma once
 
 #include <array>

@@ -18,9 +18,10 @@ inline constexpr std::uint8_t kAbsent = 255;
 /// length occur twice (see `Secondary::has_twins`).
 inline constexpr int kOrder = 5;
 
-/// Numbers of table entries beyond the end of a sequence, for loops over adjacent lines that do not
-/// wrap around. kLinesAhead entries are for a view whose first line is at the last place.
-/// kVectorAhead further entries are for a vector load from the last line of the view.
+/// Numbers of table entries beyond the end of a sequence. With these entries, loops over adjacent
+/// lines do not have to wrap around. A view whose first line is at the last place uses kLinesAhead
+/// entries. A vector load that starts at the last line of the view uses kVectorAhead further
+/// entries.
 inline constexpr std::size_t kLinesAhead = 64;
 inline constexpr std::size_t kVectorAhead = 32;
 
@@ -37,7 +38,7 @@ constexpr std::uint32_t modulo_sections(std::uint32_t n) {
     return short_modulo_sections((n & 63) + (n >> 6));
 }
 
-/// A secondary sequence with its tables. All lengths and bases use this type.
+/// A secondary sequence with its tables. The type is the same for all lengths and bases.
 struct Secondary {
     const std::uint8_t* digits;  ///< `length` digits
     /// Contribution to the roll, by place: the sum of all weighted digits before the place, modulo
@@ -178,7 +179,7 @@ constexpr unsigned digit_of_delta(std::size_t delta, std::size_t n) {
     return kDigitsOfDelta[delta - kMinDelta] >> 2 * n & 3U;
 }
 
-/// The main sequence, repeated to provide 256 bits from any index.
+/// The main sequence, repeated to provide the 256 bits that start at any index below 63.
 inline constexpr auto kMainRepeated = [] {
     std::array<std::uint8_t, kSections + 256> bits{};
     for (std::size_t i = 0; i < bits.size(); ++i)
@@ -186,7 +187,7 @@ inline constexpr auto kMainRepeated = [] {
     return bits;
 }();
 
-/// 32 bits of the main sequence, from each index. The first bit is the lowest bit.
+/// The 32 bits of the main sequence that start at each index. The first bit is the lowest bit.
 inline constexpr auto kMainWords = [] {
     std::array<std::uint32_t, kSections> words{};
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -196,7 +197,7 @@ inline constexpr auto kMainWords = [] {
     return words;
 }();
 
-/// Returns 64 bits of the main sequence, from `index`. The first bit is the lowest bit.
+/// Returns the 64 bits of the main sequence that start at `index`. The first bit is the lowest bit.
 constexpr std::uint64_t main_bits(std::size_t index) {
     const std::size_t next = index + 32;
     return kMainWords[index] | std::uint64_t{kMainWords[next < kSections ? next : next - kSections]}

@@ -1,6 +1,6 @@
-// Unshared lines between codes: compares each position in one code with all positions in another
-// code. unshared_lines.hpp defines unshared lines. Generated.
-// tests/unit/code/unshared_codes_test.cpp recomputes the table.
+// Unshared lines between codes: minimum numbers of lines that a position in one code does not share
+// with any position in another code. unshared_lines.hpp defines shared lines. The table was
+// generated, and tests/unit/code/unshared_codes_test.cpp recomputes it.
 #pragma once
 
 #include <array>

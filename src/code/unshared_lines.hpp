@@ -1,7 +1,7 @@
-// Unshared lines: compares each position with all positions whose places differ in a single
-// sequence. Two positions share a line at shift s if their rolls in this line differ by s. The
-// shift is the same in all lines. Generated. tests/unit/code/unshared_lines_test.cpp recomputes the
-// tables.
+// Unshared lines: numbers of lines that two positions do not share if their places differ in a
+// single sequence. Two positions share a line at shift s if their rolls in this line differ by s.
+// The same s applies to all lines. The tables were generated, and
+// tests/unit/code/unshared_lines_test.cpp recomputes them.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace dotpose::code {
 
-/// Number of consecutive lines that each table row covers.
+/// Number of consecutive lines that are compared, for each row of the tables.
 inline constexpr std::array<int, 3> kUnsharedOf{10, 13, 16};
 
 /// Index of the first entry of each sequence in `kUnshared`. Order: a1, a2, a3, restored a4.
@@ -106,16 +106,16 @@ inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>
           {0, 0, 3, 4, 7, 10, 16}}},
     }};
 
-/// Returns the minimum number of unshared lines over all shifts and all compared positions. `row`
-/// selects the number of lines in `kUnsharedOf`. The minimum is at least row + 1. The entry stores
-/// the excess over row + 1 in three bits.
+/// Returns the minimum number of unshared lines among kUnsharedOf[row] lines, over all shifts and
+/// all other places in the sequence. The minimum is at least row + 1. The entry stores the excess
+/// over row + 1 in three bits.
 constexpr std::size_t unshared_at_one_shift(std::size_t entry, std::size_t row) {
     return row + 1 + (kUnshared[entry] >> 3 * row & 7U);
 }
 
-/// Returns the minimum number of unshared lines if the shift may change once, between two lines.
-/// `row` selects the number of lines in `kUnsharedOf`. The minimum is at least `row`. The entry
-/// stores the excess over `row` in two bits.
+/// Returns the minimum number of unshared lines among kUnsharedOf[row] lines if the shift may
+/// change once, between two lines. The minimum is at least `row`. The entry stores the excess over
+/// `row` in two bits.
 constexpr std::size_t unshared_on_two_sides(std::size_t entry, std::size_t row) {
     return row + (kUnshared[entry] >> (9 + 2 * row) & 3U);
 }

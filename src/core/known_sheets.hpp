@@ -9,9 +9,8 @@
 
 namespace dotpose::core {
 
-/// Range of positions for the first of `lines` adjacent lines, along one axis. If the first line is
-/// in this range, at least one line is on the region. The region begins at `region_first` and has
-/// `region_size` positions.
+/// Range of first positions at which a block of `lines` adjacent lines overlaps a region, along one
+/// axis. The region begins at `region_first` and has `region_size` positions.
 struct PositionRange {
     std::uint32_t first;
     std::uint32_t count;

@@ -17,8 +17,9 @@ struct OtherAxis {
     float elsewhere = 0;
     /// Largest ratio of any examined place, except for the place that was read.
     float best = 0;
-    std::uint32_t position = 0;  ///< position of the first line at the place of `best`
-    std::uint8_t roll = 0;       ///< roll of the first line at the place of `best`, minus its roll
+    std::uint32_t position = 0;  ///< position of the first compared line at the place with the
+                                 ///< ratio `best`
+    std::uint8_t roll = 0;       ///< roll of the first compared line at this place, minus its roll
                                  ///< in the reading
 };
 
@@ -40,8 +41,8 @@ struct OtherCodes {
     bool are_wanted = false;
     /// Value of `log2_in_question_q8` if the code variant is given.
     static constexpr int kNoneInQuestion = -1;
-    /// Upper bound on the number of possible code variants, as log2 in units of 2^-8. The weight of
-    /// a variant is its odds relative to the variant that was read.
+    /// Upper bound on the weighted number of possible code variants, as log2 in units of 2^-8. The
+    /// weight of a variant is its odds relative to the variant that was read.
     int log2_in_question_q8 = 0;
     /// Positions of the first compared column and row, in the code variant that was read.
     Cell first;

@@ -15,8 +15,8 @@ class AffineFitInt32 {
         Int xx = 0, xy = 0, yy = 0;
         Int ix = 0, iy = 0, jx = 0, jy = 0;
 
-        /// Adds a point p and its target, with a weight of 1 or -1. The caller multiplies `target`
-        /// by the weight. `weighted` is p times the weight.
+        /// Adds a point p and its target, with a weight of 1 or -1. `weighted` is p times the
+        /// weight. The caller passes `target` already multiplied by the weight.
         [[gnu::always_inline]] void add(const FixedVec& p, const FixedVec& weighted,
                                         const FixedVec& target) {
             xx += weighted.x * p.x;

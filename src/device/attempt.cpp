@@ -16,7 +16,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of dots used to search for the grid. Determines the time of the search
+/// Maximum number of dots used to search for the grid. Bounds the duration of the search
 /// (docs/firmware.md).
 constexpr int kSeeds = 64;
 

@@ -1,4 +1,5 @@
-// Coded cells: coded bits around a predicted place, line by line, and the bits read there.
+// Coded cells: the bits of the code in the cells around the predicted place, and the bits read in a
+// tracked frame, one word per column or row.
 #pragma once
 
 #include "device/tracking.hpp"
@@ -6,7 +7,8 @@
 
 namespace dotpose::core {
 
-/// Sets the coded bits of each line, starting at `Tracking::corner`. Marks all dots as not read.
+/// Sets the coded bits of each line of the block whose cell (0, 0) is at `Tracking::corner`. Marks
+/// all dots as not read.
 void lay_tracked_lines(CodeVariant code, Tracking& tracking);
 
 inline ComparedLine& column_of(const Tracking& tracking, int i) {

@@ -11,7 +11,7 @@
 namespace dotpose::core {
 namespace {
 
-/// A square of vectors. Both components are in [low, low + extent], modulo 2^32.
+/// The set of vectors whose components are both in [low, low + extent], modulo 2^32.
 struct Square {
     std::uint32_t low;
     std::uint32_t extent;
@@ -42,7 +42,8 @@ bool is_near(FixedVec rounding_q16, const Square& offsets) {
                          static_cast<std::uint32_t>(rounding_q16.y) << 16);
 }
 
-/// Maximum distance from cell (0, 0), along each axis. Dots farther away do not belong to the grid.
+/// Maximum distance of a dot from cell (0, 0) along each axis, in cells. Dots farther away do not
+/// belong to the grid.
 constexpr int kFarthest_cells = 500;
 
 /// Calls `use(dot, c, is_within_reach)` for each dot. c is `rounding_plane_point_q16` of the dot,
@@ -54,8 +55,8 @@ Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const
     int farthest_cell = 0;
     int beyond = 0;
     const Square reach = cells_within(reach_cells);
-    // Cells within reach, and not beyond the farthest dot so far. Most dots are in these cells and
-    // need no further test.
+    // Contains the cells that are within reach and not farther away than the farthest dot so far.
+    // Most dots are in these cells and need no further test.
     Square common = cells_within(0);
     for (const DetectedDot& dot : dots) {
         const FixedVec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));

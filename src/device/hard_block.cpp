@@ -20,8 +20,8 @@ std::uint32_t reversed(std::uint32_t word, int count) {
     return result;
 }
 
-/// Sets `result` to lines of `cells` cells turned by 180 degrees. This turn reverses the order of
-/// the lines and of their cells, and inverts all bits.
+/// Sets `result` to the lines of a block turned by 180 degrees. Each line has `cells` cells. The
+/// turn reverses the order of the lines and of their cells, and inverts all bits.
 void turn_over(std::span<const HardLine> lines, int cells, std::span<HardLine> result) {
     HardLine* turned = &result[lines.size() - 1];
     for (const HardLine& line : lines)

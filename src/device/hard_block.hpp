@@ -1,4 +1,6 @@
-// Hard block: the bits of a block of cells as words, one word per line, in any orientation.
+// Hard block: the bits of a block of cells as words, one word per line, in any orientation. The
+// roll of a line is the index in the main sequence at which the line starts
+// (docs/position-code.md).
 #pragma once
 
 #include <array>
@@ -18,7 +20,8 @@ struct HardLine {
     std::uint32_t bits = 0;
     std::uint32_t seen = 0;  ///< 1 if the bit of the cell was read
 
-    /// Returns the number of bits that contradict a line whose first cell has the roll `roll`.
+    /// Returns the number of bits that contradict the main sequence if the first cell is at index
+    /// `roll` of the sequence.
     int wrong_at(std::size_t roll) const { return bits_in((code::kMainWords[roll] ^ bits) & seen); }
 };
 
@@ -31,10 +34,10 @@ struct HardLines {
     const HardLine& operator[](int line) const { return first[line * step]; }
 
     /// Returns the number of bits that contradict the code if the roll of line i is rolls[i] plus
-    /// `added`, modulo 63. The count may end early when it exceeds `limit`.
+    /// `added`, modulo 63. May stop counting when the number exceeds `limit`.
     int wrong_with(const std::uint8_t* rolls, std::uint32_t added, int limit) const;
     /// Returns the number of bits that contradict the code if the first line is at `position`. The
-    /// roll of each line is its roll in section 0 plus `added`. The count may end early when it
+    /// roll of each line is its roll in section 0 plus `added`. May stop counting when the number
     /// exceeds `limit`.
     int wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added, int limit) const;
 };
@@ -63,8 +66,8 @@ class HardBlock {
     std::array<Lines, 2> row_lines_{};
 };
 
-/// The bits read in a tracked frame. The block is upright. It extends from the first to the last
-/// column and row that contain bits.
+/// The bits read in a tracked frame, in the orientation of the pattern. The block extends from the
+/// first to the last column and row that contain bits.
 class TrackedBlock {
   public:
     /// `lines` are the lines of Tracking, and `corner` is the place of cell (0, 0).

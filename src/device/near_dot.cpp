@@ -6,11 +6,13 @@ namespace dotpose::core {
 
 bool lay_dot_pixels(Tracking& tracking) {
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-        // Centre of the quarter, relative to the upper left corner of the pixel.
+        // Centre of the quarter of the pixel that contains the intersection, relative to the upper
+        // left corner of the pixel.
         const FixedVec in_pixel_q16{quarter % 2 == 0 ? 16384 : 49152, quarter < 2 ? 16384 : 49152};
         for (std::size_t s = 0; s < 4; ++s) {
             const FixedVec displaced_q16 = tracking.displaced_q16[s];
-            // The four pixels begin at most 3/4 of a pixel from the displaced place.
+            // The offset of the first of the four pixels of the dot differs from the displacement
+            // by at most 3/4 of a pixel.
             if (!is_within(displaced_q16, tracking.half_px * 65536 - 49153)) return false;
             const FixedVec place_q16 = in_pixel_q16 + displaced_q16;
             tracking.dot_pixels[quarter][s] = static_cast<std::int16_t>(

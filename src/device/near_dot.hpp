@@ -14,9 +14,10 @@
 
 namespace dotpose::core {
 
-/// Distance from the middle of a square to its outermost pixels, for spacings of 7 to 13 px. The
-/// square of kHalf_px is around an intersection, and contains the dot at any of its four places.
-/// The square of kDotHalf_px is around the centre of a dot.
+/// Half sides of the squares of pixels that are read: distance from the middle pixel to the
+/// outermost pixels, in px. The squares of kHalf_px and kFineHalf_px are around an intersection,
+/// and contain the dot at any of its four places. kHalf_px is for spacings of 7 to 13 px, and
+/// kFineHalf_px for smaller spacings. The square of kDotHalf_px is around the centre of a dot.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kFineHalf_px = 2;
 inline constexpr int kDotHalf_px = 2;

@@ -8,8 +8,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Range of grid spacings that can be tracked, in px. The squares that are read contain the dots of
-/// these grids. Spacings below kFine_px are tracked on known sheets only.
+/// Range of grid spacings that can be tracked, in px. At these spacings, the square that is read
+/// around an intersection contains the dot. Spacings below kFine_px are tracked on known sheets
+/// only.
 constexpr int kFinest_px = 5;
 constexpr int kFine_px = 7;
 constexpr int kCoarsest_px = 13;
@@ -100,7 +101,8 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     tracking.corners_apart = 2 * tracking.half_px * tracking.stride_px;
     tracking.rows_needed = 2 * tracking.half_px + 3;
     if (2 * tracking.rows_needed + kRowsAtOnce > tracking.rows_kept) return false;
-    // If the memory has room for all rows, the whole frame determines the error of the prediction.
+    // If the memory has room for all rows, the error of the prediction is measured from the whole
+    // frame.
     const bool keeps_frame = tracking.height_px <= tracking.rows_kept;
     tracking.first_rows =
         keeps_frame ? tracking.height_px
@@ -108,8 +110,8 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
 }
 
-/// Returns the maximum error of the prediction that the search covers, in px at the image centre.
-/// The maximum is three standard deviations, but at most 3/5 of the spacing.
+/// Returns the maximum position error of the prediction that the search covers, in px at the image
+/// centre. This is three standard deviations, but at most 3/5 of the spacing.
 int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     const std::int64_t wanted_q16 = 3 * std::int64_t{prediction.sigma_q16};
     const auto shift_q16 =

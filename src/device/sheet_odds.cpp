@@ -72,9 +72,9 @@ class OddsOfOthers {
 };
 
 /// Returns log2 of the number of places that a view may show, in units of 2^-8. Counts all four
-/// orientations at each place of the regions in a code. Also counts places at which the block
-/// extends beyond a region. A tracked attempt tests only one place, but chooses among up to 2^10
-/// planes.
+/// orientations at each place of the regions in the code `code`. Also counts places at which the
+/// block extends beyond a region. Returns at least log2 of 2^10, because a tracked attempt tests
+/// only one place, but chooses among up to 2^10 planes.
 int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int rows) {
     std::uint64_t places = 0;
     for (const KnownRegion& region : sheets.regions) {

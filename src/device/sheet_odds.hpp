@@ -17,10 +17,11 @@ namespace dotpose::core {
 int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
                    const IntegrityOptions& options);
 
-/// Returns true if a place on the known sheets is certain. The bound must be within the limit, and
-/// not too many bits may contradict the place. `columns` and `rows` are the lines of the upright
-/// block, and `corner` is the place where the first column and the first row cross. Sets
-/// `bit_errors` and `p_wrong_log2` of the fix, and `prior` if the result is true.
+/// Returns true if a place on the known sheets is certain. The bound must be at most
+/// IntegrityOptions::max_p_wrong_log2, and the fraction of wrong bits on each axis at most
+/// IntegrityOptions::max_bit_error_q8. `columns` and `rows` are the lines of the upright block, and
+/// `corner` is the place where the first column and the first row cross. Sets `bit_errors` and
+/// `p_wrong_log2` of the fix, and `prior` if the result is true.
 bool is_certain_place(const KnownSheets& sheets, CodeVariant code, const HardLines& columns,
                       const HardLines& rows, const Place& corner, const IntegrityOptions& options,
                       Fix& fix);

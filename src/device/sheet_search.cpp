@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kTurns = 4;
 /// Maximum number of pairs of lines that the search tries on each axis. Pairs are disjoint, so a
-/// bit error spoils only one pair of each axis.
+/// bit error affects only one pair of each axis.
 constexpr int kMaxPairs = 3;
 
 /// The rolls at which all bits of a line agree with the main sequence. A line with at least six
@@ -48,9 +48,9 @@ struct LinePair {
     AgreeingRolls second;
 };
 
-/// Returns the first line of the pair of adjacent lines whose shorter line has the most bits. Skips
-/// the lines in the bit set `tried`, and adds the lines of the pair to it. Returns nullopt if no
-/// pair is left.
+/// Returns the first line of the pair of adjacent lines with the most bits. The number of bits of a
+/// pair is that of its line with fewer bits. Skips the lines in the bit set `tried`, and adds the
+/// lines of the pair to it. Returns nullopt if no pair is left.
 std::optional<int> longest_pair(const HardLines& lines, std::uint32_t& tried) {
     std::optional<int> longest;
     int most_bits = 0;
@@ -142,7 +142,8 @@ class SheetSearch {
 
     const HardBlock& block_;
     CodeVariant code_;
-    int max_wrong_;  ///< limit on both axes together: below the number at the best place so far
+    int max_wrong_;  ///< maximum number of wrong bits on both axes together; less than at the best
+                     ///< place so far
     std::optional<SheetPlace> best_;
 };
 

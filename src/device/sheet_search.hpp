@@ -18,10 +18,10 @@ struct SheetPlace {
     std::array<int, 2> wrong{};  ///< numbers of x bits and of y bits that contradict the place
 };
 
-/// Finds the place, in any orientation of the block, that contradicts the fewest bits, and at most
-/// `max_wrong` bits on both axes together. Tests only places at which all bits of some pair of
-/// adjacent lines agree. The search tries a few pairs. Returns nullopt if there is no such place.
-/// Ignores regions in other codes.
+/// Finds the place with the fewest contradicting bits, in any orientation of the block. At most
+/// `max_wrong` bits on both axes together may contradict the place. Tests only places at which all
+/// bits of a pair of adjacent lines agree with the code. Tries a few pairs. Returns nullopt if
+/// there is no such place. Ignores regions in other codes.
 std::optional<SheetPlace> find_on_sheets(const HardBlock& block, CodeVariant code,
                                          std::span<const KnownRegion> regions, int max_wrong);
 

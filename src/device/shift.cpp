@@ -98,8 +98,8 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 }
 
 void Shifts::divide_by_dots() {
-    // Minimum divisor of a sum of darkness. A mean over fewer dots is unreliable. The minimum
-    // divisor makes such a mean smaller.
+    // Minimum divisor of a sum of darkness. A mean over fewer dots is unreliable, so the minimum
+    // divisor reduces it.
     constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);

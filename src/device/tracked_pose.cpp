@@ -10,8 +10,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns how far masses and mass-weighted sums must be shifted right. The total mass is then
-/// below 2^16. All sums are below 2^31, because offsets are at most 416/256 px.
+/// Returns the number of bits by which masses and mass-weighted sums must be shifted right to make
+/// the total mass less than 2^16. All sums are then less than 2^31, because offsets are at most
+/// 416/256 px, an eighth of the maximum spacing of 13 px.
 int excess_bits(const Tracking& tracking) {
     std::uint32_t mass = 0;
     for (const TrackedRow& row : tracking.grid_rows)

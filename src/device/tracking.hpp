@@ -64,12 +64,12 @@ struct Tracking {
     int height_px = 0;
     /// Number of rows taken. Negative before the first row of the tracked part.
     int rows_taken = 0;
-    int first_kept = 0;  ///< row of the image that is stored first in memory
+    int first_kept = 0;  ///< index of the first stored image row
     int stride_px = 0;
     int half_px = 0;  ///< see kHalf_px
-    /// corner_offset is the offset of the upper left corner of the square around an intersection
-    /// from its middle pixel, in bytes. The offset of the lower corners from the upper corners is
-    /// corners_apart, in bytes.
+    /// Offsets in `rows`, in bytes, in the square around an intersection. corner_offset leads from
+    /// the middle pixel to the upper left corner, and corners_apart from an upper corner to the
+    /// lower corner below it.
     std::ptrdiff_t corner_offset = 0;
     std::ptrdiff_t corners_apart = 0;
     std::span<std::uint8_t> rows;  ///< the newest rows of the image
@@ -83,7 +83,7 @@ struct Tracking {
     std::array<FixedVec, 4> displaced_q16{};
     /// Sum of the offsets of all dots, weighted by their masses, indexed by Symbol.
     std::array<FixedVec, 4> offset_q8{};
-    /// Offset of the first of the four pixels around a dot from the pixel of the intersection, in
+    /// Offset from the pixel of an intersection to the first of the four pixels of its dot, in
     /// bytes. Indexed by the quarter of the pixel that contains the intersection, and by Symbol.
     std::array<std::array<std::int16_t, 4>, 4> dot_pixels{};
     std::int16_t min_side_px = 0;  ///< minimum width and height of the tracked part
@@ -97,11 +97,11 @@ struct Tracking {
     int rows_kept = 0;     ///< maximum number of rows in memory
     int rows_needed = 0;   ///< number of newest rows still needed after dots were read; less than
                            ///< half of rows_kept
-    int first_rows = 0;    ///< number of rows that determine the error of the prediction
+    int first_rows = 0;    ///< number of rows from which the error of the prediction is measured
     int next_reading = 0;  ///< value of rows_taken at which dots are read next
-    int reach_px = 0;      ///< maximum error at the image centre that the search covers, in px
-    Place corner;          ///< place of cell (0, 0) in the code
-    int first_cell = 0;    ///< first cell, along each axis, that may be in view
+    int reach_px = 0;  ///< maximum position error that the search covers, in px at the image centre
+    Place corner;      ///< place of cell (0, 0) in the code
+    int first_cell = 0;  ///< first cell, along each axis, that may be in view
     int last_cell = 0;
     std::span<TrackedRow> grid_rows;
     TrackedView view;

@@ -37,7 +37,7 @@ struct DeviceCapacity {
     int height_px = kMaxFrameSide_px;
     int dots = 0;
     int grid_side = 0;
-    /// Maximum number of lines of each axis that are compared with the whole plane. The number is 0
+    /// Maximum number of lines of each axis that are compared with the whole code. The number is 0
     /// if only known sheets are read, and -1 if all lines of the grid are compared.
     int scored_lines = -1;
     /// Maximum number of dots from which the axes of the grid are found.

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <ostream>
 #include <string>
-#include <vector>
 
 #include "dotpose/tools/calibrate.hpp"
 #include "dotpose/tools/draw.hpp"
@@ -17,17 +16,15 @@ using namespace dotpose::draw;
 constexpr double kMargin = 30;
 constexpr double kHead = 74;
 constexpr double kMaxSide = 520;
-/// Number of parts along the longer side of the image. Each part has one arrow.
-constexpr int kParts = 22;
 /// Minimum residual that an arrow of maximum length represents. With this minimum, residuals of
 /// pure noise have short arrows.
 constexpr double kMinFullScale_px = 0.05;
 
-struct Part {
-    Point before;  ///< sum of the residuals before the calibration, in px
-    Point after;
-    int dots = 0;
-};
+using Part = ResidualField::Part;
+
+Point point_of(PixelPoint pixel) {
+    return {pixel.u, pixel.v};
+}
 
 class CalibrationPicture {
   public:
@@ -36,20 +33,8 @@ class CalibrationPicture {
           width_px_(calibration.camera.width_px),
           height_px_(calibration.camera.height_px),
           scale_(kMaxSide / std::max(width_px_, height_px_)),
-          part_px_(static_cast<double>(std::max(width_px_, height_px_)) / kParts),
-          columns_(static_cast<int>(std::ceil(width_px_ / part_px_))),
-          rows_(static_cast<int>(std::ceil(height_px_ / part_px_))),
-          parts_(static_cast<std::size_t>(columns_ * rows_)),
+          field_(residual_field(calibration)),
           svg_(3 * width() + 4 * kMargin, height() + kHead + 2 * kMargin, "Calibration of a lens") {
-        for (const CalibrationDot& dot : calibration.seen) {
-            const int i = static_cast<int>((dot.pixel.u + 0.5) / part_px_);
-            const int j = static_cast<int>((dot.pixel.v + 0.5) / part_px_);
-            Part& part = parts_[static_cast<std::size_t>(std::clamp(j, 0, rows_ - 1) * columns_ +
-                                                         std::clamp(i, 0, columns_ - 1))];
-            part.before = part.before + Point{dot.before.u, dot.before.v};
-            part.after = part.after + Point{dot.after.u, dot.after.v};
-            ++part.dots;
-        }
     }
 
     std::string draw() && {
@@ -79,37 +64,37 @@ class CalibrationPicture {
     /// drawing.
     template <typename Use>
     void visit(int panel, Use use) const {
-        for (int j = 0; j < rows_; ++j) {
-            for (int i = 0; i < columns_; ++i) {
-                const Part& part = parts_[static_cast<std::size_t>(j * columns_ + i)];
+        for (int j = 0; j < field_.rows; ++j) {
+            for (int i = 0; i < field_.columns; ++i) {
+                const Part& part = field_.parts[static_cast<std::size_t>(j * field_.columns + i)];
                 if (part.dots == 0) continue;
-                use(part, corner(panel) + scale_ * part_px_ * Point{i + 0.5, j + 0.5});
+                use(part, corner(panel) + scale_ * field_.part_px * Point{i + 0.5, j + 0.5});
             }
         }
     }
 
-    void draw_field(int panel, const std::string& title, double rms_px, Point Part::*residual,
+    void draw_field(int panel, const std::string& title, double rms_px, PixelPoint Part::*residual,
                     const char* ink) {
         double full_px = kMinFullScale_px;
         visit(panel, [&](const Part& part, Point) {
-            full_px = std::max(full_px, length(1.0 / part.dots * (part.*residual)));
+            full_px = std::max(full_px, length(1.0 / part.dots * point_of(part.*residual)));
         });
         draw_frame(panel, title,
                    fmt::format("{:.3f} px rms per dot; longest arrow {:.2f} px", rms_px, full_px));
-        const double per_px = 0.95 * part_px_ * scale_ / full_px;
+        const double per_px = 0.95 * field_.part_px * scale_ / full_px;
         visit(panel, [&](const Part& part, Point at) {
-            svg_.arrow(at, at + per_px / part.dots * (part.*residual), 1.4, ink);
+            svg_.arrow(at, at + per_px / part.dots * point_of(part.*residual), 1.4, ink);
         });
     }
 
     void draw_coverage() {
         int max_dots = 1;
-        for (const Part& part : parts_)
+        for (const Part& part : field_.parts)
             max_dots = std::max(max_dots, part.dots);
         draw_frame(2, "Coverage",
                    fmt::format("{} dots of {} frames; {:.0f} % of the image", calibration_.dots,
                                calibration_.located, 100 * calibration_.coverage));
-        const double side = part_px_ * scale_;
+        const double side = field_.part_px * scale_;
         visit(2, [&](const Part& part, Point at) {
             svg_.add(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="{}" )"
                      R"(opacity="{:.2f}"/>)",
@@ -125,10 +110,7 @@ class CalibrationPicture {
     int width_px_;
     int height_px_;
     double scale_;
-    double part_px_;
-    int columns_;
-    int rows_;
-    std::vector<Part> parts_;
+    ResidualField field_;
     Svg svg_;
 };
 

@@ -90,8 +90,8 @@ std::vector<std::vector<Outcome>> evaluate(const FrameRun& run) {
                       std::vector<Outcome>(static_cast<std::size_t>(run.frames)));
     Crew crew(run, outcomes);
     const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    // Uses at most one thread per frame. With more threads, the main thread might not get a frame,
-    // and it reports the progress.
+    // Uses at most one thread per frame. With more threads, the main thread, which reports the
+    // progress, might not get a frame.
     const int threads = std::min(run.threads > 0 ? run.threads : cores, run.frames);
     {
         std::vector<std::jthread> others;

@@ -1,4 +1,4 @@
-/// Parts of the paper's protocol for its figures and tests.
+/// Functions of the paper's protocol that its figures and tests share.
 #pragma once
 
 #include <functional>

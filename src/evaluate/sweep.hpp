@@ -1,4 +1,4 @@
-/// Parts of a sweep that its tests call.
+/// Internal functions of sweeps, declared here for the tests.
 #pragma once
 
 #include <cstdint>

@@ -27,7 +27,8 @@ struct Pair {
     PixelPoint wanted;
 };
 
-/// Residual of a pair, affine(eq. 2(seen)) - wanted, with its derivatives.
+/// Residual of a pair with its derivatives. The residual is the difference between the point
+/// undistorted by eq. 2 and mapped by the affine map, and the wanted point.
 struct Misfit {
     double u = 0;
     double v = 0;

@@ -26,9 +26,9 @@ struct PlumbBob {
 };
 
 /// Sets `k_per_px2` and `centre_px` to the division model nearest to `lens` over the image, and
-/// `pinhole` to the directions of view that belong to this model. The image size must be set.
-/// Returns the rms difference of the two models over the image, in px. Returns infinity if the lens
-/// cannot be inverted.
+/// `pinhole` to the pinhole camera that has the directions of view of `lens` together with this
+/// model. The image size must be set. Returns the rms difference of the two models over the image,
+/// in px. Returns infinity if the lens cannot be inverted.
 double fit_division_model(const PlumbBob& lens, Camera& camera);
 
 }  // namespace dotpose::files

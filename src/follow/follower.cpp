@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "dotpose/tools/flip.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
@@ -17,11 +18,15 @@ Follower::Follower(const FollowerOptions& options)
       tracker_(options.track) {
     if (options.fits_space_pose) require_space_camera();
     if (options.code) codes_ = {*options.code};
-    if (options.camera && !options.camera->flat_field.empty()) {
-        validate(*options.camera);
-        flat_field_.emplace(*options.camera);
-    }
+    use_flat_field();
     if (!options.sheets.empty()) use_sheets();
+}
+
+void Follower::use_flat_field() {
+    flat_field_.reset();
+    if (!options_.camera || options_.camera->flat_field.empty()) return;
+    validate(*options_.camera);
+    flat_field_.emplace(*options_.camera);
 }
 
 void Follower::require_space_camera() const {
@@ -29,8 +34,19 @@ void Follower::require_space_camera() const {
     require_focal_length(*options_.camera);
 }
 
+void Follower::set_sheets(std::vector<SheetEntry> sheets) {
+    if (sheets.empty()) throw BadArgument("a follower needs at least one sheet");
+    options_.sheets = std::move(sheets);
+    // The track and the prediction are in the coordinates of the previous sheets.
+    tracker_ = Tracker(options_.track);
+    seen_.reset();
+    use_sheets();
+}
+
 void Follower::use_sheets() {
     codes_.clear();
+    known_.clear();
+    is_in_world_ = false;
     unplaced_spacing_mm_ = options_.sheets.front().sheet.pattern.spacing_mm;
     for (const SheetEntry& entry : options_.sheets) {
         const Pattern& pattern = entry.sheet.pattern;
@@ -63,6 +79,16 @@ void Follower::use_options_for(int width_px, int height_px) {
         used_.reference_dx_q8 = from_centre_q8(options_.reference_px->u, width_px);
         used_.reference_dy_q8 = from_centre_q8(options_.reference_px->v, height_px);
     }
+}
+
+void Follower::set_camera(const Camera& camera) {
+    validate(camera);
+    if (options_.fits_space_pose) require_focal_length(camera);
+    options_.camera = camera;
+    use_flat_field();
+    // The prediction is in the coordinates of the previous lens.
+    tracker_ = Tracker(options_.track);
+    seen_.reset();
 }
 
 /// Returns the image, flipped and corrected by the flat field if the options require it.

@@ -21,8 +21,8 @@ namespace {
 using images::ImageFormat;
 using Bytes = std::vector<std::uint8_t>;
 
-/// Returns the maximum size of a file in bytes. The maximum is larger than any image with 16 bits
-/// and four channels. It stops the reading of endless files.
+/// Returns the maximum size of a file in bytes. It exceeds the size of any image of `max_pixels`
+/// pixels with four channels of 16 bits, and ends the reading of endless files.
 std::size_t max_file_bytes(int max_pixels) {
     return std::size_t{8} * static_cast<std::size_t>(max_pixels) + (std::size_t{1} << 20);
 }

@@ -1,6 +1,6 @@
-// Encodes a fixed number of arbitrary bytes as bytes without zeros, protected by a CRC. The CRC
-// covers the encoded bytes, not the plain bytes. The reason is that an error in a code byte of COBS
-// shifts all following bytes. A CRC of the plain bytes would not always detect such an error.
+// Encodes a fixed number of arbitrary bytes as bytes without zeros, and appends a CRC. The CRC is
+// computed from the encoded bytes, because an error in a code byte of COBS shifts all following
+// bytes, and a CRC of the plain bytes would not always detect such an error.
 #pragma once
 
 #include <array>

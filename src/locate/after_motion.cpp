@@ -8,8 +8,8 @@ namespace {
 
 /// Maximum predicted displacement, in spacings. Larger displacements may overflow integers.
 constexpr float kMaxMotion = 2048;
-/// Minimum standard deviation of a predicted position, in 2^-16 spacings. The minimum includes the
-/// errors of the last plane, which `MeasuredMotion::sigma_mm` excludes.
+/// Minimum standard deviation of a predicted position, in 2^-16 spacings. Accounts for the error of
+/// the last plane, which is not part of `MeasuredMotion::sigma_mm`.
 constexpr float kMinSigma_q16 = 65536.0F / 32;
 
 }  // namespace

@@ -31,7 +31,7 @@ float half_side_px(const ImageView& image) {
 }
 
 /// Returns true if all of these conditions hold:
-/// - At least `min_dots` dots were read, and at least half of the dots seen.
+/// - At least `min_dots` dots were read, and at least half of the seen dots were read.
 /// - Dots were seen in at least a quarter of the listed cells, or the view is partial.
 /// - On each axis, at most max_bit_error_q8 / 256 of the bits contradict the code.
 bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOptions& options,
@@ -86,8 +86,8 @@ bool is_certain_alone(const Kernels& kernels, const DeviceOptions& options,
 bool is_certain_together(const Kernels& kernels, const DeviceOptions& options, const Place& place,
                          const FloatPlane& grid_from_image, const BitBlock& block,
                          DesktopWorkspace& w) {
-    // Each error, a wrong match of the grids and a wrong place, has half of the permitted
-    // probability.
+    // There are two possible errors: a wrong match of the grids and a wrong place. Each of them may
+    // have half of the permitted probability.
     DeviceOptions half = options;
     --half.integrity.max_p_wrong_log2;
     const auto joined = w.earlier.join(block, grid_from_image);
@@ -131,7 +131,8 @@ bool shows_too_few_cells(const Kernels& kernels, const DeviceOptions& options, C
                          MeasuredDots& dots) {
     view.margin_px = 0;
     kernels.list_cells(view, dots);
-    // Margin for a second attempt with another plane, which may show a few more cells.
+    // Adds a margin of 1/kTolerance, because a second attempt may find a plane with a few more
+    // cells in view.
     constexpr int kTolerance = 16;
     const int cells = dots.count + dots.count / kTolerance + 1;
     const Confidence axis = Confidence::of_hard_bits(cells, 0);
@@ -215,7 +216,7 @@ FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const
     if (!reader.correct_neighbour_bias(hypothesis, fit) && !has_pixel_bias) return {};
     FloatPlane better = hypothesis.pattern_from_image;
     PoseFit better_fit;
-    // Fails if the correction has dropped too many dots at the border.
+    // The fit fails if the correction has dropped too many dots at the border.
     if (!fit_plane(kernels, reader.dots(), static_cast<int>(half_side_px(image)) + 1,
                    tuning::fit::kOutlier * fit.variance, fit.displacement, better, better_fit)) {
         return {};

@@ -90,7 +90,7 @@ bool can_sample_directly(const Hypothesis& hypothesis) {
 
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px) {
     if (variance_px2 > tuned::kMaxVariance_px2) return false;
-    // Maximum phase drift per grid step.
+    // Phase drift per grid step that adds up to kDriftInView_px across the view.
     const float drift_px = tuned::kDriftInView_px * spacing_px(plane) / static_cast<float>(side_px);
     return has_common_phase(plane, drift_px);
 }
@@ -130,9 +130,9 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
         FloatPlane& plane = hypothesis.pattern_from_image;
         const auto points = static_cast<float>(found.points);
         bits.right = found.points;
-        // Sum of the offsets from the intersections along the displacement directions, over all
-        // dots. An offset is the predicted displacement plus the measured offset, converted from px
-        // to spacings.
+        // Sum over all dots of the vector from the intersection to the dot, projected onto the
+        // direction of the coded displacement. This projection is the predicted displacement plus
+        // the projected offset from the predicted point, converted from px to spacings.
         bits.projected = points * hypothesis.displacement + plane.du_x * found.of_x[0] +
                          plane.dv_x * found.of_x[1] + plane.du_y * found.of_y[0] +
                          plane.dv_y * found.of_y[1];

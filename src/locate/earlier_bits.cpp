@@ -57,8 +57,8 @@ void count_overlap(const BitLines& a, const BitLines& b, int across, int along, 
     }
 }
 
-/// Returns log2 of a likelihood ratio: that of matching blocks to that of blocks from unrelated
-/// parts of the pattern.
+/// Returns log2 of the likelihood ratio of two hypotheses: the blocks match, or the blocks are from
+/// unrelated parts of the pattern.
 float log2_ratio(const Overlap& overlap) {
     return tuned::kEqualBit_log2 * static_cast<float>(overlap.shared - overlap.different) +
            tuned::kDifferentBit_log2 * static_cast<float>(overlap.different);
@@ -218,7 +218,8 @@ std::optional<JoinedBits> EarlierBits::join(const BitBlock& block,
         const float off_rad = std::remainder(
             angle_of(grid_from_image) - angle_of(before) - motion_.turn_rad, 2 * kPi);
         if (std::abs(off_rad) > tuned::kReach_sigmas * std::sqrt(variance_rad2)) continue;
-        // Image point in the earlier frame of the paper that is now at the reference point.
+        // Image point, in the earlier frame, of the spot of paper that is now at the reference
+        // point.
         const float scale = spacing_px(before) / spacing_mm_;
         const FloatVec reached{reference_px_.x + scale * motion_.right_mm,
                                reference_px_.y + scale * motion_.down_mm};

@@ -41,8 +41,8 @@ void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, Des
 }
 
 /// Returns true if the patch predicts all dots in the image to within a fraction of a pixel. The
-/// patch must cover the whole image, because its grid is then fitted to all dots. The spacing must
-/// be at least kMinSpacingForPrediction_px.
+/// patch must cover the whole image, because only such a patch has a grid that is fitted to all
+/// dots. The spacing must be at least kMinSpacingForPrediction_px.
 bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane& plane) {
     return patch.width_px == image.width_px && patch.height_px == image.height_px &&
            spacing_px(plane) >= tuned::kMinSpacingForPrediction_px;
@@ -164,7 +164,8 @@ Confirmation locate_outwards(const Kernels& kernels, const ImageView& image,
         if (!place_patch(image, {image.width_px / 2, image.height_px / 2}, scale, w)) break;
         const Confirmation confirmation = locate_in_middle(kernels, image, options, w);
         if (confirmation == Confirmation::ok) return confirmation;
-        // Other patches of the same dots give the same bits.
+        // If the patch covers the whole image, other patches contain the same dots and give the
+        // same bits.
         const bool is_whole_image =
             w.patch->width_px == image.width_px && w.patch->height_px == image.height_px;
         if (confirmation == Confirmation::too_few_bits && is_whole_image) return confirmation;

@@ -15,8 +15,8 @@ namespace dotpose::core {
 ///
 /// Two overlapping patterns that are nearly aligned can look like a third pattern, with the columns
 /// of one pattern and the rows of the other. In such a frame, a quarter of the cells have no dot at
-/// the expected place, and half of the dots are next to their places. docs/integrity.md contains
-/// the measurements.
+/// the expected place, and half of the dots are at another place of their cell. docs/integrity.md
+/// contains the measurements.
 bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
 /// Measures the dots that the code predicts at the decoded position, and fits the map from image to

@@ -14,8 +14,8 @@ struct Extent {
     int count = 0;
 };
 
-/// Returns the integers from `min` to `max`, rounded outwards, with a margin of 1 on each side.
-/// Clamps the range to the `room` integers around 0.
+/// Returns the range of integers from `min` to `max`, rounded outwards, with a margin of 1 on each
+/// side. Clamps the range to the `room` integers around 0.
 Extent extent(float min, float max, int room) {
     const int half = room / 2;
     const int first = std::max(static_cast<int>(std::floor(std::max(min, -4096.0F))) - 1, -half);

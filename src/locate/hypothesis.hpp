@@ -30,8 +30,8 @@ struct Hypothesis {
     float typical_mass = 0;
 };
 
-/// Threshold of windows, in 1/256 of the contrast of a typical dot. Pixels with more contrast
-/// belong to a dot.
+/// Threshold for dark pixels in a window, in 1/256 of the contrast of a typical dot. Pixels with
+/// more contrast belong to a dot.
 inline constexpr int kCutOfDepth_q8 = 160;
 
 /// Returns the image centre, in px relative to the first pixel.

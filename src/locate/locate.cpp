@@ -5,7 +5,7 @@
 //   first      finds the grid in a part of the image                locate/first.hpp
 //   second     filters the image and uses all its dots              locate/second.hpp
 //
-// A known code is the case of one possible code.
+// A known code is treated as a list of possible codes with one element.
 #include "locate/locate.hpp"
 
 #include <algorithm>
@@ -39,8 +39,8 @@ namespace tuned = tuning::cascade;
 /// position is doubtful. It takes three times as long as `second`.
 enum class Step : std::uint8_t { tracked, first, turning, second, resampled, device };
 
-/// Returns true if there is a grid of dots whose bits could not be read in this code. Another code
-/// may succeed.
+/// Returns true if the status means that there is a grid of dots, but that its bits do not give a
+/// certain position in this code. Another code may succeed.
 bool leaves_code_open(Status status) {
     return status == Status::not_in_code || status == Status::ambiguous ||
            status == Status::not_certain;
@@ -95,10 +95,10 @@ class Cascade {
     }
 
     /// Runs the steps in order until a fix is certain. Tries each step in all codes worth trying. A
-    /// step other than `first` ends early if it fails for a reason that does not depend on the
-    /// code. Skips the remaining steps if the first doubtful fix is ambiguous between codes.
-    /// Without a certain fix, returns the first doubtful fix. Without a doubtful fix, returns the
-    /// last failure in the most likely code.
+    /// step after `turning` ends early if it fails for a reason that does not depend on the code.
+    /// Skips the remaining steps if the first doubtful fix is ambiguous between codes, or if the
+    /// image shows too few cells for a certain fix. Without a certain fix, returns the first
+    /// doubtful fix. Without a doubtful fix, returns the last failure in the most likely code.
     CodeReading make(std::initializer_list<Step> steps) {
         std::optional<CodeReading> doubtful;
         std::optional<Fix> failure;
@@ -184,8 +184,8 @@ class Cascade {
     }
 
     /// Returns the certain fix, or a better fix if there is one. Reads the frame again in another
-    /// code if the other code is more likely. Makes a second attempt if a first attempt has large
-    /// residuals.
+    /// code if the other code is more likely. If the residuals of a first attempt show a rotation,
+    /// searches for the rotation. If the residuals are large, makes a second attempt.
     CodeReading best_of(Step step, CodeVariant code, Judgement judgement) {
         const auto remake = [&](Step other_step, CodeVariant other) {
             if (!attempt(other_step, other)) return false;
@@ -225,8 +225,8 @@ class Cascade {
     }
 
     /// Adds the evidence of the frame if the frame is certain in another code without the earlier
-    /// evidence. Otherwise, strong evidence for one code would prevent certain fixes on all sheets
-    /// in other codes.
+    /// evidence. Without this addition, strong evidence for one code would prevent certain fixes on
+    /// all sheets in other codes.
     void add_evidence_of_another_sheet(CodeReading& reading) {
         if (options_.effort == Effort::device || codes_.is_known() || codes_.are_equal()) return;
         const PossibleCodes before = codes_;

@@ -35,8 +35,8 @@ bool find_turn_and_place(const Kernels& kernels, const DeviceOptions& options,
 }
 
 /// In a series of frames, stores the bits of the current frame. If the frames are read together,
-/// also replaces the bits by the bits of all frames, and returns false if their grids do not match.
-/// The plane is relative to `from_centre`.
+/// also replaces the bits with the bits of all frames, and returns false if their grids do not
+/// match. The plane is relative to `from_centre`.
 bool join_earlier(const FloatPlane& grid_from_image, FloatVec from_centre, DesktopWorkspace& w,
                   BitBlock& block) {
     EarlierBits& earlier = w.earlier;

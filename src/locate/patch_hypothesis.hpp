@@ -1,4 +1,5 @@
-// Patch hypothesis: functions that the searches for a grid in a patch share.
+// Patch hypothesis: finds the grid in a patch and its place in the code. Shared by the first
+// attempt and the search for a rotation.
 #pragma once
 
 #include "core/kernels/select.hpp"

@@ -41,8 +41,8 @@ void detect_filtered(const ImageView& image, const DeviceOptions& filtered, Desk
         detect_row(next_smooth_row(image, w.smoothing), filtered, w);
 }
 
-/// Finds the grid, including perspective and lens distortion. Takes longer than `find_grid`, which
-/// devices use.
+/// Finds the grid, including perspective and lens distortion. Takes longer than `find_grid` in
+/// device/attempt.cpp.
 Status find_grid_thoroughly(const DeviceOptions& options, DesktopWorkspace& w) {
     const FixedVec centre_q8 = image_centre_q8(w.threshold);
     Status status = find_axes(centre_q8, kMaxSeeds, w);
@@ -98,8 +98,8 @@ Status resample(const ImageView& image, const DeviceOptions& options, DesktopWor
     return shows_one_pattern(image, options, w) ? read_position(options, w) : Status::not_certain;
 }
 
-/// Measures the dots again if the pixel bias matters. The tracked attempt, which this function
-/// uses, corrects the bias.
+/// Measures the dots again if the pixel bias matters. Uses the tracked attempt, because it corrects
+/// the bias.
 void measure_again_if_biased(const ImageView& image, const DeviceOptions& options,
                              DesktopWorkspace& w) {
     const float variance_px2 =
@@ -124,9 +124,9 @@ Status read_filtered_with(const DeviceOptions& filtered, const ImageView& image,
     return shows_one_pattern(image, filtered, w) ? Status::ok : Status::not_certain;
 }
 
-/// Finds dots and grid, and reads the bits. Tries again with a lower threshold if there is too
-/// little contrast or there are too few dots. The second try requires a maximum contrast that is
-/// high enough for pale dots.
+/// Finds dots and grid, and reads the bits. If there is too little contrast or there are too few
+/// dots, tries again with a lower minimum contrast, but only if the largest contrast in the image
+/// reaches this minimum.
 Status read_filtered(const ImageView& image, const DeviceOptions& options, DesktopWorkspace& w) {
     DeviceOptions filtered = for_filtered(options);
     filtered.lattice.min_dots = min_dots(options, w);
@@ -138,7 +138,7 @@ Status read_filtered(const ImageView& image, const DeviceOptions& options, Deskt
     const Fix seen = w.fix;
     filtered.threshold.min_contrast = pale;
     if (read_filtered_with(filtered, image, w) == Status::ok) return Status::ok;
-    // Keeps the first result. The lower threshold found no pattern, so the additional dots are
+    // Keeps the first result. The second try found no readable grid, so its additional dots are
     // noise.
     w.fix = seen;
     w.dot_count = 0;

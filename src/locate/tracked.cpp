@@ -63,8 +63,8 @@ bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsI
         if (found.points < tuned::kMinNear || 4 * found.points < 3 * dots.count) return false;
         const Similarity motion = similarity_of(found);
         plane = moved(plane, motion);
-        // Measures the dots again if the correction is large, because centroid windows
-        // underestimate large offsets.
+        // Measures the dots again if the scale and rotation of the correction move dots at the
+        // image border by kTurned_px or more, because centroid windows underestimate large offsets.
         const float moved_far_px =
             far_px * std::max(std::abs(motion.scale), std::abs(motion.turn_rad));
         if (moved_far_px < tuned::kTurned_px) break;

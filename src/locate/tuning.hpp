@@ -20,13 +20,13 @@ inline constexpr float kMinSpacingForPrediction_px = 9.5F;
 /// increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
 /// Wave search away from the image centre: numbers of central dots, and factors for the estimated
-/// spacing. The search tries all combinations, because large displacements weaken the waves and
-/// only some combinations find the grid.
+/// spacing. The search tries all combinations, because large displacements weaken the waves, and
+/// then only some combinations find the grid.
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
 /// Factors for the estimated spacing if sheets are known. A strip of three rows can then be
-/// certain. The spacing of such a strip is overestimated, because the estimate counts the dots
-/// around a dot.
+/// certain. The spacing of such a strip is overestimated, because the estimate assumes that the
+/// nearest dots around a dot fill a disc.
 inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F};
 }  // namespace first
 
@@ -45,17 +45,18 @@ inline constexpr float kStepParts = 32;
 /// Minimum factor by which the agreement of a better grid exceeds the agreement of the best grid so
 /// far.
 inline constexpr float kBetter = 1.0005F;
-/// Minimum ratio of the squared residuals that the rotation explains to the squared residuals that
-/// remain. kMinGainIfEven applies if the remaining residuals of neighbouring dots are not
-/// correlated, and kMinGain otherwise.
+/// Minimum ratio of the squared residuals that the rotation explains, summed over both axes, to the
+/// number of dots times the remaining variance along one axis. The two values correspond to a fifth
+/// and to three fifths of all squared residuals. kMinGainIfEven applies if the remaining residuals
+/// of neighbouring dots are not correlated, and kMinGain otherwise.
 inline constexpr float kMinGainIfEven = 0.5F;
 inline constexpr float kMinGain = 3;
 /// Maximum variance of the offset between a dot and the nearest place of its cell, per axis, in
-/// spacings^2. In a false grid, the offsets are evenly distributed over circles with a radius of
-/// 0.18 spacings, which have a variance of 0.008.
+/// spacings^2. In a false grid, the offsets are evenly distributed over discs with a radius of 0.18
+/// spacings, so their variance is 0.008.
 inline constexpr float kMaxVariance = 0.002F;
-/// Maximum number of grids whose place in the code is searched. The next rotations often lead to
-/// the same grid without a place again.
+/// Maximum number of grids whose bits are searched for in the code. If these grids have no place in
+/// the code, further rotations often lead to the same grids again.
 inline constexpr int kMaxClimbs = 3;
 /// Correction of the rotation below which the image is not measured again. The correction is
 /// measured as the distance by which the dots in the corners move. Smaller corrections are applied
@@ -70,8 +71,9 @@ inline constexpr float kMinIsolated = 0.88F;
 
 /// Tracked attempt (locate/tracked).
 namespace tracked {
-/// Maximum distance of the dots that correct a prediction, along each axis, in spacings. At this
-/// distance, an angular error does not yet match a dot to the wrong intersection.
+/// Dots within this distance of the point where a prediction is corrected are used for the
+/// correction, in spacings along each axis. At this distance, an angular error of the prediction
+/// does not yet assign a dot to the wrong intersection.
 inline constexpr float kNear = 2.6F;
 /// Minimum number of dots for a correction.
 inline constexpr int kMinNear = 10;
@@ -89,7 +91,7 @@ inline constexpr float kFirstOff = 0.30F;
 inline constexpr float kSecondOff = 0.15F;
 /// Maximum offset at which a dot is measured in a centroid window.
 inline constexpr float kMaxOffset_px = 1.5F;
-/// Offset of a typical dot at a moment-to-weight ratio of 1, accurate to 20 %.
+/// Offset of a typical dot, in px, at a moment-to-weight ratio of 1. Accurate to 20 %.
 inline constexpr float kWeight_px = 0.84F;
 /// Motion of the dots at the image border, due to the scale and rotation of a correction, above
 /// which the dots are measured again.
@@ -104,9 +106,9 @@ inline constexpr FloatVec kPoints[] = {
 
 /// Measurement of dots at known places (locate/confirm, locate/dot_reader).
 namespace confirm {
-/// Reading distance in the first round, in spacings, if the pattern fills a large image. The first
-/// round measures all dots within this distance of `Hypothesis::from_centre`, and their bits must
-/// make the position certain.
+/// Reading distance in the first round for images that the pattern fills and that exceed
+/// kDenseAtMost, in spacings. The first round measures all dots within this distance of
+/// `Hypothesis::from_centre`. The bits of these dots must make the position certain.
 inline constexpr float kDense = 10;
 /// Maximum half side of an image that is measured in a single round, in spacings.
 inline constexpr float kDenseAtMost = 17;
@@ -131,9 +133,9 @@ inline constexpr float kOutlier = 8.3F;
 /// part. After a larger motion, the dots are measured again, because small centroid windows do not
 /// measure large offsets accurately.
 inline constexpr float kFar = 0.055F;
-/// Maximum number of measurements for an exact hypothesis. The hypothesis is implausible if a fit
-/// still moves the plane by more than kFar. docs/accuracy.md, "Dots with the same sub-pixel phase",
-/// lists the remaining errors.
+/// Maximum number of measurements for an exact hypothesis. The hypothesis is implausible if the
+/// last fit still moves the plane by more than kFar. docs/accuracy.md, "Dots with the same
+/// sub-pixel phase", lists the remaining errors.
 inline constexpr int kMaxLooks = 3;
 /// Fraction of the paper level below which windows are dropped. Such windows are on the table
 /// beyond the sheet, where noise can look like dots.
@@ -149,7 +151,8 @@ inline constexpr float kWindowRadii = 2.4F;
 /// Minimum radius of a centroid window.
 inline constexpr float kMinWindowRadius_px = 3.3F;
 /// Window radius above which facing dots bias each other's centroids, as a fraction of the distance
-/// between the two dots. See pose/facing_dots.hpp.
+/// between the two dots. Facing dots are adjacent dots that are displaced towards each other. See
+/// pose/facing_dots.hpp.
 inline constexpr float kFacing = 0.55F;
 /// Maximum deviation of a grid step from whole pixels at which the dots of a row or column have
 /// about the same sub-pixel phase. At larger deviations, the phases in view are evenly distributed.
@@ -184,7 +187,8 @@ namespace known {
 /// of 1.7 px locates 88 %, with equal errors (`dotpose_tables known`).
 inline constexpr float kSmallView = 9;
 inline constexpr float kMargin_px = 1;
-/// Minimum weight of both bits of a cell, in 1/127, for the second attempt to use the cell.
+/// Minimum weight of a bit, in 1/127. The second attempt uses a cell only if each of its two bits
+/// has at least this weight.
 inline constexpr int kMinWeight = 48;
 }  // namespace known
 
@@ -231,7 +235,7 @@ namespace cascade {
 /// the other code.
 inline constexpr float kBetterOdds = 2;
 /// Minimum number of dots per wrong bit at which a reading in another code is reported. Dots have
-/// two bits, so at most one bit in a hundred is wrong. Misreading can cause this error rate.
+/// two bits, so at most one bit in a hundred is wrong. Misread bits can cause this error rate.
 inline constexpr int kBitsPerError = 50;
 /// Minimum odds at which a different place in another code is reported with a certain fix. Odds are
 /// relative to the fix.

@@ -25,7 +25,7 @@ bool has_room(const ImageView& image, const DesktopWorkspace& w) {
 
 /// Returns the centre of the rotation that is removed from an image. This is the distortion centre,
 /// because a rotation about the distortion centre does not change the distortion of a point. A
-/// rotation about any other point differs by a motion, which is part of the drift.
+/// rotation about any other point differs by a translation, which is part of the drift.
 FloatVec axis_of(const FixedLens& lens) {
     if (lens.k_q40 == 0) return {};
     return {static_cast<float>(lens.centre_dx_q8) / 256,
@@ -51,7 +51,8 @@ float distance(FloatVec a, FloatVec b) {
     return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y));
 }
 
-/// Returns true if rotation and drift are in range. Returns false if either is NaN.
+/// Returns true if the rotation and the drift (see ReadoutTurn) are in range. Returns false if
+/// either is NaN.
 bool is_possible(const ReadoutTurn& turn, const ImageView& image) {
     return std::abs(turn.rad_per_row) <= max_rad_per_row(image) &&
            std::abs(turn.drift.x) <= tuned::kMaxDrift && std::abs(turn.drift.y) <= tuned::kMaxDrift;
@@ -88,7 +89,7 @@ class TurnSearch {
         for (float step = step_; step > finest;) {
             if (!improves(step) && !improves(-step) && !improves(0)) step /= 2;
         }
-        // Converts the dots of the patch to the best rotation.
+        // Removes the best rotation from the dots of the patch.
         PatchGrid last;
         return fits(turn_, last);
     }
@@ -106,8 +107,8 @@ class TurnSearch {
         return find_grid(kernels_, patch_, view_, grid);
     }
 
-    /// Tries the rotation `step` larger, with the drift of the best grid so far. Returns true if
-    /// the grid is better.
+    /// Tries a rotation that is larger by `step`, with the drift of the best grid so far. Returns
+    /// true if the grid is better.
     bool improves(float step) {
         ReadoutTurn turn = turn_;
         turn.rad_per_row += step;
@@ -148,8 +149,9 @@ void write_turn(const ReadoutTurn& turn, const ImageView& image, const FixedLens
 }
 
 /// Returns true if the rotation explains enough of the squared residuals that the dots have without
-/// the rotation: a third, or three quarters if the remaining residuals are correlated. The
-/// residuals of a wrinkled sheet may be similar to those of a rotation.
+/// the rotation: about a fifth, or three fifths if the remaining residuals are correlated (see
+/// kMinGainIfEven and kMinGain). The residuals of a wrinkled sheet may be similar to those of a
+/// rotation.
 bool is_significant(const TurnFit& fit, int dots, Surface surface) {
     const float min_gain = surface == Surface::even ? tuned::kMinGainIfEven : tuned::kMinGain;
     return fit.turn.rad_per_row * fit.turn.rad_per_row >=

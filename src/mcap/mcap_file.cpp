@@ -71,8 +71,9 @@ class McapFile::Writer {
         const auto id = static_cast<std::uint16_t>(channel);
         const std::uint64_t number = contents_.messages.at(id)++;
         chunk_.add_message(id, static_cast<std::uint32_t>(number), time_ns, cdr);
-        // A chunk is at least as long as the end of the file, because the end is rewritten after
-        // each chunk.
+        // A chunk that ends because of its duration is at least as long as the end of the file. The
+        // end is rewritten after each chunk, so short chunks would multiply the number of bytes
+        // written.
         const bool is_long =
             chunk_.duration_ns() >= static_cast<std::uint64_t>(options_.chunk_ns) &&
             chunk_.size() >= end_bytes_;

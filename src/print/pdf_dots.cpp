@@ -131,8 +131,8 @@ WholeUnits whole_units(const Pattern& pattern) {
     return units;
 }
 
-// Number of columns of a tile. Deflate finds the dots of a tile in earlier rows. Small tiles
-// compress well if equal tiles are written identically.
+// Number of columns of a tile. Tiles with equal symbols are written as equal text, so deflate
+// encodes most tiles as references to earlier rows.
 constexpr int kTileColumns = 8;
 // Number of columns after which the absolute position is written again. Without this, the rounding
 // errors of a renderer would accumulate from tile to tile.

@@ -23,8 +23,9 @@ inline constexpr const char* kCreator = "dotpose";
 /// Prefix of the resource names of the dots on a page.
 inline constexpr const char* kDotsName = "/Dots";
 
-/// Number of rows written, over all pages, and the first exception of `progress`. qpdf requests the
-/// rows while it writes the file, and would replace the message of the exception with its own.
+/// Progress of writing the rows of all pages, and the first exception that `progress` threw. The
+/// exception is stored because qpdf, which requests the rows while it writes the file, would
+/// replace its message.
 struct RowCount {
     Progress progress;
     std::int64_t done = 0;

@@ -71,8 +71,8 @@ std::string beginning(const std::string& utf8, std::size_t max_characters) {
     return utf8.substr(0, end);
 }
 
-/// Returns the text in the encoding of Helvetica, or none if Helvetica lacks one of the letters. A
-/// missing letter becomes a question mark if no other font is available.
+/// Returns the text in the encoding of Helvetica, or nullopt if Helvetica lacks one of the letters.
+/// If no other font is available, replaces missing letters by question marks.
 std::optional<std::string> in_helvetica(const std::string& utf8) {
     std::string text;
     const bool has_all_letters = QUtil::utf8_to_win_ansi(utf8, text, '?');

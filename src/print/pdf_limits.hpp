@@ -29,7 +29,8 @@ void require_shallow_page_tree(QPDF& pdf);
 /// to a warning, which `is_too_deep` recognizes. Throws Error for pipes and devices.
 std::shared_ptr<InputSource> open_pdf(const std::filesystem::path& path);
 
-/// Returns true if the cause of a warning of qpdf is a read with too much of the stack in use.
+/// Returns true if a warning of qpdf was caused by a read that stopped because too much of the
+/// stack was in use.
 bool is_too_deep(const std::string& warning);
 
 /// Counts the bytes of unpacked streams before they are stored in memory. The limit is `max_mb`

@@ -35,12 +35,13 @@ struct MqttOptions {
     std::string user;  ///< user name, or empty for none
     std::string password;
     bool has_tls = false;
-    std::string ca_file;    ///< trusted certificates, or empty for the certificates of the system
+    /// File with trusted certificates, or empty to use the system's certificates.
+    std::string ca_file;
     int qos = 0;            ///< 0 for at most once, 1 for at least once
     std::string client_id;  ///< client ID, or empty to let the broker choose an ID
     /// Topic of the presence messages of a publisher, or empty if no presence messages are sent.
-    /// The broker retains the newest message for later subscribers. The last will is the message
-    /// for a broken connection.
+    /// The broker retains the newest message for later subscribers. The message for a broken
+    /// connection is the last will of the connection.
     std::string presence_topic;
     /// Returns a presence message. Two threads call this function, but never at the same time.
     std::function<std::string(Presence)> presence;

@@ -11,8 +11,9 @@
 //
 // Protocol of the WebSocket /live: the client sends {"do": "subscribe", "topic": NAME}, then {"do":
 // "next", "topic": NAME} after each message that it has shown, and may send {"do": "unsubscribe",
-// "topic": NAME}. Each message of the server is the name of a topic, a line break, and the value.
-// Other commands are for the program.
+// "topic": NAME}. The values of some topics depend on further arguments of "subscribe", which the
+// client may send again with other arguments. Each message of the server is the name of a topic, a
+// line break, and the value. Other commands are for the program.
 //
 // The server opens no file whose name is part of a request. Its limits are in limits.hpp.
 #pragma once
@@ -89,8 +90,15 @@ class Server {
     /// Adds or replaces a route.
     void set_route(const std::string& path, Route route);
 
+    /// Removes a route if it exists.
+    void remove_route(const std::string& path);
+
     /// Replaces the value of a topic and wakes the server.
     void publish(Topic& topic, Topic::Encode encode);
+
+    /// Replaces the value of a topic by one that depends on the request of each client
+    /// (Topic::publish_for_each), and wakes the server.
+    void publish_for_each(Topic& topic, Topic::EncodeFor encode);
 
     /// Returns the next command of a client, or none. At most 32 commands wait; further commands
     /// are refused.

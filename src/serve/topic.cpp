@@ -7,9 +7,10 @@ namespace dotpose::serve {
 namespace {
 
 /// Returns an empty value if the encoder fails, because the other topics must go on.
-std::string encoded(const Topic::Encode& encode) {
+template <typename Encode, typename... Request>
+std::string encoded(const Encode& encode, const Request&... request) {
     try {
-        return encode();
+        return encode(request...);
     } catch (const std::exception&) {
         return {};
     }
@@ -18,9 +19,18 @@ std::string encoded(const Topic::Encode& encode) {
 }  // namespace
 
 void Topic::publish(Encode encode) {
+    replace(std::move(encode), nullptr);
+}
+
+void Topic::publish_for_each(EncodeFor encode) {
+    replace(nullptr, std::make_shared<const EncodeFor>(std::move(encode)));
+}
+
+void Topic::replace(Encode encode, std::shared_ptr<const EncodeFor> encode_for) {
     const std::lock_guard lock(mutex_);
     // The previous value is destroyed after the lock is released.
     std::swap(encode_, encode);
+    std::swap(encode_for_, encode_for);
     ++version_;
     // No client is ready for another value until the server has sent this one.
     set_ready_clients(0);
@@ -31,16 +41,23 @@ std::uint64_t Topic::version() const {
     return version_;
 }
 
-std::shared_ptr<const std::string> Topic::message(std::uint64_t& version) {
+std::shared_ptr<const std::string> Topic::message_of(const std::string& value) const {
+    return std::make_shared<const std::string>(name_ + '\n' + value);
+}
+
+std::shared_ptr<const std::string> Topic::message(std::uint64_t& version, const Command& request) {
     Encode encode;
+    std::shared_ptr<const EncodeFor> encode_for;
     {
         const std::lock_guard lock(mutex_);
         encode = std::exchange(encode_, nullptr);
+        encode_for = encode_for_;
         if (encode) message_version_ = version_;
+        version = encode_for ? version_ : message_version_;
     }
     // Only the server's thread uses the message, so the program may publish while it is encoded.
-    if (encode) message_ = std::make_shared<const std::string>(name_ + '\n' + encoded(encode));
-    version = message_version_;
+    if (encode_for) return message_of(encoded(*encode_for, request));
+    if (encode) message_ = message_of(encoded(encode));
     return message_;
 }
 

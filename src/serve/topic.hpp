@@ -5,6 +5,9 @@
 // therefore produces values at the rate of the fastest client, and none if no client is ready:
 //
 //     if (frames.is_wanted()) frames.publish([image = copy_of(image)] { return encode(image); });
+//
+// A value may depend on the request of each client, such as the part of a map that the client shows
+// (`publish_for_each`).
 #pragma once
 
 #include <atomic>
@@ -15,11 +18,14 @@
 #include <string>
 #include <utility>
 
+#include "serve/command.hpp"
+
 namespace dotpose::serve {
 
 class Topic {
   public:
     using Encode = std::function<std::string()>;
+    using EncodeFor = std::function<std::string(const Command& request)>;
 
     Topic(std::string name, bool is_binary) : name_(std::move(name)), is_binary_(is_binary) {}
 
@@ -32,6 +38,11 @@ class Topic {
     /// first client is ready. If `encode` throws, the value is empty.
     void publish(Encode encode);
 
+    /// Replaces the value. The server calls `encode` on its own thread, for each client that is
+    /// ready and again when a client changes its request. `request` is the command with which the
+    /// client subscribed. It is not validated. If `encode` throws, the value is empty.
+    void publish_for_each(EncodeFor encode);
+
     // Functions for the thread of the server.
 
     const std::string& name() const { return name_; }
@@ -40,15 +51,20 @@ class Topic {
     std::uint64_t version() const;
     /// Returns the newest value as a message, that is, after the name of the topic and a line
     /// break. Sets `version` to its number. The topic must have a value.
-    std::shared_ptr<const std::string> message(std::uint64_t& version);
+    std::shared_ptr<const std::string> message(std::uint64_t& version, const Command& request = {});
     void set_ready_clients(int count) { ready_clients_.store(count, std::memory_order_relaxed); }
 
   private:
+    void replace(Encode encode, std::shared_ptr<const EncodeFor> encode_for);
+    std::shared_ptr<const std::string> message_of(const std::string& value) const;
+
     const std::string name_;
     const bool is_binary_;
     std::atomic<int> ready_clients_{0};
     mutable std::mutex mutex_;
-    Encode encode_;              ///< encoder of the newest value; null after it was called
+    Encode encode_;  ///< encoder of the newest value; null after it was called
+    /// Encoder of the newest value if the value depends on the client, otherwise null.
+    std::shared_ptr<const EncodeFor> encode_for_;
     std::uint64_t version_ = 0;  ///< number of the newest value, from 1; 0 if there is none
     std::shared_ptr<const std::string> message_;  ///< newest encoded value
     std::uint64_t message_version_ = 0;
@@ -62,19 +78,32 @@ struct Subscription {
 
     bool is_on = false;
     int unacknowledged = 0;
-    std::uint64_t seen = 0;  ///< number of the last value that was sent
+    std::uint64_t seen = 0;   ///< number of the last value that was sent
+    Command request;          ///< the command with which the client subscribed
+    bool is_changed = false;  ///< true if no value was sent for the request yet
 
-    void begin() { *this = {.is_on = true}; }
+    /// Begins, or changes the request.
+    void begin(Command command = {}) {
+        is_on = true;
+        is_changed = true;
+        request = std::move(command);
+    }
     void end() { *this = {}; }
     void acknowledge() { unacknowledged -= unacknowledged > 0 ? 1 : 0; }
     /// Returns true if the client may receive a value.
     bool is_open() const { return is_on && unacknowledged < kMaxUnacknowledged; }
-    /// Returns true if the client should receive the value with the number `version`.
-    bool is_due(std::uint64_t version) const { return is_open() && seen < version; }
+    /// Returns true if the client should receive the value with the number `version`. A client with
+    /// a changed request receives the same value again, but only if it is not behind. Otherwise,
+    /// a client that changes its request all the time would receive no newer values.
+    bool is_due(std::uint64_t version) const {
+        const bool is_answer_due = is_on && is_changed && unacknowledged == 0 && version > 0;
+        return is_answer_due || (is_open() && seen < version);
+    }
     /// Returns true if the client has received the newest value and may receive another one.
     bool is_ready(std::uint64_t version) const { return is_open() && seen == version; }
     void sent(std::uint64_t version) {
         seen = version;
+        is_changed = false;
         ++unacknowledged;
     }
 };

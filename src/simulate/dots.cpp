@@ -50,8 +50,8 @@ Vec2 shift_of(const Page& page, Cell cell) {
     return page.shift_mm({static_cast<double>(cell.x), static_cast<double>(cell.y)});
 }
 
-/// Returns the reflectance of a dot. The direction of the displacement may select one of four inks:
-/// right is the darkest, then down, left and up.
+/// Returns the reflectance of a dot. If `palest_ink` is less than 1, each direction of displacement
+/// has its own ink. The ink for right is the darkest, followed by the inks for down, left and up.
 double reflectance_of(Vec2 displacement, const Imperfections& imperfections) {
     const double paleness = displacement.x > 0   ? 0
                             : displacement.y > 0 ? 1

@@ -1,6 +1,6 @@
 // Computes grey levels from ink. Ink is drawn on sub-pixels, with the exact covered fraction of
 // each sub-pixel. A pixel has `kernel.per_pixel` sub-pixels per axis. One weighted sum over
-// sub-pixels represents lens blur, motion and integration over the area of the pixel. It is
+// sub-pixels represents lens blur, motion and integration over the area of the pixel. The sum is
 // computed first along rows, then along columns. Sub-rows are drawn in bands and added to the pixel
 // rows that they contribute to. No image larger than the frame is stored.
 #include <algorithm>

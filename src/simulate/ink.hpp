@@ -1,4 +1,4 @@
-/// Ink as shapes in an image without blur.
+/// Shapes of ink in an image without blur, and the functions that create and expose them.
 #pragma once
 
 #include <functional>

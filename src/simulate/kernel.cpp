@@ -64,9 +64,8 @@ Kernel make_kernel(const Imperfections& imperfections, double dot_px) {
     Kernel kernel;
     kernel.per_pixel =
         imperfections.sub_pixels > 0 ? imperfections.sub_pixels : sub_pixels_for(dot_px);
-    // Drawing on sub-pixels blurs like a triangle with a width of two sub-pixels. The variance of
-    // this triangle is 1/6 of a squared sub-pixel. The Gaussian adds the remaining part of the
-    // requested blur.
+    // Drawing on sub-pixels has the effect of a triangle filter that is two sub-pixels wide. The
+    // variance of this filter is 1/6 sub-pixel^2. The Gaussian adds the rest of the requested blur.
     const double raster_variance = 1.0 / (6.0 * kernel.per_pixel * kernel.per_pixel);
     const double sigma_px = std::sqrt(
         std::max(0.0, imperfections.blur_sigma_px * imperfections.blur_sigma_px - raster_variance));

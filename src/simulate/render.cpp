@@ -48,9 +48,9 @@ void check_camera(const CameraModel& camera, const CameraPose& pose) {
     require(within(pose.theta_rad, -1e6, 1e6) && within(pose.fraction_x, -1e6, 1e6) &&
                 within(pose.fraction_y, -1e6, 1e6),
             "the pose is not a number");
-    // Along the tilt, depth grows by `slope` per mm on the paper. The ray of the image corner moves
-    // sideways by `widest` mm per mm of depth. The ray meets the paper only if the product of
-    // `slope` and `widest` is below 1.
+    // In the direction of the tilt, depth increases by `slope` mm per mm on the paper. The ray of
+    // the image corner moves sideways by `widest` mm per mm of depth. The ray meets the paper only
+    // if the product of `slope` and `widest` is below 1.
     const double widest = std::sqrt(corner_square) / std::min(1.0, 1 + camera.k * corner_square) *
                           camera.mm_per_px / camera.working_distance_mm;
     const double slope = std::hypot(std::tan(pose.tilt_x_rad),

@@ -7,7 +7,7 @@
 #include <fcntl.h>
 #include <io.h>
 #include <windows.h>
-// Needs the types of windows.h.
+// shellapi.h needs the types of windows.h, which must therefore be included first.
 #include <shellapi.h>
 
 #include "system/process.hpp"

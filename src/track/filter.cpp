@@ -9,14 +9,16 @@ namespace {
 /// Time constant of the acceleration decay.
 constexpr float kHold_s = 0.5F;
 
-/// Factor by which a sighting increases or decreases the agility. Both directions use the same
-/// factor. In equilibrium, consecutive innovations therefore have the same sign as often as
-/// opposite signs, as in a matched filter.
+/// Factor by which a sighting increases or decreases the agility, the factor of the process noise
+/// (see filter.hpp). Because both directions use the same factor, consecutive innovations have the
+/// same sign as often as opposite signs in equilibrium, as in a filter with the correct noise
+/// variance.
 constexpr float kAgility_step = 1.5F;
 constexpr float kMinAgility = 1e-6F;
 /// Innovations above this number of standard deviations are not considered noise.
 constexpr float kSurprise = 4;
-/// Number of sightings over which the scatter is averaged.
+/// Number of sightings over which the scatter is averaged. The scatter is the ratio of the squared
+/// innovations to the innovations' covariance.
 constexpr float kScatter_sightings = 32;
 constexpr float kMinScatter = 0.01F;
 constexpr float kMaxScatter = 9;
@@ -92,8 +94,9 @@ void add_noise(Covariance9& covariance, std::size_t axis, float variance, const 
     }
 }
 
-/// Sets the pose covariance. If sightings scatter less than their covariances predict, the
-/// sightings have a common error. Averaging does not reduce this error.
+/// Sets the pose covariance. If sightings scatter less than their covariances predict, a part of
+/// their errors is common to all of them. Averaging does not reduce the common part, so the
+/// covariance includes it.
 void set_pose_covariance(MotionEstimate& motion) {
     const float common = std::max(1 - motion.scatter, 0.0F);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -138,8 +141,9 @@ Right product(const Left& left, const Right& right) {
     return result;
 }
 
-/// Updates the covariance P for a sighting: replaces P by (I - K H) P. `weighted` is S^-1 H P, the
-/// transposed gain.
+/// Updates the covariance P for a sighting: replaces P by (I - K H) P. K is the gain, and H selects
+/// the pose from the state. `weighted` is S^-1 H P, the transpose of K, where S is the covariance
+/// of the innovation. `noise` is R, the covariance of the sighting.
 void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, const Matrix3& noise) {
     const Covariance9 before = p;
     for (std::size_t i = 3; i < 9; ++i) {

@@ -1,6 +1,6 @@
 // Kalman filter for (x, y, theta), with velocities and accelerations. Accelerations decay towards
-// zero and are driven by white noise (Singer 1970). The filter adapts the noise variance, called
-// agility, to the robot's motion.
+// zero and are driven by white noise (Singer 1970). The filter multiplies the variance of this
+// noise by a factor of at most 1, the agility, and adapts the agility to the robot's motion.
 //
 // Reference: Bar-Shalom, Li, Kirubarajan: Estimation with Applications to Tracking and Navigation,
 // sections 8.2 (the model) and 11.2 (fitting the model).

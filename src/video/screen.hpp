@@ -41,7 +41,7 @@ struct CalibrationScene {
     CalibrationCoverage coverage;
     std::vector<Gauge> gauges;
     std::optional<double> theta_rad;  ///< direction of the frame, or empty if it was not located
-    bool is_taken = false;            ///< true if this frame was taken
+    bool is_taken = false;            ///< true if this frame was added to the calibration
 };
 
 /// Contents of the picture of one frame.

@@ -245,5 +245,22 @@ TEST_F(SheetsTool, a_measured_length_sets_the_print_scale) {
     EXPECT_EQ(sheets(), before);
 }
 
+TEST_F(SheetsTool, a_measured_offset_moves_the_dots_on_the_page) {
+    print_small("table");
+    const json before = sheets();
+    ASSERT_EQ(sheets_tool("offset table --right 5.4 --below 4.9"), 0) << errors_;
+    EXPECT_EQ(output_, "table: first intersection 5.4 mm right of and 4.9 mm below the corner\n");
+    EXPECT_DOUBLE_EQ(sheets().at(0)["first_x_mm"], 5.4);
+    EXPECT_DOUBLE_EQ(sheets().at(0)["first_y_mm"], 4.9);
+
+    const json moved = sheets();
+    EXPECT_EQ(sheets_tool("offset table --right 500 --below 5"), 2);
+    EXPECT_THAT(errors_, HasSubstr("do not fit on a page"));
+    EXPECT_EQ(sheets_tool("offset table --right 5"), 2);
+    EXPECT_THAT(errors_, HasSubstr("--below"));
+    EXPECT_EQ(sheets(), moved);
+    EXPECT_EQ(moved.at(0)["origin_x"], before.at(0)["origin_x"]);
+}
+
 }  // namespace
 }  // namespace dotpose::test

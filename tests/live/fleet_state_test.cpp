@@ -50,8 +50,8 @@ TEST(FleetConditions, FollowTheStatesAndTheSilence) {
 TEST(FleetConditions, FollowTheConnection) {
     Receiver r;
     r.receive({.robot = "anna"});
-    r.connect("anna", "CONNECTIONBROKEN", 3600 * kSecond);  // the last will has the time of the
-                                                            // start
+    // The last will contains the time at which the robot started, an hour ago.
+    r.connect("anna", "CONNECTIONBROKEN", 3600 * kSecond);
     EXPECT_EQ(r.condition("anna"), Condition::silent);
     EXPECT_EQ(r.robot("anna").reason, "connection broke");
     r.connect("anna", "ONLINE");

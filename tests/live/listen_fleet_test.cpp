@@ -142,11 +142,35 @@ TEST_F(ListenFleet, ClocksThatWrapAndDevicesThatRestart) {
                 testing::ElementsAre("0.000000", "0.020000", "0.040000", "1.040000", "1.060000"));
 }
 
+TEST_F(ListenFleet, AStatusOfANewerVersionIsReportedAsOther) {
+    const Broker broker(directory_);
+    std::string bytes;
+    for (std::uint16_t i = 0; i < 3; ++i) {
+        PosePacket packet;
+        packet.status = Status::other;
+        packet.sequence = i;
+        packet.time_us = i * 1'100'000U;
+        const PacketBytes encoded = encode(packet);
+        bytes.append(encoded.begin(), encoded.end());
+    }
+    std::ofstream(directory_ / "packets.bin", std::ios::binary) << bytes;
+    WatchedFleet fleet(directory_, "--qos 1 --metrics fleet.prom --mqtt " + broker.url());
+    ASSERT_EQ(run("listen packets.bin --robot m0 --qos 1 --mqtt " + broker.url()), 0) << errors_;
+    // The first report of the camera is the beginning of the count, and the second one has one more
+    // frame.
+    wait_until([&] {
+        return file("fleet.prom").find("refused_frames_total{reason=\"other\"} 1\n") !=
+               std::string::npos;
+    });
+    EXPECT_THAT(fleet.table(), HasSubstr("\nm0               gone  "));
+}
+
 TEST_F(ListenFleet, RefusesWhatDoesNotFit) {
     std::ofstream(directory_ / "packets.bin") << "";
     EXPECT_EQ(run("listen packets.bin --sheets none.json"), 1);
     EXPECT_EQ(run("listen packets.bin --sheets none.json --spacing 0.5"), 2);
     EXPECT_EQ(run("listen packets.bin --log packets.bin"), 2);
+    EXPECT_EQ(run("listen packets.bin --web nonsense"), 2);
     EXPECT_EQ(run("listen packets.bin --mqtt nonsense"), 2);
     EXPECT_THAT(errors_, HasSubstr("'nonsense' is not mqtt://HOST or mqtts://HOST"));
 }

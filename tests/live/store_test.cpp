@@ -28,7 +28,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr std::int64_t kDay_us = 86'400'000'000;
-constexpr std::int64_t kNoon_us = 1'795'000'000'000'000;  // 2026-11-18T08:26:40
+constexpr std::int64_t kNoon_us = 1'795'000'000'000'000;  // 2026-11-18T11:06:40 UTC
 
 State state_of(const std::string& robot, std::int64_t time_us, std::int64_t number) {
     State state;

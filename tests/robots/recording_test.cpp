@@ -37,7 +37,8 @@ class Recording : public WatchCommand {
     }
 };
 
-// A single test checks both, because locating the drive and reading its recording take seconds.
+// A single test checks the poses, the odometry and the replayed log, because locating the drive and
+// reading its recording take seconds.
 TEST_F(Recording, HasThePosesAndTheOdometryOfTheLines) {
     DOTPOSE_NEEDS_NPM();
     put_raw(drive_.frames());

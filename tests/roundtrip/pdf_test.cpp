@@ -30,7 +30,8 @@ constexpr Limits kFineOnCoarse = {6, 30};
 // show the place of a smaller dot within a pixel. The error is up to 17 µm for a dot of 0.05 mm at
 // 300 dpi. A dot of whole pixels in whole places is exact at any size.
 constexpr double kExactDot_px = 2.3;
-// Maximum diameter, at a spacing of 0.3 mm, that leaves a white pixel between any two dots: 1.6 px.
+// Maximum diameter that leaves a white pixel between any two dots at a spacing of 0.3 mm and 300
+// dpi: 1.6 px.
 constexpr double kFineDot_px = 1.63;
 
 struct Dots {

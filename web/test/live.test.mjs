@@ -1,14 +1,14 @@
 // Tests the page of `dotpose watch --web`: a simulated drive as a video file, whose known poses are
 // read from the page.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { dotpose, kTool, launch, open } from "./browser.mjs";
+import { dotpose, launch, open } from "./browser.mjs";
 import { readCsv } from "./clip.mjs";
+import { watchSource } from "./watch.mjs";
 
 const kAxe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 
@@ -25,28 +25,9 @@ function makeDrive(name, frames, ...options) {
     return { video, truth: readCsv(readFileSync(video.replace(".mp4", "-truth.csv"), "utf8")) };
 }
 
-/**
- * Starts `dotpose watch` with a page, five times slower than the drive. Returns its address and a
- * function that ends it.
- */
-async function watch({ video }, options = [], address = "0") {
-    const always = ["--realtime", "--fps", "10", "--no-window", "--web-recordings", folder, "-o", "/dev/null"];
-    const program = spawn(kTool, ["watch", video, "--web", address, ...always, ...options], { stdio: ["ignore", "ignore", "pipe"] });
-    const ended = new Promise((resolve) => program.on("exit", resolve));
-    let messages = "";
-    const url = await new Promise((resolve, reject) => {
-        program.stderr.on("data", (data) => {
-            messages += data;
-            const found = /the page is at (\S+)/.exec(messages);
-            if (found) resolve(found[1]);
-        });
-        program.on("exit", () => reject(new Error(messages)));
-    });
-    const stop = async () => {
-        program.kill("SIGINT");
-        await ended;
-    };
-    return { url, stop };
+/** Starts `dotpose watch` with a page, five times slower than the drive. */
+function watch({ video }, options = [], address = "0") {
+    return watchSource([video, "--realtime", "--fps", "10", "--web-recordings", folder], options, address);
 }
 
 /** Returns the frame, the pose and the state that the page shows at one time. */
@@ -68,7 +49,7 @@ before(async () => {
     folder = mkdtempSync(join(tmpdir(), "dotpose-live-"));
     dotpose("print", "-o", join(folder, "table.pdf"), "--sheets", join(folder, "sheets.json"), "--name", "<b>table</b>");
     drive = makeDrive("drive.mp4", 500);
-    browser = await launch({ viewport: { width: 1200, height: 900 } });
+    browser = await launch({ viewport: { width: 1200, height: 900 }, reducedMotion: "reduce" });
 });
 after(async () => {
     await browser?.close();
@@ -189,7 +170,7 @@ test("axe finds no violation, and nothing is wider than the screen", async () =>
         for (const colorScheme of ["light", "dark"]) {
             for (const width of [1200, 390, 320]) {
                 const { page } = await open(browser.context, run.url);
-                await page.emulateMedia({ colorScheme });
+                await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
                 await page.setViewportSize({ width, height: 800 });
                 await page.waitForFunction(isLive);
                 // Scripts of the test are not bound by the content security policy of the page.

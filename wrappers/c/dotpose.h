@@ -172,11 +172,11 @@ typedef struct dotpose_plane {
 enum {
     /* Dots were measured where a prediction expected them. */
     DOTPOSE_ATTEMPT_TRACKED = 0,
-    /* Without a prediction, from patches of the image. */
+    /* The grid was found in patches of the image, without a prediction. */
     DOTPOSE_ATTEMPT_FIRST = 1,
-    /* On the filtered image, after the first attempt failed. */
+    /* The grid was found in the filtered image. */
     DOTPOSE_ATTEMPT_SECOND = 2,
-    /* In integer arithmetic, as on a microcontroller. */
+    /* The frame was located in integer arithmetic, as on a microcontroller. */
     DOTPOSE_ATTEMPT_DEVICE = 3
 };
 
@@ -222,15 +222,15 @@ typedef struct dotpose_fix {
     /* Angle of the image x axis in the pattern, from +x towards +y: clockwise as seen on the
      * paper, in [-pi, pi). */
     double theta_rad; /* 24 */
-    /* Upper bound of the probability that the position is wrong. */
+    /* Upper bound on the probability that the position is wrong. */
     double p_wrong; /* 32 */
     /* Binary logarithm of the upper bound p_wrong. */
     int32_t p_wrong_log2; /* 40 */
-    /* Blobs of the size of a dot. */
+    /* Number of dot-sized blobs. */
     int32_t dots_seen; /* 44 */
-    /* Dots to which the pose was fitted. */
+    /* Number of dots to which the pose was fitted. */
     int32_t dots_used; /* 48 */
-    /* The attempt that made the fix: DOTPOSE_ATTEMPT_. */
+    /* Attempt that produced the fix: DOTPOSE_ATTEMPT_. */
     int32_t attempt; /* 52 */
     /* Flatness of the paper in view, as determined from the dots: DOTPOSE_SURFACE_. */
     int32_t surface; /* 56 */
@@ -257,9 +257,9 @@ typedef struct dotpose_fix {
     int32_t theta_bam; /* 128 */
     /* Grid spacing in the image, in 2^-16 px. */
     int32_t spacing_px_q16; /* 132 */
-    /* Spacing of the printed grid, from the options; 0: not known. */
+    /* Spacing of the printed grid in nm, from the options; 0 if unknown. */
     int32_t spacing_nm; /* 136 */
-    /* Place that is the origin of pattern_from_image. */
+    /* Place in the code of the origin of pattern_from_image. */
     dotpose_place place; /* 140 */
     /* Map from the image to the pattern, in spacings relative to place. */
     dotpose_plane pattern_from_image; /* 156 */

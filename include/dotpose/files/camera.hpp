@@ -42,7 +42,7 @@ struct PaperScale {
 
 /// Tilt of the paper relative to the image plane, with the sign convention of tools/simulate.hpp.
 struct Tilt {
-    double x_rad = 0;  ///< about the image x axis; above 0, the paper recedes towards the bottom
+    double x_rad = 0;  ///< about the image x axis; if above 0, the paper recedes towards the bottom
     /// About the image y axis. If the angle is above 0, the paper comes closer towards the right.
     double y_rad = 0;
 };
@@ -80,7 +80,8 @@ struct Camera {
     /// distortion.
     double k_per_px2 = 0;
     PixelPoint centre_px;
-    std::optional<PaperScale> paper;  ///< none if the camera is hand-held, or its view is not known
+    std::optional<PaperScale> paper;  ///< none if the camera is hand-held, or if its view is not
+                                      ///< known
     std::optional<double> focal_px;   ///< none if the calibration did not determine it
     /// Directions of view, if pixels are not square or `centre_px` is not on the optical axis. The
     /// files of ROS describe such cameras. See `pinhole_of`.
@@ -102,10 +103,10 @@ struct Camera {
     bool flip = false;
 
     /// Flat field: the brightness of evenly lit white paper in the image, relative to its brightest
-    /// point. Contains rows of values from kMinFlatField to 1, at equal distances from the first to
-    /// the last pixel along each axis. Values between them are interpolated bilinearly. The flat
-    /// field includes the vignetting of the lens and the light of the lamps. Empty if the
-    /// brightness is even or not known.
+    /// point. Contains rows of values from kMinFlatField to 1. The values are sampled at equal
+    /// distances, from the first to the last pixel along each axis. Values between them are
+    /// interpolated bilinearly. The flat field includes the vignetting of the lens and the light of
+    /// the lamps. Empty if the brightness is even or not known.
     std::vector<std::vector<double>> flat_field;
 
     /// Time from the first to the last row of an image, if the sensor has a rolling shutter. The
@@ -124,7 +125,7 @@ struct Camera {
 
 /// Checks all values. Throws BadArgument in these cases:
 /// - `locate` does not accept the image size.
-/// - The lens folds the image: 1 + k r^2 is outside [0.5, 2].
+/// - The distortion is too strong: 1 + k r^2 is outside [0.5, 2] in a corner of the image.
 /// - The distortion centre is more than 1000 px from the image centre.
 /// - The reference point is more than 10,000 px from the image centre.
 /// - A value is not finite, or a length is not positive.
@@ -145,7 +146,8 @@ struct CameraPoint {
     double x_mm = 0;
     double y_mm = 0;
 };
-/// Returns the point in the camera frame of an undistorted pixel. `camera.paper` must be known.
+/// Returns the point on the paper that an undistorted pixel shows, in the camera frame.
+/// `camera.paper` must be known.
 CameraPoint on_paper(const Camera& camera, PixelPoint undistorted);
 /// Returns the undistorted pixel of a point in the camera frame. `camera.paper` must be known.
 PixelPoint on_image(const Camera& camera, CameraPoint point);
@@ -153,10 +155,10 @@ PixelPoint on_image(const Camera& camera, CameraPoint point);
 /// Returns the direction of the image x axis at an undistorted pixel, in the camera frame.
 double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 
-/// Returns the position on the paper of an undistorted pixel, in mm from the point under the image
-/// centre. x is along the image x axis at this point. `camera.paper` must be known. In this frame,
-/// two calibrations of the same camera give positions that agree to within microns, even far
-/// outside the image. Their pixel coordinates differ by more.
+/// Returns the point on the paper that an undistorted pixel shows, in mm from the point under the
+/// image centre. x is along the image x axis at this point. `camera.paper` must be known. In this
+/// frame, two calibrations of the same camera give positions that agree to within microns, even far
+/// outside the image. The undistorted pixels of the same points differ by more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 /// Returns the undistorted pixel of a point returned by `from_image_centre`.
 PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
@@ -172,9 +174,10 @@ std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera
 /// as `validate` does, and if the crop exceeds the image.
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
-/// Sets the lens and the reference point in `options`, for images of the given size. If the view of
-/// the camera is known, also sets `show_stages`, because `with_camera` needs the dots in the trace.
-/// Throws BadArgument if the given size is not the image size of the camera.
+/// Sets the lens in `options`, and the reference point if the camera has one, for images of the
+/// given size. If the view of the camera is known, also sets `show_stages`, because `with_camera`
+/// needs the dots in the trace. Throws BadArgument if the given size is not the image size of the
+/// camera.
 void use_camera(const Camera& camera, int width_px, int height_px, DeviceOptions& options);
 
 }  // namespace dotpose

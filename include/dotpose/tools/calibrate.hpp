@@ -94,8 +94,9 @@ struct LensCalibration {
     int duplicates = 0;  ///< number of frames that repeat an earlier image, and are not used
     int dots = 0;        ///< number of dots used
     int outliers = 0;    ///< number of dots not used
-    double residual_before_px = 0;  ///< rms per axis for a camera without distortion, skew and tilt
-    double residual_px = 0;         ///< rms per axis for the calibrated camera
+    double residual_before_px = 0;  ///< rms residual per axis for a camera without distortion, skew
+                                    ///< and tilt
+    double residual_px = 0;         ///< rms residual per axis for the calibrated camera
     double px_per_spacing = 0;      ///< mean over the frames, at the image centre
     double dot_width = 0;           ///< width at half darkness, in spacings; 1/6 for a sharp dot
     double coverage = 0;            ///< fraction of the 12 x 8 parts of the image that show dots
@@ -221,7 +222,8 @@ PivotCalibration calibrate_pivot(int frames, const FrameAt& frame_at, const Came
 struct FlatFieldCalibration {
     Camera camera;  ///< the given camera with `flat_field` set
     int frames = 0;
-    double min_brightness = 0;  ///< at the darkest point, relative to the brightest point
+    double min_brightness = 0;  ///< brightness at the darkest point, relative to the brightest
+                                ///< point
     /// Rms deviation of the mean frame from the flat field, relative to the flat field. It is due
     /// to remaining dots, and to pixels with a different sensitivity.
     double residual = 0;
@@ -229,9 +231,9 @@ struct FlatFieldCalibration {
 
 /// Computes the flat field of a camera from at least 20 frames of a sheet or of white paper, taken
 /// with constant exposure and light. The dots must be at different places in the frames, because
-/// their mean must be even. Without a camera, makes one with the size of the frames. Throws Error
-/// if there are fewer frames, frames differ in size, the image is too dark, or the mean frame is
-/// not smooth. Uses only `progress` of the options.
+/// the mean of the frames must show even paper. Without a camera, makes one with the size of the
+/// frames. Throws Error if there are fewer frames, frames differ in size, the image is too dark, or
+/// the mean frame is not smooth. Uses only `progress` of the options.
 FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
                                           const std::optional<Camera>& camera,
                                           const CalibrateOptions& options);
@@ -249,7 +251,7 @@ struct ReadoutCalibration {
 /// frames, taken at intervals of `interval_ms`. Compares the motion during the readout of each
 /// frame with the motion from the previous to the next frame. Throws Error in these cases:
 /// - The camera file has no view of the paper.
-/// - There are fewer than 5 located frames with a located frame before and after them.
+/// - Fewer than 5 located frames are preceded and followed by a located frame.
 /// - The motion does not determine the readout time to 10 %.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);

@@ -68,7 +68,7 @@ struct PrintScale {
     double scale_x = 1;       ///< printed length over nominal length along the pattern's x axis
     double scale_y = 1;       ///< printed length over nominal length along the pattern's y axis
     double rotation_rad = 0;  ///< direction of the pattern's x axis in the scan, from +u towards +v
-    double skew_rad = 0;      ///< excess over 90 degrees of the angle from the x to the y axis
+    double skew_rad = 0;      ///< angle from the x axis to the y axis, minus 90 degrees
 };
 
 /// Ratio of the two scales of a print, measured in a photo. Perspective and the unknown focal

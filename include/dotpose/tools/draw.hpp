@@ -14,8 +14,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "dotpose/export.hpp"
+#include "dotpose/files/camera.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/files/sheet.hpp"
 #include "dotpose/files/sheet_place.hpp"
@@ -33,7 +35,7 @@ struct SpinCalibration;
 struct Stitching;
 struct Sweep;
 
-/// Contents of the caption of `draw_frame`, in addition to the fix.
+/// Options for the caption of `draw_frame`.
 struct DrawOptions {
     /// Spacing of the printed grid in mm, for the pose in mm. If the spacing is NaN, the pose is in
     /// spacings.
@@ -86,6 +88,22 @@ void draw_path(const std::filesystem::path& file, const Sheet& sheet,
 
 /// Draws the residual fields before and after calibration, and the coverage of the image by dots.
 void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
+
+/// Residuals of a lens calibration, summed in square parts of the image, as `draw_calibration`
+/// draws them. For programs that draw on their own.
+struct ResidualField {
+    struct Part {
+        PixelPoint before;  ///< sum of the residuals before the calibration, in px
+        PixelPoint after;   ///< sum of the residuals after the calibration, in px
+        int dots = 0;
+    };
+
+    double part_px = 0;  ///< side of a part
+    int columns = 0;
+    int rows = 0;
+    std::vector<Part> parts;  ///< row by row
+};
+ResidualField residual_field(const LensCalibration& calibration);
 
 /// Draws the positions of the camera while the robot turned, and the centre of rotation from each
 /// frame.

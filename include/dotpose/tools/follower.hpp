@@ -74,11 +74,11 @@ struct Located {
     /// Spacing computed from the fix and the view of the camera file, in mm. NaN if unknown.
     /// `contradicts` (mounted_pose.hpp) compares this spacing with `spacing_mm`.
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
-    /// Velocity of the camera during the readout. None without a fix, or if the camera file does
-    /// not contain the readout time of a rolling shutter.
+    /// Velocity of the camera during the readout. None if there is no fix, or if the camera file
+    /// does not contain the readout time of a rolling shutter.
     std::optional<ReadoutVelocity> velocity;
-    /// Pose of the camera in space, if `FollowerOptions::fits_space_pose` is set. None without a
-    /// fix or if the spacing is not known.
+    /// Pose of the camera in space, if `FollowerOptions::fits_space_pose` is set. None if there is
+    /// no fix, or if the spacing is not known.
     std::optional<SpacePose> space;
     /// Tip of the pen in the pattern frame, if `space` is known and not ambiguous, and the camera
     /// file contains a tip.
@@ -91,7 +91,7 @@ struct Located {
 /// The result for one image of a sequence, given the previous images.
 struct Followed {
     /// Result of the image. If the fix was accepted only because of the predicted place, its
-    /// `p_wrong` includes the prior probability of that place.
+    /// `p_wrong` takes the prior probability of that place into account.
     Located located;
     Track track;
 };
@@ -122,11 +122,22 @@ class Follower {
     /// pattern frame.
     bool is_in_world() const { return is_in_world_; }
     const std::vector<SheetEntry>& sheets() const { return options_.sheets; }
+
+    /// Replaces the sheets, for example after one of them was moved in the world. The next image
+    /// starts a new track. Invalidates `SheetPlace::entry` of earlier results. Throws BadArgument
+    /// if there are no sheets, or if a sheet is not in the plane of the code.
+    void set_sheets(std::vector<SheetEntry> sheets);
+
     bool fits_space_pose() const { return options_.fits_space_pose; }
     /// Returns true if images have the tip of a pen.
     bool finds_tip() const {
         return options_.fits_space_pose && options_.camera && options_.camera->tip;
     }
+
+    /// Replaces the camera file, for example after a new calibration. The next image starts a new
+    /// track, because the reference point may have moved on the robot. Throws BadArgument if the
+    /// camera is invalid, or if it has no focal length and poses in space are required.
+    void set_camera(const Camera& camera);
 
     /// Return results for the latest image: the image that was located (possibly flipped, reduced,
     /// and corrected by the flat field), the options used, and the trace of the stages.
@@ -151,6 +162,7 @@ class Follower {
     };
 
     void require_space_camera() const;
+    void use_flat_field();
     void use_sheets();
     void use_options_for(int width_px, int height_px);
     ImageView as_located(ImageView image);

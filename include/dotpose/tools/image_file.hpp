@@ -1,8 +1,8 @@
 /// Reads images from files as 8-bit grey, and writes grey images.
 ///
 /// Formats: PNM (PBM, PGM and PPM, text and binary), PNG, JPEG, BMP and TIFF. If dotpose was built
-/// with libwebp and libheif, also WebP, HEIC and AVIF. The first bytes of a file determine its
-/// format, never its name. A truncated or damaged file is an Error, even if part of the picture
+/// with libwebp and libheif, also WebP, HEIC and AVIF. The format is determined by the first bytes
+/// of a file, not by its name. A truncated or damaged file is an Error, even if part of the picture
 /// could be decoded, because interpolated pixels are not measurements. A JPEG that lacks only its
 /// end marker is read.
 ///

@@ -79,7 +79,8 @@ struct MeasuredError {
 /// All frames with their errors.
 struct Measurement {
     std::vector<MeasuredFrame> frames;
-    std::vector<std::optional<MeasuredError>> errors;  ///< error of each frame; none without a fix
+    std::vector<std::optional<MeasuredError>> errors;  ///< error of each frame; none if the frame
+                                                       ///< has no fix
     std::optional<Similarity> alignment;  ///< none if places were compared without alignment
     bool is_in_world = false;
 

@@ -45,8 +45,8 @@ struct ReadoutVelocity {
 };
 
 /// A fix refined by `with_camera`, and the velocity during the readout. Pose and velocity are
-/// fitted together to the dots. There is no velocity without a fix, or if the camera file has no
-/// `readout_ms` or no view.
+/// fitted together to the dots. There is no velocity if there is no fix, or if the camera file has
+/// no `readout_ms` or no view.
 struct MovingFix {
     Fix fix;
     std::optional<ReadoutVelocity> velocity;
@@ -55,8 +55,8 @@ MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const T
                                    const AxisScale& print = {});
 
 /// Returns the spacing of the pattern in nominal mm. This is the spacing computed from the fix and
-/// the view of the camera file, divided by the print scale of the sheet. Returns NaN without a fix
-/// or a view.
+/// the view of the camera file, divided by the print scale of the sheet. Returns NaN if there is no
+/// fix, or if the camera file has no view.
 double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print = {});
 
 /// Maximum relative difference between the nominal and the measured spacing of a sheet. It exceeds

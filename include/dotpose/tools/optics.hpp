@@ -80,8 +80,8 @@ struct OpticsReport {
     double longest_exposure_s = 0;  ///< maximum exposure at the given speed and turn rate
     double blur_px = 0;             ///< blur at the given speed, turn rate and exposure
 
-    /// Distances from the lens at which the defocus blur is one pixel: nearer and farther than the
-    /// focused distance. `far_mm` may be infinite.
+    /// Distances from the lens at which the defocus blur is one pixel. `near_mm` is less than the
+    /// focused distance, and `far_mm` is greater. `far_mm` may be infinite.
     double near_mm = 0;
     double far_mm = 0;
     double depth_mm() const { return far_mm - near_mm; }

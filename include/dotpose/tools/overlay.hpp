@@ -41,7 +41,8 @@ struct OverlayOptions {
     double margin_mm = 5;  ///< margin without dots inside the visible page (its crop box)
     double dpi = 600;      ///< resolution of the printer; see PrintOptions
     DotDrawing drawing = DotDrawing::automatic;
-    /// Pages that get dots, from 1, for example "1-3,7". "z" is the last page. Empty: all.
+    /// Numbers of the pages that get dots, from 1, for example "1-3,7". "z" is the last page. Empty
+    /// for all pages.
     std::string pages;
     int copies = 1;  ///< number of copies of the document, each with its own cells
     /// Paper on which several pages with dots are printed side by side as cards, with cut marks.

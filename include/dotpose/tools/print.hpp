@@ -117,7 +117,7 @@ struct PrintOptions {
     /// PDF only: separate commands for each page. If not empty, they replace `command`.
     std::vector<std::string> page_commands;
     int first_page = 1;  ///< PDF only: page number of the first sheet, for the labels
-    /// PDF only: total number of pages, for the labels. 0 stands for the number of sheets.
+    /// PDF only: total number of pages, for the labels. If 0, the labels show the number of sheets.
     int page_count = 0;
     /// Called often, so it must be fast. Default: none.
     Progress progress;

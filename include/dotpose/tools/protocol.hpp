@@ -31,9 +31,9 @@ struct ProtocolOptions {
 
 /// Error of one coordinate while the device is at rest.
 struct Spread {
-    double bias = 0;   ///< mean of found minus true values; its absolute value is the paper's
+    double bias = 0;   ///< mean of found minus true values; the paper calls its absolute value
                        ///< accuracy
-    double sigma = 0;  ///< standard deviation; the paper's precision
+    double sigma = 0;  ///< standard deviation; the paper calls it precision
 };
 
 /// The results at one position or angle of the device.

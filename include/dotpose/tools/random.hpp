@@ -19,11 +19,11 @@ constexpr std::uint64_t scramble(std::uint64_t bits) noexcept {
     return bits ^ (bits >> 31);
 }
 
-/// The generator splitmix64. It is cheap to seed, so every frame and every printed dot has its own
+/// The generator splitmix64. Seeding is fast, so every frame and every printed dot can have its own
 /// generator.
 class Rng {
   public:
-    /// Starts the stream of numbers of a seed.
+    /// Starts the stream of numbers that belongs to a seed.
     explicit constexpr Rng(std::uint64_t seed) noexcept : state_(seed) {}
 
     /// Starts an independent stream for item `index` of a run.

@@ -16,8 +16,8 @@
 ///   x axis.
 ///
 /// While the robot is followed, the transform from `map` to `odom` is constant. It jumps when the
-/// robot is found again after it was lost or moved by hand, or is in another plane. The transform
-/// from `odom` to `base_link` is always continuous.
+/// robot is found again after it was lost or moved by hand, and when the robot enters another
+/// plane. The transform from `odom` to `base_link` is always continuous.
 #pragma once
 
 #include <array>
@@ -67,7 +67,8 @@ struct PlanarMotion {
 /// The results of a frame, in the frame `map`.
 struct RobotUpdate {
     std::int64_t time_ns = 0;            ///< middle of the exposure
-    std::optional<PlanarFix> fix;        ///< none without a fix, or if its place is not known
+    std::optional<PlanarFix> fix;        ///< none if there is no fix, or if the place of the fix is
+                                         ///< unknown
     std::optional<PlanarMotion> motion;  ///< none while the robot is lost
     std::uint32_t plane = 0;             ///< ID of the plane; poses in different planes are
                                          ///< unrelated

@@ -28,7 +28,7 @@ Quantiles quantiles_of(std::vector<double> values);
 
 /// Counts and error statistics of many frames.
 struct Score {
-    /// Number of readable frames. Each is located, wrong, or has a status other than ok.
+    /// Number of readable frames. Each frame is located, is wrong, or has a status other than ok.
     int frames = 0;
     int unreadable = 0;
     int located = 0;                               ///< number of correct fixes

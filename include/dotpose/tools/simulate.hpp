@@ -9,9 +9,9 @@
 ///     const Shot shot = draw_shot(setup, i);  // change anything here: shot.pose.theta_rad = 0;
 ///     const GreyImage image = render(shot);
 ///
-/// Every frame depends on (setup, i) alone: the same bytes on every machine, in any order and from
-/// any number of threads. All functions are pure and thread-safe. Functions throw BadArgument for
-/// invalid values.
+/// Every frame depends only on (setup, i). Its bytes are the same on every machine, for any order
+/// of rendering and any number of threads. All functions are pure and thread-safe. Functions throw
+/// BadArgument for invalid values.
 ///
 /// Coordinate frames: *pixel* (centre of the first pixel (0, 0), v down), *pattern* (x right, y
 /// DOWN as the page is read, mm). Offsets named `offset_mm` are in the pattern frame, relative to
@@ -62,7 +62,7 @@ struct CameraModel {
     /// Rotation of the scene about the image centre while a rolling shutter reads the rows, in
     /// addition to the motion. The direction is from the image x axis towards the image y axis.
     /// Both rates are constant, as for a camera on a robot that drives in a circle. The scene must
-    /// not overtake the rows: the limit is about 80 degrees in an image of 4:3.
+    /// not move down faster than the rows are read: the limit is about 80 degrees in a 4:3 image.
     double readout_turn_rad = 0;
 };
 
@@ -74,9 +74,9 @@ struct CameraPose {
     /// Angle of the image x axis in the pattern frame, from +x towards +y (clockwise as seen on
     /// the paper), at the image centre.
     double theta_rad = 0;
-    /// Tilt of the paper about the image x axis: above 0, the paper recedes towards the bottom.
+    /// Tilt of the paper about the image x axis. If above 0, the paper recedes towards the bottom.
     double tilt_x_rad = 0;
-    /// Tilt about the image y axis: above 0, the paper comes closer towards the right.
+    /// Tilt about the image y axis. If above 0, the paper comes closer towards the right.
     double tilt_y_rad = 0;
 };
 
@@ -162,7 +162,7 @@ struct Page {
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
     /// Printed length over nominal length, above 0. The position of the pose and `displacement_mm`
-    /// are in nominal units. Offsets and theta are on the paper.
+    /// are in nominal units. Offsets and theta are measured on the paper.
     AxisScale print_scale;
     /// Areas with printed dots: a dot is printed if its intersection is in one of the areas. If
     /// empty, all dots are printed.
@@ -186,21 +186,21 @@ class Projection {
   public:
     Projection(const CameraModel& camera, const CameraPose& pose);
 
-    /// Returns the pixel of an offset. For a point that the camera cannot see, returns (1e9, 1e9),
-    /// a pixel far outside the image.
+    /// Returns the pixel that shows the point at an offset. For a point that the camera cannot see,
+    /// returns (1e9, 1e9), a pixel far outside the image.
     Vec2 pixel_from_offset(Vec2 offset_mm) const;
-    /// Returns the offset of a pixel, in mm.
+    /// Returns the offset of the point that a pixel shows, in mm.
     Vec2 offset_from_pixel(Vec2 pixel) const;
     /// Computes `offset_from_pixel` for adjacent pixels, from `first_pixel` to the right.
     void offsets_from_row(Vec2 first_pixel, std::span<Vec2> offsets_mm) const;
 
   private:
-    /// Returns the undistorted image point, at `time`, of the scene point that is at `undistorted`
-    /// at the time of the middle row. Points are in px from the image centre. Time is in readouts,
-    /// and 0 at the middle row.
+    /// Returns where a scene point is in the undistorted image at `time`. `undistorted` is the
+    /// image point of the same scene point at the time of the middle row. Points are in px from the
+    /// image centre. Time is in readouts, and 0 at the middle row.
     Vec2 moved(Vec2 undistorted, double time) const;
-    /// Returns the motion of the pose point in the undistorted image until `time`. The path is an
-    /// arc.
+    /// Returns the motion of the pose point in the undistorted image from time 0 to `time`. The
+    /// path is an arc.
     Vec2 way_at(double time) const;
 
     Vec2 centre_px_;

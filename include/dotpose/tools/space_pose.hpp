@@ -72,8 +72,9 @@ using SpaceCovariance = std::array<std::array<double, 6>, 6>;
 /// approximately the first tilt, mirrored about the line of sight.
 struct SecondPose {
     CameraInSpace camera;
-    /// log2 of the likelihood of the dots with this pose divided by their likelihood with the first
-    /// pose. Assumes that the errors of the dots are independent. At most 0.
+    /// log2 of a likelihood ratio: the likelihood of the dots with this pose, divided by their
+    /// likelihood with the first pose. Assumes that the errors of the dots are independent. At most
+    /// 0.
     double odds_log2 = 0;
 };
 
@@ -107,8 +108,8 @@ void require_focal_length(const Camera& camera);
 /// centres in the image. Both variances are estimated from the residuals. Dots with residuals above
 /// four standard deviations are not used.
 ///
-/// `print` is the print scale of the sheet. Returns none without a fix, without a known spacing
-/// (`Fix::spacing_nm` is 0), or with fewer than 12 dots. Throws BadArgument as
+/// `print` is the print scale of the sheet. Returns none if there is no fix, if the spacing is
+/// unknown (`Fix::spacing_nm` is 0), or if there are fewer than 12 dots. Throws BadArgument as
 /// `require_focal_length` does.
 std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const ImageView& image,
                                     const Trace& trace, const AxisScale& print = {});

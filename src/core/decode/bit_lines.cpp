@@ -22,7 +22,7 @@ std::uint64_t reversed(std::uint64_t word) {
     return __builtin_bswap64(word);
 }
 
-/// Reverses the order of the lines. The bits within a line keep their order.
+/// Returns the lines in reverse order. The bits within a line keep their order.
 BitLines in_opposite_order(const BitLines& lines) {
     BitLines result = lines;
     std::reverse(result.bits.begin(), result.bits.end());
@@ -56,10 +56,10 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
     return {std::clamp(BitBlock::kMiddle - max_count / 2, first, last + 1 - max_count), max_count};
 }
 
-/// Returns the score of a line when read backwards minus its score when read forwards. If all n
-/// bits agree with the main sequence in only one direction, the magnitude of the result is 127 (n -
-/// 6). The first six bits are no evidence, because the main sequence contains almost every string
-/// of six bits.
+/// Returns the score of a line that is read backwards, minus its score if it is read forwards. If
+/// all n bits agree with the main sequence in only one direction, the magnitude of the result is
+/// 127 (n - 6). The first six bits are no evidence, because the main sequence contains almost every
+/// string of six bits.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);
     const std::uint64_t valid_back = reversed(valid);

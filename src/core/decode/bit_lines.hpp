@@ -1,6 +1,7 @@
-// Bit lines: a block of 64 x 64 cells as bits, with one word per column and one word per row.
-// Reversing, comparing or counting a line takes only a few instructions. The decoder follows the
-// paper (sections II-B.4 to II-B.7), but bits are hard (0, 1 or not read) instead of probabilities.
+// Bit lines: a block of 64 x 64 cells as bits, with one word per column and one word per row. A few
+// instructions reverse a line, compare two lines or count the bits of a line. The decoder follows
+// the paper (sections II-B.4 to II-B.7), but uses hard bits (0, 1 or not read) instead of
+// probabilities.
 #pragma once
 
 #include "core/decode/lines.hpp"
@@ -27,8 +28,8 @@ struct BlockRanges {
     LineRange rows;
 };
 
-/// Returns the columns and rows with bits, from the first to the last. If an axis has more than
-/// `max_count` such lines, keeps the lines nearest the middle of the block.
+/// Returns, for each axis, the range from the first to the last line with bits. If a range has more
+/// than `max_count` lines, keeps the lines nearest the middle of the block.
 BlockRanges ranges_with_bits(const BitBlock& block, int max_count);
 
 /// The scored lines of a block. `first_column` and `first_row` are the block indices of the first
@@ -41,7 +42,8 @@ struct BlockLines {
 };
 
 /// Returns the most likely turn from the grid to the pattern, in quarter turns (0 to 3). A few
-/// columns and rows near the middle of the block vote. `turned` applies the turn.
+/// columns and rows near the middle of the block vote. The result is the argument `quarters` of
+/// `turned` that makes the block upright.
 int likeliest_turn(const Kernels& kernels, const BitBlock& block);
 
 /// Rotates a block by `quarters` quarter turns. One quarter turn moves cell (i, j) to (-1 - j, i),

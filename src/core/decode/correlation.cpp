@@ -8,7 +8,8 @@ namespace dotpose::core {
 namespace {
 
 /// The correlation processes weights in groups of kGroup. A table contains the signed sum of a
-/// group for every combination of signs. Each pass over the rolls adds up to kGroups groups.
+/// group for every combination of signs. Each pass over the rolls adds the sums of up to kGroups
+/// groups.
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;
@@ -73,7 +74,7 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
 }
 
 /// Adds the group sums to the score of each roll, or overwrites the scores if `Adds` is false.
-/// `phase` is the line index of the first weight, modulo 63.
+/// `phase` is the index of the first weight in its line, modulo 63.
 template <std::size_t Groups, bool Adds>
 void take_sums(const std::array<Sums, kGroups>& sums, std::size_t phase, LineScores& scores_a,
                LineScores& scores_b) {

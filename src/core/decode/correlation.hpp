@@ -20,14 +20,15 @@ struct Match {
 /// small weights. `weights` contains at most 256 values in [-127, 127].
 void correlate(std::span<const std::int8_t> weights, LineScores& scores);
 
-/// Correlates two lines, in little more time than `correlate` takes for one.
+/// Correlates two lines. Takes little more time than `correlate` takes for one line.
 void correlate_both(std::span<const std::int8_t> a, std::span<const std::int8_t> b,
                     LineScores& scores_a, LineScores& scores_b);
 
 /// Returns the roll with the highest score. Ties are broken by taking the smallest roll.
 Match best_match(const LineScores& scores);
 
-/// Returns the next match after `last`, by decreasing score and then by increasing roll.
+/// Returns the match that follows `last` in the order of decreasing scores. Matches with equal
+/// scores are in the order of increasing rolls.
 Match next_match(const LineScores& scores, Match last);
 
 /// Returns the highest score and its margin over the second highest score.

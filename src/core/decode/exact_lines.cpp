@@ -23,9 +23,9 @@ int below_sections(int roll) {
     return roll < kSections ? roll : roll - kSections;
 }
 
-/// Reads the position of the first line in a range, and the roll of this line at cell `first_cell`.
-/// Returns false if there are too few adjacent exact lines, if the code does not contain their
-/// rolls, or if too many bits are wrong.
+/// Decodes the position of the first line in a range, and the roll of this line at cell
+/// `first_cell`. Returns false if there are too few adjacent exact lines, if the code does not
+/// contain their rolls, or if too many bits are wrong.
 bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange& range,
                        int first_cell, AxisReading& reading) {
     const auto count = static_cast<std::size_t>(range.count);

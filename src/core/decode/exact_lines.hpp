@@ -15,7 +15,7 @@ std::uint8_t exact_roll(std::uint64_t bits, std::uint64_t valid);
 /// Finds the place of cell (0, 0) in an upright block from exact lines (see `exact_roll`). Skips
 /// the first quarter of the lines on each axis. The other lines must include `run_length(code)`
 /// adjacent exact lines, and the code must contain their rolls. The number of wrong bits on an axis
-/// must be at most half the number of lines. Returns false otherwise.
+/// must be at most half the number of lines. Returns false if one of these conditions is not met.
 bool find_place_exactly(CodeVariant code, const BitBlock& block, Place& place);
 
 }  // namespace dotpose::core

@@ -1,4 +1,5 @@
-// Grid: the cells of a frame with a quasi-probability for each bit (paper, section II-B.4, Fig. 8).
+// Grid: the cells of a frame, with a quasi-probability for each bit (paper, section II-B.4, Fig.
+// 8).
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,7 @@
 
 namespace dotpose::core {
 
-/// Maximum number of cells per axis, in workspaces of any size.
+/// Maximum number of cells along each axis of a grid.
 inline constexpr int kMaxGridSide = 256;
 
 /// The matrices P^(x) and P^(y) of the paper. They cover the columns [i0, i0 + columns) and the

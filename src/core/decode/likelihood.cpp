@@ -10,8 +10,8 @@ struct Extent {
     int count = 0;
 };
 
-/// Returns the cells from `min` to `max`. If these are more than `capacity` cells, keeps the cells
-/// nearest the origin.
+/// Returns the range of cells from `min` to `max`. If the range has more than `capacity` cells,
+/// keeps the cells nearest the origin.
 Extent extent(int min, int max, int capacity) {
     if (max - min < capacity) return {min, max - min + 1};
     const int first = std::clamp(-capacity / 2, min, max - capacity + 1);

@@ -23,8 +23,8 @@ class Nominal {
   private:
     QuarterTurn turn_;
     FixedVec first_;  ///< smallest pattern step in the grid, per axis
-    /// Index in the main sequence at the first cell of each column. `rows_` contains the index at
-    /// the first cell of each row.
+    /// Index in the main sequence of the first cell of each column. `rows_` contains the same for
+    /// each row.
     std::array<std::uint8_t, kMaxGridSide> columns_;
     std::array<std::uint8_t, kMaxGridSide> rows_;
 };

@@ -9,7 +9,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Minimum number of lines per axis for a position.
+/// Minimum number of lines per axis that determine a position.
 constexpr int kMinLines = 6;
 
 /// Reads the position of an axis from each line's best roll.

@@ -175,8 +175,9 @@ std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view, Shade sh
 }
 
 std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view) const {
-    // Maximum distance between the pixels of the squares and the cell centre, per image axis. The
-    // square centres are at most a third of the larger step component from the cell centre.
+    // Maximum distance between the cell centre and a pixel of a square, along each image axis. The
+    // distance from the cell centre to a square centre is at most a third of the largest component
+    // of `u_q8` and `v_q8`.
     const int reach_px =
         std::max(larger_component(view.u_q8), larger_component(view.v_q8)) / (3 * 256) + 1 +
         view.half_px;
@@ -197,8 +198,8 @@ int CellSampler::light_q8(const CellView& view) const {
     return here * 256 / paper_at(paper_, image_.width_px / 2, image_.height_px / 2);
 }
 
-/// Returns the median darkness and the median shade of a dot, each at least 1. Samples the darkest
-/// place of each cell that is completely in the image.
+/// Returns the median darkness and the median shade of a dot, each at least 1. Uses the darkest
+/// places of up to kMedianSample cells that are completely in the image.
 PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
     std::array<std::int32_t, tuned::kMedianSample> darkness;
     std::array<std::int32_t, tuned::kMedianSample> shade;
@@ -284,15 +285,16 @@ class Ink {
                4 * sorted[2] > tuned::kSecondDot_4ths * sorted[3];
     }
 
-    /// Returns the weight of a bit, in [-127, 127]. `one_q8` and `zero_q8` are the darkness for bit
-    /// values 1 and 0. Each is the darkness of the darker of two places.
+    /// Returns the weight of a bit, in [-127, 127]. `one_q8` is the darkness of the darker of the
+    /// two places at which the bit is 1. `zero_q8` is the same for the two places at which the bit
+    /// is 0.
     std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
         // The weight is proportional to the log-likelihood ratio of the bit. With constant sensor
         // noise, the ratio is proportional to the level difference times the contrast. Both factors
         // are proportional to the light, so the weight is proportional to the squared light.
         const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = sample.light_q8 * sample.light_q8;
-        // Clamps the weight. At high contrast, noise does not cause the bit errors.
+        // Clamps the weight, because most bit errors at high contrast are not caused by noise.
         const int weight = static_cast<int>(
             std::clamp<std::int64_t>(std::int64_t{difference} * light_q16 >> 16, -127, 127));
         return static_cast<std::int8_t>(weight * sample.reliability_q4 / 16);
@@ -304,8 +306,8 @@ class Ink {
     int graphics_q8_ = 0;  ///< shade above which a place counts as graphics, in 1/256
 };
 
-/// Clears the grid and extends it over the whole image. Finds the extent from the cells at 5 x 5
-/// evenly spaced points, including the image border.
+/// Clears the grid and extends it over the whole image. The extent is computed from the cells at 5
+/// x 5 evenly spaced points, which include the image corners.
 void cover_image(const ImageView& image, const FixedLens& lens, const PlaneFromImage& plane,
                  Grid& grid) {
     FixedVec min{INT32_MAX, INT32_MAX};

@@ -53,8 +53,8 @@ class Choices {
     std::array<std::uint8_t, kChoices> rolls_;
 };
 
-/// Returns the reading for line `line` at `position` with roll `roll`. Its score is the total over
-/// all lines.
+/// Returns the reading of the first line, given that line `line` is at `position` with roll `roll`.
+/// The score of the reading is the total over all lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
     std::array<std::uint8_t, kMaxLines> storage;
@@ -70,8 +70,8 @@ AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32
 
 using Run = std::array<Choices, kMaxRunLength>;
 
-/// Chooses the number of rolls to try for each line of a run. Adds the roll with the smallest loss
-/// repeatedly, while there are at most `max_readings` combinations.
+/// Chooses the number of rolls to try for each line of a run. Repeatedly adds the roll with the
+/// smallest loss, as long as the number of combinations is at most `max_readings`.
 std::array<int, kMaxRunLength> widen(Run& run, int length, int max_readings) {
     std::array<int, kMaxRunLength> widths;
     widths.fill(1);
@@ -154,7 +154,7 @@ int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLine
     return clearest;
 }
 
-/// Maximum number of runs and readings.
+/// Maximum numbers of runs and readings.
 struct Limits {
     int runs;
     int readings;  ///< per run

@@ -15,7 +15,7 @@ constexpr std::size_t kDigits = 3;
 constexpr std::size_t kStepSizes = code::kMaxDelta - code::kMinDelta + 1;
 
 /// Losses of one step, by secondary sequence and digit. The loss of a digit is the maximum of
-/// `best_agreement` over all steps, minus its maximum over the steps with this digit.
+/// `best_agreement` over all step sizes, minus its maximum over the step sizes with this digit.
 using StepLosses = std::array<std::array<std::int32_t, kDigits>, kSequences>;
 
 /// Returns the highest total score of two adjacent lines whose rolls differ by `step`.
@@ -45,7 +45,7 @@ StepLosses losses_of(const LineScores& line, const LineScores& next) {
     return losses;
 }
 
-/// Number of places to keep per secondary sequence: the places with the smallest losses.
+/// Number of places with the smallest losses that are kept for each secondary sequence.
 constexpr std::size_t kChoices = tuning::step_search::kChoices;
 using Choices = std::array<std::uint32_t, kChoices>;
 
@@ -73,8 +73,8 @@ Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
     return places;
 }
 
-/// Returns the reading with the first line at `position`. Chooses the roll with the highest total
-/// score.
+/// Returns the reading with the first line at `position`, and with the roll that has the highest
+/// total score.
 AxisReading evaluate(CodeVariant code, const Lines& lines, std::uint32_t position) {
     std::array<std::uint8_t, kMaxLines> rolls;
     code::follow_rolls(code, position, 0, std::span(rolls).first(lines.all.size()));

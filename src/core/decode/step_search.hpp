@@ -7,10 +7,11 @@
 
 namespace dotpose::core {
 
-/// Searches by steps, and replaces `best` if a position has a higher score. First computes the
-/// score lost by each possible digit of each step. Then finds the places with the smallest total
-/// loss in each secondary sequence, and evaluates all their combinations. This also finds positions
-/// in frames where every sixth line is hidden, or where no line has a clear roll.
+/// Searches by steps, and replaces `best` if a position has a higher score. First computes the loss
+/// of score for each possible digit of each step. Then finds the places with the smallest total
+/// loss in each secondary sequence, and evaluates all their combinations. Unlike a search by runs
+/// of lines (decode/search), this search also finds positions in frames where every sixth line is
+/// hidden, or where no line has a clear roll.
 void search_by_steps(CodeVariant code, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

@@ -2,7 +2,7 @@
 
 namespace dotpose::core {
 
-// Inlining would double the size of each caller.
+// Not inlined, because inlining would double the size of each caller.
 std::span<const std::int8_t> Upright::weights(const GridCell* cell, int stride, int count,
                                               std::int8_t GridCell::*bit, int sign, Line& line) {
     std::int8_t* weight = line.data();

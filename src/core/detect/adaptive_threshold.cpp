@@ -12,8 +12,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Half threshold that makes every pixel dark. A sentinel with this value after the last column
-/// ends the search for dark pixels.
+/// Half of a threshold above all grey levels. A sentinel with this value after the last column ends
+/// the search for dark pixels.
 constexpr std::uint8_t kAlwaysDark = 128;
 
 constexpr int kBandsKept = 4;  // three bands suffice, but indexing is faster with a power of two
@@ -66,7 +66,7 @@ ThreeBands three_bands(const AdaptiveThreshold& threshold, int band) {
             band + 1 < band_count(threshold) ? tiles_of(threshold, band + 1).data() : here};
 }
 
-/// Stores the maximum mean and the maximum darkness of each tile over three bands.
+/// Stores the maximum mean and the maximum darkness over three bands, for each column of tiles.
 void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
                 std::uint8_t* darknesses) {
     for (std::size_t t = 0; t < count; ++t) {
@@ -99,11 +99,12 @@ inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     return column + kTileWidth_px;
 }
 
-/// Number of tiles by contrast relative to the paper level. The bins are 1/kContrastBins wide.
+/// Histogram of the tiles by their contrast, relative to the paper level. The bins are
+/// 1/kContrastBins wide.
 using Histogram = std::array<std::uint16_t, kContrastBins>;
 
-/// Adds the tiles with at least `min_contrast` to the histogram, and sets the mean of all other
-/// tiles to 0. Updates `max_contrast`. Returns the number of tiles in the histogram.
+/// Adds the tiles with at least `min_contrast` to the histogram. Marks all other tiles as blank by
+/// setting their mean to 0. Updates `max_contrast`. Returns the number of tiles in the histogram.
 int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                    int min_contrast, int& max_contrast, Histogram& histogram) {
     int blank = 0;
@@ -144,9 +145,9 @@ unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses
     return (2 * bin + 1) * (256 / (2 * kContrastBins));
 }
 
-/// Sets the thresholds of all columns. The low threshold is the paper level minus a fraction
-/// `to_low_q16` of this level, in units of 2^-16. The high threshold uses the fraction
-/// `to_high_q16`, and is at most the low threshold.
+/// Sets the thresholds of all columns. The low threshold is the paper level times (1 - `to_low_q16`
+/// / 2^16). The high threshold is the paper level times (1 - `to_high_q16` / 2^16), but at most the
+/// low threshold.
 void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q16,
                 unsigned to_high_q16, AdaptiveThreshold& threshold) {
     std::uint8_t* half_low_levels = threshold.half_low_levels.data();
@@ -199,15 +200,16 @@ int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold) {
 
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold) {
     const auto tiles = static_cast<std::size_t>(threshold.tiles_per_band);
-    // Stores one value per tile in the memory for thresholds. The paper levels are at the end of
-    // `half_low_levels`, because `set_levels` overwrites the end last.
+    // Uses the memory for thresholds as temporary storage for one value per tile. The paper levels
+    // are at the end of `half_low_levels`, because `set_levels` overwrites the end last.
     std::uint8_t* const papers = threshold.half_low_levels.data() + whole_width(threshold) - tiles;
     std::uint8_t* const darknesses = threshold.high_levels.data();
     join_bands(three_bands(threshold, band), tiles, papers, darknesses);
     // Extends the darkness to the adjacent tiles, because the dot spacing may exceed the tile
     // width. The paper level needs no extension, because every tile contains paper.
     join_neighbours(darknesses, tiles);
-    // A last tile that is mostly padding takes at least the paper level of the preceding tile.
+    // If the last tile is mostly padding, raises its paper level to at least that of the preceding
+    // tile.
     if (whole_width(threshold) - threshold.width_px > kTileWidth_px / 2)
         papers[tiles - 1] = std::max(papers[tiles - 2], papers[tiles - 1]);
     const unsigned contrast_q8 = typical_contrast_q8(

@@ -1,7 +1,7 @@
-// Adaptive threshold: computes a threshold for each column from the paper level and contrast of
-// image tiles. This is the first half of thresholding (paper, section II-B.1). Unlike the paper,
-// this stage does not use one global threshold, because LEDs next to a wide-angle lens light the
-// sheet unevenly.
+// Adaptive threshold: computes two thresholds for each column from the paper level of image tiles
+// and the contrast of their dots. This is the first half of thresholding (paper, section II-B.1).
+// Unlike the paper, this stage does not use one global threshold, because LEDs next to a wide-angle
+// lens light the sheet unevenly.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,9 @@
 namespace dotpose::core {
 
 /// Size of a tile. Tiles are kLowTile_px high if the shorter image side is at most
-/// kMaxSideWithLowTiles_px, and kHighTile_px high otherwise. Three adjacent tiles must always
-/// include part of a dot. The sizes assume at least 8 dots along the shorter image side.
+/// kMaxSideWithLowTiles_px, and kHighTile_px high otherwise. In each direction, three adjacent
+/// tiles must always include part of a dot. The sizes assume at least 8 dots along the shorter
+/// image side.
 inline constexpr int kTileWidth_px = 16;
 inline constexpr int kLowTile_px = 8;
 inline constexpr int kHighTile_px = 16;

@@ -18,12 +18,13 @@ constexpr std::uint32_t kMaxMass = 65535;
 /// Value of `OpenBlob::last_v` for a blob that was merged into another blob.
 constexpr std::uint16_t kNoRow = UINT16_MAX;
 
-/// Returns an upper bound of the distance between a dot and the image centre, per axis.
+/// Returns an upper bound on the distance between a dot and the image centre, per axis.
 int all_within_px(const AdaptiveThreshold& threshold) {
     return std::max(threshold.width_px, threshold.height_px);
 }
 
-/// Returns true if a dot is at most `DotList::kept_within_px` from the image centre, per axis.
+/// Predicate that is true if a dot is at most `DotList::kept_within_px` from the image centre, per
+/// axis.
 struct IsKept {
     FixedVec image_centre_q8;
     std::int32_t within_q8;
@@ -50,8 +51,8 @@ void keep_dots(DotList list, Predicate is_to_keep) {
 }
 
 /// Makes room for dots near the image centre. Reduces `kept_within_px`, and removes the dots beyond
-/// this distance. Returns false if `kept_within_px` is already 0. Inlining this rare path would
-/// take registers from the frequent path of the caller.
+/// this distance. Returns false if `kept_within_px` is already 0. Not inlined, because this rare
+/// path would use registers that the frequent path of the caller needs.
 [[gnu::noinline]] bool make_room(const AdaptiveThreshold& threshold, DotList list) {
     if (list.kept_within_px == 0) return false;
     list.kept_within_px -= list.kept_within_px / 8 + 1;
@@ -83,7 +84,7 @@ void close_blob(const OpenBlob& blob, const AdaptiveThreshold& threshold, DotLis
          blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)},
         static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
         static_cast<std::uint16_t>(blob.area_px)};
-    // Keeps every dot without a comparison of distances until the list is full for the first time.
+    // Until the list is full for the first time, keeps every dot without comparing distances.
     while (list.kept_within_px == all_within_px(threshold) || IsKept(threshold, list)(dot)) {
         if (list.count < static_cast<int>(list.dots.size())) {
             list.dots[static_cast<std::size_t>(list.count++)] = dot;
@@ -204,9 +205,9 @@ void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& thr
     }
 }
 
-/// Returns the upper quartile of a member, over a sample of the blobs. The quartile is typical of
-/// dots even if half the blobs are noise, because noise is smaller than dots and few blobs are
-/// larger.
+/// Returns the upper quartile of a data member over a sample of the blobs. The quartile is typical
+/// of dots even if half the blobs are noise, because noise is smaller than dots, and few blobs are
+/// larger than dots.
 std::int32_t typical(std::span<const DetectedDot> dots, std::uint16_t DetectedDot::*member) {
     constexpr std::size_t kSample = 128;
     const std::size_t step = dots.size() / kSample + 1;

@@ -14,8 +14,9 @@
 
 namespace dotpose::core {
 
-/// A blob that may continue in the next row, stored as sums over its pixels. The sums wrap modulo
-/// 2^32. They are exact relative to the blob's corner if the blob is small enough to be a dot.
+/// A blob that may continue in the next row, stored as sums over its pixels. The weight of a pixel
+/// is the low threshold minus its grey level. The sums wrap modulo 2^32. They are exact relative to
+/// the blob's corner if the blob is small enough to be a dot.
 struct OpenBlob {
     std::uint32_t sum_x = 0;  ///< sum of weight times u
     std::uint32_t sum_y = 0;  ///< sum of weight times v

@@ -7,13 +7,14 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of adjacent pixels whose source points are interpolated by a quadratic. The error of the
-/// interpolation is at most 0.003 px at a rotation of 60 degrees in 120 rows.
+/// Number of adjacent pixels whose source points are interpolated by one quadratic. The error of
+/// the interpolation is at most 0.003 px at a rotation of 60 degrees in 120 rows.
 constexpr int kStep_px = 16;
-/// Number of units per pixel. Source points are in units of 2^-8 px.
+/// Factor that converts px to the unit of source points, 2^-8 px.
 constexpr float kUnit = 256;
 
-/// Returns the grey level at a point, in 2^-8 px from the first pixel.
+/// Returns the grey level at the point (u, v), interpolated linearly. u and v are in units of 2^-8
+/// px from the first pixel.
 std::uint8_t level_at(const ImageView& image, int u_q8, int v_q8) {
     const std::uint8_t* upper = image.row(v_q8 >> 8) + (u_q8 >> 8);
     const std::uint8_t* lower = upper + image.stride_bytes;
@@ -24,7 +25,7 @@ std::uint8_t level_at(const ImageView& image, int u_q8, int v_q8) {
     return static_cast<std::uint8_t>((above * (256 - down) + below * down + (1 << 15)) >> 16);
 }
 
-/// The quadratic through three points, at distances of 0, kStep_px / 2 and kStep_px.
+/// The quadratic through three values, at 0, kStep_px / 2 and kStep_px.
 struct Quadratic {
     float at, slope, curve;
 
@@ -47,8 +48,8 @@ ImageView derotated(const ImageView& image, const ReadoutTurn& turn,
     std::uint8_t* out = memory.data();
     for (int v = 0; v < image.height_px; ++v) {
         const float y = static_cast<float>(v) - centre_v;
-        // Computes the first source point of a row with six Newton steps. The other points start
-        // from an extrapolated row, and one step suffices.
+        // Computes the first source point of a row with six Newton steps. For the other points, one
+        // step from an extrapolated row coordinate suffices.
         FloatVec first = turn.seen_from({-centre_u, y}, y, 6);
         float down = 0;
         for (int u = 0; u < image.width_px; u += kStep_px) {

@@ -24,8 +24,8 @@ std::array<int, kTaps> taps(std::int32_t position_q8) {
     return weights;
 }
 
-/// Returns the level of a pixel, corrected if the pixel is defective. A pixel on or beyond the
-/// border takes the level of the nearest inner pixel, because the correction needs eight
+/// Returns the level of a pixel, corrected if the pixel is defective. For a pixel on or beyond the
+/// border, returns the level of the nearest inner pixel, because the correction needs eight
 /// neighbours.
 int level_near(const ImageView& image, int u, int v) {
     return without_defect(image, std::clamp(u, 1, image.width_px - 2),

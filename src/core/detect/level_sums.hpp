@@ -18,7 +18,8 @@ struct PixelBox {
     int top;
     int bottom;
 
-    /// Extends `half_px` in all directions from the pixel nearest to a point, clipped to the image.
+    /// Constructs the box that extends `half_px` in all directions from the pixel nearest to a
+    /// point, clipped to the image.
     PixelBox(const ImageView& image, FixedVec point_q8, int half_px) {
         const int u = (point_q8.x + 128) >> 8;
         const int v = (point_q8.y + 128) >> 8;

@@ -16,14 +16,14 @@ struct PaperMap {
     int columns = 0;
     int rows = 0;
     std::span<std::uint8_t> levels;  ///< paper levels of the blocks, row by row
-    /// Brightest paper level of each block and its adjacent blocks.
+    /// Maximum paper level over each block and its adjacent blocks.
     std::span<std::uint8_t> brightest;
 };
 
 /// Measures the paper level of each block. This is the highest grey level that at least a third of
 /// the sampled pixels reach. A block much darker than an adjacent block is assumed to be under
-/// graphics. Such a block takes the level of its brightest neighbour. The block side is a tenth of
-/// the shorter image side.
+/// graphics. Its level is replaced with the level of its brightest neighbour. The block side is a
+/// tenth of the shorter image side.
 void measure_paper(const ImageView& image, PaperMap& map);
 
 /// Returns the index of the block at a pixel. Pixels outside the image belong to the nearest block.
@@ -33,7 +33,7 @@ inline std::size_t block_at(const PaperMap& map, int u, int v) {
     return static_cast<std::size_t>(row * map.columns + column);
 }
 
-/// Returns the brightest paper level of the block at a pixel and its adjacent blocks.
+/// Returns the maximum paper level over the block at a pixel and the blocks adjacent to it.
 inline int brightest_paper_near(const PaperMap& map, int u, int v) {
     return map.brightest[block_at(map, u, v)];
 }

@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::patch;
 
-/// Returns 2^24 / (n + 1), rounded up. A table replaces this function, because the divisions for
-/// all tiles would take a microsecond.
+/// Returns 2^24 / (n + 1), rounded up. Called through tabled(), because the divisions for all tiles
+/// would take a microsecond.
 constexpr std::uint32_t reciprocal_q24(std::uint32_t n) {
     return ((1U << 24) + n) / (n + 1);
 }

@@ -1,5 +1,5 @@
-// Patch: the part of an image in which the grid is searched. Places the patch, sets its thresholds,
-// and removes minima that are not dots (paper, section II-B.1).
+// Patch: the part of an image that is searched for the grid. Places the patch, computes its
+// thresholds, and removes minima that are not dots (paper, section II-B.1).
 #pragma once
 
 #include "core/patch_memory.hpp"

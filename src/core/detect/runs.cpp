@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::size_t kWord_px = sizeof(Word);
 
-/// Sets the top bit of each byte if its pixel is light. The lower bits are undefined.
+/// Returns a word in which the top bit of each byte is set if the pixel is light. The lower bits
+/// are undefined.
 Word light_tops(Word pixels, Word half_low) {
     return (pixels >> 1 | kTops) - half_low;
 }

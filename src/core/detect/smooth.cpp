@@ -78,7 +78,7 @@ int half_side(int at, int length, int max_half) {
 }
 
 /// Adds a row to the column sums, or subtracts the row if `add` is false. A pixel much darker than
-/// the paper counts as paper, because a stroke of graphics is not a shadow.
+/// the paper counts as paper, because a stroke of graphics does not mean that there is less light.
 void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     const std::uint8_t* row = image.row(v);
     std::uint32_t* sums = smoothing.column_sums.data();
@@ -97,7 +97,7 @@ void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     }
 }
 
-/// Moves the column sums to the rows [begin, end).
+/// Updates the column sums to cover the rows [begin, end).
 void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing) {
     while (smoothing.sums_end < end)
         add_row(image, smoothing.sums_end++, true, smoothing);
@@ -105,11 +105,11 @@ void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing)
         add_row(image, smoothing.sums_begin++, false, smoothing);
 }
 
-/// Minimum level of the normalised image. Darker pixels take this level.
+/// Minimum level of the normalised image. Darker pixels are set to this level.
 constexpr std::uint32_t kMinLevel = kNormalLevel * tuned::kMinLevel_5ths / 5;
 
 /// Divides by multiplication and rounds down. The result is exact for n / d < 256 and d < 2^20,
-/// because `factor_` exceeds the inverse by at most 1. This adds at most n / 2^48 < 1 / d to n / d.
+/// because `factor_` exceeds 2^kBits / d by at most 1. This adds at most n / 2^48 < 1 / d to n / d.
 class Divider {
   public:
     std::uint32_t quotient(std::uint32_t n, std::uint32_t d) {
@@ -132,8 +132,8 @@ constexpr std::uint32_t normalising_factor_q24(std::uint32_t mean) {
     return mean == 0 ? 0 : ((std::uint32_t{kNormalLevel} << 24) - 1) / mean + 1;
 }
 
-/// Multiplies each pixel of row `v` by kNormalLevel / mean. The mean is over a window around the
-/// pixel. Clamps the result to [kMinLevel, 255].
+/// Multiplies each pixel of row `v` by kNormalLevel / mean, where mean is the mean level of a
+/// window around the pixel. Clamps the result to [kMinLevel, 255].
 void normalise_light(const ImageView& image, int v, Smoothing& smoothing) {
     const int max_half = smoothing.paper.block_px;
     const int half_height = half_side(v, image.height_px, max_half);

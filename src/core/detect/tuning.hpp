@@ -19,9 +19,9 @@ inline constexpr int kSamplesPerSide = 12;
 /// Maximum fraction of a block's pixels that are darker than its paper level, in thirds. Dots cover
 /// a much smaller fraction.
 inline constexpr int kDarker_3rds = 2;
-/// Minimum level of a block, in fourths of its brightest neighbour. A darker block is assumed to be
-/// under graphics, and takes the neighbour's level. Light gradients cause smaller differences
-/// between neighbouring blocks.
+/// Minimum level of a block, in fourths of the level of its brightest neighbour. A darker block is
+/// assumed to be under graphics, and its level is replaced with the level of the neighbour. Light
+/// gradients cause smaller differences between neighbouring blocks.
 inline constexpr int kCovered_4ths = 3;
 }  // namespace paper
 
@@ -31,8 +31,8 @@ namespace smooth {
 /// window shrinks to this size at the image border.
 inline constexpr int kMinHalf_px = 4;
 /// Maximum level of a stroke, in tenths of the brightest paper level nearby. Darker pixels count as
-/// paper in the local mean, because a stroke of graphics is not a shadow. With 4 or 9, the second
-/// attempt locates 1,995 frames.
+/// paper in the local mean, because a stroke of graphics does not mean that there is less light.
+/// With 4 or 9, the second attempt locates 1,995 frames.
 inline constexpr int kStroke_10ths = 7;
 /// Minimum level of the normalised image, in fifths of kNormalLevel. Clamping makes graphics no
 /// darker than a weak dot. Otherwise, the required contrast near dark graphics would exceed the
@@ -42,7 +42,7 @@ inline constexpr int kMinLevel_5ths = 4;
 
 /// Dot detection in a patch (detect/patch).
 namespace patch {
-/// Minimum shorter side of a patch for `kMinTiles`, in px. Smaller patches have too few tiles.
+/// Shorter side below which a patch has too few tiles for `kMinTiles`, in patch pixels.
 inline constexpr int kSmall_px = 48;
 /// Minimum darkness of a tile's darkest smoothed pixel, in grey levels below the paper level. Other
 /// tiles are blank. A patch must have at least kMinTiles tiles that are not blank. In a small

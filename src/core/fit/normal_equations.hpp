@@ -82,8 +82,8 @@ class NormalEquations {
     }
     /// Returns L^-T `vector`.
     Vector unwhitened(const Vector& vector) const {
-        // Subtracts the product with the newest element last, because the other products do not
-        // depend on this element.
+        // Subtracts the product with the last computed element at the end. The other products do
+        // not depend on this element, so the processor can compute them earlier.
         Vector result{};
         for (std::size_t i = N; i-- > 0;) {
             float rest = vector[i];

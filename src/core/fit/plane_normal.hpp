@@ -13,14 +13,16 @@ struct Residuals {
     Four weight;
 };
 
-/// Weighted sums over points and residuals, from which the normal equations are computed.
+/// Weighted sums over points and their residuals. PlaneNormal computes the normal equations from
+/// these sums.
 class PlaneSums {
   public:
     void add(const FourVecs& places, const Residuals& residuals);
     FitSums all() const;
 
   private:
-    /// Negated number of points. A vector comparison yields -1 for true.
+    /// Negated number of points with a positive weight. The number is negated because a vector
+    /// comparison yields -1 for true.
     FourInts less_points_{};
     std::array<Four, 4> places_{};
     std::array<Four, 3> residuals_{};  ///< includes the sum of squared residuals

@@ -14,8 +14,8 @@ using Pair = std::array<float, 2>;
 
 using Symmetric = Symmetric2<float>;
 
-/// Returns the prior covariance of the whitened terms, in units of the noise variance. Before
-/// whitening, each term has a variance of 1.
+/// Returns the covariance that terms with a variance of 1 have after whitening, in units of the
+/// noise variance.
 Symmetric spread_of(const DistortionPrior& terms, const PlaneNormal& normal, float variance) {
     const std::size_t i = terms.first;
     const float scale = 1 / variance;
@@ -65,7 +65,7 @@ void weigh(PosteriorsByKind& kinds) {
         kind.probability /= sum;
 }
 
-/// Returns the posterior of the mixture. The mixture covariance is the mean component covariance
+/// Returns the posterior of the mixture. Its covariance is the mean of the component covariances
 /// plus the covariance of the component means.
 Posterior mixed(const PosteriorsByKind& kinds, float variance) {
     Posterior posterior{};

@@ -1,7 +1,7 @@
 // Posterior: shrinks fitted distortion terms towards 0 by Bayes' rule. The terms are 0 for a camera
-// that looks straight at flat paper. Fitting a tilt that is not present costs accuracy, and so does
-// omitting a real tilt. The shrinkage therefore depends on the probability of a tilt. Unlike the
-// paper, the fit includes these terms.
+// that looks straight at flat paper. Fitting a tilt that is not present reduces the accuracy of the
+// pose, and so does omitting a real tilt. The shrinkage therefore depends on the probability of a
+// tilt. The paper does not fit these terms.
 #pragma once
 
 #include <array>
@@ -16,22 +16,23 @@ namespace dotpose::core {
 struct DistortionPrior {
     struct Kind {
         float probability;
-        float deviation;  ///< standard deviation per term, in `unit` of `posterior_of`
+        float deviation;  ///< standard deviation of each term, in units of the argument `unit` of
+                          ///< `posterior_of`
     };
     std::size_t first;  ///< index of the first term in `Parameters`
     std::size_t count;  ///< number of terms, 1 or 2
     std::array<Kind, 3> kinds;
 };
 
-/// Posterior of the whitened terms for the dots in one frame. If there is only one term, the second
-/// element is 0.
+/// Posterior mean and covariance of the whitened terms (see `posterior_of`), given the dots of one
+/// frame. If there is only one term, all second elements are 0.
 struct Posterior {
     std::array<float, 2> mean;
     std::array<std::array<float, 2>, 2> covariance;
 };
 
-/// Computes the posterior by Bayes' rule. `whitened` contains the fitted terms times L^T, where L
-/// is the Cholesky factor in `normal`. `variance` is the noise variance of each element of
+/// Computes the posterior by Bayes' rule. `whitened` is L^T times the vector of all fitted terms,
+/// where L is the Cholesky factor in `normal`. `variance` is the noise variance of each element of
 /// `whitened`. `unit` is the unit of the standard deviations in the prior.
 Posterior posterior_of(const DistortionPrior& terms, const PlaneNormal& normal,
                        const Parameters& whitened, float variance, float unit);

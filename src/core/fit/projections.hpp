@@ -11,9 +11,9 @@
 namespace dotpose::core {
 
 /// Plane parameters in order of decreasing importance: at_centre (x, y), scale, rotation,
-/// perspective (x, y), shear (two parameters), lens distortion. The value of a parameter is its
-/// effect at a place one unit from the origin, in spacings. kTilt, kShear and kBend are the first
-/// indices of perspective, shear and lens distortion.
+/// perspective (x, y), shear (two parameters), lens distortion. The value of a parameter is the
+/// shift that it causes, in spacings, at a distance of ScaledPlane::scale() from the plane centre.
+/// kTilt, kShear and kBend are the first indices of perspective, shear and lens distortion.
 constexpr std::size_t kPoseParameters = 9;
 constexpr std::size_t kTilt = 4;
 constexpr std::size_t kShear = 6;
@@ -26,20 +26,21 @@ struct FourVecs {
     Four y;
 };
 
-/// Returns the derivatives of x and y with respect to all parameters, at one of four places. In
-/// pattern coordinates, each derivative is a polynomial in the place (u, v): u (u, v) and v (u, v)
-/// for perspective, and (u^2 + v^2) (u, v) for lens distortion.
+/// Returns the derivatives of the pattern coordinates x and y with respect to all parameters, at
+/// one of four places. Each derivative is a polynomial in the place (u, v). For example, the
+/// derivatives of (x, y) are u (u, v) and v (u, v) for perspective, and (u^2 + v^2) (u, v) for lens
+/// distortion.
 std::array<Parameters, 2> jacobian(const FourVecs& places, std::size_t point);
 
-/// A plane whose parameters act on the pattern instead of the image. Changes in scale, rotation,
-/// perspective and shear are then exact at any tilt. Places are relative to the plane's `at`, in
-/// units of `scale()`. In these units, all derivatives have similar magnitudes, and single
-/// precision is sufficient.
+/// A plane whose parameters transform pattern coordinates, not image coordinates. Changes in scale,
+/// rotation, perspective and shear are therefore exact at any tilt. Places are relative to the
+/// plane's `at`, in units of `scale()`. In these units, all derivatives have similar magnitudes,
+/// and single precision is sufficient.
 class ScaledPlane {
   public:
     ScaledPlane(const FloatPlane& plane, float reach_px);
 
-    /// Returns the pattern places of four image points. The image points are in px from the plane
+    /// Returns the places of four image points. The image points are in px relative to the plane
     /// centre.
     FourVecs project(Four x_px, Four y_px) const;
 
@@ -49,7 +50,7 @@ class ScaledPlane {
     Parameters distortions() const;
     /// Returns the unit of places, in spacings: the pattern length that corresponds to `reach_px`.
     float scale() const { return scale_; }
-    /// Returns the plane with `by` added to its parameters.
+    /// Returns the plane after adding `by` to its parameters.
     FloatPlane changed(const Parameters& by) const;
 
   private:

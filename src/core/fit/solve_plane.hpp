@@ -11,11 +11,11 @@ namespace dotpose::core {
 
 /// Result of a plane fit: dots, residuals and parameter uncertainty.
 struct PoseFit {
-    int reach_px = 1;        ///< unit of length in the image, in px
+    int reach_px = 1;        ///< image length that corresponds to `ScaledPlane::scale()`, in px
     int dots = 0;            ///< number of inliers
     float variance = 0;      ///< noise variance of a dot along one axis, in spacings^2
     float squares = 0;       ///< sum of the squared residuals of all inliers after the last step
-    float displacement = 0;  ///< distance of a typical dot from its intersection, in spacings
+    float displacement = 0;  ///< typical distance of a dot from its intersection, in spacings
     PlaneNormal normal;      ///< decomposed normal equations for the parameters of `jacobian`
     std::array<Parameters, kPoseParameters> covariance;  ///< covariance of the whitened parameters
     Surface surface = Surface::even;
@@ -23,8 +23,8 @@ struct PoseFit {
     std::array<std::array<float, 3>, 3> uneven{};
 };
 
-/// Returns the plane from which a step is computed. Its `at_centre` is 0, because the position in
-/// the pattern may need more bits than a float has.
+/// Returns the plane from which a step is computed. The pattern point at its centre is 0, because a
+/// large position does not fit in the mantissa of a float.
 ScaledPlane scaled_from_centre(const PlaneFromImage& plane, int reach_px);
 /// Returns the plane after a step. `scaled` is the result of `scaled_from_centre` for the plane.
 PlaneFromImage stepped(const PlaneFromImage& plane, const ScaledPlane& scaled,
@@ -33,7 +33,7 @@ PlaneFromImage stepped(const PlaneFromImage& plane, const ScaledPlane& scaled,
 /// Solves the normal equations of `fit` for one step, and shrinks the distortion terms to their
 /// posterior means. `distortions` contains the current distortion terms, and `unit` is
 /// `ScaledPlane::scale()`. Sets `dots`, `variance`, `squares` and `covariance` in `fit`. Sets
-/// `moved` to the squared step length, in units of the pose's standard deviation. Returns false if
+/// `moved` to the squared length of the whitened step, in units of `fit.variance`. Returns false if
 /// the dots do not determine the plane.
 bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& step, float& moved);
 

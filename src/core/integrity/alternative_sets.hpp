@@ -10,8 +10,8 @@ namespace dotpose::core {
 /// log2 in units of 2^-8.
 struct AlternativeSet {
     int alternatives_q8 = 0;  ///< number of alternatives
-    /// Probability that all digits of an alternative in the sequences of the set equal the digits
-    /// of the reading, in one step. A step leads from one line to the next.
+    /// Probability that, in one step from a line to the next, all digits of an alternative in the
+    /// sequences of the set equal the digits of the reading.
     int equal_q8 = 0;
 };
 /// Sets of sequences in which the place of an alternative differs from the place of the reading:
@@ -21,12 +21,12 @@ struct AlternativeSet {
 /// - all three sequences other than a3,
 /// - all four sequences.
 ///
-/// a1, a2 and a4 have the same base. The list therefore contains each choice among these three
-/// sequences only once.
+/// a1, a2 and a4 have the same base. Each element therefore covers all choices among these three
+/// sequences.
 inline constexpr std::array<AlternativeSet, 5> kAlternativeSets{
     {{3694, -661}, {4444, -811}, {5712, -1067}, {6057, -1217}, {7326, -1473}}};
-/// log2 of the safety factor 1.03 for digits that are not random, in units of 2^-8, rounded up. See
-/// `kUnevenness` in kernels/loops/alternatives.inc.
+/// log2 of the safety factor 1.03 for digits that are not uniformly distributed, in units of 2^-8,
+/// rounded up. See `kUnevenness` in kernels/loops/alternatives.inc.
 inline constexpr int kUnevenness_q8 = 11;
 
 }  // namespace dotpose::core

@@ -17,14 +17,14 @@ namespace {
 /// lines would have five equal digits in each sequence, and five digits determine a place. In
 /// `libdots`, some positions share more lines. The near alternatives include these positions.
 constexpr int kMaxSharedInARow = code::kOrder;
-/// Expected odds of the far alternatives from which the detailed evaluation is skipped. With larger
-/// expected odds, the detailed evaluation cannot make a fix certain.
+/// Expected odds of the far alternatives at and above which the detailed evaluation is skipped,
+/// because it cannot make the fix certain.
 constexpr float kBeyondHelp = 1e-4F;
 /// Default limit of the summed odds.
 constexpr float kUsualLimit = 0x1p-30F;
 
-/// Returns the summed odds of the same position in the other sections. In another section, the
-/// rolls of all lines differ from the rolls of the reading by the same shift.
+/// Returns the summed odds of the reading's position in all other sections. In each of these
+/// sections, the rolls of all lines differ from the rolls of the reading by the same shift.
 float sum_of_other_sections(const RankedLines& lines) {
     float sum = 0;
     for (int shift = 1; shift < kSections; ++shift) {
@@ -50,12 +50,13 @@ struct Expectation {
 };
 
 /// Returns the sum of the odds of all alternatives. Counts more of the far alternatives one by one:
-/// the double alternatives, and the near alternatives that share one line less. This reduces the
-/// part of the sum that is only an expectation. `known` is the sum of all other odds.
+/// the double alternatives, and the near alternatives that share kMaxSharedInARow - 1 lines. This
+/// reduces the part of the sum that is only an expectation. `known` is the sum of the odds of all
+/// other alternatives.
 float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float known,
                         Expectation expected, float limit) {
-    // Computes the odds as precisely as the default limit requires, even if the caller permits
-    // larger odds.
+    // The odds are as precise as the default limit requires, even if the caller permits larger
+    // odds.
     const float usual = std::min(limit, kUsualLimit);
     float sum = kMargin * expected.of_more;
     if (sum > usual / 16) {
@@ -66,8 +67,8 @@ float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float 
     }
     sum += known;
     if (sum >= limit) return sum;
-    // Maximum expected odds of the double alternatives that are not counted one by one. The limit
-    // prevents a refusal because of an expectation alone.
+    // Maximum for the expected odds of the double alternatives that are not counted one by one.
+    // Without this maximum, an expectation alone could cause a refusal.
     const float negligible = std::min(sum < usual / 8 ? usual / 16 : sum / 8, (limit - sum) / 8);
     return sum +
            sum_of_double_alternatives(kernels, lines, expected.of_two, negligible, limit - sum);

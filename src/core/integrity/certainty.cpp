@@ -21,8 +21,8 @@ namespace {
 
 /// Number of shifts, out of 63, at which an alternative does not share a given line.
 constexpr float kShifts = kSections - 1;
-/// Odds counted for each skipped single alternative, as log2 in units of 2^-8 and as a number. The
-/// true odds are never larger.
+/// Upper bound on the odds of each skipped single alternative, as log2 in units of 2^-8 and as a
+/// number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Total number of places in the four sequences.
@@ -35,8 +35,8 @@ constexpr float power_of_two_rounded_up(int n_q8) {
     return static_cast<float>(exp2_q16(n - whole * 256)) * 1.02F * power_of_two_exactly(whole - 16);
 }
 
-/// Variant of `LikelihoodRatios::odds` without an upper limit. Avoids 64-bit integers, because
-/// converting them to floating point may require a library call.
+/// Variant of `LikelihoodRatios::odds` that does not clamp large odds. Avoids 64-bit integers,
+/// because converting them to floating point may require a library call.
 float odds_of(const LikelihoodRatios& ratios, int lost) {
     const int log2_q8 = std::max(ratios.log2_odds_q8(lost), kNegligible_q8);
     const int whole = log2_q8 >> 8;
@@ -82,8 +82,8 @@ float sharing_none(const LikelihoodRatios& ratios) {
 /// Loss caused by one wrong bit, in score units. All bits have the full weight, so losses are
 /// multiples of kBit.
 constexpr int kBit = 2 * 127;
-/// Lists the lines by decreasing minimum loss. Losses are in bits and are clamped to [0, kMaxBits].
-/// Returns the number of lines.
+/// Sets `losses` to the lines and their minimum losses, by decreasing loss. Losses are in bits and
+/// are clamped to [0, kMaxBits]. Returns the number of lines.
 std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> losses) {
     constexpr int kMaxBits = 31;
     const auto count = static_cast<std::size_t>(ratios.count());
@@ -107,8 +107,8 @@ std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> loss
     return count;
 }
 
-/// Returns the loss of a single alternative at the shift where it shares the line `shared`. Stops
-/// when the odds cannot exceed kSkippedOdds, and returns the loss so far.
+/// Returns the loss of a single alternative at the shift where it shares the line `shared`. If the
+/// odds cannot exceed kSkippedOdds, stops early and returns the loss so far.
 int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place, int shared) {
     const std::uint8_t* own = ratios.basis[sequence].rolls + ratios.places[sequence];
     const std::uint8_t* alternative = ratios.basis[sequence].rolls + place;
@@ -127,7 +127,7 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
 /// Returns an upper bound on the odds of the single alternatives that share a line. Uses the bounds
 /// of `tabled_alternatives` where possible. In the other sequences, adds the odds of each
 /// alternative that may lose less than `loss_limit`. Returns 1 if `Kernels::list_similar_places`
-/// fails.
+/// returns false.
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;
@@ -173,8 +173,8 @@ bool is_code_in_question(const Query& query) {
     return query.others != nullptr && query.others->log2_in_question_q8 >= 0;
 }
 
-/// Returns an upper bound on the probability that random bits agree with the code as well as the
-/// bits of one axis.
+/// Returns an upper bound on the probability that random bits agree with the code at least as well
+/// as the bits of one axis do.
 float chance_of(const Confidence& bits, const Query& query) {
     if (!is_code_in_question(query))
         return power_of_two_exactly(chance_log2(bits, query.odds_per_bit_q8));
@@ -214,9 +214,9 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     return sum + seam_alternatives(kernels, unshared);
 }
 
-/// Returns true if the error probabilities of both axes add up to at most 2^limit_log2. Sets
-/// `fix.p_wrong_log2`, unless the bound of the x axis is 1 or more. On success, also sets the odds
-/// of the other codes, unless `Query::others` is null.
+/// Returns true if the bounds on the error probabilities of both axes add up to at most
+/// 2^limit_log2. Sets `fix.p_wrong_log2`, unless the bound of the x axis is 1 or more. On success,
+/// also sets the odds of the other codes, unless `Query::others` is null.
 bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
                  const LikelihoodRatios& x, const LikelihoodRatios& y, const Query& query,
                  Fix& fix) {
@@ -231,9 +231,9 @@ bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
     return true;
 }
 
-/// Returns the odds that a bit is correct, as log2 in units of 2^-8. Combines both axes, because
-/// their bits come from the same dots. Returns 0 if the bits contain no information, or if an axis
-/// has too many wrong bits. Sets `fix.bit_errors`.
+/// Returns the odds that a bit with the full weight is correct, as log2 in units of 2^-8. Combines
+/// the bits of both axes, because they come from the same dots. Returns 0 if the bits contain no
+/// information, or if an axis has too many wrong bits. Sets `fix.bit_errors`.
 int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOptions& options,
                     Fix& fix) {
     fix.bit_errors = x.wrong() + y.wrong();
@@ -246,7 +246,7 @@ int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOpt
     return odds_per_bit_q8(both);
 }
 
-/// Returns the readings at the first column and at the first row.
+/// Returns the readings of the column and the row that cross at `corner`.
 std::array<AxisReading, 2> readings_at(const Place& corner, CodeVariant code) {
     const auto& [cell, section] = corner;
     const auto roll = [&](std::uint32_t position, int own_section, std::uint32_t cross) {

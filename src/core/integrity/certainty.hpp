@@ -1,5 +1,6 @@
-// Certainty: tests whether a position is certain. Computes an upper bound on the probability of an
-// error, from chance, alternatives and seams. See docs/integrity.md, "First and tracked attempts".
+// Certainty: tests whether a position is certain. The test computes an upper bound on the
+// probability that the position is wrong, due to chance, alternatives or seams. See
+// docs/integrity.md, "First and tracked attempts".
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@
 
 namespace dotpose::core {
 
-/// Hard bits near the middle of the view, on one axis. Each hard bit has the full weight, 127.
+/// The hard bits of one axis, near the middle of the view. Each hard bit has the full weight, 127.
 struct AxisBits {
     std::span<const ComparedLine> lines;
     AxisReading reading;    ///< reading of the first line, at bit 0
@@ -26,7 +27,7 @@ struct AxisBits {
 
 /// Returns true if the hard bits make the position certain. Returns false if in doubt. This test
 /// takes a tenth of the work of `is_certain`, and is sufficient for clean frames. It compares
-/// alternatives only with bits near the middle of the view. Ignoring the other bits can only
+/// alternatives only with the bits near the middle of the view. Ignoring all other bits can only
 /// increase the bound on the error probability. Sets `fix.bit_errors`. On success, also sets
 /// `fix.p_wrong_log2` and, unless `others` is null, the odds of the other codes. On failure,
 /// `fix.p_wrong_log2` is not valid.

@@ -51,7 +51,7 @@ CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rol
         const int roll = there < kSections ? there : there - kSections;
         const std::uint32_t code = code::kMainWords[static_cast<std::size_t>(roll)];
         const std::uint32_t wrong = (bits ^ code) & seen;
-        // Keeps only the longest run of a line without wrong bits, because the tables in
+        // If a line has no wrong bits, keeps only its longest run of bits, because the tables in
         // likelihood_ratios.cpp require runs without gaps. Ignoring bits can only increase the odds
         // of alternatives.
         half.rolls[i] = static_cast<std::uint8_t>(roll);

@@ -1,5 +1,5 @@
-// Coded block: packs the bits that were read and the bits of the code into words. A single
-// instruction can then compare a whole line.
+// Coded block: packs the bits that were read and the bits of the code into words, because a single
+// instruction can compare the words of a whole line.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"
@@ -16,8 +16,8 @@ class CodedBlock {
     CodedBlock(CodeVariant code, const Place& place, const CellsInView& view,
                const BitBlock& block);
 
-    /// Returns the bits of one axis. `confidence` must include all bits that were read, also
-    /// outside the middle cells.
+    /// Returns the bits of one axis. `confidence` must include all bits that were read, including
+    /// bits outside the middle cells.
     AxisBits axis(Axis axis, const Confidence& confidence) const;
 
   private:

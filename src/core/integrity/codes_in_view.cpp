@@ -5,13 +5,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds below which another code needs no further bits. kMaxOddsHere is the limit for the place of
-/// the reading in the other code. kMaxOddsElsewhere is the limit for the sum over all other places
-/// in the other code.
+/// Limits below which the odds of another code are negligible, and no further bits are compared.
+/// kMaxOddsHere is the limit for the place of the reading in the other code. kMaxOddsElsewhere is
+/// the limit for the sum over all other places in the other code.
 constexpr float kMaxOddsHere = 1e-12F;
 constexpr float kMaxOddsElsewhere = 1e-10F;
 
-/// Returns true if two codes have different rolls in any of the BitBlock::kSide lines from
+/// Returns true if two codes have different rolls in any of the BitBlock::kSide lines that start at
 /// `position`.
 bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
     std::array<std::uint8_t, BitBlock::kSide> own;

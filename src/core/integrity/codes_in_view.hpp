@@ -1,5 +1,5 @@
-// Codes in view: the odds of the codes that were not read, from all dots in view. The certainty
-// test may use fewer dots.
+// Codes in view: computes the odds of all codes except the code of the reading, from all dots in
+// view. The certainty test may use fewer dots.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"

@@ -1,5 +1,5 @@
-// Confidence: the reliability of bits, and the probability that random bits agree with the code
-// equally well. See docs/integrity.md, "Chance: a bound".
+// Confidence: the reliability of the bits that were read, and the probability that random bits
+// agree with the code equally well. See docs/integrity.md, "Chance: a bound".
 #pragma once
 
 #include <array>
@@ -63,8 +63,8 @@ int odds_per_bit_q8(const Confidence& confidence);
 
 /// Returns log2 of Chernoff's upper bound on the probability of a chance agreement with one given
 /// place, in units of 2^-8. In a chance agreement, random bits of the same weights agree with the
-/// place at least as well as the bits that were read. Any value of `odds_per_bit_q8` gives an upper
-/// bound.
+/// place at least as well as the bits that were read do. Any value of `odds_per_bit_q8` gives an
+/// upper bound.
 int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8);
 
 /// Returns log2 of an upper bound on the probability of a chance agreement with any place, in any
@@ -72,8 +72,9 @@ int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8);
 /// `odds_per_bit_q8` gives an upper bound. The bound is smallest near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
-/// Variant of `chance_log2` in units of 2^-8, for 2^(log2_times_q8 / 256) times as many hypotheses.
-/// Uses either the given odds or odds of 2^16, whichever gives the smaller bound.
+/// Variant of `chance_log2` with a result in units of 2^-8. Multiplies the number of hypotheses by
+/// 2^(log2_times_q8 / 256). Uses either the given odds or odds of 2^16, whichever gives the smaller
+/// bound.
 int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8);
 
 }  // namespace dotpose::core

@@ -13,18 +13,18 @@ namespace dotpose::core {
 namespace {
 
 /// Minimum result: kNegligible for each pair of places, at each shift. This prevents a fix from
-/// relying on smaller expected odds. The 190,027 pairs include 2,217 pairs with a place of the
-/// reading.
+/// relying on smaller expected odds. The 190,027 pairs include 2,217 pairs that contain a place of
+/// the reading.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// log2 of the odds above which an alternative is counted individually.
+/// log2 of the odds above which an alternative is always counted individually.
 constexpr int kLargeOdds_log2 = -36;
 
 /// Set of anchors. Bit n is the anchor with index n, in the order of the lines. Anchors are the
 /// lines with the most information.
 using Anchors = std::uint32_t;
 
-/// One byte per anchor. The vector fits in one register.
+/// A vector with one byte per anchor. The vector fits in one register.
 using AnchorBytes [[gnu::vector_size(16)]] = std::uint8_t;
 static_assert(sizeof(AnchorBytes) >= kMaxAnchors);
 
@@ -96,8 +96,8 @@ class BytesInWords {
     Anchors anchors() const { return bits_of(halves_[0]) | bits_of(halves_[1]) << 8; }
 
   private:
-    /// Packs the lowest bits of eight bytes into one byte. The multiplication moves each bit to
-    /// another bit of the highest byte.
+    /// Packs the lowest bits of eight bytes into one byte. The multiplication moves each of these
+    /// bits to a different bit of the highest byte.
     static Anchors bits_of(std::uint64_t bytes) {
         return static_cast<Anchors>(bytes * 0x0102040810204080 >> 56);
     }
@@ -136,16 +136,18 @@ class AnchorOffsets {
     std::array<std::array<AnchorBytes, code::kA4Restored.size()>, 4> all_;
 };
 
-/// A place in one sequence. `offsets` are its roll offsets relative to its offset at one anchor,
-/// negated, modulo 63. This place and a place in another sequence share every anchor at which the
-/// relative offset of the other place equals the negated offset.
+/// A place in one sequence. An element of `offsets` is the roll offset of the place at a fixed
+/// anchor `one` minus its roll offset at the element's anchor, modulo 63. Consider an alternative
+/// with this place and with a place in another sequence. The alternative shares an anchor if the
+/// element of `offsets` equals the roll offset of the other place at this anchor minus its roll
+/// offset at `one`.
 struct Opposite {
     AnchorBytes offsets;
     std::uint32_t place;
 };
 
-/// The places in one sequence, except the place of the reading. The places are in buckets by the
-/// difference of their offsets at two anchors, modulo 63.
+/// The places in one sequence, except the place of the reading. The places are sorted into buckets
+/// by the difference of their offsets at two anchors, modulo 63.
 class Buckets {
   public:
     Buckets(const AnchorOffsets& offsets, std::size_t sequence, std::uint32_t length,
@@ -211,8 +213,8 @@ class Finder {
     }
 
   private:
-    /// Odds counted for an alternative that is not evaluated line by line, as log2 in units of 2^-8
-    /// and as a number. The true odds are never larger.
+    /// Upper bound on the odds of an alternative that is not evaluated line by line, as log2 in
+    /// units of 2^-8 and as a number.
     static constexpr int kSkippedOdds_q8 = -56 * 256;
     static constexpr float kSkippedOdds = 0x1p-56F;
     static constexpr int kLimit = 20;
@@ -246,7 +248,8 @@ class Finder {
         return sum;
     }
 
-    /// Returns the odds of a pair of places at the shift at which it shares an anchor.
+    /// Returns the odds of an alternative with two given places, at the shift at which it shares
+    /// the given anchor.
     float odds(std::size_t sequence_a, std::uint32_t place_a, std::size_t sequence_b,
                std::uint32_t place_b, std::size_t anchor) const {
         RollOffsets a;
@@ -300,7 +303,8 @@ std::array<int, kMaxAnchors + 1> min_losses_of_unshared(const RankedLines& lines
 struct Search {
     int anchors;
     int shared;
-    /// Number of pairs of anchors that `Finder` visits, which determines the time.
+    /// Returns the number of pairs of anchors that `Finder` visits. The time is proportional to
+    /// this number.
     int pairs() const {
         const int groups = shared - 1;
         const int size = anchors / groups;

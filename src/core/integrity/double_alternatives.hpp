@@ -11,8 +11,10 @@ namespace dotpose::core {
 ///
 /// Anchors are the 12 lines with the most information, or all lines if there are fewer. The sum
 /// contains the individual odds of the pairs that share at least k anchors. For all other pairs,
-/// the sum contains their expected odds times a safety factor. If this part exceeds `max_odds`, the
-/// caller refuses the fix. The function then returns this part alone, without evaluating any pairs.
+/// the sum contains their expected odds times kMargin. `expected` is the expected sum of the odds
+/// of all pairs. The function chooses k such that the expected part is at most `negligible`, if
+/// this does not take too long. If the expected part exceeds `max_odds`, the caller refuses the
+/// fix. In this case, the function returns the expected part alone, without evaluating any pairs.
 float sum_of_double_alternatives(const Kernels& kernels, const RankedLines& lines, float expected,
                                  float negligible, float max_odds);
 

@@ -7,14 +7,14 @@
 
 namespace dotpose::core {
 
-/// Safety factor for expected odds, because the odds at a given position can exceed the mean over
-/// all positions. On 5,630 axes of hard frames, the odds of double alternatives were at most 21
-/// times the mean.
+/// Safety factor for expected odds. It is necessary because the odds at a given position can exceed
+/// the mean over all positions. On 5,630 axes of hard frames, the odds of double alternatives were
+/// at most 21 times the mean.
 inline constexpr float kMargin = 32;
 
-/// Returns the expected sum of the odds of certain far alternatives. These alternatives differ from
-/// the reading in the places in `min_different` to `max_different` sequences, and share at most
-/// `max_shared` adjacent lines with the reading.
+/// Returns the expected sum of the odds of the far alternatives that differ from the reading in the
+/// places in `min_different` to `max_different` sequences, and that share at most `max_shared`
+/// adjacent lines with it.
 float sum_of_expected_alternatives(const Kernels& kernels, const RankedLines& lines, int max_shared,
                                    int min_different, int max_different);
 

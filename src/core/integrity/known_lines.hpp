@@ -34,8 +34,8 @@ inline std::size_t sum_of_rolls(std::size_t a, std::size_t b) {
 /// Returns the number of bits that were read in all lines.
 int number_of_bits(const BitLines& lines);
 
-/// The lines on one axis of a block. Contains the number of bits that agree with the code, for each
-/// line and roll.
+/// The lines on one axis of a block. Contains, for each line and each roll, the number of bits that
+/// agree with the code.
 class ScoredAxis {
   public:
     ScoredAxis(const Kernels& kernels, const BitLines& lines, const LineRange& range,

@@ -1,5 +1,5 @@
-// Known odds: the probability that a place on the known sheets is wrong. See docs/integrity.md,
-// "Known sheets".
+// Known odds: bounds the probability that a place on the known sheets is wrong. See
+// docs/integrity.md, "Known sheets".
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +27,7 @@ class OddsOfBits {
           per_bit_(odds_per_bit_q8 << 15) {}
 
     /// Returns the odds of a position where `agreeing` bits agree with the code. Interpolates
-    /// linearly between powers of two, so the result is at most 9 % too large.
+    /// linearly between powers of two, so the result is at most 6.2 % too large.
     float operator()(int agreeing) const {
         const int more = std::clamp(agreeing - agreeing_, min_, max_);
         return __builtin_bit_cast(float, kOne + more * per_bit_);
@@ -89,9 +89,9 @@ float random_agreement(int bits, int wrong) {
 }
 
 /// Returns an upper bound on the probability of a chance agreement if no known sheet is in view. In
-/// a chance agreement, random bits agree with a known place as well as the bits that were read.
-/// `bits` is the number of bits per axis, and `wrong` the number of wrong bits per axis. `lines` is
-/// the larger of the numbers of columns and rows.
+/// a chance agreement, random bits agree with a known place at least as well as the bits that were
+/// read do. `bits` is the number of bits per axis, and `wrong` the number of wrong bits per axis.
+/// `lines` is the larger of the numbers of columns and rows.
 float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int, 2>& wrong,
                       int lines) {
     float places = 0;

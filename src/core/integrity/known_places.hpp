@@ -1,5 +1,5 @@
-// Known places: finds the most likely place of a block on the known sheets. Also bounds the
-// probability that a place is wrong, from the odds of all places on the sheets. See
+// Known places: finds the most likely place of a block on the known sheets. Also computes an upper
+// bound on the probability that a place is wrong, from the odds of all places on the sheets. See
 // docs/integrity.md, "Known sheets".
 #pragma once
 
@@ -36,9 +36,10 @@ bool shows_sheet(const KnownSheets& sheets, CodeVariant code, const Place& place
 std::optional<KnownPlace> find_known_place(const Kernels& kernels, const BitBlock& block,
                                            const KnownSheets& sheets);
 
-/// Returns an upper bound on the probability that `place` is wrong. The true place may be elsewhere
-/// on the sheets, or no known sheet may be in view. `place` is the place of cell (0, 0) in the
-/// upright block. Returns 1 if `place` is not on the sheets, or if the bits contain no information.
+/// Returns an upper bound on the probability that `place` is wrong, because the true place is
+/// elsewhere on the sheets or because no known sheet is in view. `place` is the place of cell (0,
+/// 0) in the upright block. Returns 1 if `place` is not on the sheets, or if the bits contain no
+/// information.
 float known_place_wrong(const Kernels& kernels, const BitBlock& block, const KnownSheets& sheets,
                         CodeVariant code, const Place& place);
 

@@ -36,9 +36,9 @@ constexpr NearestSubstrings nearest_of(std::size_t first, std::size_t length) {
     return nearest;
 }
 
-/// Minimum distances for all lengths, by the first bit of the substring. Bit i is 1 if the minimum
-/// distance grows from i to i + 1 bits. It grows by at most 1 per bit, so the minimum distance for
-/// n bits is the number of ones in the first n bits.
+/// Minimum distances for all lengths, indexed by the first bit of the substring. Bit i is 1 if the
+/// minimum distance for i + 1 bits is larger than for i bits. Each further bit increases it by at
+/// most 1, so the minimum distance for n bits is the number of ones in the first n bits.
 constexpr auto kGrowingDistances = [] {
     std::array<std::uint32_t, kSections> grows{};
     for (std::size_t first = 0; first < grows.size(); ++first) {

@@ -12,7 +12,7 @@
 // - Single alternative: differs from the reading in the place in one sequence.
 // - Double alternative: differs in the places in two sequences.
 // - Far alternative: differs in the places in two or more sequences.
-// - Near alternative: shares several adjacent lines with the reading.
+// - Near alternative: shares at least four adjacent lines with the reading.
 // - Seam alternative: has one shift before a border between two lines, and another shift after the
 //   border.
 #pragma once
@@ -29,8 +29,8 @@
 
 namespace dotpose::core {
 
-/// Maximum number of adjacent lines that two positions share in `libdots`, where a4 is misprinted.
-/// In the other codes, the maximum is `code::kOrder`.
+/// Maximum number of adjacent lines that two positions share in the code `libdots`, whose a4 is
+/// misprinted. In the other codes, the maximum is `code::kOrder`.
 inline constexpr int kMaxShared = 7;
 
 /// log2(62) in units of 2^-8, rounded up. A line has 62 rolls other than the reading's roll.
@@ -51,7 +51,8 @@ class LikelihoodRatios {
     LikelihoodRatios(CodeVariant code, std::span<const ComparedLine> lines_,
                      const AxisReading& reading, int odds_per_bit_q8);
 
-    /// Uses hard bits in lines with known rolls. rolls[i] is the roll of line i.
+    /// Variant for hard bits in lines whose rolls are known. rolls[i] is the roll of the reading in
+    /// line i.
     LikelihoodRatios(CodeVariant code, std::span<const ComparedLine> lines_,
                      const AxisReading& reading, int odds_per_bit_q8,
                      std::span<const std::uint8_t> rolls);
@@ -153,8 +154,8 @@ class LikelihoodRatios {
     std::array<std::int16_t, kMaxComparedLines> log2_of_nearest_q8_;
 };
 
-/// Roll offsets of an alternative in each line, from 0 to 62. A common shift of all offsets is
-/// unknown.
+/// Roll offsets of an alternative in each line, from 0 to 62. They are known only up to a shift
+/// that is common to all lines.
 using RollOffsets = std::array<std::uint8_t, kMaxLines>;
 
 /// Returns the roll offset, from 0 to 62. `own` is the roll of the reading, and `alternative` is

@@ -11,7 +11,7 @@ MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last) {
     // Element n is the minimum loss in the first n lines if the last of these lines is not shared.
     MinLosses unshared_last;
     unshared_last[0] = 0;
-    int lowest = 0;  // index of the minimum among the last `max_shared` + 1 elements
+    int lowest = 0;  // index of the minimum of the last `max_shared` + 1 elements of unshared_last
     for (int n = 0;; ++n) {
         const int last = unshared_last[static_cast<std::size_t>(n)];
         if (last <= unshared_last[static_cast<std::size_t>(lowest)]) {

@@ -1,6 +1,7 @@
 // Minimum losses: lower bounds on the loss of every alternative. An alternative shares at most
-// `LikelihoodRatios::max_shared` adjacent lines, and loses in the other lines. In most frames,
-// these bounds prove that all alternatives are negligible.
+// `LikelihoodRatios::max_shared` adjacent lines. Of any max_shared + 1 adjacent lines, it therefore
+// has a loss in at least one. In most frames, these bounds prove that all alternatives are
+// negligible.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -18,10 +19,10 @@ MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last);
 /// Gains count as 0.
 int min_loss_with_border(const LikelihoodRatios& ratios);
 
-/// Returns true if every seam alternative loses at least `loss_limit` in a single line. Looks for
-/// more than 2 * `max_shared` adjacent lines with such a minimum loss. An alternative shares at
-/// most `max_shared` adjacent lines on each side of the border, so it cannot share all these lines.
-/// Returns false if in doubt.
+/// Returns true if every seam alternative certainly loses at least `loss_limit` in a single line.
+/// This is the case if more than 2 * `max_shared` adjacent lines have at least this minimum loss.
+/// An alternative shares at most `max_shared` adjacent lines on each side of the border, so it
+/// cannot share all of these lines.
 bool must_lose_with_border(const LikelihoodRatios& ratios, int loss_limit);
 
 }  // namespace dotpose::core

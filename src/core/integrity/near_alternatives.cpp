@@ -33,8 +33,8 @@ void set_sums(const RollOffsets& a, const RollOffsets& b, std::size_t lines, Rol
 
 /// The places in one sequence at which the digits of a run occur. The digits of a run are the
 /// digits of the reading in the steps between the lines of the run. Contains the roll offsets of
-/// these places relative to the run, or their negatives. The first place is the place of the
-/// reading.
+/// these places relative to their offsets in the first line of the run, or the negatives of these
+/// relative offsets. The first place is the place of the reading.
 class TwinPlaces {
   public:
     enum class Sign : std::uint8_t { positive, negative };

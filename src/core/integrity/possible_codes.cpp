@@ -9,13 +9,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Summed odds of other places in other codes above which a fix is ambiguous. Below this limit, a
-/// second attempt may reduce the odds.
+/// Limit for the summed odds of other places in other codes. Above this limit, a fix is ambiguous.
+/// Below it, a second attempt may reduce the odds.
 constexpr float kAmbiguousOdds = 1e-3F;
-/// Maximum odds of a code that earlier frames rule out, relative to the likeliest code. The locator
-/// makes no attempt in such a code.
+/// A code is ruled out by earlier frames if its odds relative to the likeliest code are at most
+/// this value. The locator makes no attempt in a code that is ruled out.
 constexpr float kRuledOutOdds = 1e-9F;
-/// Factors up to this value count as rounding errors.
+/// Maximum factor that is considered to be a rounding error.
 constexpr float kRoundings = 1.01F;
 
 std::size_t index(CodeVariant code) {
@@ -88,8 +88,8 @@ CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others) {
     for (std::size_t i = 0; i < log2_q8.size(); ++i) {
         if (i == index(read)) continue;
         const float odds = others.of[i].here() + others.of[i].elsewhere();
-        // Keeps the odds of a code that explains the frame as well as the code `read`. Otherwise,
-        // rounding errors would accumulate over frames.
+        // A code that explains the frame as well as the code `read` has a log ratio of exactly 0,
+        // because rounding errors would accumulate over frames.
         const bool is_equal = odds <= kRoundings && odds * kRoundings >= 1;
         log2_q8[i] = is_equal ? 0 : log2_of_odds_q8(odds);
     }

@@ -1,4 +1,4 @@
-// Possible codes: the certainty of a fix if the code variant of the sheet is unknown. See
+// Possible codes: computes the certainty of a fix if the code variant of the sheet is unknown. See
 // docs/integrity.md, "Which code?".
 #pragma once
 

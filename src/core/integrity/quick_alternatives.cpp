@@ -19,8 +19,7 @@ constexpr int kSmallOdds_q8 = -36 * 256;
 /// Default limit of the error probability, as log2 in units of 2^-8. Bounds are as tight as this
 /// limit requires, even if the caller permits larger odds.
 constexpr int kUsualLimit_q8 = -30 * 256;
-/// Odds counted for each skipped single alternative, as log2 in units of 2^-8. The true odds are
-/// never larger.
+/// Upper bound on the odds of each skipped single alternative, as log2 in units of 2^-8.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 
 /// Odds in a line that an alternative does not share, as log2 in units of 2^-8. The other rolls are
@@ -56,11 +55,11 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
     return log2_at_most_q8(sum_q12) - 12 * 256;
 }
 
-/// Returns an upper bound on the expected odds of one set, as log2 in units of 2^-8. Merges all
-/// nonzero roll offsets into one state. Let p be the probability that all digits in a step are
-/// equal. A step leads to a given roll offset with a probability of at most p. A line that is not
-/// shared therefore multiplies the odds by at most p * `sum`, and by at most `best` (see
-/// `LineOdds`).
+/// Returns an upper bound on the expected odds of the alternatives in one set, as log2 in units of
+/// 2^-8. Merges all nonzero roll offsets into one state. Let p be the probability that all digits
+/// in a step are equal. A step leads to a given roll offset with a probability of at most p. A line
+/// that is not shared therefore multiplies the odds by at most p * `sum`, and by at most `best`
+/// (see `LineOdds`).
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
@@ -134,10 +133,10 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
         odds[static_cast<std::size_t>(line)] = {best, best + others};
     }
     int sum = far_log2_q8(ratios, kAlternativeSets.front(), odds);
-    // The other four sets contain more alternatives, but these share lines more rarely. Among the
-    // alternatives that share more than seven lines, each of the four sets has less than half the
-    // odds of the first set. The odds of all five sets together are therefore less than three times
-    // the odds of the first set.
+    // The other four sets contain more alternatives, but these alternatives share lines more
+    // rarely. Among the alternatives that share more than seven lines, each of the four sets has
+    // less than half the odds of the first set. The odds of all five sets together are therefore
+    // less than three times the odds of the first set.
     constexpr int kThreeTimes_q8 = 406;
     if (sum + kThreeTimes_q8 < kSmallOdds_q8) {
         const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(ratios));
@@ -187,8 +186,8 @@ class ByShift {
     std::size_t count_ = 0;               ///< number of lines with a positive minimum loss
     std::array<Loss, kMaxLines> losses_;  ///< sorted by decreasing loss
     std::uint32_t in_all_ = 0;            ///< total of all losses
-    /// Number of lines that `may_matter` adds before its first check, in the order of `losses_`,
-    /// and the sum of their losses. An alternative that shares the first of these lines cannot lose
+    /// Number of elements of `losses_` that `may_matter` adds before its first check, and the sum
+    /// of these losses. An alternative that shares the first of these lines cannot lose
     /// `loss_limit_` in these lines alone.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
@@ -222,7 +221,7 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
 
 /// Returns true if an alternative may lose less than `loss_limit_` at some shift. `alternative`
 /// points to the rolls of the sequence at the place of the alternative.
-// Inlining would exceed the registers of small processors.
+// Not inlined, because small processors have too few registers for the combined loops.
 [[gnu::noinline]] bool ByShift::may_matter(const std::uint8_t* alternative) {
     std::uint32_t* const kept = kept_.data();
     const std::uint32_t none = none_ += in_all_;
@@ -248,8 +247,9 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     return true;
 }
 
-/// Returns `sum` plus the odds of a place at all shifts that matter, line by line. Inlining would
-/// exceed the registers of small processors.
+/// Returns `sum` plus the odds of a place at all shifts where its loss may be below `loss_limit_`.
+/// Evaluates these odds line by line. Not inlined, because small processors have too few registers
+/// for the combined loops.
 [[gnu::noinline]] int ByShift::add_closely(std::uint32_t place, int sum) const {
     RollOffsets offsets;
     set_roll_offsets(ratios_, sequence_, place, offsets);
@@ -307,7 +307,7 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
 
 /// Returns an upper bound on the odds of the single alternatives that share a line, in the given
 /// sequences, as log2 in units of 2^-8. Counts kSkippedOdds_q8 for every alternative and every
-/// line. Evaluates the few alternatives that may lose less than `loss_limit` one by one.
+/// line. Evaluates individually the few alternatives that may lose less than `loss_limit`.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();
@@ -328,8 +328,8 @@ int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     return sum;
 }
 
-/// Returns an upper bound on the odds of the other sections at the same position, as log2 in units
-/// of 2^-8. In another section, no line has the roll of the reading.
+/// Returns an upper bound on the odds of the reading's position in all other sections, as log2 in
+/// units of 2^-8. In these sections, no line has the roll of the reading.
 int other_sections_log2_q8(const LikelihoodRatios& ratios) {
     int lost = 0;
     for (int line = 0; line < ratios.count(); ++line)
@@ -350,8 +350,8 @@ int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
     Sequences sequences = kAllSequences;
     int singles = kNever_q8;
     if (is_last) {
-        // Tries tables first. Their bounds are larger than those of an enumeration, but they avoid
-        // most of the work.
+        // Tries table bounds first. They are larger than the sums of an enumeration, but take much
+        // less work.
         constexpr int kLittle_q8 = -5 * 256;
         const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
         sequences = add_by_tables(ratios, little_q8, sequences, singles);

@@ -52,7 +52,8 @@ void RankedLines::rank_lines() {
 void RankedLines::set_offsets(std::size_t sequence, std::uint32_t place,
                               RollOffsets& offsets) const {
     using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
-    // The tables of rolls and the offsets have elements beyond the last line.
+    // The vectors also access elements beyond the last line. The tables of rolls and the array of
+    // offsets have such elements.
     static_assert(kMaxLines % sizeof(Bytes) == 0 && kMaxLines <= code::kLinesAhead);
     const std::uint8_t* const rolls = ratios.basis[sequence].rolls;
     for (std::size_t line = 0; line < static_cast<std::size_t>(count()); line += sizeof(Bytes)) {

@@ -1,5 +1,6 @@
-// Ranked lines: the lines in view by decreasing information, with the roll offsets of all places.
-// In this order, most alternatives become hopeless after the losses of a few lines.
+// Ranked lines: ranks the lines in view by decreasing information, and tabulates the losses and
+// odds of alternatives in each line. A line has more information if alternatives that do not share
+// it have smaller odds.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -39,13 +40,13 @@ class RankedLines {
     std::array<std::array<std::int16_t, 256>, kMaxLines> losses_;
 };
 
-/// Minimum losses of lines in coarse units, because their sums must fit in bytes. Each loss is
-/// rounded down to whole units, and is at most `limit`.
+/// Minimum losses of the lines, in coarse units, because sums of these losses must fit in bytes.
+/// Each loss is rounded down to whole units, and is at most `limit`.
 struct CoarseLosses {
     explicit CoarseLosses(const LikelihoodRatios& ratios);
 
-    /// Odds counted for an alternative that loses at least `limit`. The true odds are never larger,
-    /// regardless of gains in other lines. For 2^15 such alternatives, these odds add up to 2^-41.
+    /// Upper bound on the odds of an alternative that loses at least `limit`, regardless of its
+    /// gains in other lines. For 2^15 such alternatives, these bounds add up to 2^-41.
     static constexpr float skipped_odds = 0x1p-56F;
     int limit;  ///< at most 200, the maximum of `Kernels::list_similar_places`
     std::array<std::uint8_t, kMaxLines> losses;

@@ -16,12 +16,12 @@ namespace {
 /// seam explains the view equally well. It is refused if a seam explains the view better by two
 /// bits.
 constexpr int kSeam_q8 = -32 * 256;
-/// Minimum odds, without the prior, of an alternative that is included in the sum. The value is
-/// log2 in units of 2^-8.
+/// The sum includes only alternatives whose odds, without the prior, exceed this limit. The limit
+/// is log2 in units of 2^-8.
 constexpr int kMin_q8 = -8 * 256;
 
-/// Minimum losses of an alternative before and after each border, over all shifts. Ignores a shift
-/// on one side if the loss on this side alone reaches `loss_limit`.
+/// Minimum losses of an alternative before and after each border. Each minimum is over all shifts
+/// at which the loss on the same side of the border is less than `loss_limit`.
 class LossesByBorder {
   public:
     LossesByBorder(const LikelihoodRatios& ratios, const RollOffsets& offsets, int loss_limit)
@@ -29,8 +29,8 @@ class LossesByBorder {
         before_.fill(kNone);
         from_.fill(kNone);
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios.count()));
-        // For each shift, the losses that the alternative avoids: the summed minimum losses of the
-        // lines that it shares at this shift.
+        // Losses that the alternative avoids at each shift: the summed minimum losses of the lines
+        // that it shares at this shift.
         std::array<int, kSections> kept{};
         int in_all = 0;
         int max_kept = 0;
@@ -105,7 +105,7 @@ class SeamAlternatives {
     int sum_q8_ = kNever_q8;
 };
 
-/// Returns the loss from which an alternative is too improbable to be included.
+/// Returns the loss limit. Alternatives with at least this loss are too improbable to be included.
 int loss_limit_of(const LikelihoodRatios& ratios) {
     return ratios.loss_for(kMin_q8) + ratios.max_gain();
 }

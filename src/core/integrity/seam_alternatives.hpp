@@ -10,11 +10,11 @@ namespace dotpose::core {
 
 /// Returns log2 of the summed odds in units of 2^-8, including the prior of a seam. A seam
 /// alternative differs from the reading in the place in one sequence. Its shift changes at a border
-/// between two lines. Includes only alternatives that explain the lines about as well as the
-/// reading. Returns kNever_q8 if there are no such alternatives.
+/// between two lines. Includes only alternatives that explain the bits about as well as the reading
+/// does. Returns kNever_q8 if there are no such alternatives.
 int seam_alternatives_log2_q8(const LikelihoodRatios& ratios);
 
-/// Variant that searches for alternatives with kernels.
+/// Variant that uses kernels to search for the alternatives.
 int seam_alternatives_log2_q8(const Kernels& kernels, const UnsharedLines& unshared);
 
 }  // namespace dotpose::core

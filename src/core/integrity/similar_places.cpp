@@ -24,8 +24,8 @@ class Losses {
     std::uint32_t excluded() const { return excluded_; }
 
   private:
-    /// Returns true if a bit is set. Small processors test the sign bit faster than they mask
-    /// another bit.
+    /// Returns true if a bit is set. On small processors, testing the sign bit is faster than
+    /// masking any other bit.
     static bool has_bit(unsigned n, int bit) {
         return static_cast<std::int32_t>(n << (31 - bit)) < 0;
     }
@@ -93,7 +93,7 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
     }
 }
 
-// Inlining would exceed the registers of small processors.
+// Not inlined, because small processors have too few registers for the combined loops.
 [[gnu::noinline]] std::uint32_t SimilarPlaces::operator[](std::uint32_t word) const {
     // Excludes the bits beyond the end of the sequence, and the bit of the reading's own place.
     const std::uint32_t places = sequence_.length - 32 * word;

@@ -1,5 +1,6 @@
 // Similar places: the places in a sequence whose digits are similar to the digits of the reading.
-// Only alternatives at these places may matter. The search tests 32 places at a time, one per bit.
+// All other places lose too much to be relevant. The search tests 32 places at a time, one per bit
+// of a word.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -9,11 +10,13 @@ namespace dotpose::core {
 /// Maximum number of steps in which digits are compared. A step leads from one line to the next.
 inline constexpr int kMaxSteps = 18;
 
-/// Number of parts of the loss limit. A place that loses all parts is excluded.
+/// Number of parts into which the loss limit is divided. Losses are counted in these parts. A place
+/// that loses at least kLimitParts parts is excluded.
 inline constexpr unsigned kLimitParts = 15;
 
-/// Steps in which an alternative loses nothing, regardless of its digit: none, or any one step. A
-/// seam alternative loses nothing in the step across the border.
+/// Steps in which an alternative has no loss even if its digit differs from the digit of the
+/// reading: no step, or any single step. A seam alternative has no loss in the step across the
+/// border.
 enum class Excused : std::uint8_t { none, any_one };
 
 /// Steps in which digits are compared, and the loss if a digit differs from the digit of the

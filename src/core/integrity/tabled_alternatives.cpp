@@ -8,8 +8,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Upper bounds on the odds of the single alternatives that share a line, by sequence. The bounds
-/// use the table of `unshared`. The table lines are the lines that this table covers.
+/// Upper bounds on the odds of the single alternatives that share a line, for each sequence. The
+/// bounds use the table that `unshared` uses. The lines that this table covers are called table
+/// lines.
 class Bounds {
   public:
     explicit Bounds(const UnsharedLines& unshared) : unshared_(unshared) {
@@ -23,8 +24,8 @@ class Bounds {
     float operator[](std::size_t sequence) const {
         const LikelihoodRatios& ratios = unshared_.ratios();
         const auto& max_with = code::kMaxPositionsWith[unshared_.tables() - 1][sequence];
-        // Alternatives with more than kMaxCounted unshared table lines. An alternative counts once
-        // for each shift where it shares a line, so at most `ratios.count()` times.
+        // Adds the alternatives with more than kMaxCounted unshared table lines. An alternative
+        // counts once for each shift where it shares a line, so at most `ratios.count()` times.
         float sum =
             static_cast<float>(ratios.count() * ratios.basis[sequence].length) * odds_.back();
         std::size_t n = unshared_.min_unshared(sequence, Sharing::at_one_shift);

@@ -1,6 +1,6 @@
-// Tabled alternatives: upper bounds on the odds of single alternatives, from tables. The tables
-// count alternatives by their number of unshared lines. With these bounds, most sequences need no
-// enumeration.
+// Tabled alternatives: computes upper bounds on the odds of single alternatives, from tables. The
+// tables contain the number of alternatives for each number of unshared lines. With these bounds,
+// the alternatives of most sequences do not have to be enumerated.
 #pragma once
 
 #include "core/integrity/unshared_lines.hpp"

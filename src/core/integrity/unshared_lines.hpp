@@ -1,6 +1,6 @@
-// Unshared lines: lower bounds on the losses of single alternatives. Tables contain the minimum
-// number of lines that an alternative does not share. With these bounds, few alternatives have to
-// be enumerated.
+// Unshared lines: lower bounds on the losses of single alternatives. The bounds are computed from
+// tables, which contain the minimum number of lines that an alternative does not share. With these
+// bounds, few alternatives have to be enumerated.
 #pragma once
 
 #include <array>
@@ -62,7 +62,7 @@ class UnsharedLines {
     const LikelihoodRatios& ratios_;
     /// Index of the table in `code::kUnsharedOf`, or SIZE_MAX if the view has too few lines.
     std::size_t row_ = SIZE_MAX;
-    /// First table line, as an index in the view.
+    /// Index of the first table line among the lines in view.
     std::uint32_t first_line_ = 0;
     SmallestSums smallest_sums_{};  ///< element n is the sum of the n smallest losses
 };

@@ -22,7 +22,7 @@ AxisReading reading_of(CodeVariant code, const Place& place, Axis axis) {
     return {position, static_cast<std::uint8_t>(here), 0, 0};
 }
 
-// Inlining would exceed the registers of small processors.
+// Not inlined, because small processors have too few registers for the combined loops.
 [[gnu::noinline]] void compare_line(std::span<const std::int8_t> line, const std::uint8_t* bit,
                                     Confidence& confidence) {
     for (const std::int8_t weight : line) {
@@ -54,13 +54,13 @@ Place corner_place(CodeVariant code, const Decoding& decoding, const Upright& up
     return moved(code, decoding.place, corner.x, corner.y);
 }
 
-/// Comparison of all bits in view with the code, before alternatives are evaluated.
+/// Result of comparing all bits in view with the code, before alternatives are evaluated.
 struct Doubt {
     int odds_per_bit_q8 = 0;  ///< 0 if the bits contain no information, or if too many bits are
                               ///< wrong
     /// For each axis, log2 of an upper bound on the probability of a chance agreement, in units of
-    /// 2^-8. In a chance agreement, random bits agree with the code as well as the bits that were
-    /// read.
+    /// 2^-8. In a chance agreement, random bits agree with the code at least as well as the bits
+    /// that were read do.
     std::array<int, 2> by_chance_q8{};
 };
 
@@ -238,8 +238,8 @@ std::array<Confidence, 2> compare_both(const Grid& grid, CodeVariant code,
             compare(code, all, Axis::y, reading_of(code, corner, Axis::y))};
 }
 
-/// Replaces the bounds on chance for one code by bounds for several possible codes. `log2_codes_q8`
-/// is log2 of the weighted number of codes, in units of 2^-8.
+/// Replaces the bounds on chance, which apply to one code, with bounds for several possible codes.
+/// `log2_codes_q8` is log2 of the weighted number of codes, in units of 2^-8.
 void count_hypotheses_of(int log2_codes_q8, const Grid& grid, CodeVariant code,
                          const Decoding& decoding, Doubt& doubt) {
     const auto agreements = compare_both(grid, code, decoding);
@@ -285,8 +285,8 @@ Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const 
                           [&](std::size_t, const LikelihoodRatios& ratios) {
                               return quick_alternatives_log2_q8(ratios, limit_q8) + codes_q8;
                           });
-    // Computes the probability as precisely as the default limit requires, even if the caller
-    // accepts a larger probability.
+    // The probability is as precise as the default limit requires, even if the caller accepts a
+    // larger probability.
     const int doubtful_q8 = std::min(limit_q8, -30 * 256);
     if (sum(p_wrong_q8) > doubtful_q8) {
         const auto counted_q8 = with_alternatives(

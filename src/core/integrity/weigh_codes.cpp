@@ -14,14 +14,14 @@ namespace {
 
 /// Index of a4, the only sequence in which the codes differ.
 constexpr std::size_t kA4 = 3;
-/// Odds counted for each skipped place, as log2 in units of 2^-8 and as a number. The true odds are
-/// never larger.
+/// Upper bound on the odds of each skipped place, as log2 in units of 2^-8 and as a number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Summed odds below which no tighter bound is needed.
 constexpr float kNegligibleOdds = 1e-12F;
 
-/// Minimum loss in each line that a place does not share.
+/// Lower bounds on the losses of a place in another code. A place loses at least of[line] in each
+/// line that it does not share with the reading.
 struct Losses {
     explicit Losses(const LikelihoodRatios& ratios)
         : loss_limit(ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain()) {
@@ -79,7 +79,7 @@ class OtherPlaces {
           theirs_(code::basis(other)[kA4]),
           shift_here_(code::roll_further(read, other, ratios.position, ratios.places[kA4])),
           here_(offsets_of(ratios.places[kA4])) {
-        // A line with the roll of the reading loses nothing.
+        // Lines in which both codes have the same roll lose nothing.
         const int shared = modulo(here_[0] - shift_here_);
         int lost = 0;
         for (std::size_t line = 0; line < count_ && !ratios_.is_hopeless(lost); ++line) {
@@ -92,11 +92,11 @@ class OtherPlaces {
 
     /// Returns the likelihood ratio of the same place in the other code.
     float here() const { return result_.here; }
-    /// Returns the summed likelihood ratios of all other places. Returns an upper bound until the
-    /// odds of these places have been added.
+    /// Returns the summed likelihood ratios of all other places, or an upper bound if only the
+    /// table bound is set.
     float elsewhere() const { return result_.elsewhere; }
 
-    /// Sets a table bound on the summed odds of all other places.
+    /// Sets the summed odds of all other places to an upper bound from a table.
     void bound(const UnsharedLines& unshared, CodeVariant read, CodeVariant other) {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
@@ -107,7 +107,7 @@ class OtherPlaces {
             sharing_none();
     }
 
-    /// Removes the table bound before places are added one by one.
+    /// Removes the table bound. Must be called before places are added one by one.
     void begin_count() { result_.elsewhere = 0; }
 
     /// Adds the odds that the search for similar places does not find: the place of the reading in
@@ -263,7 +263,8 @@ class AxisWeigher {
     }
 
     /// Replaces the bound by a sum over all other places, unless the bound is negligible. `across`
-    /// is the summed odds on the other axis, by which the odds on this axis are multiplied.
+    /// is the summed odds on the other axis. The odds on this axis are multiplied by `across`
+    /// before the comparison.
     void look_closer(CodeVariant other, float across, OtherPlaces& others) {
         if (others.elsewhere() * across <= kNegligibleOdds) return;
         others.begin_count();

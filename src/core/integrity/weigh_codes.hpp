@@ -1,6 +1,6 @@
-// Weigh codes: the odds of places in the other codes, relative to the reading. Unlike the paper,
-// which has one code, dotpose treats the code of a sheet as an unknown. The codes differ only in
-// a4, so only positions with the places of the reading in a1, a2 and a3 are compared. See
+// Weigh codes: computes the odds of places in the other codes, relative to the reading. The paper
+// has only one code, but dotpose supports sheets whose code is unknown. The codes differ only in
+// a4, so only positions that have the places of the reading in a1, a2 and a3 are compared. See
 // docs/integrity.md, "Which code?".
 #pragma once
 

@@ -1,6 +1,6 @@
 // Kernels: the inner loops over pixels, dots and cells. The desktop attempts spend most of their
 // time in these loops. There is one implementation per vector width. All implementations return
-// identical bits, and `select.hpp` chooses the fastest. Image lengths are in px.
+// bit-identical results, and `select.hpp` chooses the fastest. Image lengths are in px.
 //
 // A cell is a grid intersection with its dot. The *places* of a cell are the four points where its
 // dot may be printed: above, left, right and below the intersection.
@@ -83,7 +83,8 @@ struct CellsInView {
     float reach_px = 0;
     float displacement = 0;  ///< distance from an intersection to its dot, in spacings
     Windows windows = Windows::on_intersections;
-    int step = 1;  ///< Row subsampling step. `list_cells` lists every `step`-th cell of a row.
+    int step = 1;  ///< Subsampling step along rows. `list_cells` lists every `step`-th cell of a
+                   ///< row.
     /// Roll of each column: the main-sequence index of its cell in row `first_row`.
     const std::uint8_t* column_rolls = nullptr;
     /// Roll of each row: the main-sequence index of its cell in column `first_column`.
@@ -148,8 +149,8 @@ struct DotOffsets {
     /// Sum of dot((u, v), offset). `across` is the sum of cross((u, v), offset).
     float along = 0;
     float across = 0;
-    /// Sums of d_x * offset, along u and v, where d is the direction of the coded displacement of
-    /// the dot. `of_y` contains the sums of d_y * offset.
+    /// Sums of d_x times the offset along u and along v, where d is the direction of the dot's
+    /// coded displacement. `of_y` contains the sums of d_y times the offset.
     std::array<float, 2> of_x{};
     std::array<float, 2> of_y{};
 };
@@ -182,9 +183,10 @@ struct BitsRead {
     float squares = 0;
 };
 
-/// Minimum loss, in bits, of an alternative that does not share `line`. The *reading* is the
-/// position that was read, and an *alternative* is any other position. An alternative *shares* a
-/// line if its roll in this line is the roll of the reading.
+/// Minimum loss of an alternative that does not share `line`, in a unit that the caller chooses.
+/// The *reading* is the position that was read, and an *alternative* is any other position. The
+/// *loss* of an alternative in a line is the score of the reading minus the score of the
+/// alternative. An alternative *shares* a line if its roll in this line is the roll of the reading.
 struct LineLoss {
     std::uint8_t line = 0;
     std::uint8_t loss = 0;
@@ -225,7 +227,9 @@ struct FarAlternatives {
     std::array<float, 8> number{};  ///< number of alternatives in each group
 };
 
-/// Roll offsets of 32 combinations of places in some of the sequences, indexed by line.
+/// Contributions of 32 combinations to the roll offset, indexed by line. A combination is one place
+/// in each of some sequences. The roll offset is the roll of the alternative minus the roll of the
+/// reading.
 struct OffsetBatch {
     std::array<std::array<std::uint8_t, 32>, kMaxLines> offsets;
 };
@@ -233,7 +237,8 @@ struct OffsetBatch {
 /// Odds by roll offset. The last element is padding.
 using OddsByOffset = std::array<float, kRollEntries>;
 
-/// Expected odds by the number of shared anchors, from 0 to 6.
+/// Expected odds by the number of shared anchors, from 0 to 6. *Anchors* are lines with high
+/// information (docs/integrity.md, "Alternatives: odds").
 using OddsByShared = std::array<float, 7>;
 
 /// Sums of the n smallest losses, indexed by n from 0 to 8.
@@ -272,7 +277,8 @@ struct Kernels {
     /// Assigns each dot to a cell. Returns the sums over the dots near a place of their cell.
     CellSums (*sum_cells)(const PatchDots& dots, const FloatPlane& plane, const CellPass& pass);
     /// Sets the bits of cells whose dots are clearly at one of the four places. The first column
-    /// and row belong to cell (-32, -32).
+    /// and row belong to cell (-32, -32). If a cell has two such dots with different values of a
+    /// bit, the bit is invalid. If a cell has three or more such dots, its bits may be wrong.
     void (*read_cells)(const PatchDots& dots, const FloatPlane& plane, float displacement,
                        BitLines& columns, BitLines& rows);
     /// Scores a line of 64 cells at each roll. Each valid cell adds 127 if its bit agrees with the
@@ -285,11 +291,11 @@ struct Kernels {
     /// Lists the cells in view, with their window centres and coded symbols. Sets `x` and `y` to
     /// the expected image points of the dots, including lens distortion. Stops when `dots` is full.
     void (*list_cells)(const CellsInView& view, MeasuredDots& dots);
-    /// Finds the shift from the window centres to the dots. Sums the surroundings of the first 16
-    /// dots that are far enough from the image border, and searches this sum for its darkest point.
-    /// Searches shifts up to `max_px` along each axis, in steps of `step_px`, with at most 6 steps
-    /// per direction. Sets `cut_q8` to the contrast at the darkest point, in 1/256 of the paper
-    /// level. Returns false if there are fewer than 8 such dots, or if the sum is black.
+    /// Finds the shift from the window centres to the dots. Adds up the image areas around the
+    /// first 16 dots that are far enough from the image border, and finds the darkest point of this
+    /// sum. Searches shifts up to `max_px` along each axis, in steps of `step_px`, with at most 6
+    /// steps per direction. Sets `cut_q8` to the contrast at the darkest point, in 1/256 of the
+    /// paper level. Returns false if there are fewer than 8 such dots, or if the sum is black.
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int max_px, int step_px,
                        FixedVec& shift_px, int& cut_q8);
     /// Sets `x` and `y` to the centroids of the dark pixels in the windows of the dots. Drops dots
@@ -355,16 +361,15 @@ struct Kernels {
     void (*sum_smallest_losses)(std::span<const std::int16_t> losses, SmallestSums& sums);
     /// Compares the 32 combinations of a batch with one combination of places in the other
     /// sequences. Returns one bit per combination, which is 1 if the alternative may lose less than
-    /// `limit` (at most 255). `losses` contains the loss in each line that is not shared. A line is
-    /// shared if the offset in the batch equals `opposite`, the negated offset of the other
-    /// combination.
+    /// `limit` (at most 255). `losses[i]` is the loss if line i is not shared. A line is shared if
+    /// the offset in the batch equals `opposite`, the negated offset of the other combination.
     std::uint32_t (*similar_in_batch)(const OffsetBatch& batch, const std::uint8_t* opposite,
                                       std::span<const std::uint8_t> losses, int limit);
-    /// Returns the expected odds of certain far alternatives. These alternatives differ from the
-    /// reading in the sequences `different` (one bit per sequence), and share at most `max_shared`
-    /// (up to 8) adjacent lines. Assumes that the digits of the alternatives are uniform. `places`
-    /// are the places of the first line. `lines` contains the odds of an alternative in each line.
-    /// The odds at offset 0 are 1, and the padding is 0.
+    /// Returns the expected odds of the alternatives that differ from the reading in the sequences
+    /// `different` (one bit per sequence), and share at most `max_shared` (up to 8) adjacent lines
+    /// with it. Assumes that the digits of the alternatives are uniformly distributed. `places` are
+    /// the places of the first line. `lines` contains the odds of an alternative in each line, by
+    /// roll offset. The odds at offset 0 are 1, and the padding is 0.
     float (*sum_expected_alternatives)(const code::Basis& basis,
                                        const std::array<std::uint32_t, 4>& places,
                                        unsigned different, std::span<const OddsByOffset> lines,

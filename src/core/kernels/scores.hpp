@@ -32,8 +32,8 @@ struct ScoredLine {
 inline constexpr std::size_t kRollEntries = 64;
 
 /// Scores of up to kMaxLines adjacent lines, indexed by roll. A score is the number of cells that
-/// agree with the main sequence. Each line stores its scores twice in succession, because vectors
-/// load kRollEntries scores from any roll.
+/// agree with the main sequence. Each line stores its scores twice in succession, because a load of
+/// kRollEntries scores may start at any roll.
 struct RollScores {
     int count = 0;  ///< number of lines
     std::array<std::array<std::uint16_t, 2 * kRollEntries>, kMaxLines> lines;

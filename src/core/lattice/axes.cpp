@@ -31,9 +31,9 @@ std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
     return static_cast<std::int32_t>(square_root(half_square * 2));
 }
 
-/// Returns the grid direction modulo a quarter turn, as a binary angle. As complex numbers, the
-/// steps in all four grid directions have the same fourth power. `length_q8` is the median edge
-/// length.
+/// Returns the grid direction modulo a quarter turn, as a binary angle (2^32 units per turn). As
+/// complex numbers, the steps in all four grid directions have the same fourth power. `length_q8`
+/// is the median edge length.
 std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t length_q8) {
     const std::int32_t inverse_q16 = 1024 * 65536 / length_q8;
     std::int32_t sum_re = 0;
@@ -57,7 +57,8 @@ std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t 
     return angle_bam({sum_re, sum_im}) / 4;
 }
 
-/// Cluster to which an edge is assigned. Opposite edges belong to the opposite cluster.
+/// Cluster to which an edge is assigned. An edge that points opposite to a cluster mean belongs to
+/// the opposite cluster.
 enum class Side : std::uint8_t { first, second, opposite_first, opposite_second, unknown };
 
 std::size_t cluster_of(Side side) {
@@ -69,7 +70,7 @@ FixedVec turned(FixedVec edge, Side side) {
 }
 using Sides = std::array<Side, kMaxEdges>;
 
-/// Sum and number of the edges on one Side.
+/// Sum and number of the edges in one cluster.
 struct Sum {
     FixedVec total;
     std::int32_t count = 0;
@@ -188,7 +189,7 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;
     // Unlike the paper, which uses both medians as axes, this estimate averages them into a square
-    // grid. The medians deviate from a square mostly because of scatter, not because of tilt.
+    // grid. The medians deviate from a square mostly because of random errors, not because of tilt.
     // Averaging halves the variance.
     const FixedVec twice_u{u.x + v.y, u.y - v.x};
     lattice.u_q16 = {twice_u.x * kLengthening_q8 / 2, twice_u.y * kLengthening_q8 / 2};

@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::outwards;
 
-/// Returns the strongest waves through the central dots. Returns nullopt if the waves are too weak,
-/// the spacing is out of range, or there are too few central dots.
+/// Returns the pair of plane waves that fits the central dots best. Returns nullopt if the waves
+/// are too weak, the spacing is out of range, or there are too few central dots.
 std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, const PatchView& view) {
     const float spacing = view.spacing_px;
     const PatchDots& dots = patch.dots;
@@ -53,7 +53,7 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
     return best;
 }
 
-/// Returns the phase of wave i in cycles, in [-1/2, 1/2]. The error is at most 1/1000.
+/// Returns the phase of wave i in cycles, in [-1/2, 1/2]. The error is at most 1/1000 cycle.
 float phase_in_cycles(const Waves& waves, std::size_t i) {
     const float x = std::abs(waves.phase_cos[i]);
     const float y = std::abs(waves.phase_sin[i]);
@@ -75,8 +75,8 @@ FloatPlane plane_from_waves(const Waves& waves) {
     return plane;
 }
 
-/// Inverse of the 3 x 3 normal matrix. Each matrix element is a sum over the used dots: the product
-/// of two of x, y and 1.
+/// Inverse of the 3 x 3 normal matrix. Each element of the normal matrix is the sum, over the used
+/// dots, of the product of two of x, y and 1.
 struct Inverse {
     std::array<std::array<float, 3>, 3> m;
     bool is_regular = false;
@@ -117,7 +117,8 @@ bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane)
     const auto right_of = [](const std::array<float, 6>& s) {
         return std::array{s[1], s[2], s[0]};
     };
-    // Selects the sums of x (x, y, 1) and y (x, y, 1), each times the column or row of the cell.
+    // Select the sums of i x (x, y, 1) and of i y (x, y, 1) from `sums.i`. In `sums.j`, j replaces
+    // i.
     const auto with_x = [](const std::array<float, 6>& s) { return std::array{s[3], s[4], s[1]}; };
     const auto with_y = [](const std::array<float, 6>& s) { return std::array{s[4], s[5], s[2]}; };
     std::array<float, 3> i = inverse(right_of(sums.i));
@@ -152,8 +153,8 @@ bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane)
     return true;
 }
 
-/// Returns true if the spacing is near `first_spacing`, and perspective changes the scale by less
-/// than kMaxFold within `reach` px of the origin.
+/// Returns true if the spacing is near `first_spacing`, and the perspective divisor differs from 1
+/// by less than kMaxFold wherever |x| and |y| are at most `reach` px.
 bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
     const float spacing = spacing_px(plane);
     const float fold = (std::abs(plane.tilt_x) + std::abs(plane.tilt_y)) * reach;
@@ -213,7 +214,8 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
         const float reach_2 = squared_reach_of_nearest(dots, candidate);
         if (reach_2 >= min_reach_2) continue;
         min_reach_2 = reach_2;
-        // Whole pixels, so a plane moves to this origin without loss of precision.
+        // Uses whole pixels, because a plane can then be moved to this origin without rounding
+        // errors.
         from_middle_px = {std::floor(candidate.x), std::floor(candidate.y)};
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
@@ -235,7 +237,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     plane = plane_from_waves(*waves);
     const float spacing = spacing_px(plane);
     const float full = view.full_reach_px;
-    // The first rounds fit the plane to the intersections. Displacements count as noise.
+    // The first rounds fit the plane as if all dots were on their intersections. Displacements
+    // count as noise.
     CellPass pass{tuned::kFirstReach * spacing, tuned::kFirstMaxOffset, 0};
     CellSums sums;
     for (int round = 0; round < 2; ++round) {
@@ -247,8 +250,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     if (mean_square < kUndisplaced) return false;
     grid.displacement =
         std::clamp(std::sqrt(mean_square), tuned::kMinDisplacement, tuned::kMaxDisplacement);
-    // Further rounds assign each dot to the nearest of the four places of its cell. The noise is
-    // then only a fifth.
+    // Further rounds assign each dot to the nearest of the four places of its cell. This reduces
+    // the noise to a fifth.
     pass.displacement = grid.displacement;
     pass.max_off = std::min(tuned::kMaxOffsetPart * grid.displacement, tuned::kMaxOffset);
     for (int round = 0; round < tuned::kMaxRounds; ++round) {
@@ -264,8 +267,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
             break;
         pass.reach_px = std::min(std::max(pass.reach_px * growth(fraction), 4 * spacing), full);
     }
-    // Accepts a fit to the dots within five spacings, because graphics may stop the fit before it
-    // covers the whole patch. Five spacings are enough to read bits.
+    // Accepts a fit to the dots within five spacings, because graphics may prevent the fit from
+    // covering the whole patch. Five spacings are enough to read bits.
     if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
     grid.agreement = sums.used * pass.max_off * pass.max_off - sums.squares;

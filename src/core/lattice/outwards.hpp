@@ -1,5 +1,5 @@
 // Outwards: finds the grid of a patch, starting near its middle (paper, sections II-B.2 and
-// II-B.3). Two plane waves through the central dots give a first plane. The search then refits the
+// II-B.3). Two plane waves that fit the central dots give a first plane. The search then refits the
 // plane to more and more dots. The fit includes perspective once it uses dots more than four
 // spacings from the middle.
 #pragma once
@@ -16,9 +16,9 @@ struct PatchGrid {
     /// Variance of the offset between a dot and the nearest of the four places of its cell, per
     /// axis, in spacings^2.
     float variance = 0;
-    /// Agreement of the dots with the grid, in spacings^2. This is the sum of max_off^2 - offset^2
-    /// over the dots within max_off of a place of their cell. Comparable between grids of the same
-    /// dots.
+    /// Agreement of the dots with the grid, in spacings^2. This is the sum of m^2 - offset^2 over
+    /// the dots whose offset is at most m, where m is `CellPass::max_off`. The offset is the
+    /// distance to the nearest place of the dot's cell. Comparable between grids of the same dots.
     float agreement = 0;
 };
 

@@ -144,8 +144,8 @@ void search_periodogram(std::span<const DetectedDot> dots, std::span<const std::
     Wave wave{angle_bam({lattice.u_q16.x / 2 + lattice.v_q16.y / 2,
                          lattice.u_q16.y / 2 - lattice.v_q16.x / 2}),
               static_cast<std::int32_t>(length_q16)};
-    // Uses the dots within kNear_cells of the centre. Their peak is wide enough for a coarse
-    // raster.
+    // Uses the dots within kNear_cells of the centre. Their periodogram has a peak that is wide
+    // enough for a coarse raster.
     const Periodogram near(dots, seeds, centre_q8, wave.spacing_q16 / 256 * tuned::kNear_cells);
     wave = best_around(wave,
                        {tuned::kTurn_deg * kDegree_bam, wave.spacing_q16 / tuned::kStretchPart,

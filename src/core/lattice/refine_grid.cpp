@@ -62,7 +62,7 @@ struct Target {
     FixedVec place_q16;
 };
 
-/// Returns an upper bound of the distances between the dots and `centre_q8`, per axis, in whole px.
+/// Returns an upper bound on the distances between the dots and `centre_q8`, per axis, in whole px.
 int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
     std::int32_t reach = 1;
     for (const DetectedDot& dot : dots)

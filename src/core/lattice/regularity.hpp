@@ -10,12 +10,12 @@
 
 namespace dotpose::core {
 
-/// Nominal displacement of a dot from its intersection, in spacings.
+/// Nominal displacement of a dot from its intersection, in 2^-16 spacings.
 inline constexpr std::int32_t kDisplacement_q16 = 65536 / 6;
 
 /// Distance from the origin up to which the first estimate is reliable, in cells. Errors of 3 % in
 /// spacing, 1 degree in direction and 1/20 cell in the origin add up to less than 1/3 cell at this
-/// distance. This is the distance from a displaced dot to the border of its cell.
+/// distance. A displaced dot is 1/3 cell from the nearest border of its cell.
 inline constexpr int kFirstReach_cells = 4;
 
 /// Statistics of the dots within the reach of a fit.

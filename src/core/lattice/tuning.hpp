@@ -27,20 +27,20 @@ inline constexpr int kMedianSample = 256;
 /// correct cells.
 inline constexpr int kMaxRounds = 4;
 /// Maximum distance between a dot and the nearest of the four places of its cell, in 2^-16
-/// spacings. Dots at a larger distance are false. The limit is slightly less than the displacement.
-/// Half or twice this value also locates 1,994 frames.
+/// spacings. Dots at a larger distance count as false dots. The limit is slightly less than the
+/// displacement. Half or twice this value also locates 1,994 frames.
 inline constexpr int kFar_q16 = 65536 / 8;
 /// Number of fits to the nearest places. The second fit starts from a more precise plane, and
-/// assigns dots to the correct places.
+/// assigns more dots to their correct places.
 inline constexpr int kPlaceRounds = 2;
 }  // namespace refine_grid
 
 /// First grid of the second attempt, from the periodogram (lattice/periodogram_search).
 namespace periodogram_search {
 /// Half side of the central square whose dots are in the periodogram, in spacings. Raster searches
-/// use kNear_cells, because a coarse raster cannot miss the wide peak of a small square. The ascent
-/// uses kWider_cells, because a larger square has a more precise maximum. kNear_cells = 3 locates
-/// 1,964 frames, and kNear_cells = 10 locates 1,993 frames.
+/// use kNear_cells, because the periodogram of a small square has a wide peak, which a coarse
+/// raster cannot miss. The ascent uses kWider_cells, because the peak of a larger square is more
+/// precise. kNear_cells = 3 locates 1,964 frames, and kNear_cells = 10 locates 1,993 frames.
 inline constexpr int kNear_cells = 5;
 inline constexpr int kWider_cells = 8;
 /// Raster of the first search: direction step in degrees, spacing divided by its step, and spacing
@@ -71,9 +71,9 @@ inline constexpr int kMinDots = 40;
 /// at least 12 directions.
 inline constexpr int kMinCentralDots = 14;
 inline constexpr int kMaxCentralDots = 64;
-/// Limits for the total power of both waves, divided by the squared number of dots. A grid without
-/// displacements reaches about 2. The search stops trying other spacings above kClearWaves, and
-/// rejects waves below kFaintWaves.
+/// Limits for the total power of the two waves, divided by the squared number of dots. A grid
+/// without displacements reaches about 2. The search stops trying other spacings above kClearWaves,
+/// and rejects waves below kFaintWaves.
 inline constexpr float kClearWaves = 0.2F;
 inline constexpr float kFaintWaves = 0.12F;
 /// Range of spacings in the smoothed patch, in patch pixels. Dots of a finer grid merge. Dots of a
@@ -81,8 +81,8 @@ inline constexpr float kFaintWaves = 0.12F;
 inline constexpr float kFinest_px = 5.2F;
 inline constexpr float kCoarsest_px = 40;
 /// Limits of a plausible fit: minimum and maximum spacing relative to the first spacing, and
-/// maximum change in scale within the reach. These limits reject fits with half or twice the true
-/// spacing.
+/// maximum difference between the perspective divisor and 1 within the reach. These limits reject
+/// fits with half or twice the true spacing.
 inline constexpr float kMinSpacing = 0.7F;
 inline constexpr float kMaxSpacing = 1.4F;
 inline constexpr float kMaxFold = 0.7F;

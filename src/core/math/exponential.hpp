@@ -1,5 +1,5 @@
-/// Exponential function and logarithm in single precision, with identical bits on every platform.
-/// The functions of C libraries may differ in the last bit.
+/// Exponential function and logarithm in single precision. The results are bit-identical on every
+/// platform. Results of different C libraries may differ in the last bit.
 #pragma once
 
 #include <cstdint>

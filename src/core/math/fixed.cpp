@@ -13,8 +13,8 @@ constexpr std::array<std::int32_t, 30> kAtan{
     10430,     5215,      2608,      1304,     652,      326,      163,      81,
     41,        20,        10,        5,        3,        1};
 
-/// 2^30 times the product of all cos(atan(2^-i)). The CORDIC rotations lengthen a vector by the
-/// inverse of this product.
+/// 2^30 times the product of all cos(atan(2^-i)). The CORDIC rotations multiply the length of a
+/// vector by the inverse of this product.
 constexpr std::int32_t kCordicGain_q30 = 652032874;
 
 constexpr std::int32_t kHalfTurn = INT32_MIN;
@@ -68,7 +68,7 @@ std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
 
 std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift) {
     if (shift > 0) {
-        // Shifts the numerator left by as many bits as keep it within 62 bits. Shifts the
+        // Shifts the numerator left by up to `shift` bits, while it fits in 62 bits. Shifts the
         // denominator right by the remaining bits.
         const auto bits = std::bit_width(static_cast<std::uint64_t>(magnitude(numerator)));
         const int up = std::clamp(62 - static_cast<int>(bits), 0, shift);

@@ -1,4 +1,5 @@
-// Fixed: integer arithmetic for all stages. Angles are binary: 2^32 is a full turn.
+// Fixed: integer and fixed-point arithmetic for all stages. Binary angles are in units of 2^-32
+// turns.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +32,7 @@ constexpr std::int64_t squared(FixedVec a) {
     return dot(a, a);
 }
 
-/// Returns |a| for any signed integer.
+/// Returns |a| for any signed integer type.
 template <typename T>
 constexpr T magnitude(T a) {
     return a < 0 ? -a : a;
@@ -52,8 +53,8 @@ constexpr std::int64_t divide_rounded(std::int64_t n, std::int64_t d) {
     return (n >= 0 ? n + d / 2 : n - d / 2) / d;
 }
 
-/// Returns n / d, rounded towards zero. Requires d > 0 and a quotient of at most 31 bits. Without a
-/// divide instruction, this takes half the time of a 64-bit division.
+/// Returns n / d, rounded towards zero. Requires d > 0 and a quotient of at most 31 bits. On
+/// processors without a divide instruction, this function takes half the time of a 64-bit division.
 std::int32_t short_quotient(std::int64_t n, std::int64_t d);
 
 /// Returns numerator * 2^shift / denominator, rounded to nearest. Requires |numerator| < 2^62, 0 <
@@ -115,7 +116,7 @@ constexpr std::int64_t exp2_q16(int n_q8) {
     return std::int64_t{mantissa_q16} << (n_q8 >> 8);
 }
 
-/// Logarithm of zero, in units of 2^-8.
+/// Value that represents log2(0), in units of 2^-8.
 inline constexpr int kNever_q8 = -(1 << 20);
 
 /// log2(1 + 2^-d) in units of 2^-8, for d = 0, 1, ..., rounded up. The first entry is 255 instead

@@ -1,4 +1,4 @@
-// Float plane: planes in single precision, for the desktop attempts.
+// Float plane: planes in single precision, for the attempts of `Locator`.
 #pragma once
 
 #include <cmath>
@@ -7,8 +7,8 @@
 
 namespace dotpose::core {
 
-/// PlaneFromImage in single precision. Maps an image point (x, y) in px to a pattern point in
-/// spacings:
+/// PlaneFromImage in single precision, without the centre of the plane. Maps an image point (x, y),
+/// in px relative to this centre, to a pattern point in spacings:
 ///   pattern = at + (du x + dv y) / (1 + tilt . (x, y) + bend (x^2 + y^2))
 struct FloatPlane {
     float at_x = 0;
@@ -48,9 +48,9 @@ inline float spacing_px(const FloatPlane& plane) {
     return 1 / std::sqrt(std::abs(plane.du_x * plane.dv_y - plane.dv_x * plane.du_y));
 }
 
-/// Returns true if the plane is a plausible view of paper. The spacing must be measurable, and the
-/// view of the paper must not be grazing. Perspective must not fold the map within the image. The
-/// coordinates must fit in PlaneFromImage. Returns false if a value is NaN.
+/// Returns true if the plane is a plausible view of paper. The spacing must be from 3 to 400 px,
+/// the cells must not be too flat, the map must not fold within the image, and the coordinates must
+/// fit in PlaneFromImage. Returns false if a value is NaN.
 bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px);
 
 PlaneFromImage fixed_plane(const FloatPlane& plane, FixedVec centre_q8);

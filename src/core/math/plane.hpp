@@ -12,9 +12,8 @@ struct GridPoint {
     FixedVec offset_q16;  ///< in spacings, each in [-1/2, 1/2) (paper, eq. 5)
 };
 
-/// Limit for coordinates in 2^-16 spacings, and for slopes in 2^-24 spacings per px. Real images
-/// stay within the limit, but planes fitted to false dots may exceed it. Four times the limit fits
-/// in 32 bits.
+/// Limit for coordinates in 2^-16 spacings, and for slopes in 2^-24 spacings per px. Only planes
+/// fitted to false dots exceed it. Four times the limit fits in 32 bits.
 inline constexpr std::int32_t kBeyondReason = 1 << 28;
 
 /// Returns k |r|^2 in units of 2^-48, for an offset r from the distortion centre. Clamps |r| to
@@ -30,7 +29,7 @@ inline bool is_affine(const PlaneFromImage& plane) {
     return plane.perspective_q30 == FixedVec{} && plane.lens_q40 == 0;
 }
 
-/// Returns the affine plane from image points to lattice coordinates. Requires u x v > 0.
+/// Returns the affine plane that maps image points to lattice coordinates. Requires u x v > 0.
 PlaneFromImage plane_from_lattice(const Lattice& lattice, FixedVec centre_q8);
 
 /// Returns the plane point of an image point, in 2^-16 spacings (paper, eq. 3). Unlike the paper,

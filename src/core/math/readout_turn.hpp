@@ -15,7 +15,7 @@ struct UnitVec {
 };
 
 /// Returns the unit vector of an angle. The angle is clamped to [-1, 1] rad. The error is at most
-/// 3e-6. Unlike the functions of the C library, the result has the same bits on every processor.
+/// 3e-6. The result is bit-identical on every processor, unlike the results of C libraries.
 inline UnitVec small_unit(float rad) {
     rad = std::clamp(rad, -1.0F, 1.0F);
     const float q = rad * rad;
@@ -36,8 +36,9 @@ inline FloatVec rotated(FloatVec v, UnitVec by) {
 ///
 ///     seen = axis + R(row rad_per_row) (p - axis) + way(row), where row = seen.y.
 ///
-/// Without the rotation, p would appear at p + row drift, which is an affine map. The functions
-/// convert between the image with rotation and the image without rotation.
+/// R is a rotation matrix, and way(row) is the displacement of the scene point `axis`. Without the
+/// rotation, p would appear at p + row drift, which is an affine map. The functions convert between
+/// the image with rotation and the image without rotation.
 struct ReadoutTurn {
     float rad_per_row = 0;
     FloatVec axis;   ///< fixed point of the rotation
@@ -73,8 +74,8 @@ struct ReadoutTurn {
     }
 
   private:
-    /// Returns the displacement of the scene point `axis` until `row` is read. The direction of
-    /// motion turns with the scene, so the path is an arc.
+    /// Returns the displacement of the scene point `axis` from the readout of row 0 to the readout
+    /// of `row`. The direction of motion turns with the scene, so the path is an arc.
     FloatVec way(float row) const {
         const float half = rad_per_row * row / 2;
         const FloatVec chord = rotated(drift, small_unit(half));
@@ -83,9 +84,9 @@ struct ReadoutTurn {
     }
 };
 
-/// Computes the drift from a plane, for a camera that looks straight down at the paper. In this
-/// case, only the motion of the scene shears the image of a square grid, and stretches it along the
-/// columns.
+/// Computes the drift from a plane, for a camera that looks straight at the paper. For such a
+/// camera, only the motion of the scene can shear the image of a square grid or stretch it
+/// vertically.
 inline FloatVec drift_of(const FloatPlane& plane) {
     const float square = plane.du_x * plane.du_x + plane.du_y * plane.du_y;
     return {-(plane.dv_x * plane.du_x + plane.dv_y * plane.du_y) / square,

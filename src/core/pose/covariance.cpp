@@ -6,8 +6,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the gradient of the direction from place `from` to place `to`, in rad, with respect to
-/// the parameters. `scale` is the unit of places, in spacings.
+/// Returns the gradient, with respect to the parameters, of the direction from place `from` to
+/// place `to`, in rad. `scale` is the unit of places, in spacings.
 Parameters direction_gradient(const FourVecs& places, float scale, std::size_t from,
                               std::size_t to) {
     const float x = (places.x[to] - places.x[from]) * scale;
@@ -23,7 +23,8 @@ Parameters direction_gradient(const FourVecs& places, float scale, std::size_t f
     return gradient;
 }
 
-/// Multiplies a tridiagonal covariance by a vector. Only adjacent parameters are correlated.
+/// Multiplies a covariance by a vector. The covariance is tridiagonal, because only adjacent
+/// parameters are correlated.
 Parameters times(const std::array<Parameters, kPoseParameters>& covariance, const Parameters& a) {
     Parameters product;
     for (std::size_t k = 0; k < kPoseParameters; ++k) {

@@ -9,10 +9,10 @@ namespace {
 
 constexpr auto kSide = DotPixels::kSide;
 
-/// Chords of a half ellipse, as cos(a), from the outermost chord to the innermost. The chord at
-/// parametric angle a is at v = radius.y cos(a), and its ends are at u = +-radius.x sin(a). The
-/// other half is symmetric. Adjacent chords are less than a pixel apart. kChordsOfSmall is for
-/// small ellipses.
+/// Chords of a half ellipse, from the outermost to the innermost. Each element is cos(a), where a
+/// is the parametric angle of the chord. The chord is at v = radius.y cos(a), and its ends are at u
+/// = +-radius.x sin(a). The other half of the ellipse is symmetric. Adjacent chords are less than a
+/// pixel apart. kChordsOfSmall is for small ellipses.
 constexpr float kChordsOfSmall[] = {0.99144486F, 0.92387953F, 0.79335334F,
                                     0.60876143F, 0.38268343F, 0.13052619F};
 constexpr float kChords[] = {0.99691733F, 0.97236992F, 0.92387953F, 0.85264016F, 0.76040597F,
@@ -54,7 +54,8 @@ struct Normal {
     }
 };
 
-/// Pixel responses along one axis to a blurred step and to a blurred point, both at `place`.
+/// Responses of the pixels along one axis to a blurred step at `place` and to a blurred point at
+/// `place`.
 struct PixelLine {
     /// Response to a step. The darkness is 1 beyond `place` and 0 before it.
     std::array<float, kSide> step;
@@ -100,7 +101,8 @@ DotImages draw(const ModelDot& dot, int half_px) {
         const PixelLine right(dot.centre.x + radius.x * sine, dot.blur_2.x, half_px);
         const PixelLine above(dot.centre.y - radius.y * cosine, dot.blur_2.y, half_px);
         const PixelLine below(dot.centre.y + radius.y * cosine, dot.blur_2.y, half_px);
-        // Area fraction that the chord represents, divided by the chord length in px.
+        // Fraction of the ellipse area that the chord represents, divided by the chord length in
+        // px.
         const float fraction = sine / (2 * static_cast<float>(cosines.size()) * radius.x);
         for (std::size_t v = begin; v < end; ++v) {
             const float down = fraction * (below.point[v] + above.point[v]);

@@ -32,7 +32,7 @@ struct DotPixels {
     std::array<std::array<float, kSide>, kSide> all{};
 };
 
-/// Image of a model dot, and its derivatives. The total darkness is 1.
+/// Image of a model dot, and the derivatives of this image. The total darkness of the image is 1.
 struct DotImages {
     DotPixels dot;
     /// Derivatives with respect to the centre, the squared half axes and the blur variance, each
@@ -40,8 +40,8 @@ struct DotImages {
     std::array<DotPixels, 6> derivatives;
 };
 
-/// Draws a dot. Computes only the pixels within `half_px` of the central pixel along each axis. All
-/// other pixels are 0.
+/// Draws a dot. Computes only the pixels within `half_px` of the central pixel along each axis, and
+/// sets all other pixels to 0.
 DotImages draw(const ModelDot& dot, int half_px);
 
 }  // namespace dotpose::core

@@ -1,4 +1,4 @@
-// Dot offsets: measured dots in the pattern, and their residuals.
+// Dot offsets: maps measured dots to the pattern, and computes their residuals.
 #pragma once
 
 #include "core/math/float_plane.hpp"

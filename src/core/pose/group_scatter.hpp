@@ -11,13 +11,14 @@ namespace dotpose::core {
 /// squares are in spacings^2.
 struct GroupScatter {
     float squares = 0;  ///< summed squared residuals of all dots
-    /// Sum over all groups of the number of dots times the squared mean residual.
+    /// Sum of n |m|^2 over all groups, where n is the number of dots in a group and m their mean
+    /// residual.
     float between = 0;
     float dots = 0;
     float groups = 0;
 
-    /// Returns the degrees of freedom of the group means. Each group adds two coordinates, and the
-    /// fitted parameters are subtracted.
+    /// Returns the degrees of freedom of the group means: two coordinates for each group, minus the
+    /// number of fitted parameters.
     float freedom() const {
         constexpr float kFitted = 6;
         return std::max(2 * groups - kFitted, 1.0F);
@@ -27,8 +28,8 @@ struct GroupScatter {
         constexpr float kExact = 1e-12F;
         return std::max(squares - between, 0.0F) / std::max(2 * (dots - groups), 1.0F) + kExact;
     }
-    /// Returns the amount by which the scatter between groups exceeds chance, in standard
-    /// deviations.
+    /// Returns by how many standard deviations the scatter between groups exceeds the value that is
+    /// expected for uncorrelated residuals.
     float excess() const {
         return (between / (freedom() * variance_within()) - 1) * std::sqrt(freedom() / 2);
     }

@@ -48,9 +48,9 @@ struct Window {
           sigma_q8(std::max<std::int32_t>(spacing_q8 * tuned::kSigma_128ths / 128,
                                           tuned::kMinSigma_q8)) {}
 
-    /// Crops a window to the pixels that have all neighbours in the image. Returns nullopt if a
-    /// neighbour of the central pixel is outside the image. Border dots are not rejected, because
-    /// they contribute most to angle and tilt.
+    /// Crops a window to the pixels whose neighbours are all in the image. Returns nullopt if a
+    /// neighbour of the central pixel is outside the image. Windows of dots near the border are
+    /// cropped instead of rejected, because these dots determine angle and tilt most precisely.
     std::optional<Box> box_around(const ImageView& image, int u, int v) const {
         const int last_u = image.width_px - 2;
         const int last_v = image.height_px - 2;
@@ -129,9 +129,9 @@ BorderBackground border_background(const Patch& patch, FixedVec pixel, int half)
     return {sum / count, slope(sides[0], sides[1]), slope(sides[2], sides[3])};
 }
 
-/// Fits a Gaussian dot to a window by one Gauss-Newton step. The dot is as wide as the window, and
-/// has a small `offset` from the window centre. With d and offset in units of sigma, the darkness
-/// is
+/// Fits a Gaussian dot to a window by one Gauss-Newton step. The Gaussian has the sigma of the
+/// window profile, and a small `offset` from the window centre. With d and offset in units of
+/// sigma, the darkness is
 ///
 ///     darkness(d) = height exp(-d^2 / 2) (1 + offset . d).
 ///
@@ -153,8 +153,8 @@ class DotFit {
         float offset_x;
         float offset_y;
     };
-    /// Returns the fitted height and offset. Returns nullopt if the height is not positive: the
-    /// window contains no dark spot.
+    /// Returns the fitted height and offset. Returns nullopt if the height is not positive, because
+    /// the window then contains no dark spot.
     std::optional<Result> solve() const {
         const float one = one_x_y_xx_[0];
         const float sum_x = one_x_y_xx_[1];
@@ -250,7 +250,7 @@ std::optional<DetectedDot> measure(const ImageView& image, const Window& window,
         };
         const FixedVec step{step_q8(fit->offset_x), step_q8(fit->offset_y)};
         dot.centre_q8 = dot.centre_q8 + step;
-        // Dividing by the paper level makes the mass independent of the light.
+        // Dividing by the paper level makes the mass independent of the illumination.
         const float mass = 16384 * fit->height / std::max(light.middle, 1.0F);
         dot.mass = static_cast<std::uint16_t>(std::min(mass, 65535.0F));
         if (squared(dot.centre_q8 - start_q8) > farthest) return {};

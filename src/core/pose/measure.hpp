@@ -1,6 +1,7 @@
-// Measure: measures the precise centres of all dots, near their predicted places. In the second
-// attempt, the filter blurs the dots, and the threshold misses some dots. Unlike the paper, this
-// stage uses windowed centroids, up to the image border. See docs/differs-from-paper.md.
+// Measure: measures the precise centres of all dots, near their predicted places. The second
+// attempt needs this stage, because it detects dots in a filtered image, where the dots are
+// blurred, and the threshold misses some dots. Unlike the paper, this stage uses windowed
+// centroids, up to the image border. See docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/grid.hpp"

@@ -33,8 +33,8 @@ struct ObservationBatch {
         dy[count] = dotpose::dy(symbol);
         noise[count++] = its_noise;
     }
-    /// Pads the batch to a multiple of four dots. `count` excludes the padding. Padding is too far
-    /// away to count as inliers.
+    /// Pads the batch to a multiple of four dots. `count` excludes the padding. The padding
+    /// consists of dots that are too far away to be inliers.
     void fill_up();
 };
 
@@ -43,7 +43,7 @@ class ObservationBatches {
   public:
     ObservationBatches(const Observations& observations, FixedVec centre_q8);
 
-    /// Returns an upper bound on the distance between dots and the centre, along each axis.
+    /// Returns an upper bound on |x| and |y| of all dots, relative to the centre, in px.
     int reach_px() const { return reach_px_; }
     /// Returns an evenly spaced sample of the dots, or all dots if they fit in one batch.
     const ObservationBatch& sample() const { return sample_; }

@@ -30,7 +30,8 @@ class Observations {
 
     bool know_noise() const { return paper_ != nullptr; }
     /// Returns the variance of a dot's centre due to pixel noise, relative to a dot on white paper
-    /// (level 255). Assumes constant pixel noise, and a contrast proportional to the paper level.
+    /// (level 255). Assumes that the pixel noise is constant, and that the contrast is proportional
+    /// to the paper level.
     float noise(const Observation& o) const {
         const float light =
             static_cast<float>(paper_at(*paper_, o.image_point_q8.x >> 8, o.image_point_q8.y >> 8));

@@ -92,8 +92,9 @@ struct Symmetric3 {
     }
 };
 
-/// Least-squares affine map from the places of all coherent dots to their residuals. The plane
-/// absorbs most of a step in the middle of the view. Gains are therefore relative to this map.
+/// Least-squares affine map from the places of all coherent dots to their residuals. If a step is
+/// in the middle of the view, the plane fitted to all dots is distorted and explains most of the
+/// step. Gains are therefore computed relative to this map.
 class AffineFit {
   public:
     AffineFit() = default;
@@ -109,8 +110,8 @@ class AffineFit {
 
     /// Returns the summed squared residuals of all coherent dots, after subtracting the map.
     float squares() const { return squares_; }
-    /// Returns the reduction of the summed squared residuals by a displacement of the part
-    /// `beyond`.
+    /// Returns by how much a displacement of the part `beyond` reduces the summed squared
+    /// residuals.
     float explained_by_displacement(const PartSums& beyond) const {
         const Triple step{beyond.dots(), beyond.places[0], beyond.places[1]};
         const float spread = step[0] - inner_product(step, inverse_ * step);
@@ -119,8 +120,8 @@ class AffineFit {
         const float y = beyond.places[3] - inner_product(step, y_);
         return (x * x + y * y) / spread;
     }
-    /// Returns the reduction of the summed squared residuals by a displacement and rotation of the
-    /// part `beyond`.
+    /// Returns by how much a displacement and rotation of the part `beyond` reduce the summed
+    /// squared residuals.
     float explained_by_step(const PartSums& beyond) const {
         const float xx = beyond.moments[0];
         const float xy = beyond.moments[1];
@@ -182,8 +183,8 @@ class Search {
         const auto wanted = static_cast<std::size_t>(kLinesPerSpacing * length);
         lines_ = std::clamp(wanted, std::size_t{4}, kLines);
         per_spacing_ = static_cast<float>(lines_) / length;
-        // If outliers are frequent, for example in printed text, they are only weak evidence of a
-        // displacement of the paper.
+        // If outliers are frequent, for example because of printed text, they are only weak
+        // evidence of a displacement of the paper.
         off_plane_ = natural_log((outliers + 1) / static_cast<float>(count_ + 1));
         for (std::size_t k = 0; k < count_; ++k)
             sums_[k] = sums_of(dots_[k]);
@@ -210,8 +211,8 @@ class Search {
             if (max_gain_of(part, here) > best.gain) consider(line, gain_of(part, here));
         }
         if (likeliest == 0) return;
-        // A pure displacement explains the most at line `likeliest`. Tests rotations only within
-        // kNear lines of this line.
+        // At line `likeliest`, a displacement without rotation reduces the squared residuals the
+        // most. Tests displacements with rotation only within kNear lines of this line.
         constexpr std::size_t kNear = 2;
         const std::size_t last = std::min(likeliest + kNear, lines_ - 1);
         for (std::size_t line = std::max(likeliest, kNear + 1) - kNear; line <= last; ++line) {
@@ -221,7 +222,8 @@ class Search {
     }
 
   private:
-    /// Returns the sums of the strips perpendicular to a direction.
+    /// Returns the sums over the dots in each strip between two adjacent lines. The lines are
+    /// perpendicular to `direction`.
     std::array<PartSums, kLines> strips_along(FloatVec direction) const {
         std::array<PartSums, kLines> strips{};
         const auto last = static_cast<std::int32_t>(lines_) - 1;
@@ -259,9 +261,9 @@ class Search {
         affine_ = AffineFit(all_, x_off, y_off);
     }
 
-    /// Returns the gain of a step over the affine map, as a log likelihood ratio. For n coherent
-    /// dots, the gain is n ln(s / r), where s and r are the summed squared residuals without and
-    /// with the step. Returns 0 if the upper bound n (s - r) / r is at most `min_gain`.
+    /// Returns the gain of a step relative to the affine map, as a log likelihood ratio. For n
+    /// coherent dots, the gain is n ln(s / r), where s and r are the summed squared residuals
+    /// without and with the step. Returns 0 if the upper bound n (s - r) / r is at most `min_gain`.
     float gain_of_step(const PartSums& beyond, float min_gain) const {
         const float explained = affine_.explained_by_step(beyond);
         const float remaining = affine_.squares() - explained;
@@ -270,7 +272,8 @@ class Search {
         return dots * natural_log(affine_.squares() / remaining);
     }
 
-    /// Returns the log odds of the dots of a part, for a plane fitted to this part alone.
+    /// Returns the sum of the log odds of the dots in a part, for a plane fitted to this part
+    /// alone.
     float on_own_plane(const PartSums& part) const {
         return kOnPlane * part.dots() - part.remaining() / (2 * variance_) +
                off_plane_ * (part.seen() - part.dots());
@@ -287,8 +290,8 @@ class Search {
     }
 
     /// Returns the log likelihood ratio between separate planes and one plane for the whole sheet.
-    /// The part with the reference point also gets its own plane, because the plane of the whole
-    /// sheet may be a compromise. If the dots beyond the line have no common plane, their log odds
+    /// The part with the reference point also has a separate plane, because the plane of the whole
+    /// sheet may fit neither part. If the dots beyond the line have no common plane, their log odds
     /// are 0.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +

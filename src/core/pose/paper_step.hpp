@@ -10,9 +10,9 @@ namespace dotpose::core {
 
 /// A line in the pattern that divides the sheet.
 struct PaperStep {
-    /// Thresholds for `gain`. By chance, 1 in 100 flat sheets exceeds kPossible. Chance does not
-    /// explain a gain above kCertain. The thresholds are high because steps are rare, and because
-    /// the search tries many lines with three parameters each.
+    /// Thresholds for `gain`. The gain of 1 in 100 flat sheets exceeds kPossible by chance. A gain
+    /// above kCertain is not due to chance. The thresholds are high because steps are rare, and
+    /// because the search tries many lines with three parameters each.
     static constexpr float kPossible = 12;
     static constexpr float kCertain = 23;
 

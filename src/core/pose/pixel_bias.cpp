@@ -66,13 +66,14 @@ float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide
 struct CentroidError {
     float px;                  ///< centroid minus true centre
     DotShape::Terms by_shape;  ///< derivatives of `px` with respect to the shape terms
-    float slopes;              ///< slope of the moment along the axis, divided by the slope along u
+    float slopes;              ///< slope of the moment along the axis, divided by its slope along u
 };
 
 enum class Along : std::uint8_t { u, v };
 
-/// Returns the centroid error along one axis. `dot_px` and `window_px` are coordinates along this
-/// axis, relative to a pixel centre. Uses the slope along u for both axes, as the kernels do.
+/// Returns the centroid error along one axis. `dot_px` and `window_px` are the coordinates of the
+/// dot and of the window centre along this axis, relative to a pixel centre. Uses the slope along u
+/// for both axes, as the kernels do.
 CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, float window_px,
                              float radius_px) {
     const bool is_u = axis == Along::u;
@@ -112,17 +113,19 @@ class AxisBias {
     }
 
     float amplitude_px() const { return amplitude_px_; }
-    /// Returns the slope of the moment along this axis, relative to the slope along u. Shrinks the
-    /// ratio towards 1 if noise can explain the difference from 1.
+    /// Returns the slope of the moment along this axis, relative to the slope along u. If noise can
+    /// explain the difference from 1, the ratio is shrunk towards 1.
     float slopes() const { return slopes_; }
-    /// Returns the bias of a dot, in px. Also adds the sine of the phase to the mean.
+    /// Returns the bias of a dot, in px. Also adds the sine of its phase to the sum for
+    /// `variance_of_mean`.
     float of(float phase) {
         const float sine = sine_of_turns(phase);
         sines_ += sine;
         dots_ += 1;
         return amplitude_px_ * sine;
     }
-    /// Returns the variance of the mean centre that remains after the correction, in px^2.
+    /// Returns the variance of the mean centre due to the remaining bias after the correction, in
+    /// px^2.
     float variance_of_mean() const {
         const float mean = sines_ / std::max(dots_, 1.0F);
         return variance_ * mean * mean;
@@ -216,7 +219,7 @@ FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window
                    });
     DotShape shape;
     if (!shape.fit(stacks)) return {};
-    // Strong blur removes the bias. It also makes the dots larger than the model image.
+    // Strongly blurred dots have no bias. They may also be larger than the model image.
     if (std::min(shape.blur_2().x, shape.blur_2().y) > tuned::kBlurred_px2) return {};
     AxisBias along_u(shape, Along::u, window.radius_px);
     AxisBias along_v(shape, Along::v, window.radius_px);

@@ -15,8 +15,8 @@ constexpr float kPower30 = 1073741824.0F;
 
 /// Linear model of the squared residual of a dot as a function of its pixel noise
 /// (`Observations::noise`). The constant term is due to print errors, which do not depend on the
-/// light. The linear term is due to pixel noise, which is larger relative to the contrast in dim
-/// light.
+/// illumination. The linear term is due to pixel noise, which is larger relative to the contrast in
+/// dim light.
 class Scatter {
   public:
     void add(float noise, float squared_residual) {

@@ -6,7 +6,8 @@
 namespace dotpose::core {
 
 /// Restricts fits to one side of a line during the lifetime of the object. Moves the cells of all
-/// other dots far away, which makes these dots outliers. Dots near the line belong to neither side.
+/// other dots far away. These dots are therefore outliers. Dots near the line belong to neither
+/// side.
 class HalfPlane {
   public:
     /// The side to fit: the side of the reference point, or the side beyond the line.
@@ -32,8 +33,8 @@ struct SplitFit {
 };
 
 /// Finds the most likely dividing line, and fits the plane to the side of the reference point. On
-/// entry, `split` contains the fit to all dots. Returns false if no line is likely enough, or if
-/// the dots on this side do not determine a plane.
+/// entry, `split` contains the fit to all dots. Returns false if no line has a gain of at least
+/// PaperStep::kPossible, or if the dots on this side do not determine a plane.
 bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    SplitFit& split);
 

@@ -15,8 +15,8 @@ struct Phase {
     explicit Phase(FloatVec point_px);
 };
 
-/// Sums of dot images. Each pixel is divided into 4 x 4 parts. Dots are stacked if their centres
-/// are in the same part.
+/// Sums of dot images, in 4 x 4 stacks. The area of a pixel is divided into 4 x 4 parts. Dots are
+/// in the same stack if their centres are in the same part of their pixels.
 class StackedDots {
   public:
     /// Sums over one stack.
@@ -51,8 +51,8 @@ class StackedDots {
     }
     /// Returns the distance from the central pixel to the outermost pixels along each axis, in px.
     int half_px() const { return half_px_; }
-    /// Returns true if there are enough dots to estimate the noise from differences within the
-    /// stacks.
+    /// Returns true if there are enough dots to estimate the noise from differences between dots in
+    /// the same stack.
     bool are_enough() const;
     /// Returns the total darkness of a dot, averaged over all dots.
     float mass() const;

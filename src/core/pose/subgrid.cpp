@@ -14,7 +14,7 @@ PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn 
 
 namespace {
 
-/// Writes the pose at the centre of a plane that has neither perspective nor lens terms.
+/// Sets the pose at the centre of a plane that has neither perspective nor lens terms.
 void write_pose(const PlaneFromImage& there, CodeVariant code, const Place& place, Fix& fix) {
     // Computes the decoded position plus the vector to the reference point, in grid units (paper,
     // eq. 10-12).

@@ -7,10 +7,11 @@
 
 namespace dotpose::core {
 
-/// Returns the plane of the grid, rotated upright. The origin of the plane is `Decoding::place`.
+/// Returns the plane of the grid, rotated to the upright pattern. The origin of the pattern
+/// coordinates is at `Decoding::place`.
 PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, QuarterTurn pattern_from_grid);
 
-/// Writes the plane and the place of its origin into the fix. Also writes the position, section,
+/// Sets the plane of the fix, and the place of the plane's origin. Also sets the position, section,
 /// angle and spacing at the reference point.
 void write_pose(const PlaneFromImage& pattern_from_image, FixedVec reference_q8, CodeVariant code,
                 const Place& place, Fix& fix);

@@ -17,22 +17,22 @@ namespace measure {
 inline constexpr int kHalf_32nds = 9;
 inline constexpr int kMinHalf_q8 = 768;
 /// Standard deviation of the fitted dot, in 1/128 of the spacing, and its minimum, in 1/256 px.
-/// kSigma_128ths is the width of a blurred dot. A value of 6 gives 1,994 frames, 2.19 µm and 5.36
-/// µm. A value of 24 gives only 1,904 frames, 3.58 µm and 9.19 µm.
+/// kSigma_128ths is the sigma of a typical blurred dot. A value of 6 gives 1,994 frames, 2.19 µm
+/// and 5.36 µm. A value of 24 gives only 1,904 frames, 3.58 µm and 9.19 µm.
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
 /// Maximum squared distance between a dot and its predicted place, in units of sigma^2. The limit
 /// is large, because the pose fit rejects dirt as outliers. A smaller limit would also reject badly
-/// printed dots, which would cost accuracy and hide print errors.
+/// printed dots. The pose would be less accurate, and print errors would be hidden.
 inline constexpr int kFarthest_2 = 9;
 /// Maximum number of Gauss-Newton iterations. The fit ends early after a step shorter than
 /// kSettled_q8, in 1/256 px.
 inline constexpr int kMaxIterations = 5;
 inline constexpr int kSettled_q8 = 4;
-/// Maximum darkness of a dot, in halves of the typical darkness. The minimum is half the typical
-/// darkness. These limits reject dirt, graphics, and bare paper where a dot is missing.
+/// Maximum mass of a dot, in halves of the typical mass. The minimum is half the typical mass.
+/// These limits reject dirt, graphics, and bare paper where a dot is missing.
 inline constexpr int kTooDark_halves = 3;
-/// Maximum sample size for the typical darkness. The typical darkness is the median of the sample.
+/// Maximum number of dots in the sample for the typical mass, which is the median of the sample.
 inline constexpr int kMedianSample = 256;
 }  // namespace measure
 
@@ -42,8 +42,8 @@ namespace fit {
 /// (kMaxRoundsOfFloats).
 inline constexpr int kMaxRounds = 4;
 inline constexpr int kMaxRoundsOfFloats = 5;
-/// Squared step length below which `refine_pose` stops, in units of the standard deviation of the
-/// pose. The next step would be much smaller.
+/// Limit of `moved` (see `solve` in fit/solve_plane.hpp) below which `refine_pose` stops. The next
+/// step would be much smaller.
 inline constexpr float kSettled = 0.01F;
 /// Outlier limit for squared residuals, in units of their median. The median is 1.39 sigma^2, so
 /// the limit is 4.1 sigma. By chance, 1 dot in 4,000 exceeds this limit.
@@ -53,14 +53,14 @@ inline constexpr int kOutlier_medians = 12;
 inline constexpr float kOutlier = 16.6F;
 /// Relative change of the outlier limit below which the inliers count as unchanged.
 inline constexpr float kSameLimit = 0.04F;
-/// Maximum fraction of the scatter that is attributed to pixel noise.
+/// Maximum fraction of the residual variance that is attributed to pixel noise.
 inline constexpr float kMaxByNoise = 0.9F;
 /// Minimum number of dots for `fit_plane`.
 inline constexpr int kMinDots = 20;
-/// Squared step length below which the fit has converged, in units of the standard deviation of the
-/// pose. The limit is kNonlinearSettled / n^2, clamped to [kMinSettled, kMaxSettled], where n is
-/// the nonlinearity of the plane (`settled` in float_fit.cpp). After the last step, the remaining
-/// error is about a fifth of a standard deviation.
+/// Limit of `moved` below which `fit_plane` has converged. The limit is kNonlinearSettled / n^2,
+/// clamped to [kMinSettled, kMaxSettled], where n is the nonlinearity of the plane (`settled` in
+/// float_fit.cpp). After the last step, the remaining error is about a fifth of a standard
+/// deviation.
 inline constexpr float kMinSettled = 0.2F;
 inline constexpr float kMaxSettled = 30;
 inline constexpr float kNonlinearSettled = 0.04F;
@@ -70,28 +70,28 @@ inline constexpr float kNonlinearSettled = 0.04F;
 namespace shape {
 /// Prior: standard deviation of the common offset of all dots, along each axis.
 inline constexpr float kOff_px = 0.1F;
-/// Prior: mean and standard deviation of the blur variance, both equal, in px^2.
+/// Prior: mean of the blur variance, in px^2. The standard deviation has the same value.
 inline constexpr float kBlur_2 = 0.25F;
 /// Prior: standard deviation of the relative difference between the squared half axes.
 inline constexpr float kSigmaOfWidth = 0.3F;
-/// Prior: mean and standard deviation of the ink contrast.
+/// Prior: mean and standard deviation of the ink contrast, as fractions of the paper level.
 inline constexpr float kContrast = 0.8F;
 inline constexpr float kSigmaOfContrast = 0.15F;
-/// Minimum of the squared half axes and the blur variance.
+/// Lower limit for the squared half axes and for the blur variances.
 inline constexpr float kMin_px2 = 0.005F;
 /// Damping of the steps: initial value, maximum, and factor after a rejected step.
 inline constexpr float kFirstDamping = 0.01F;
 inline constexpr float kMaxDamping = 1e4F;
 inline constexpr float kDampingGrows = 10;
-/// Maximum number of iterations, and the reduction of the cost below which the fit ends. The cost
-/// is the sum of squared residuals in units of their variances.
+/// The fit ends if an iteration reduces the cost by less than kSettled, or after kMaxRounds
+/// iterations. The cost is the sum of squared residuals in units of their variances.
 inline constexpr float kSettled = 0.3F;
 inline constexpr int kMaxRounds = 30;
 }  // namespace shape
 
 /// Bias of facing dots (pose/facing_dots).
 namespace facing {
-/// Minimum significance of a corrected bias, in standard deviations.
+/// Minimum significance at which the bias is corrected, in standard deviations.
 inline constexpr float kSure = 4;
 }  // namespace facing
 
@@ -99,7 +99,8 @@ inline constexpr float kSure = 4;
 namespace bias {
 /// Maximum number of stacked dots. The dot shape does not become more accurate with more dots.
 inline constexpr int kDots = 256;
-/// Width of the stacked border around a dot, which contains the blurred edge.
+/// Width of the border around a dot that is included in the stacked images. The border contains the
+/// blurred edge.
 inline constexpr float kBeyondEdge_px = 1.5F;
 /// Blur variance above which the bias is negligible.
 inline constexpr float kBlurred_px2 = 0.7F * 0.7F;
@@ -109,22 +110,22 @@ inline constexpr float kBlurred_px2 = 0.7F * 0.7F;
 inline constexpr float kOfModel = 0.01F;
 inline constexpr float kMisfit = 2.5F;
 inline constexpr float kOfMisfit = 0.025F;
-/// Relative difference between the moment slopes along u and v (`AxisBias::slopes`) that noise
-/// causes for round dots.
+/// Relative difference between the moment slopes along u and v (see `AxisBias::slopes`) that is due
+/// to noise if the dots are round.
 inline constexpr float kSlopes = 0.03F;
 }  // namespace bias
 
 /// Correlation of residuals (pose/uneven).
 namespace uneven {
-/// Limits for the scatter between blocks. The scatter is measured as its excess over chance, in
-/// standard deviations. `dotpose_tables slips` measures the fractions of flat sheets.
+/// Limits for the scatter between blocks. The limits apply to `GroupScatter::excess`, in standard
+/// deviations. `dotpose_tables slips` measures the fractions of flat sheets.
 /// - kMaybeLine: above this limit, the second attempt searches for a line that divides the sheet.
-///   The limit is low because the plane absorbs most of a step, and because the dots of the second
-///   attempt are noisier than those of fast attempts.
+///   The limit is low because the plane fitted to all dots explains most of a step, and because the
+///   dots of the second attempt are noisier than those of the other attempts.
 /// - kShared: above this limit, the mean block residuals increase the covariance. 1 in 20 flat
 ///   sheets exceeds this limit.
-/// - kSuspect: above this limit, fast attempts search for a line. Up to this limit, one side of a
-///   line counts as even.
+/// - kSuspect: above this limit, the first and tracked attempts search for a line. If the scatter
+///   on one side of a line is below this limit, this side counts as even.
 /// - kUneven: above this limit, a sheet without a line counts as uneven. At most about 1 in 1,000
 ///   flat sheets exceeds this limit.
 inline constexpr float kMaybeLine = 0.9F;
@@ -134,7 +135,8 @@ inline constexpr float kMaybeLineDots = 200;
 inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
 inline constexpr float kUneven = 5;
-/// Number of outliers that chance can explain: a constant, plus a fraction of the dots.
+/// Number of outliers that are normal on a flat sheet: a constant, plus a fraction of the number of
+/// dots.
 inline constexpr float kFewOutliers = 3;
 inline constexpr float kOutlierFraction = 0.02F;
 /// Number of dots above which each image side is divided into nine blocks. With fewer dots, the
@@ -153,9 +155,9 @@ inline constexpr int kDotsPerBlock = 4;
 /// the result with the errors on bent sheets.
 inline constexpr float kOfPlace = 2;
 inline constexpr float kOfTurn = 8;
-/// Standard deviation of the mean block residuals due to pixel bias. If the phase drifts slowly
-/// across the view, this bias differs between blocks and averages out over the view. Such a bias is
-/// not evidence of an uneven sheet.
+/// Standard deviation of the mean block residuals due to pixel bias. If the sub-pixel phase of the
+/// dots changes slowly across the view, the bias differs between blocks, but averages out over the
+/// view. Such a bias is not evidence of an uneven sheet.
 inline constexpr float kPixelBias_px = 0.004F;
 /// Distance from the dividing line within which the reference point may be on either side, in
 /// spacings.
@@ -165,7 +167,7 @@ inline constexpr float kNearLine = 1.2F;
 /// Search for a line that divides a sheet (pose/paper_step, pose/split_fit).
 namespace paper_step {
 /// Maximum evidence of one dot for a plane that predicts its place. The evidence is the natural log
-/// of the odds relative to a random place in the cell.
+/// of the odds that the dot is on the plane rather than at a random place in its cell.
 inline constexpr float kOnPlane = 5;
 /// Maximum squared residual that a displaced part of the sheet can explain, in units of the
 /// residual variance.
@@ -181,8 +183,8 @@ inline constexpr float kFarOff = 0.04F;
 /// the line is uncertain by about this distance.
 inline constexpr float kMargin = 0.8F;
 /// Search for a common residual of the dots beyond the line. Uses dots within kReach spacings of
-/// the reference point. At least kMinAgreeing dots must have this residual, up to a squared
-/// difference of kAgreement, in spacings^2.
+/// the reference point. At least kMinAgreeing dots must agree with this residual. A dot agrees if
+/// the squared difference is less than kAgreement, in spacings^2.
 inline constexpr float kReach = 10;
 inline constexpr int kMinAgreeing = 8;
 inline constexpr float kAgreement = 0.08F * 0.08F;
@@ -193,12 +195,12 @@ inline constexpr int kRounds = 3;
 
 /// Rotation during the readout of a rolling shutter (pose/turn_fit).
 namespace turn {
-/// Steps for numerical derivatives: kStep_px is the motion of the dots in the image corners, and
-/// kDriftStep is the change of the drift, in px per row.
+/// Steps for numerical derivatives. The step of the rotation moves dots in the image corners by
+/// kStep_px. The step of the drift is kDriftStep, in px per row.
 inline constexpr float kStep_px = 0.3F;
 inline constexpr float kDriftStep = 0.02F;
-/// Standard deviation of the drift that is computed from the plane, in px per row. A camera tilted
-/// by 14 degrees sees the paper shortened by 3 %.
+/// Standard deviation of the drift that is computed from the plane, in px per row. For example, a
+/// camera tilted by 14 degrees sees the paper foreshortened by 3 %, like a drift of 0.03.
 inline constexpr float kDrift = 0.02F;
 }  // namespace turn
 

@@ -18,7 +18,8 @@ float limit_of(const PoseFit& fit) {
     return tuning::fit::kOutlier * fit.variance;
 }
 
-/// Converts a dot that was measured without the rotation `from` to a dot without the rotation `to`.
+/// Converts a dot from the image from which the rotation `from` was removed to the image from which
+/// the rotation `to` was removed.
 FloatVec transferred(const ReadoutTurn& from, const ReadoutTurn& to, FloatVec dot) {
     constexpr int kSteps = 4;
     return to.without_turn(from.seen_from(dot, dot.y, kSteps));
@@ -41,7 +42,8 @@ Vec3 change_of_pose(const FloatPlane& from, const FloatPlane& to, FloatVec refer
             (a.du_x * b.du_y - a.du_y * b.du_x) / (a.du_x * a.du_x + a.du_y * a.du_y)};
 }
 
-/// A small change of one parameter of the rotation. Contains the plane fitted to the changed dots.
+/// A rotation with a small change of one parameter, and the plane fitted to the dots after this
+/// change.
 struct Trial {
     ReadoutTurn turn;
     float step = 0;
@@ -49,7 +51,8 @@ struct Trial {
     PoseFit fit;
 };
 
-/// Returns the residual of dot `k` in a trial. The dot was measured without the rotation `turn`.
+/// Returns the residual of dot `k` in a trial. The dot was measured in the image from which the
+/// rotation `turn` was removed.
 FloatVec residual_in(const Trial& trial, const ReadoutTurn& turn, std::size_t k,
                      MeasuredDots& dots) {
     const FloatVec at{dots.x[k], dots.y[k]};
@@ -119,8 +122,8 @@ bool fit_turn(const Kernels& kernels, const ReadoutTurn& turn, FloatVec referenc
                 normal[i][j] += changes[i].x * changes[j].x + changes[i].y * changes[j].y;
         }
     }
-    // Uses the drift computed from the plane as an observation. A tilt of the camera makes this
-    // drift inaccurate.
+    // Uses the drift computed from the plane as an additional observation. Its standard deviation
+    // is kDrift, because a tilt of the camera makes this drift inaccurate.
     const FloatVec expected = drift_of(plane);
     const float weight =
         fit.variance * tuned::kDriftStep * tuned::kDriftStep / (tuned::kDrift * tuned::kDrift);

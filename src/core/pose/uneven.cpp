@@ -64,7 +64,7 @@ class Blocks {
     float variance_of_bias_;
 };
 
-/// Returns the blocks on the side of the reference point.
+/// Computes the blocks from only the dots on the reference point's side of the line.
 Blocks blocks_here(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const SplitFit& split) {
     const HalfPlane only(HalfPlane::Side::here, dots, split.plane, reference_px, split.step);
@@ -76,8 +76,8 @@ bool has_outliers(const Blocks& blocks) {
            tuned::kFewOutliers + tuned::kOutlierFraction * blocks.scatter().dots;
 }
 
-/// Adds the squared difference between two planes at the reference point to the covariance, times
-/// `weight`, because either plane may be correct.
+/// Adds `weight` times the squared difference between the poses of two planes at the reference
+/// point to the covariance, because either plane may be correct.
 void add_difference(const FloatPlane& plane, const FloatPlane& other, FloatVec reference_px,
                     float weight, PoseFit& fit) {
     const FloatVec p = plane_point(plane, reference_px);
@@ -122,9 +122,11 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
     add(0.02F * 0.02F, 2, fit);
 }
 
-/// Fits the plane to the side of the reference point if a line certainly divides the sheet and this
-/// side is even. Otherwise, keeps the plane. If a line was found, adds the difference between the
-/// two planes to the covariance.
+/// Handles a sheet that may be divided by a line. If the line is certain, and the dots on the
+/// reference point's side are in one plane, replaces the plane by a fit to this side, and sets the
+/// surface to divided. Otherwise, keeps the plane. In this case, if a line was found, adds the
+/// difference between the plane and the fit to this side to the covariance. Also widens the
+/// covariance for block displacements, and if the reference point is close to a certain line.
 void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const Blocks& blocks, FloatPlane& plane, PoseFit& fit) {
     SplitFit split{plane, fit};
@@ -147,8 +149,9 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     if (is_divided) widen_near_line(kernels, dots, reference_px, split, fit);
 }
 
-/// Searches for a line if there are many outliers, or if the scatter between blocks is high.
-/// `min_excess` is the limit for `GroupScatter::excess`, in standard deviations.
+/// Searches for a line if there are many outliers, or if the scatter between blocks is high. If
+/// not, but the scatter is significant, widens the covariance. `min_excess` is the limit for
+/// `GroupScatter::excess`, in standard deviations.
 void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dots,
                      const Blocks& blocks, FloatVec reference_px, FloatPlane& plane, PoseFit& fit) {
     const float excess = blocks.scatter().excess();

@@ -118,9 +118,9 @@ class Publisher::Writers {
         ++unconfirmed_frames_;
     }
 
-    /// Waits until all reliable readers have received all messages. Without this wait, newer
-    /// messages would replace older messages that a slow reader has not received yet. Counts
-    /// messages that are not received in time as dropped.
+    /// Every kDepth / 2 frames, waits until all reliable readers have received all messages.
+    /// Without this wait, newer messages would replace older messages that a slow reader has not
+    /// received yet. Counts messages that are not received in time as dropped.
     void keep_pace() {
         if (unconfirmed_frames_ < kDepth / 2) return;
         if (!wait_for_readers(kPatience_ns)) dropped_ += sent_ - confirmed_;

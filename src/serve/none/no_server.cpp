@@ -26,7 +26,11 @@ std::string Server::url() const {
 
 void Server::set_route(const std::string&, Route) {}
 
+void Server::remove_route(const std::string&) {}
+
 void Server::publish(Topic&, Topic::Encode) {}
+
+void Server::publish_for_each(Topic&, Topic::EncodeFor) {}
 
 std::optional<Command> Server::take_command() {
     return std::nullopt;

@@ -67,7 +67,7 @@ bool Server::Service::obey(Client& client, const Command& command) {
         if (found == topics_.end()) return false;
         Subscription& subscription =
             client.subscriptions[static_cast<std::size_t>(found - topics_.begin())];
-        if (begins) subscription.begin();
+        if (begins) subscription.begin(command);
         if (ends) subscription.end();
         if (!begins && !ends) subscription.acknowledge();
         return true;
@@ -93,7 +93,7 @@ int Server::Service::write(lws* socket) {
         const std::optional<std::size_t> topic = due_topic(client);
         if (!topic) return 0;
         std::uint64_t version = 0;
-        client.message = topics_[*topic]->message(version);
+        client.message = topics_[*topic]->message(version, client.subscriptions[*topic].request);
         client.is_binary = topics_[*topic]->is_binary();
         client.newest_topic = *topic;
         client.sent_bytes = 0;

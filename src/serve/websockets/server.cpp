@@ -108,8 +108,18 @@ void Server::Service::set_route(const std::string& path, Route route) {
     routes_[path] = std::move(route);
 }
 
+void Server::Service::remove_route(const std::string& path) {
+    const std::lock_guard lock(routes_mutex_);
+    routes_.erase(path);
+}
+
 void Server::Service::publish(Topic& topic, Topic::Encode encode) {
     topic.publish(std::move(encode));
+    lws_cancel_service(context_);
+}
+
+void Server::Service::publish_for_each(Topic& topic, Topic::EncodeFor encode) {
+    topic.publish_for_each(std::move(encode));
     lws_cancel_service(context_);
 }
 
@@ -201,8 +211,16 @@ void Server::set_route(const std::string& path, Route route) {
     service_->set_route(path, std::move(route));
 }
 
+void Server::remove_route(const std::string& path) {
+    service_->remove_route(path);
+}
+
 void Server::publish(Topic& topic, Topic::Encode encode) {
     service_->publish(topic, std::move(encode));
+}
+
+void Server::publish_for_each(Topic& topic, Topic::EncodeFor encode) {
+    service_->publish_for_each(topic, std::move(encode));
 }
 
 std::optional<Command> Server::take_command() {

@@ -52,7 +52,9 @@ class Server::Service {
     void start();
     std::string url() const;
     void set_route(const std::string& path, Route route);
+    void remove_route(const std::string& path);
     void publish(Topic& topic, Topic::Encode encode);
+    void publish_for_each(Topic& topic, Topic::EncodeFor encode);
     std::optional<Command> take_command();
     int clients() const { return number_of_clients_; }
 

@@ -63,9 +63,9 @@ TEST(CalibrateFlatField, FindsTheLight) {
             EXPECT_NEAR(field[j][i], light_at(u, v) / brightest, 0.03) << i << ", " << j;
         }
     }
-    // In a tenth of the frames, a pixel is a dot with 23 % of the level of the paper. It then
-    // deviates by 23 % / 90 % from the mean of one frame, and by a 20th of this value from the mean
-    // of 400 frames.
+    // A tenth of the pixels are dots, with 23 % of the level of the paper. The standard deviation
+    // of a pixel is therefore 25 % of its mean in one frame, and a 20th of this value, 1.26 %, in
+    // the mean of 400 frames.
     EXPECT_NEAR(found.residual, 0.0127, 0.004);
     validate(found.camera);
 }

@@ -135,7 +135,8 @@ void append_entry(Writer& tiff, const TiffEntry& entry) {
     }
 }
 
-/// Returns all reds, then all greens, then all blues, 16 bits each.
+/// Returns a TIFF palette with 16 bits per value: all red values, then all green values, then all
+/// blue values. `palette` contains one byte each of red, green and blue per colour.
 Bytes tiff_palette(const Bytes& palette, bool big_endian) {
     Writer colours(big_endian);
     for (std::size_t channel = 0; !palette.empty() && channel < 3; ++channel) {

@@ -184,7 +184,7 @@ TEST(Decode, RefusesPublishedWindowsThatStandTwice) {
         EXPECT_TRUE(ambiguous_places(8, 8, along_x).empty());
     }
     EXPECT_EQ(ambiguous_places(6, 32, true),
-              kTwinPlaces);  // long columns do not help on the x axis
+              kTwinPlaces);  // on the x axis, only the number of columns matters
     EXPECT_TRUE(ambiguous_places(8, 6, true).empty());
 }
 

@@ -90,7 +90,7 @@ int smallest_distance_to_turned(std::size_t length) {
     return smallest;
 }
 
-/// Returns the strings that occur at several places, with these places.
+/// Returns the places of every string that occurs more than once in the cycle, indexed by string.
 std::map<std::string, std::vector<int>> doubled(const std::string& cycle, std::size_t length) {
     std::map<std::string, std::vector<int>> places;
     const auto all = strings_of(cycle, length);

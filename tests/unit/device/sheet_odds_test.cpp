@@ -72,7 +72,8 @@ TEST(SheetOdds, BoundIsAboveTheSumOverAllPlaces) {
         is_certain(block, corner, kOnly, fix);
         const double sum_log2 = std::log2(odds_of_others(block, corner));
         EXPECT_GE(fix.p_wrong_log2, sum_log2) << trial;
-        // log2 of the chance of 4 * 145 * 135 places, from the binomial distribution of wrong bits.
+        // `chance` is the probability that random bits have at most `fix.bit_errors` errors at one
+        // place. The corner can have 4 * 145 * 135 places.
         double chance = 0;
         double term = std::exp2(-2 * block.dots());
         for (int k = 0; k <= fix.bit_errors; ++k) {

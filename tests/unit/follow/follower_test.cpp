@@ -99,6 +99,36 @@ TEST(Follower, SinglyAndInASequenceImagesGiveThePlaceOnTheSheet) {
     }
 }
 
+TEST(Follower, TracksInTheWorldOfReplacedSheets) {
+    const CameraModel model;
+    FollowerOptions options;
+    options.sheets = {sheet_around_pivot()};
+    Follower follower(options);
+    const auto follow = [&](int i) {
+        const GreyImage image = robot_frame(model, kSeed, i, kPivot_x_mm, kPivot_y_mm, 1);
+        return follower.follow(image.view(), 10'000 * i);
+    };
+    for (int i = 0; i < 5; ++i)
+        follow(i);
+    EXPECT_FALSE(follower.is_in_world());
+    std::vector<SheetEntry> sheets = follower.sheets();
+    sheets[0].world = WorldPose{1, 2, 0};
+    follower.set_sheets(sheets);
+    EXPECT_TRUE(follower.is_in_world());
+    const Followed placed = follow(5);
+    ASSERT_TRUE(placed.located.place);
+    EXPECT_FALSE(placed.track.is_lost);
+    EXPECT_NEAR(placed.track.pose.x_mm(), 1000 + placed.located.place->x_mm, 0.05);
+    EXPECT_NEAR(placed.track.pose.y_mm(), 2000 - placed.located.place->y_mm, 0.05);
+    // The sheet moves by far more than a robot can drive between two frames.
+    sheets[0].world = WorldPose{-4, 2, 0};
+    follower.set_sheets(sheets);
+    const Followed moved = follow(6);
+    EXPECT_FALSE(moved.track.is_lost);
+    EXPECT_NEAR(moved.track.pose.x_mm(), -4000 + moved.located.place->x_mm, 0.05);
+    EXPECT_THROW(follower.set_sheets({}), BadArgument);
+}
+
 TEST(Follower, AReferencePointReplacesThatOfTheCameraFile) {
     const CameraModel model;
     const GreyImage image = robot_frame(model, kSeed, 0, kPivot_x_mm, kPivot_y_mm, 0.5);
@@ -112,6 +142,33 @@ TEST(Follower, AReferencePointReplacesThatOfTheCameraFile) {
     // robot.
     EXPECT_NEAR(std::hypot(fix.x_mm() - kPivot_x_mm, fix.y_mm() - kPivot_y_mm),
                 std::hypot(kCameraOnRobot_mm.x, kCameraOnRobot_mm.y), 0.01);
+}
+
+TEST(Follower, TracksTheReferencePointOfAReplacedCamera) {
+    const CameraModel model;
+    FollowerOptions options;
+    options.code = CodeVariant::anoto;
+    Follower follower(options);
+    const auto follow = [&](int i) {
+        const GreyImage image =
+            robot_frame(model, kSeed, i, kPivot_x_mm, kPivot_y_mm, kDegree_rad * i);
+        return follower.follow(image.view(), 10'000 * i);
+    };
+    for (int i = 0; i < 10; ++i)
+        follow(i);
+    follower.set_camera(mounted_camera(model, 30 * kDegree_rad));
+    for (int i = 10; i < 20; ++i) {
+        SCOPED_TRACE(testing::Message() << "frame " << i << ", seed " << kSeed);
+        const Followed now = follow(i);
+        ASSERT_EQ(now.located.fix.status, Status::ok);
+        EXPECT_FALSE(now.track.is_lost);
+        EXPECT_NEAR(now.track.pose.x_mm(), kPivot_x_mm, 0.05);
+        EXPECT_NEAR(now.track.pose.y_mm(), kPivot_y_mm, 0.05);
+        EXPECT_LT(turn_between(now.located.fix.theta_rad(), (30 + i) * kDegree_rad), 0.003);
+    }
+    Camera camera = mounted_camera(model, 0);
+    camera.width_px = 0;
+    EXPECT_THROW(follower.set_camera(camera), BadArgument);
 }
 
 TEST(Follower, ImagesOfAnotherSizeThanTheCamerasAreRefused) {

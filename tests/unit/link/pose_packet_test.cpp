@@ -266,7 +266,7 @@ TEST(PosePacket, CarriesAFix) {
     fix.theta_bam = -(1 << 30);  // a quarter turn counter-clockwise
     fix.section = {1, 2};
     fix.p_wrong_log2 = -90;
-    fix.covariance[0][0] = 4e-6F;  // 0.002 spacings, 8.19 steps
+    fix.covariance[0][0] = 4e-6F;  // a standard deviation of 0.002 spacings, which is 8.19 / 2^12
     fix.covariance[1][1] = 1e-6F;
     const PosePacket packet = make_packet(fix, CodeVariant::libdots, 3, 4);
     EXPECT_EQ(packet.sequence, 3);

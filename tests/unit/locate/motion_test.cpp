@@ -72,8 +72,9 @@ constexpr int kLength = 6;
 
 /// Results of several series of `kLength` frames each.
 struct Series {
-    std::array<int, kLength> located{};  ///< number of series with a fix in their first k frames
-    int with_earlier = 0;                ///< number of fixes from more than one frame
+    /// located[k] is the number of series with a fix in their first k + 1 frames.
+    std::array<int, kLength> located{};
+    int with_earlier = 0;  ///< number of fixes from more than one frame
     int wrong = 0;
 };
 

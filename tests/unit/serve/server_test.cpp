@@ -97,6 +97,8 @@ TEST(Server, AnswersPagesAndRoutes) {
     EXPECT_THAT(answer, HasSubstr("robots 2"));
     EXPECT_THAT(answer, HasSubstr("content-security-policy: default-src 'none'"));
     EXPECT_THAT(get(server, "/other", "page."), StartsWith("HTTP/1.1 404"));
+    server.remove_route("/metrics");
+    EXPECT_THAT(get(server, "/metrics", "page."), StartsWith("HTTP/1.1 404"));
 }
 
 TEST(Server, DeliversValuesToClientsThatAcknowledge) {

@@ -43,6 +43,26 @@ TEST(Topic, ValueIsEmptyIfItsEncoderFails) {
     EXPECT_EQ(version, 1U);
 }
 
+TEST(Topic, ValueDependsOnTheRequest) {
+    Topic topic("rows", false);
+    const auto publish = [&topic](const std::string& value) {
+        topic.publish_for_each([value](const Command& request) {
+            return value + std::to_string(*request.argument<double>("first"));
+        });
+    };
+    const auto request = [](double first) { return Command{"subscribe", {{"first", first}}}; };
+    std::uint64_t version = 0;
+    publish("a");
+    EXPECT_EQ(*topic.message(version, request(1)), "rows\na" + std::to_string(1.0));
+    EXPECT_EQ(*topic.message(version, request(2)), "rows\na" + std::to_string(2.0));
+    EXPECT_EQ(version, 1U);
+    publish("b");
+    EXPECT_EQ(*topic.message(version, request(2)), "rows\nb" + std::to_string(2.0));
+    EXPECT_EQ(version, 2U);
+    topic.publish_for_each([](const Command&) -> std::string { throw std::runtime_error("no"); });
+    EXPECT_EQ(*topic.message(version), "rows\n");
+}
+
 TEST(Topic, IsWantedUntilTheNextPublication) {
     Topic topic("state", false);
     EXPECT_FALSE(topic.is_wanted());
@@ -75,6 +95,34 @@ TEST(Subscription, StuckClientReceivesTwoValues) {
     EXPECT_FALSE(client.is_ready(2));
     client.acknowledge();
     EXPECT_TRUE(client.is_due(3));
+}
+
+TEST(Subscription, AChangedRequestIsAnsweredWithTheSameValue) {
+    Subscription client;
+    client.begin();
+    client.sent(1);
+    client.acknowledge();
+    EXPECT_FALSE(client.is_due(1));
+    client.begin({"subscribe", {{"first", 2.0}}});
+    EXPECT_TRUE(client.is_due(1));
+    EXPECT_EQ(*client.request.argument<double>("first"), 2.0);
+}
+
+TEST(Subscription, ChangedRequestsDoNotKeepAClientFromNewValues) {
+    Subscription client;
+    client.begin();
+    client.sent(1);
+    client.sent(2);
+    for (int i = 0; i < 10; ++i) {
+        client.begin();
+        EXPECT_FALSE(client.is_due(2));
+        client.acknowledge();
+        // The client is behind, so it waits for the next value, which the program should produce.
+        EXPECT_FALSE(client.is_due(2));
+        EXPECT_TRUE(client.is_ready(2));
+        EXPECT_TRUE(client.is_due(3));
+        ++client.unacknowledged;
+    }
 }
 
 TEST(Subscription, AcknowledgementsDoNotAddUp) {

@@ -148,7 +148,7 @@ TEST(Frame, PaperTextureBelongsToThePage) {
             most = std::max(most, alone);
         }
     }
-    EXPECT_GT(most - least, 20);  // 4 standard deviations of 10
+    EXPECT_GT(most - least, 20);  // the standard deviation is 10
 }
 
 TEST(Frame, HasAsManyDotsAsCellsInView) {

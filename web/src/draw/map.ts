@@ -55,7 +55,8 @@ function frameOf(content: MapContent, width: number, height: number): MapFrame {
     };
 }
 
-type ToCanvas = (point: Point_mm) => [number, number];
+/** Converts a point of the plane to px on the canvas. */
+export type ToCanvas = (point: Point_mm) => [number, number];
 
 function trace(context: CanvasRenderingContext2D, points: readonly Point_mm[], at: ToCanvas): void {
     points.forEach((point, i) => (i === 0 ? context.moveTo(...at(point)) : context.lineTo(...at(point))));
@@ -73,7 +74,7 @@ function drawDots(context: CanvasRenderingContext2D, sheet: SheetLayout, at: ToC
         }
 }
 
-function drawPaper(context: CanvasRenderingContext2D, paper: Paper, at: ToCanvas): void {
+export function drawPaper(context: CanvasRenderingContext2D, paper: Paper, at: ToCanvas): void {
     context.save();
     context.shadowColor = "rgba(0, 0, 0, 0.25)";
     context.shadowBlur = 12;

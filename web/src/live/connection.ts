@@ -3,6 +3,7 @@
 
 export type Value = string | Uint8Array<ArrayBuffer>;
 export type Show = (value: Value) => Promise<void> | void;
+export type Request = Record<string, string | number | boolean>;
 
 const kRetry_ms = 1000;
 const kNewline = 10;
@@ -18,7 +19,7 @@ function split(data: string | ArrayBuffer): [string, Value] {
 }
 
 export class Connection {
-    readonly #topics = new Map<string, Show>();
+    readonly #topics = new Map<string, { show: Show; request: Request }>();
     readonly #changed: (is_open: boolean) => void;
     #socket: WebSocket | undefined;
 
@@ -34,7 +35,7 @@ export class Connection {
         socket.binaryType = "arraybuffer";
         socket.onopen = () => {
             this.#changed(true);
-            for (const topic of this.#topics.keys()) this.send({ do: "subscribe", topic });
+            for (const [topic, { request }] of this.#topics) this.send({ ...request, do: "subscribe", topic });
         };
         socket.onmessage = ({ data }: MessageEvent<string | ArrayBuffer>) => void this.#take(data);
         socket.onclose = () => {
@@ -44,10 +45,16 @@ export class Connection {
         this.#socket = socket;
     }
 
-    /** Receives the values of a topic. */
-    subscribe(topic: string, show: Show): void {
-        this.#topics.set(topic, show);
-        this.send({ do: "subscribe", topic });
+    /** Receives the values of a topic, which may depend on a request. */
+    subscribe(topic: string, show: Show, request: Request = {}): void {
+        this.#topics.set(topic, { show, request });
+        this.send({ ...request, do: "subscribe", topic });
+    }
+
+    /** Changes the request of a topic. The next value is for the new request. */
+    ask(topic: string, request: Request): void {
+        const subscribed = this.#topics.get(topic);
+        if (subscribed !== undefined) this.subscribe(topic, subscribed.show, request);
     }
 
     unsubscribe(topic: string): void {
@@ -55,14 +62,17 @@ export class Connection {
         this.send({ do: "unsubscribe", topic });
     }
 
-    send(command: Record<string, string | number | boolean>): void {
-        if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(command));
+    /** Sends a command. Returns false if there is no connection. */
+    send(command: Request): boolean {
+        if (this.#socket?.readyState !== WebSocket.OPEN) return false;
+        this.#socket.send(JSON.stringify(command));
+        return true;
     }
 
     async #take(data: string | ArrayBuffer): Promise<void> {
         const [topic, value] = split(data);
         try {
-            await this.#topics.get(topic)?.(value);
+            await this.#topics.get(topic)?.show(value);
         } finally {
             if (this.#topics.has(topic)) this.send({ do: "next", topic });
         }

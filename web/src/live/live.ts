@@ -7,17 +7,22 @@ import { Picture } from "./picture.js";
 import { placeOf, showState } from "./readout.js";
 import { Recorder } from "./recorder.js";
 import { Refusals } from "./refusals.js";
+import { SheetsView } from "./sheets.js";
+import { Views } from "./views.js";
 
 const announce = announcer("live-announced");
 const connection = new Connection((is_open) => {
     element("live-status", HTMLElement).classList.toggle("good", is_open);
     show({ "live-status": is_open ? "live" : "no connection to dotpose" });
-    if (!is_open) announce("No connection to dotpose");
+    if (is_open) return;
+    announce("No connection to dotpose");
+    sheets.disconnected();
 });
 const map = new PathMap();
 const refusals = new Refusals();
 const recorder = new Recorder(connection);
 const picture = new Picture(connection);
+const sheets = new SheetsView(connection);
 let setup: Setup | null = null;
 /** Why a frame was refused, and what to change; empty if that is not known. */
 let reason = "";
@@ -26,6 +31,7 @@ function showSetup(value: Setup): void {
     setup = value;
     map.setUp(value);
     recorder.setUp(value);
+    sheets.setUp(value);
     show({ "live-source": value.source, "live-robot": value.robot });
     document.title = `${value.robot}: dotpose`;
 }
@@ -34,6 +40,7 @@ function takeState(state: State): void {
     showState(state, setup);
     map.takeLine(state.line);
     recorder.take(state);
+    sheets.takeLine(state.line);
     showResult(state.line.status);
     const place = placeOf(state.line, setup);
     announce(place ? `x ${place.x_mm.toFixed(1)}, y ${place.y_mm.toFixed(1)} mm` : "lost");
@@ -64,11 +71,15 @@ subscribe<Path>("path", (path) => map.takePath(path));
 subscribe<Advice>("advice", (advice) => (reason = advice.reason));
 connection.open();
 
-function redraw(): void {
-    picture.request();
-    picture.redraw();
-    map.redraw();
-    refusals.redraw();
-}
-window.addEventListener("resize", redraw);
-window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+new Views({
+    live: {
+        redraw(): void {
+            picture.request();
+            picture.redraw();
+            map.redraw();
+            refusals.redraw();
+        },
+        hidden: () => picture.request(),
+    },
+    sheets,
+});

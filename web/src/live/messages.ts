@@ -10,6 +10,7 @@ export interface Setup {
     /** Plane of the track: the world of the sheet file, with y up, or the pattern, with y down. */
     plane: "world" | "pattern";
     sheets: { name: string; corners_mm: Pair[] }[];
+    has_sheet_file: boolean;
     /** Address of the log of the run, or null. */
     log: string | null;
 }

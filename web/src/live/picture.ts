@@ -60,19 +60,22 @@ export class Picture {
     #last: LiveFrame | undefined;
     #times_ms: number[] = [];
     #is_slow = false;
+    readonly #drawMore: () => void;
 
-    constructor(connection: Connection) {
+    /** `drawMore` is called after a frame was drawn, to draw over it. */
+    constructor(connection: Connection, drawMore = () => {}) {
         this.#connection = connection;
+        this.#drawMore = drawMore;
         this.#layers.addEventListener("change", () => this.redraw());
         element("live-refocus", HTMLButtonElement).addEventListener("click", () => this.#meter.restart());
         document.addEventListener("visibilitychange", () => this.request());
         this.request();
     }
 
-    /** Requests frames in the size that the page shows; none while the page is hidden. */
+    /** Requests frames in the size that the page shows; none while the page or the picture is hidden. */
     request(): void {
         const shown_px = this.#canvas.clientWidth * window.devicePixelRatio;
-        const wanted = document.hidden ? "" : this.#is_slow || shown_px <= kSmall_px ? kSmall : kLarge;
+        const wanted = document.hidden || shown_px === 0 ? "" : this.#is_slow || shown_px <= kSmall_px ? kSmall : kLarge;
         if (wanted === this.#topic) return;
         if (this.#topic !== "") this.#connection.unsubscribe(this.#topic);
         this.#topic = wanted;
@@ -84,6 +87,7 @@ export class Picture {
         if (this.#last === undefined) return;
         const is_on = this.#layers.checked;
         drawFrame(this.#canvas, this.#last, { found: is_on, grid: is_on, pose: is_on });
+        this.#drawMore();
     }
 
     async #take(value: Value): Promise<void> {

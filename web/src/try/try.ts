@@ -13,7 +13,7 @@ import type { View } from "../page/view.js";
 import { regionOf, sheetUnder, type KnownSheet } from "../print/known_sheets.js";
 import { SimulatedCamera, type ImageSize } from "./camera.js";
 import { Drive } from "./drive.js";
-import { listen } from "./gestures.js";
+import { listen } from "../page/gestures.js";
 import { buildSliders } from "./sliders.js";
 
 const kSheet: SheetChoice = {

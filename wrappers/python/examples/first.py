@@ -1,4 +1,4 @@
-"""Renders a simulated picture of a sheet and locates the camera in it."""
+"""Renders a simulated image of a sheet and computes the pose of the camera from it."""
 import dotpose
 
 frame = dotpose.simulate(1)[0]

@@ -44,7 +44,7 @@ function measureNative(path) {
     return lines.trim().split(/\s+/).map(Number);
 }
 
-/** Returns the minimum of both times of each frame, to exclude the influence of other programs. */
+/** Returns the minimum of each time over the rounds so far, to exclude the influence of other programs. */
 function keepLeast(least, times_us) {
     return times_us.map((us, i) => Math.min(us, least?.[i] ?? Infinity));
 }

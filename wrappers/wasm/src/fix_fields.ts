@@ -54,13 +54,13 @@ export interface FixFields {
      * pi).
      */
     theta_rad: number;
-    /** Upper bound of the probability that the position is wrong. */
+    /** Upper bound on the probability that the position is wrong. */
     p_wrong: number;
-    /** Blobs of the size of a dot. */
+    /** Number of dot-sized blobs. */
     dots_seen: number;
-    /** Dots to which the pose was fitted. */
+    /** Number of dots to which the pose was fitted. */
     dots_used: number;
-    /** The attempt that made the fix. */
+    /** Attempt that produced the fix. */
     attempt: Attempt;
     /** Flatness of the paper in view, as determined from the dots. */
     surface: Surface;

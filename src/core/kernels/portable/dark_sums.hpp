@@ -22,7 +22,7 @@ inline constexpr int kHalfOfDiamond = 2;
 
 /// Returns the sums of a square with 2 Half + 1 pixels per side. `row` is its upper left pixel.
 /// Skips the corners if Half is kHalfOfDiamond. Half is a compile-time constant, so compilers
-/// unroll the loop over a row. Inlining would exceed the registers of small processors.
+/// unroll the loop over a row. Inlined code would need more registers than small processors have.
 template <int Half>
 DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t stride,
                                            std::int32_t level) {
@@ -53,7 +53,7 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
             add_row(Half);
     }
     // Let m(y) be the mass of row y, with y from -Half to Half. Then `cumulative` is the sum of
-    // (Half + 1 - y) m(y), and the last element is the sum of y m(y).
+    // (Half + 1 - y) m(y), and the last element of the result is the sum of y m(y).
     return {mass, sum_x, (Half + 1) * mass - cumulative};
 }
 

@@ -36,7 +36,8 @@ TEST(SearchBySteps, ReadsLinesOnBothSidesOfHiddenOnes) {
     Rng rng(kSeed);
     int right = 0;
     for (int i = 0; i < 300; ++i) {
-        // Five consecutive lines have bits on each side of the hidden lines. One window needs six.
+        // On each side of the hidden lines, five consecutive lines have bits. The window decoder
+        // needs six.
         const std::size_t hidden = 1 + rng.below(3);
         RatiosCase c = at_random_place(rng, 10 + static_cast<int>(hidden));
         read_lines(c, 12, 0.03, rng,

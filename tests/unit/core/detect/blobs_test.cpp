@@ -368,7 +368,8 @@ TEST(Blobs, TheSizeFilterIsRelativeToTheMedianDot) {
 }
 
 TEST(Blobs, SaltAndPepperIsSiftedOut) {
-    // Dots have about nine pixels. 1 % of the pixels are isolated dark or light pixels.
+    // Dots have about nine pixels. About 0.3 % of the pixels are isolated black pixels between the
+    // dots.
     Rng rng(kSeed);
     GreyImage image = blank(188, 120);
     std::vector<Vec2> centres;

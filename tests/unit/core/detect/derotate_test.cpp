@@ -70,7 +70,8 @@ TEST(ReadoutTurn, ThePlaneOfASquareGridShowsTheDrift) {
 
 TEST(Derotated, IsTheImageOfAStillScene) {
     constexpr int kBorder_px = 40;  // the rotation moves new parts of the scene into the corners
-    constexpr double kMaxMeanDifference = 1;  // most pixels are paper
+    // In grey levels. The mean is small, because most pixels are paper and do not differ.
+    constexpr double kMaxMeanDifference = 1;
     dotpose::Setup setup;
     setup.preset = Preset::clean;
     Shot still = draw_shot(setup, 3);

@@ -77,9 +77,9 @@ TEST(IsCertain, AcceptsWhatIsClearlyRead) {
     }
 }
 
-/// Returns bits between two alternatives. In the columns where the two alternatives differ, half of
-/// the distinguishing bits agree with one alternative, and half with the other. The two
-/// alternatives therefore explain the view equally well.
+/// Returns a block that two alternatives explain equally well. In the columns where the two
+/// alternatives differ, half of the distinguishing bits agree with one alternative, and half with
+/// the other.
 Block between(const Block& block, const std::vector<int>& own,
               const std::vector<int>& alternative) {
     Block mixed = block;

@@ -132,7 +132,7 @@ TEST(QuickAlternatives, AreNoFewerThanACloseLookShows) {
         ++told;
         const int counted = alternatives_log2(kernels(), c.ratios());
         // The exact sum may count alternatives twice, and is rounded up to a power of two. Below
-        // the usual limit, it may contain expectations 32 times.
+        // the usual limit, expectations may be multiplied by 32.
         if (counted <= -33) continue;
         EXPECT_GE(quick, counted - 2) << "case " << i << ", seed " << kSeed;
         ++compared;

@@ -190,8 +190,9 @@ TEST(KernelsAlternatives, ExpectationsHaveTheSameBitsInEachForm) {
     });
 }
 
-/// Expected odds in double precision: by roll offset, and by the number of adjacent lines, up to
-/// and including the newest, in which the alternative has the same digits and the roll offset 0.
+/// Expected odds in double precision, indexed by the roll offset and by the length of the current
+/// run. The run consists of the adjacent lines, up to and including the newest line, in which the
+/// alternative has the digits of the reading and the roll offset 0.
 using OddsByRun = std::array<std::array<double, 66>, 63>;
 
 /// Adds the alternatives after a step, whose digits differ from those of the reading in the

@@ -1,10 +1,10 @@
-// Gestures on the picture of the simulated camera, by mouse, touch and keyboard.
+// Gestures on a picture of a camera or a map, by mouse, touch and keyboard.
 
 export interface Gestures {
     /** Moves the picture by a number of CSS pixels. */
     drag(dx: number, dy: number): void;
     turn(degrees: number): void;
-    /** Multiplies the height by a factor. If it is greater than 1, the camera rises. */
+    /** Multiplies the height of the camera, or the extent of the map, by a factor. */
     rise(factor: number): void;
     /** Called at the start of any gesture. */
     begin(): void;
@@ -71,7 +71,7 @@ function listenToKeys(canvas: HTMLCanvasElement, gestures: Gestures): void {
     });
 }
 
-/** Calls `gestures` for all gestures on the picture of the camera. */
+/** Calls `gestures` for all gestures on the picture. */
 export function listen(canvas: HTMLCanvasElement, gestures: Gestures): void {
     listenToPointers(canvas, gestures);
     listenToKeys(canvas, gestures);

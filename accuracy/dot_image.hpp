@@ -1,0 +1,55 @@
+/// The image of one dot, computed from its geometry, and frames drawn with it. Independent of the
+/// simulator (`render`) and of the core, so a fault of the simulator does not remain hidden.
+#pragma once
+
+#include <vector>
+
+#include "dotpose/tools/simulate.hpp"
+
+namespace dotpose::tables {
+
+/// A disk of ink, convolved with the motion during the exposure, with a Gaussian blur, and with the
+/// area of a pixel. Paper is 0, and a point that is completely covered with ink is 1.
+class DotImage {
+  public:
+    DotImage(double radius_px, double blur_px, Vec2 motion_px);
+
+    /// Returns the darkness of a pixel. `from_dot` is the pixel centre relative to the dot centre.
+    double darkness(Vec2 from_dot) const;
+    /// Returns the derivative of `darkness` with respect to a shift of the dot.
+    Vec2 derivative(Vec2 from_dot) const;
+
+  private:
+    /// Part of a point's light that a pixel at this distance along one axis receives.
+    double share(double distance_px) const;
+    double derivative_of_share(double distance_px) const;
+
+    std::vector<Vec2> points_;  ///< points of equal weight that represent the moving disk
+    double weight_;
+    double blur_px_;
+};
+
+/// Darkness of a dot for pixels at most kReach_px away along each axis, 0 beyond. Interpolates
+/// `DotImage::darkness` between the points of a fine grid.
+class DotTable {
+  public:
+    explicit DotTable(const DotImage& dot);
+
+    static constexpr int kReach_px = 6;
+    double darkness(Vec2 from_dot) const;
+
+  private:
+    static constexpr int kSteps = 16;  ///< per px
+    static constexpr int kSide = 2 * (kReach_px + 1) * kSteps + 1;
+
+    double at(int i, int j) const { return values_[static_cast<std::size_t>(kSide * j + i)]; }
+
+    std::vector<double> values_;
+};
+
+/// Draws the frame of a shot. Uses the pose without tilt, the pattern, and of the imperfections the
+/// levels of paper and ink, the fall of the light, and the noise. `dot` has the blur, the motion
+/// and the size of the dots.
+GreyImage draw_with(const DotTable& dot, const Shot& shot);
+
+}  // namespace dotpose::tables

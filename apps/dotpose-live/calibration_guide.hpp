@@ -1,0 +1,150 @@
+/// Calibrates the camera of a running `dotpose watch`, step by step: the lens, the mount by a turn
+/// on the spot, the direction by a straight drive, and the readout time by a fast drive.
+///
+/// The main thread offers frames and gives commands, which return immediately. A thread with a
+/// lower priority selects the frames of the lens, solves, and writes the file. The main thread
+/// copies only frames that are needed.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "calibrate_report.hpp"
+#include "calibration_status.hpp"
+#include "dotpose/tools/draw.hpp"
+#include "guided_frames.hpp"
+#include "lens_collector.hpp"
+#include "reading.hpp"
+
+namespace dotpose::cli {
+
+/// A step of the calibration.
+enum class GuideStep { lens, spin, drive, readout };
+/// Returns the identifier, such as "spin".
+const char* name(GuideStep step);
+/// Returns the step with an identifier, or none.
+std::optional<GuideStep> guide_step(const std::string& name);
+
+/// State of the current step.
+enum class GuidePhase {
+    idle,        ///< no step was started
+    collecting,  ///< frames are taken
+    solving,     ///< the calibration is computed
+    solved,      ///< the result can be saved
+    failed,      ///< there is no result; `GuideState::problem` is the reason
+    saved        ///< the result is in the camera file
+};
+const char* name(GuidePhase phase);
+
+struct GuideOptions {
+    std::string file;  ///< the only file that is written
+    CalibrateOptions calibrate;
+    SpacingSource spacing = SpacingSource::assumed;
+    /// Camera of the run: the values that a step does not calibrate are kept.
+    std::optional<Camera> camera;
+    bool needs_focal_length = false;  ///< true if the run fits poses in space
+    bool flip = false;  ///< true if the source flips the frames, which the file then contains
+};
+
+/// Result of a step.
+struct GuideResult {
+    Camera camera;
+    std::string report;                           ///< lines of `dotpose calibrate`
+    bool is_good = true;                          ///< false if the verdict is a warning
+    std::optional<ResidualField> residuals = {};  ///< only of the lens
+    std::vector<SpinStation> stations = {};       ///< only of the turn
+    std::vector<std::string> improvements = {};   ///< what more frames could improve
+};
+
+struct GuideState {
+    GuideStep step = GuideStep::lens;
+    GuidePhase phase = GuidePhase::idle;
+    int frames = 0;  ///< number of frames that were taken
+    std::vector<video::Gauge> gauges;
+    std::string advice;                     ///< what to do now
+    std::optional<CalibrationStatus> lens;  ///< coverage, of the step `lens` only
+    std::vector<bool> directions;           ///< directions of a turn that were seen
+    std::string problem;                    ///< failure of the step, or of writing the file
+    std::optional<GuideResult> result;
+    std::optional<Camera> camera;  ///< the camera of the run
+};
+
+class CalibrationGuide {
+  public:
+    explicit CalibrationGuide(GuideOptions options);
+    /// Cancels the running step.
+    ~CalibrationGuide();
+    CalibrationGuide(const CalibrationGuide&) = delete;
+    CalibrationGuide& operator=(const CalibrationGuide&) = delete;
+
+    /// Starts a step. A running step is cancelled.
+    void start(GuideStep step);
+    /// Solves with the frames so far.
+    void finish();
+    void cancel();
+    /// Writes the result of the current step into the file.
+    void save();
+
+    /// Uses these sheets from the next calculation on.
+    void set_sheets(std::vector<SheetEntry> sheets);
+
+    /// Takes a frame if the current step needs it. `image` is the image that was located.
+    void take(const capture::Frame& frame, const Reading& reading, ImageView image,
+              double bits_per_px);
+
+    /// Returns the camera that was saved since the previous call, or none.
+    std::optional<Camera> take_camera();
+
+    const std::string& file() const { return options_.file; }
+    GuideState state() const;
+    /// Returns the number of changes of the state.
+    std::uint64_t version() const;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    // Functions of the thread.
+    void run();
+    void begin(GuideStep step);
+    void reset();
+    void fail(const std::string& problem);
+    void look(capture::Frame frame, double bits_per_px);
+    void solve();
+    GuideResult result_of(GuideStep step);
+    GuideResult lens_result();
+    void write();
+    void update(const std::function<void(GuideState&)>& change);
+
+    void post(bool cancels, std::function<void()> job);
+    void take_guided(const GuidedFrame& frame);
+    void offer(const capture::Frame& frame, ImageView image, double bits_per_px);
+
+    GuideOptions options_;
+    std::unique_ptr<LensCollector> collector_;  ///< used by the thread only
+    std::atomic<bool> cancels_ = false;         ///< true to end the running calculation
+
+    mutable std::mutex mutex_;  ///< guards the following members
+    std::condition_variable changed_;
+    std::deque<std::function<void()>> jobs_;
+    bool is_busy_ = false;  ///< true while a job runs
+    bool stops_ = false;
+    GuideState state_;
+    std::uint64_t version_ = 0;
+    std::unique_ptr<GuidedFrames> guided_;  ///< none during the step `lens`
+    std::optional<Camera> saved_camera_;
+    Clock::time_point next_offer_{};
+
+    std::thread thread_;  // last member, because the thread uses the other members
+};
+
+}  // namespace dotpose::cli

@@ -1,0 +1,84 @@
+/// The page of `dotpose fleet --web` and `dotpose listen --web`, and its metrics. docs/fleet.md
+/// describes its topics.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "fleet_alerts.hpp"
+#include "fleet_values.hpp"
+#include "serve/server.hpp"
+
+namespace dotpose::cli {
+
+struct FleetWebOptions {
+    serve::ServerOptions server;
+    ConditionLimits limits = {};
+    std::string device = {};  ///< the robot of `dotpose listen`; empty for a fleet
+    // The following functions are called on any thread.
+    std::function<Now()> now;
+    std::function<FleetServices()> services;
+    /// Removes a robot from the broker; null if the page may not remove robots.
+    std::function<void(const std::string& robot)> remove = nullptr;
+};
+
+/// Serves the page from its own threads.
+class FleetWeb {
+  public:
+    /// Starts the server, and reports its address. `fleet` and `map` must outlive the page. Throws
+    /// BadArgument or Error.
+    FleetWeb(FleetWebOptions options, const FleetState& fleet, const FleetMap& map);
+    ~FleetWeb();
+    FleetWeb(const FleetWeb&) = delete;
+    FleetWeb& operator=(const FleetWeb&) = delete;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    using Snapshot = std::shared_ptr<const FleetSnapshot>;
+    /// A topic that has its next value after a period.
+    struct TimedTopic {
+        serve::Topic& topic;
+        std::chrono::milliseconds period;
+        Clock::time_point next{};
+    };
+
+    void run();
+    /// Returns true if a client is ready and the period has passed, and begins the next period.
+    static bool is_due(TimedTopic& timed, Clock::time_point now);
+    /// Returns the robots now. All topics of one tick share the snapshot.
+    const Snapshot& snapshot();
+    void note_alerts(Clock::time_point now);
+    void publish_lists(Clock::time_point now);
+    void publish_map(Clock::time_point now);
+    void obey();
+    void remove(const serve::Command& command);
+
+    FleetWebOptions options_;
+    const FleetState& fleet_;
+    const FleetMap& map_;
+    AlertWatch watch_;
+    std::deque<RobotAlert> alerts_;
+    Clock::time_point next_check_;
+    Snapshot snapshot_;  ///< robots of this tick; null if no topic needed them yet
+    std::int64_t counted_states_ = 0;
+    Clock::time_point counted_at_;
+
+    serve::Server server_;
+    serve::Topic& setup_;
+    TimedTopic summary_;
+    TimedTopic table_;
+    TimedTopic robot_;
+    TimedTopic positions_;
+    TimedTopic trails_;
+    std::atomic<bool> ends_ = false;
+    std::thread thread_;
+};
+
+}  // namespace dotpose::cli

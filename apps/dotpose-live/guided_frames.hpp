@@ -1,0 +1,114 @@
+/// Selects the frames of a turn, of a straight drive and of a fast drive, while the robot moves.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dotpose/fix.hpp"
+#include "dotpose/tools/grey_image.hpp"
+#include "video/screen.hpp"
+
+namespace dotpose::cli {
+
+/// A located frame of `dotpose watch`.
+struct GuidedFrame {
+    Fix fix;
+    double spacing_mm = 0;
+    std::int64_t time_us = 0;
+    std::int64_t index = 0;  ///< number of the frame, including dropped frames
+    ImageView image;
+};
+
+/// Frames of one calibration, for a robot that moves as the page describes.
+class GuidedFrames {
+  public:
+    using Images = std::vector<std::shared_ptr<const GreyImage>>;
+
+    virtual ~GuidedFrames() = default;
+
+    /// Copies the frame if the calibration needs it.
+    virtual void take(const GuidedFrame& frame) = 0;
+    /// Called for each frame without a fix.
+    virtual void lose() {}
+
+    /// Returns true if no more frames are needed.
+    virtual bool is_complete() const = 0;
+    virtual video::Gauge gauge() const = 0;
+    /// Returns advice for the user.
+    virtual std::string advice() const = 0;
+
+    const Images& images() const { return images_; }
+
+  protected:
+    void keep(ImageView image);
+    Images images_;
+};
+
+/// A turn on the spot: one frame in each direction.
+class SpinFrames : public GuidedFrames {
+  public:
+    /// Number of directions into which a full turn is divided.
+    static constexpr int kDirections = 24;
+
+    void take(const GuidedFrame& frame) override;
+    bool is_complete() const override { return images_.size() == kDirections; }
+    video::Gauge gauge() const override;
+    std::string advice() const override;
+
+    const std::array<bool, kDirections>& directions() const { return directions_; }
+
+  private:
+    std::array<bool, kDirections> directions_{};
+};
+
+/// A straight drive: frames at equal distances.
+class DriveFrames : public GuidedFrames {
+  public:
+    void take(const GuidedFrame& frame) override;
+    bool is_complete() const override;
+    video::Gauge gauge() const override;
+    std::string advice() const override;
+
+  private:
+    struct Place {
+        double x_mm = 0;
+        double y_mm = 0;
+    };
+    static double distance_mm(const Place& from, const Place& to);
+
+    Place first_;
+    Place newest_;  ///< place of the newest frame that was taken
+    double length_mm_ = 0;
+};
+
+/// A fast drive: consecutive frames.
+class ReadoutFrames : public GuidedFrames {
+  public:
+    void take(const GuidedFrame& frame) override;
+    void lose() override { end_run(); }
+    bool is_complete() const override { return is_complete_; }
+    video::Gauge gauge() const override;
+    std::string advice() const override { return advice_; }
+
+    /// Returns the mean interval between two frames. There must be at least two frames.
+    double interval_ms() const;
+
+  private:
+    struct Seen {
+        double x_grid = 0;
+        double y_grid = 0;
+        std::int64_t time_us = 0;
+        std::int64_t index = 0;
+    };
+    void end_run();
+
+    std::vector<Seen> seen_;  ///< the frames of the current run of consecutive frames
+    bool is_complete_ = false;
+    std::string advice_ = "drive fast over the sheet";
+};
+
+}  // namespace dotpose::cli

@@ -1,0 +1,15 @@
+/// Text of JSON values for the pages of dotpose-live.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace dotpose::cli {
+
+/// Returns the value in one line. Bytes that are not UTF-8, for example in names, are replaced.
+inline std::string text_of(const nlohmann::json& value) {
+    return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace dotpose::cli

@@ -1,0 +1,121 @@
+/// Edits of a sheet file with undo, while other programs may change the file too.
+///
+/// Each edit takes the lock of the file, reads it again, and is refused if the sheet is not as the
+/// user saw it. The functions throw Error or BadArgument, and then write nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dotpose/files/sheet_file.hpp"
+#include "run_files.hpp"
+
+namespace dotpose::cli {
+
+class SheetEdits {
+  public:
+    /// Reads the file. Throws Error like `read_sheets`.
+    SheetEdits(std::string path, SheetFileWait wait);
+
+    /// Reads the file if it was changed. Returns true if its sheets or `problem` changed.
+    bool refresh();
+
+    /// Returns the sheets, as last read.
+    const std::vector<SheetEntry>& sheets() const { return sheets_; }
+    /// Returns the reason why the file could not be read, or an empty string.
+    const std::string& problem() const { return problem_; }
+    /// Returns the revision of a sheet, which increases with each change of its place, print scale,
+    /// offset or region. Returns 0 if there is no such sheet.
+    std::int64_t revision(const std::string& name) const;
+
+    /// Returns a number that increases with each change of any sheet.
+    std::int64_t version() const { return version_; }
+
+    /// A sheet as the user saw it.
+    struct Target {
+        std::string name;
+        std::int64_t revision = 0;
+    };
+    using Change = std::function<SheetEntry(const SheetEntry& before)>;
+
+    /// Changes place, print scale or offset of a sheet. `what` describes the edit for `undo`, such
+    /// as "move". Returns the new entry.
+    SheetEntry change(const Target& target, const std::string& what, const Change& change);
+
+    /// Replaces the places and print scales of several sheets in one edit. `targets` are the sheets
+    /// that the measurement started with.
+    void change_all(const std::vector<Target>& targets, const std::vector<SheetEntry>& measured,
+                    const std::string& what);
+
+    /// Removes the mark of a reserved sheet whose page exists now. This is not an edit.
+    void confirm(const std::string& name);
+
+    /// Return descriptions of the edits that `undo` and `redo` would make, such as "move 'table'",
+    /// or empty strings.
+    std::string undo_text() const { return undo_.empty() ? "" : undo_.back().text; }
+    std::string redo_text() const { return redo_.empty() ? "" : redo_.back().text; }
+
+    /// Undoes or redoes an edit. Returns its description. If another program changed one of its
+    /// sheets since, throws Error and forgets the edit.
+    std::string undo();
+    std::string redo();
+
+    const SheetFileWait& wait() const { return wait_; }
+    std::filesystem::path path() const;
+
+  private:
+    /// Values of a sheet that can be edited.
+    struct Values {
+        std::optional<std::array<double, 3>> world;
+        std::array<double, 2> print_scale{};
+        std::array<double, 2> origin_mm{};
+        bool operator==(const Values&) const = default;
+    };
+    struct SheetStep {
+        std::string name;
+        Values before;
+        Values after;
+    };
+    struct Step {
+        std::string text;
+        std::vector<SheetStep> sheets;
+    };
+    struct Known {
+        std::int64_t revision = 0;
+        SheetEntry entry;
+    };
+    struct FileState {
+        std::optional<FileIdentity> identity;
+        std::filesystem::file_time_type changed_at;
+        std::uintmax_t bytes = 0;
+        bool operator==(const FileState&) const = default;
+    };
+
+    static Values values_of(const SheetEntry& entry);
+    static SheetEntry with_values(SheetEntry entry, const Values& values);
+    static bool is_same_sheet(const SheetEntry& a, const SheetEntry& b);
+    FileState state() const;
+    void take(const std::vector<SheetEntry>& sheets);
+    SheetEntry require(const Target& target) const;
+    void save(SheetFile& file, Step step);
+    std::string move_step(std::vector<Step>& from, std::vector<Step>& to, bool is_undo);
+
+    std::string path_;
+    SheetFileWait wait_;
+    std::optional<FileState> read_state_;
+    std::vector<SheetEntry> sheets_;
+    std::string problem_;
+    std::map<std::string, Known> known_;
+    std::int64_t newest_revision_ = 0;
+    std::int64_t version_ = 0;
+    std::vector<Step> undo_;
+    std::vector<Step> redo_;
+};
+
+}  // namespace dotpose::cli

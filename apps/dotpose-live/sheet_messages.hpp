@@ -1,0 +1,29 @@
+/// Values of the topics about sheets (docs/web.md).
+#pragma once
+
+#include <deque>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "sheet_edits.hpp"
+#include "stitch_job.hpp"
+
+namespace dotpose::cli {
+
+/// Answer to a command of a page.
+struct SheetAnswer {
+    std::string id = {};  ///< identifier that the page gave the command
+    bool is_ok = false;
+    std::string message = {};
+    std::string name = {};  ///< name of a new sheet; empty if there is none
+    std::string url = {};   ///< path of a file to download; empty if there is none
+};
+
+/// Returns the sheets of the file, and what can be undone.
+nlohmann::json sheets_message(const SheetEdits& edits, bool may_edit);
+nlohmann::json answers_message(const std::deque<SheetAnswer>& answers);
+/// Returns the state of a measurement, or of no measurement.
+nlohmann::json stitch_message(const StitchJob::Progress* progress);
+
+}  // namespace dotpose::cli

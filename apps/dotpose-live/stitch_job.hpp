@@ -1,0 +1,81 @@
+/// Measures the relative places of sheets from the frames of a running camera, on a thread of its
+/// own.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "dotpose/tools/calibrate.hpp"
+#include "new_places.hpp"
+#include "reading.hpp"
+
+namespace dotpose::cli {
+
+class StitchJob {
+  public:
+    /// Maximum number of frames that show two sheets. No further frames are used.
+    static constexpr std::size_t kMaxFrames = 60;
+
+    struct Progress {
+        int tried = 0;             ///< number of frames examined
+        std::size_t used = 0;      ///< number of frames that show two sheets
+        bool is_complete = false;  ///< true if no further frames are used
+        std::string problem;       ///< reason why there is no result yet; may be empty
+        std::optional<Stitching> result;
+    };
+
+    /// `changed` is called on the thread of the job after each frame.
+    StitchJob(std::vector<SheetEntry> sheets, std::optional<Camera> camera,
+              std::function<void(const Progress&)> changed);
+    /// Stops the measurement after its current frame.
+    ~StitchJob();
+    StitchJob(const StitchJob&) = delete;
+    StitchJob& operator=(const StitchJob&) = delete;
+
+    /// Takes a frame if the job is ready for it and if the frame shows a new place near the edge of
+    /// a sheet, or is not located. `image` is the located image. Copies it.
+    void offer(const Reading& reading, ImageView image);
+
+    const std::vector<SheetEntry>& sheets() const { return sheets_; }
+    /// Returns the newest result, or none.
+    std::optional<Stitching> result() const;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    void run();
+    bool shows_seam(const GreyImage& frame) const;
+    Progress measure() const;
+
+    std::vector<SheetEntry> sheets_;
+    std::optional<Camera> camera_;
+    std::function<void(const Progress&)> changed_;
+    CalibrateOptions options_;
+
+    // Used by `offer` only.
+    NewPlaces places_;
+    Clock::time_point unlocated_at_{};
+
+    // Used by the thread of the job only.
+    std::vector<GreyImage> frames_;
+    std::size_t bytes_ = 0;
+    int tried_ = 0;
+
+    mutable std::mutex mutex_;
+    std::condition_variable wake_;
+    std::optional<GreyImage> waiting_;
+    bool is_idle_ = true;
+    std::atomic<bool> ends_ = false;
+    std::optional<Stitching> result_;
+    std::thread thread_;  // last member, because the thread uses the other members
+};
+
+}  // namespace dotpose::cli

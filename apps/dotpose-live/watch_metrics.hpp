@@ -1,0 +1,32 @@
+/// Metrics of `dotpose watch --web`. docs/web.md lists them.
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+#include "dotpose/status.hpp"
+#include "state_message.hpp"
+#include "watch_tally.hpp"
+
+namespace dotpose::cli {
+
+/// Thread-safe.
+class WatchMetrics {
+  public:
+    /// Counts a frame. `tally` contains the frame. `dropped` is the number of frames that were
+    /// dropped since the start.
+    void take(Status status, const WatchTally& tally, std::int64_t dropped, double rate_hz);
+
+    /// Returns the metrics in the text format of Prometheus.
+    std::string text() const;
+
+  private:
+    mutable std::mutex mutex_;
+    RefusedFrames frames_{};  ///< by status; the element of Status::ok counts located frames
+    WatchTally tally_;
+    std::int64_t dropped_ = 0;
+    double rate_hz_ = 0;
+};
+
+}  // namespace dotpose::cli

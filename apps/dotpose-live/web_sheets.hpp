@@ -1,0 +1,104 @@
+/// The view of the sheets in the page of `dotpose watch --web`. docs/web.md describes its topics
+/// and commands.
+///
+/// The sheet file is read, changed and printed on a thread of its own, because another program may
+/// hold the lock of the file, and large pages take seconds.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "reading.hpp"
+#include "serve/server.hpp"
+#include "sheet_edits.hpp"
+#include "sheet_messages.hpp"
+#include "stitch_job.hpp"
+
+namespace dotpose::cli {
+
+struct WebSheetsOptions {
+    std::string path;       ///< sheet file
+    bool may_edit = false;  ///< true if pages may change the sheet file and print sheets
+    std::optional<Camera> camera;
+};
+
+/// Topics about sheets. They exist without a sheet file too, because a page subscribes to them.
+struct SheetTopics {
+    /// Adds the topics. The server must not be started yet.
+    explicit SheetTopics(serve::Server& server);
+
+    serve::Topic& sheets;
+    serve::Topic& answers;
+    serve::Topic& stitch;
+};
+
+class WebSheets {
+  public:
+    /// Reads the sheet file. The server must outlive this object. Throws Error if the file cannot
+    /// be read.
+    WebSheets(WebSheetsOptions options, serve::Server& server, const SheetTopics& topics);
+    /// Ends running work. A change of the sheet file is completed, or not begun.
+    ~WebSheets();
+    WebSheets(const WebSheets&) = delete;
+    WebSheets& operator=(const WebSheets&) = delete;
+
+    /// Publishes the sheets. Call this function after the server was started.
+    void start();
+
+    /// Uses this camera in measurements that start from now on.
+    void set_camera(const Camera& camera);
+
+    /// Obeys a command of a page. Returns false if the command is not about sheets.
+    bool obey(const serve::Command& command);
+
+    /// Offers a frame to a running measurement. `image` is the located image.
+    void take(const Reading& reading, ImageView image);
+
+    /// Returns the sheets once after they were changed by a page or by another program.
+    std::optional<std::vector<SheetEntry>> take_changed();
+
+  private:
+    void run();
+    void refresh();
+    void answer_to(const serve::Command& command);
+    void perform(const serve::Command& command, SheetAnswer& answer);
+    void change(const serve::Command& command, SheetAnswer& answer);
+    void reprint(const serve::Command& command, SheetAnswer& answer);
+    void print_new(const serve::Command& command, SheetAnswer& answer);
+    void measure(bool is_on);
+    void accept_measurement(SheetAnswer& answer);
+    void offer_pdf(const SheetEntry& entry, SheetAnswer& answer);
+    void answer(SheetAnswer answer);
+    void publish_sheets();
+    void publish_measurement(const StitchJob::Progress* progress);
+
+    WebSheetsOptions options_;
+    serve::Server& server_;
+    SheetTopics topics_;
+
+    // Used by the thread only.
+    SheetEdits edits_;
+    std::deque<std::string> pdf_paths_;         ///< paths of the PDFs that can be downloaded
+    std::int64_t taken_version_ = 0;            ///< version of the sheets in `changed_`
+    std::int64_t pdfs_ = 0;                     ///< number of PDFs made
+    std::vector<SheetEdits::Target> measured_;  ///< sheets when the measurement began
+
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    std::deque<serve::Command> waiting_;
+    std::deque<SheetAnswer> answers_;
+    std::optional<std::vector<SheetEntry>> changed_;
+    std::shared_ptr<StitchJob> job_;
+    std::atomic<bool> ends_ = false;
+    std::thread thread_;  // last member, because the thread uses the other members
+};
+
+}  // namespace dotpose::cli

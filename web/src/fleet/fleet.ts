@@ -1,0 +1,71 @@
+// The page of `dotpose fleet --web`: all robots of a broker, live.
+import { Connection, type Request, type Value } from "../live/connection.js";
+import { announcer, element, show } from "../page/dom.js";
+import { FleetMap } from "./map.js";
+import type { Robot, Setup, Summary, Table } from "./messages.js";
+import { RobotPanel } from "./robot.js";
+import { SummaryView } from "./summary.js";
+import { RobotTable } from "./table.js";
+
+const announce = announcer("fleet-announced");
+const connection = new Connection((is_open) => {
+    element("live-status", HTMLElement).classList.toggle("good", is_open);
+    show({ "live-status": is_open ? "live" : "no connection to dotpose" });
+    if (is_open) return;
+    announce("No connection to dotpose");
+    // The numbers of robots begin again if the program is restarted.
+    panel.choose(null);
+});
+const panel: RobotPanel = new RobotPanel(connection, takeRobot, ({ map, x_mm, y_mm, path_mm }) => {
+    const x = x_mm ?? path_mm.at(-2);
+    const y = y_mm ?? path_mm.at(-1);
+    if (map !== undefined && x !== undefined && y !== undefined) fleet_map.showPlace(map, x, y);
+});
+const table = new RobotTable(connection, (id) => panel.choose(id, true));
+const fleet_map = new FleetMap(connection, (id) => panel.choose(id));
+/** True if the page is to choose the device of `dotpose listen`, the only robot, when it appears. */
+let awaits_device = false;
+const summary = new SummaryView(announce, (state) => {
+    table.showOnly(state);
+    element("fleet-table", HTMLElement).scrollIntoView({ block: "start" });
+});
+
+function takeRobot(robot: Robot | null): void {
+    table.takeChosen(robot?.id ?? null);
+    fleet_map.takeChosen(robot);
+}
+
+function takeTable(value: Table): void {
+    table.take(value);
+    const only = value.rows[0];
+    if (!awaits_device || only === undefined) return;
+    awaits_device = false;
+    panel.choose(only.id);
+}
+
+function subscribe<T>(topic: string, take: (value: T) => unknown, request: Request = {}): void {
+    const taken = async (value: Value) => {
+        take(JSON.parse(value as string) as T);
+        await new Promise(requestAnimationFrame);
+    };
+    connection.subscribe(topic, taken, request);
+}
+
+subscribe<Setup>("setup", (value) => {
+    fleet_map.setUp(value);
+    awaits_device = value.device !== "";
+    element("fleet-remove", HTMLButtonElement).hidden = awaits_device;
+    const title = value.device || (value.map === "" ? "Fleet" : `Fleet of ${value.map}`);
+    show({ "fleet-title": title });
+    document.title = `${title}: dotpose`;
+});
+subscribe<Summary>("summary", (value) => {
+    summary.take(value);
+    fleet_map.takeMaps(value.maps);
+});
+subscribe<Table>("table", takeTable, table.request());
+subscribe<Robot | null>("robot", (value) => panel.take(value), panel.request());
+connection.open();
+
+window.addEventListener("resize", () => fleet_map.redraw());
+window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => fleet_map.redraw());

@@ -1,0 +1,68 @@
+// Value of the topic `calibration` (docs/web.md). apps/dotpose-live/web_calibration.cpp writes it.
+
+export type StepName = "lens" | "spin" | "drive" | "readout";
+export type Phase = "idle" | "collecting" | "solving" | "solved" | "failed" | "saved";
+
+/** Progress towards one goal. */
+export interface Gauge {
+    label: string;
+    text: string;
+    /** Fraction of the goal, at most 1. */
+    share: number;
+    is_reached: boolean;
+}
+
+/** Frames that were taken for the lens. */
+export interface LensCoverage {
+    columns: number;
+    /** A digit for each part of the image, row by row: 1 if the part has shown dots. */
+    covered: string;
+    directions: boolean[];
+    /** Direction of the newest frame; null if it was not located. */
+    theta_rad: number | null;
+    /** Change of the scale from the middle to a corner of each frame, along u and v. */
+    tilts: [number, number][];
+    needs: string[];
+    remark: string;
+    is_taken: boolean;
+}
+
+/** Mean residuals in px of the parts of the image: u and v alternately, row by row. */
+export interface Residuals {
+    columns: number;
+    rows: number;
+    before: number[];
+    after: number[];
+}
+
+/** Position of the camera relative to the centre of rotation, and the centre of this frame alone. */
+export type Station = [x_mm: number, y_mm: number, theta_rad: number, off_x_mm: number, off_y_mm: number];
+
+export interface Result {
+    /** Labels and texts of the report. */
+    rows: [string, string][];
+    is_good: boolean;
+    /** What more frames could improve. */
+    improvements: string[];
+    residuals: Residuals | null;
+    stations_mm: Station[];
+}
+
+export interface CalibrationState {
+    /** Name of the camera file; null if the program may not calibrate. */
+    file: string;
+    step: StepName;
+    phase: Phase;
+    frames: number;
+    gauges: Gauge[];
+    advice: string;
+    lens: LensCoverage | null;
+    /** Directions of a turn that were seen. */
+    directions: boolean[];
+    problem: string;
+    result: Result | null;
+    /** What the camera file contains, by step; empty if the value is missing. */
+    values: Record<StepName, string>;
+}
+
+export type CalibrationValue = CalibrationState | { file: null };

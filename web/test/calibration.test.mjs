@@ -1,0 +1,381 @@
+// Tests the page /calibration of `dotpose watch --web`: a simulated camera on a simulated robot is
+// calibrated step by step, and the camera file is compared with the simulated camera.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { dotpose, kTool, launch, open } from "./browser.mjs";
+
+const kAxe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
+const [kWidth_px, kHeight_px] = [188, 120];
+const kSpacing_mm = 0.508;
+const kScale_mm_per_px = 0.046;
+const kLens_per_px2 = -8.7e-6;
+const kCorner_px = Math.hypot(kWidth_px / 2, kHeight_px / 2);
+/** Position of the robot's centre, from the image centre along the image axes. */
+const kMount_mm = { x: 14.5, y: -6.25 };
+/** Direction of the robot minus the direction of the image x axis. */
+const kHeading_rad = Math.PI / 2;
+const kPeriod_ms = 50;
+const kReadout_ms = 20;
+const kPlace = { x: 5000, y: 7000 };
+
+let folder;
+let browser;
+let shots;
+
+/** Renders a frame and returns its pixels. Positions are in grid units. */
+function render(name, x, y, angle_deg, ...more) {
+    const into = join(folder, "shot", name);
+    const scene = ["--frames", "1", "--preset", "clean", "--section", "3,5", "--k", String(kLens_per_px2), "--seed", "3"];
+    dotpose("simulate", "-o", into, ...scene, "--at", `${x},${y}`, "--angle", String(angle_deg), ...more);
+    return pixelsOf(join(into, "frame_000000.pgm"));
+}
+
+function pixelsOf(file) {
+    return readFileSync(file).subarray(-kWidth_px * kHeight_px);
+}
+
+/** A robot that turns on the spot: its centre stays at `kPlace`. */
+function turn(steps) {
+    return Array.from({ length: steps }, (_, i) => {
+        const angle_deg = 7 + (360 / steps) * i;
+        const [c, s] = [Math.cos((angle_deg * Math.PI) / 180), Math.sin((angle_deg * Math.PI) / 180)];
+        const x = kPlace.x - (c * kMount_mm.x - s * kMount_mm.y) / kSpacing_mm;
+        const y = kPlace.y - (s * kMount_mm.x + c * kMount_mm.y) / kSpacing_mm;
+        return render(`turn${i}`, x, y, angle_deg);
+    });
+}
+
+/** A robot that drives straight ahead. */
+function drive(frames, step_mm) {
+    const angle_deg = 20;
+    const heading = (angle_deg * Math.PI) / 180 + kHeading_rad;
+    return Array.from({ length: frames }, (_, i) => {
+        const along = (i * step_mm) / kSpacing_mm;
+        return render(`drive${i}`, kPlace.x + along * Math.cos(heading), kPlace.y + along * Math.sin(heading), angle_deg);
+    });
+}
+
+/** A camera with a rolling shutter that moves along the x axis of its image. */
+function fastDrive(frames, step_mm) {
+    const readout_px = ((step_mm / kScale_mm_per_px) * kReadout_ms) / kPeriod_ms;
+    return Array.from({ length: frames }, (_, i) =>
+        render(`fast${i}`, kPlace.x + (i * step_mm) / kSpacing_mm, kPlace.y, 0, "--readout", `${-readout_px},0`),
+    );
+}
+
+/** A camera that rests for a moment at each of 30 places, at any angle. */
+function places() {
+    const into = join(folder, "places");
+    dotpose("simulate", "-o", into, "--frames", "30", "--seed", "5", "--section", "3,5", "--k", String(kLens_per_px2));
+    return Array.from({ length: 30 }, (_, i) => pixelsOf(join(into, `frame_${String(i).padStart(6, "0")}.pgm`)));
+}
+
+/** `dotpose watch` with the page. Its camera repeats the frames that were shown last. */
+class Run {
+    #frames = [];
+    #next = 0;
+    #timer;
+    /** True if the program reads the frames from its standard input. */
+    #reads;
+
+    async start(options, source = ["-", "--size", `${kWidth_px}x${kHeight_px}`, "--fps", String(1000 / kPeriod_ms)]) {
+        this.#reads = source[0] === "-";
+        const always = ["--web", "0", "--no-window", "-o", "/dev/null"];
+        this.program = spawn(kTool, ["watch", ...source, ...always, ...options], { stdio: ["pipe", "ignore", "pipe"] });
+        this.program.stdin.on("error", () => {});
+        this.messages = "";
+        this.ended = new Promise((resolve) => this.program.on("exit", resolve));
+        this.url = await new Promise((resolve, reject) => {
+            this.program.stderr.on("data", (data) => {
+                this.messages += data;
+                const found = /the page is at (\S+)/.exec(this.messages);
+                if (found) resolve(found[1]);
+            });
+            this.program.on("exit", () => reject(new Error(this.messages)));
+        });
+        this.#timer = setInterval(() => this.#write(), kPeriod_ms);
+        return this;
+    }
+
+    show(frames) {
+        [this.#frames, this.#next] = [frames, 0];
+    }
+
+    #write() {
+        if (this.#reads && this.#frames.length > 0) this.program.stdin.write(this.#frames[this.#next++ % this.#frames.length]);
+    }
+
+    /** Returns the exit status. */
+    async stop() {
+        clearInterval(this.#timer);
+        this.program.stdin.end();
+        if (!this.#reads) this.program.kill("SIGINT");
+        return this.ended;
+    }
+}
+
+function cameraIn(file) {
+    const values = {};
+    for (const [, key, value] of readFileSync(file, "utf8").matchAll(/^( *[a-z_0-9]+): +([^#\n]*)/gm))
+        values[key.trim()] ??= JSON.parse(/^[-[\d]/.test(value) ? value : JSON.stringify(value));
+    return values;
+}
+
+/** Returns the position of the reference point from the image centre. */
+function mountOf(camera) {
+    const [u, v] = camera.reference_px;
+    return { x: (u - (kWidth_px - 1) / 2) * camera.mm_per_px[0], y: (v - (kHeight_px - 1) / 2) * camera.mm_per_px[1] };
+}
+
+const titleIs = (text) => document.getElementById("calibration-title").textContent.endsWith(text);
+
+/** Starts a step while the camera shows `frames`, waits for its result, and saves it. */
+async function calibrate(page, run, step, frames) {
+    run.show([frames[0]]);
+    await page.click(`[data-step=${step}]`);
+    await page.waitForFunction(titleIs, ": taking frames");
+    run.show(frames);
+    await page.waitForFunction(() => !/taking frames|calculating/.test(document.getElementById("calibration-title").textContent));
+    const problem = await page.textContent("#calibration-problem");
+    assert.equal(problem, "");
+    assert.match(await page.textContent("#calibration-title"), /: result$/);
+    await page.click("#calibration-save");
+    await page.waitForFunction(titleIs, ": saved");
+    assert.match(await page.textContent("#calibration-verdict"), /^Saved in camera\.yaml\. The run uses it\.$/);
+    return page.textContent("#calibration-report");
+}
+
+before(async () => {
+    folder = mkdtempSync(join(tmpdir(), "dotpose-calibration-"));
+    mkdirSync(join(folder, "shot"));
+    // Three frames at each place, so the camera is steady.
+    const rests = places().flatMap((frame) => [frame, frame, frame]);
+    shots = { rests, turn: turn(24), drive: drive(50, 1.6), fast: fastDrive(60, 1.4) };
+    browser = await launch({ viewport: { width: 1200, height: 900 }, reducedMotion: "reduce" });
+});
+after(async () => {
+    await browser?.close();
+    if (folder) rmSync(folder, { recursive: true, force: true });
+});
+
+test("the page calibrates lens, mount, direction and readout time, and the run uses them", async () => {
+    const file = join(folder, "camera.yaml");
+    const run = await new Run().start(["--calibrate-to", file]);
+    try {
+        const { page, complaints } = await open(browser.context, `${run.url}calibration`);
+        run.show(shots.rests);
+        await page.waitForSelector("[data-step=lens]:enabled");
+        assert.equal(await page.locator(".steps .known").count(), 0);
+
+        // Coverage in words, while frames are taken.
+        await page.click("[data-step=lens]");
+        await page.waitForSelector("#calibration-needs li");
+        assert.match(await page.textContent("#calibration-needs"), /\w+/);
+        await page.waitForFunction(() => /[1-8] of 8 directions/.test(document.getElementById("calibration-turns-text").textContent));
+        await page.click("#calibration-cancel");
+        await page.waitForSelector("#calibration-current", { state: "hidden" });
+        assert.ok(!existsSync(file));
+
+        assert.match(await calibrate(page, run, "lens", shots.rests), /good/);
+        let camera = cameraIn(file);
+        const sigma = camera.k_per_px2 && Number(/k_per_px2: (\S+)\n/.exec(readFileSync(file, "utf8").split("sigma:")[1])[1]);
+        assert.ok(Math.abs(camera.k_per_px2 - kLens_per_px2) < 4 * sigma, JSON.stringify({ camera, sigma }));
+        for (const scale of camera.mm_per_px) assert.ok(Math.abs(scale / kScale_mm_per_px - 1) < 1e-3, String(scale));
+        const field_px = Number(/right; ([\d.]+) px/.exec(await page.textContent("#calibration-field-text"))[1]);
+        assert.ok(field_px < kCorner_px * 0.01, String(field_px));
+
+        await calibrate(page, run, "spin", shots.turn);
+        camera = cameraIn(file);
+        const mount = mountOf(camera);
+        assert.ok(Math.hypot(mount.x - kMount_mm.x, mount.y - kMount_mm.y) < 0.1, JSON.stringify(mount));
+        const shown = /reference([-+][\d.]+), ([-+][\d.]+)/.exec(await page.textContent("#calibration-report"));
+        assert.ok(Math.hypot(Number(shown[1]) - kMount_mm.x, Number(shown[2]) - kMount_mm.y) < 0.01, String(shown));
+
+        // The run uses the mount: the robot turns on the spot.
+        const { page: live } = await open(browser.context, run.url);
+        await live.waitForFunction(
+            ([x_mm, y_mm]) => {
+                const number = (id) => Number(document.getElementById(id).textContent.replace(/[^-.\d]/g, ""));
+                const name = document.getElementById("live-x-name").textContent;
+                return /pattern/.test(name) && Math.hypot(number("live-x") - x_mm, number("live-y") - y_mm) < 0.1;
+            },
+            [kPlace.x * kSpacing_mm, kPlace.y * kSpacing_mm],
+        );
+        await live.close();
+
+        await calibrate(page, run, "drive", shots.drive);
+        camera = cameraIn(file);
+        assert.ok(Math.abs(camera.theta_offset_rad - kHeading_rad) < 0.002, JSON.stringify(camera));
+
+        await calibrate(page, run, "readout", shots.fast);
+        camera = cameraIn(file);
+        assert.ok(Math.abs(camera.readout_ms - kReadout_ms) < 0.5, JSON.stringify(camera));
+        assert.equal(await page.locator(".steps .known").count(), 4);
+
+        // A new calibration of the lens keeps the mount.
+        await calibrate(page, run, "lens", shots.rests);
+        const again = cameraIn(file);
+        assert.equal(again.theta_offset_rad, camera.theta_offset_rad);
+        assert.equal(again.readout_ms, camera.readout_ms);
+        const kept = mountOf(again);
+        assert.ok(Math.hypot(kept.x - kMount_mm.x, kept.y - kMount_mm.y) < 0.1, JSON.stringify(kept));
+        assert.deepEqual(complaints, []);
+        await page.close();
+        dotpose("locate", "--camera", file, join(folder, "places/frame_000000.pgm"));
+    } finally {
+        assert.equal(await run.stop(), 0, run.messages);
+    }
+});
+
+test("the page keeps the mount of the file that it replaces", async () => {
+    const file = join(folder, "former.yaml");
+    const former = ["format: dotpose-camera", "version: 1", "width_px: 188", "height_px: 120", "k_per_px2: -8e-6", "centre_px: [93.5, 59.5]"];
+    writeFileSync(file, [...former, "mm_per_px: [0.046, 0.046]", "reference_px: [140, 20]", "theta_offset_rad: 0.5", "sigma:", "  k_per_px2: 1e-7", ""].join("\n"));
+    const run = await new Run().start(["--calibrate-to", file]);
+    try {
+        const { page } = await open(browser.context, `${run.url}calibration`);
+        run.show(shots.rests);
+        await page.waitForSelector(".steps .known");
+        assert.match(await page.textContent("#calibration-steps"), /\+28\.648 degrees/);
+        await page.click("[data-step=lens]");
+        await page.waitForFunction(titleIs, ": result");
+        await page.click("#calibration-save");
+        await page.waitForFunction(titleIs, ": saved");
+        const camera = cameraIn(file);
+        assert.ok(camera.theta_offset_rad === 0.5, JSON.stringify(camera));
+        assert.ok(Math.hypot(camera.reference_px[0] - 140, camera.reference_px[1] - 20) < 1.5, JSON.stringify(camera));
+        assert.ok(Math.abs(camera.k_per_px2 / kLens_per_px2 - 1) < 0.02, JSON.stringify(camera));
+        await page.close();
+    } finally {
+        await run.stop();
+    }
+});
+
+test("the page says why there is no result", async () => {
+    mkdirSync(join(folder, "gone"));
+    const run = await new Run().start(["--calibrate-to", join(folder, "gone/camera.yaml")]);
+    const problemIs = (text) => document.getElementById("calibration-problem").textContent.toLowerCase().includes(text);
+    try {
+        const { page, complaints } = await open(browser.context, `${run.url}calibration`);
+        run.show(shots.rests);
+        await page.click("[data-step=readout]");
+        await page.waitForFunction(problemIs, "first calibrate the lens");
+
+        run.show(shots.turn.slice(0, 2));
+        await page.click("[data-step=spin]");
+        await page.waitForFunction(() => /^2 /.test(document.getElementById("calibration-frames").textContent));
+        await page.click("#calibration-finish");
+        await page.waitForFunction(problemIs, "at least 3 are needed");
+
+        // Two places are not enough.
+        run.show(shots.rests.slice(0, 6));
+        await page.click("[data-step=lens]");
+        await page.click("#calibration-finish");
+        await page.waitForFunction(problemIs, "missing:");
+        run.show(shots.rests);
+        await page.click("[data-step=lens]");
+        await page.waitForFunction(titleIs, ": result");
+        rmSync(join(folder, "gone"), { recursive: true });
+        await page.click("#calibration-save");
+        await page.waitForFunction(problemIs, "cannot create");
+        assert.match(await page.textContent("#calibration-title"), /: result$/);
+        // The result is not lost: it is saved when the folder is there again.
+        mkdirSync(join(folder, "gone"));
+        await page.click("#calibration-save");
+        await page.waitForFunction(titleIs, ": saved");
+        assert.deepEqual(complaints, []);
+        await page.close();
+    } finally {
+        await run.stop();
+    }
+});
+
+test("without --calibrate-to, the page says how to calibrate", async () => {
+    const run = await new Run().start([]);
+    try {
+        const { page } = await open(browser.context, `${run.url}calibration`);
+        run.show(shots.rests);
+        await page.waitForSelector("#calibration-off:not([hidden])");
+        assert.match(await page.textContent("#calibration-off"), /--calibrate-to/);
+        assert.equal(await page.locator("[data-step]:enabled").count(), 0);
+        await page.close();
+    } finally {
+        await run.stop();
+    }
+});
+
+test("axe finds no violation in any state, and nothing is wider than the screen", async () => {
+    const run = await new Run().start(["--calibrate-to", join(folder, "axe.yaml")]);
+    try {
+        run.show(shots.rests);
+        const { page } = await open(browser.context, `${run.url}calibration`);
+        const require_accessible = async () => {
+            for (const colorScheme of ["light", "dark"]) {
+                for (const width of [1200, 390, 320]) {
+                    await page.emulateMedia({ colorScheme });
+                    await page.setViewportSize({ width, height: 800 });
+                    // Scripts of the test are not bound by the content security policy of the page.
+                    await page.evaluate(readFileSync(kAxe, "utf8"));
+                    const { violations } = await page.evaluate(() => globalThis.axe.run());
+                    assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes[0].html]), []);
+                    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width);
+                }
+            }
+        };
+        await page.waitForSelector("[data-step=lens]:enabled");
+        await require_accessible();
+        run.show(shots.rests.slice(0, 3));
+        await page.click("[data-step=lens]");
+        await page.waitForSelector("#calibration-needs li");
+        await require_accessible();
+        run.show(shots.rests);
+        await page.waitForFunction(titleIs, ": result");
+        await require_accessible();
+        await page.click("#calibration-save");
+        await page.waitForFunction(titleIs, ": saved");
+        run.show(shots.turn.slice(0, 2));
+        await page.click("[data-step=spin]");
+        await page.waitForFunction(() => /^2 /.test(document.getElementById("calibration-frames").textContent));
+        await require_accessible();
+        await page.click("#calibration-finish");
+        await page.waitForFunction(titleIs, ": no result");
+        await require_accessible();
+        await page.click("[data-step=spin]");
+        await page.waitForFunction(titleIs, ": taking frames");
+        run.show(shots.turn);
+        await page.waitForFunction(titleIs, ": result");
+        await require_accessible();
+        await page.close();
+    } finally {
+        await run.stop();
+    }
+});
+
+test("a drive on video is calibrated", async () => {
+    const sheets = join(folder, "sheets.json");
+    const video = join(folder, "drive.mp4");
+    const file = join(folder, "video.yaml");
+    dotpose("print", "-o", join(folder, "table.pdf"), "--sheets", sheets, "--name", "table");
+    const scene = ["--size", "320x240", "--mm-per-px", "0.03", "--k", "-2e-6", "--seed", "11"];
+    dotpose("simulate", "--drive", "--sheets", sheets, "--frames", "800", "-o", video, ...scene);
+    const run = await new Run().start(["--sheets", sheets, "--calibrate-to", file], [video, "--realtime", "--fps", "20"]);
+    try {
+        const { page } = await open(browser.context, `${run.url}calibration`);
+        await page.click("[data-step=lens]");
+        await page.waitForFunction(titleIs, ": result");
+        assert.match(await page.textContent("#calibration-report"), /of the sheet in the sheet file/);
+        await page.click("#calibration-save");
+        await page.waitForFunction(titleIs, ": saved");
+        const camera = cameraIn(file);
+        assert.ok(Math.abs(camera.k_per_px2 / -2e-6 - 1) < 0.01, JSON.stringify(camera));
+        for (const scale of camera.mm_per_px) assert.ok(Math.abs(scale / 0.03 - 1) < 1e-3, String(scale));
+        await page.close();
+    } finally {
+        await run.stop();
+    }
+});
