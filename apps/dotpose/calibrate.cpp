@@ -19,6 +19,7 @@
 #include "dotpose/files/write_file.hpp"
 #include "dotpose/tools/draw.hpp"
 #include "dotpose/tools/flat_field.hpp"
+#include "dotpose/tools/space_pose.hpp"
 #include "kept_camera.hpp"
 #include "live_calibration.hpp"
 #include "output_arguments.hpp"
@@ -38,10 +39,12 @@ constexpr const char* kCalibrateExamples =
     "  dotpose calibrate frames/*.png -o camera.yaml --draw camera.svg\n"
     "  dotpose calibrate video.mp4 --sheets sheets.json -o camera.yaml\n"
     "  dotpose calibrate --camera camera.yaml -o camera.yaml --spin turn/*.png --drive line/*.png\n"
+    "  dotpose calibrate --camera camera.yaml -o camera.yaml --pivot pen/*.png\n"
     "  dotpose calibrate --stitch --sheets sheets.json --camera camera.yaml seams/*.png\n\n"
     "Take 5 to 50 frames of any printed sheet, some centimetres apart and at any angles; for\n"
     "--spin, 12 frames of the robot turning on the spot; for --drive, some frames of it driving\n"
-    "straight ahead; for --rolling, all images of a fast drive; for --flat, 20 or more images of\n"
+    "straight ahead; for --pivot, 30 frames of a pen that is tilted to all sides while its tip\n"
+    "rests; for --rolling, all images of a fast drive; for --flat, 20 or more images of\n"
     "different places in constant light. From a video or a camera, up to 50 frames that show new\n"
     "places are taken; Ctrl-C ends the reading. With --live, a window (or, without a display,\n"
     "the terminal) shows what is still missing while you move the camera; frames are taken until\n"
@@ -54,6 +57,7 @@ struct CalibrateArguments {
     LiveCalibrationOptions live;
     std::vector<std::string> spin;
     std::vector<std::string> drive;
+    std::vector<std::string> pivot;
     std::vector<std::string> rolling;
     std::vector<std::string> flat;
     bool stitch = false;
@@ -72,6 +76,7 @@ struct Series {
     std::optional<Sources> lens;
     std::optional<Sources> spin;
     std::optional<Sources> drive;
+    std::optional<Sources> pivot;
     std::optional<Sources> rolling;
     std::optional<Sources> flat;
 };
@@ -86,11 +91,12 @@ SourceArguments with_names(SourceArguments arguments, const std::vector<std::str
 Series series_of(const CalibrateArguments& arguments) {
     const SourceArguments spin = with_names(arguments.sources, arguments.spin);
     const SourceArguments drive = with_names(arguments.sources, arguments.drive);
+    const SourceArguments pivot = with_names(arguments.sources, arguments.pivot);
     const SourceArguments rolling = with_names(arguments.sources, arguments.rolling);
     const SourceArguments flat = with_names(arguments.sources, arguments.flat);
     if (arguments.sources.reads_of_standard_input() + spin.reads_of_standard_input() +
-            drive.reads_of_standard_input() + rolling.reads_of_standard_input() +
-            flat.reads_of_standard_input() >
+            drive.reads_of_standard_input() + pivot.reads_of_standard_input() +
+            rolling.reads_of_standard_input() + flat.reads_of_standard_input() >
         1) {
         throw BadArgument("standard input is named twice");
     }
@@ -98,6 +104,7 @@ Series series_of(const CalibrateArguments& arguments) {
     if (arguments.sources.is_given()) series.lens.emplace(arguments.sources);
     if (spin.is_given()) series.spin.emplace(spin);
     if (drive.is_given()) series.drive.emplace(drive);
+    if (pivot.is_given()) series.pivot.emplace(pivot);
     if (rolling.is_given()) series.rolling.emplace(rolling);
     if (flat.is_given()) series.flat.emplace(flat);
     return series;
@@ -150,7 +157,20 @@ void write_result(const std::string& out, const Camera& camera) {
     output.finish();
 }
 
-/// Calibrates the flat field, the lens, the mount, the heading and the readout, in this order.
+/// Returns the camera for --pivot. Throws BadArgument without a camera, and Error without a focal
+/// length.
+Camera pivot_camera(const std::optional<Camera>& camera, const std::string& path) {
+    if (!camera) throw BadArgument("--pivot needs --camera FILE, with a focal length");
+    try {
+        require_focal_length(*camera);
+    } catch (const BadArgument& error) {
+        throw Error(path.empty() ? error.what() : fmt::format("{}: {}", path, error.what()));
+    }
+    return *camera;
+}
+
+/// Calibrates the flat field, the lens, the mount, the heading, the tip and the readout, in this
+/// order.
 /// Skips calibrations that have no frames. Writes the camera file and the pictures. Returns a
 /// report.
 std::string calibrate_camera(const CalibrateArguments& arguments, Series& series) {
@@ -196,6 +216,11 @@ std::string calibrate_camera(const CalibrateArguments& arguments, Series& series
         return spin_report(spin);
     });
     go_on(series.drive, "calibrating the heading", calibrate_drive, drive_report);
+    const auto pivot = [&](int frames, const FrameAt& frame_at, const std::optional<Camera>& of,
+                           const CalibrateOptions& options) {
+        return calibrate_pivot(frames, frame_at, pivot_camera(of, arguments.camera.path), options);
+    };
+    go_on(series.pivot, "calibrating the tip", pivot, pivot_report);
     const auto readout = [&](int frames, const FrameAt& frame_at, const std::optional<Camera>& of,
                              const CalibrateOptions& options) {
         return calibrate_readout(frames, frame_at, of.value_or(Camera{}),
@@ -264,8 +289,8 @@ void use_sheets(CalibrateArguments& arguments) {
 
 void require_apart(const CalibrateArguments& arguments, const Series& series) {
     RunFiles files;
-    for (const auto* sources :
-         {&series.lens, &series.spin, &series.drive, &series.rolling, &series.flat}) {
+    for (const auto* sources : {&series.lens, &series.spin, &series.drive, &series.pivot,
+                                &series.rolling, &series.flat}) {
         if (*sources) (*sources)->add_files(files);
     }
     if (arguments.stitch) {
@@ -292,12 +317,14 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
 /// Returns the exit status.
 int run(CalibrateArguments& arguments) {
     const bool has_series = !arguments.spin.empty() || !arguments.drive.empty() ||
-                            !arguments.rolling.empty() || !arguments.flat.empty();
+                            !arguments.pivot.empty() || !arguments.rolling.empty() ||
+                            !arguments.flat.empty();
     if (!arguments.sources.is_given() && !has_series) {
         throw BadArgument("no frames given: name 5 to 50 images, or a video or camera");
     }
     if (arguments.stitch && has_series)
-        throw BadArgument("--stitch cannot be combined with --spin, --drive, --rolling or --flat");
+        throw BadArgument(
+            "--stitch cannot be combined with --spin, --drive, --pivot, --rolling or --flat");
     if (!arguments.rolling.empty() && !arguments.sources.options.fps.value_or(0))
         throw BadArgument("--rolling needs --fps, the number of frames per second");
     Series series = series_of(arguments);
@@ -322,7 +349,7 @@ void add_live_options(Command& command, CalibrateArguments& arguments) {
     Option* live = command.add_flag(
         "--live", arguments.is_live,
         "Take frames automatically while you move the camera, and show what is still missing");
-    for (const char* other : {"--spin", "--drive", "--rolling", "--flat", "--stitch"})
+    for (const char* other : {"--spin", "--drive", "--pivot", "--rolling", "--flat", "--stitch"})
         live->excludes(command.get_option(other));
     command
         .add_flag("--no-window", arguments.live.has_no_window,
@@ -360,6 +387,11 @@ void add_calibrate(Command& app, int& exit_code) {
     command
         ->add_option("--drive", arguments->drive,
                      "Frames of a straight drive ahead, in order: find the heading (theta_offset)")
+        ->type_name("SOURCE");
+    command
+        ->add_option("--pivot", arguments->pivot,
+                     "Frames of a pen that pivots about its tip, which rests at one point: find "
+                     "the tip (tip_mm); needs the focal length")
         ->type_name("SOURCE");
     command
         ->add_option("--rolling", arguments->rolling,

@@ -138,6 +138,23 @@ std::string drive_report(const DriveCalibration& calibration) {
     return text;
 }
 
+std::string pivot_report(const PivotCalibration& calibration) {
+    const PenTip tip = calibration.camera.tip.value();
+    const auto sigma = [&](const char* key) {
+        return plus_minus(calibration.camera.sigma.at(key), 4);
+    };
+    std::string text;
+    add(text, "pivot       {} of {} frames located, {} left out, tilts {:.0f} to {:.0f} degrees",
+        calibration.located, calibration.frames, calibration.located - calibration.used,
+        calibration.min_tilt_rad * kDegrees, calibration.max_tilt_rad * kDegrees);
+    add(text, "tip         x {:.4f}{}, y {:.4f}{}, z {:.4f}{} mm in the frame of the camera",
+        tip.x_mm, sigma("tip_x_mm"), tip.y_mm, sigma("tip_y_mm"), tip.z_mm, sigma("tip_z_mm"));
+    add(text, "rest        {:.4f}{} mm above the paper", tip.rest_mm, sigma("tip_rest_mm"));
+    add(text, "residual    {:.4f} mm (rms per axis), {:.2f} times the expected one",
+        calibration.residual_mm, calibration.error_ratio);
+    return text;
+}
+
 std::string flat_field_report(const FlatFieldCalibration& calibration) {
     std::string text;
     add(text,

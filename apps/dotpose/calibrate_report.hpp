@@ -16,6 +16,7 @@ std::string lens_report(const LensCalibration& calibration, SpacingSource source
 std::string corner_report(const Camera& camera);
 std::string spin_report(const SpinCalibration& calibration);
 std::string drive_report(const DriveCalibration& calibration);
+std::string pivot_report(const PivotCalibration& calibration);
 std::string flat_field_report(const FlatFieldCalibration& calibration);
 std::string readout_report(const ReadoutCalibration& calibration);
 std::string stitching_report(const Stitching& stitching);

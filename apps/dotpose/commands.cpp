@@ -14,6 +14,7 @@ void add_commands(Command& app, int& exit_code) {
     add_optics(app, exit_code);
     add_listen(app, exit_code);
     add_replay(app, exit_code);
+    add_ink(app, exit_code);
 }
 
 }  // namespace dotpose::cli

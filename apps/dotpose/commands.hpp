@@ -19,6 +19,7 @@ void add_calibrate(Command& app, int& exit_code);
 void add_optics(Command& app, int& exit_code);
 void add_listen(Command& app, int& exit_code);
 void add_replay(Command& app, int& exit_code);
+void add_ink(Command& app, int& exit_code);
 void add_sheets(Command& app, int& exit_code);
 
 /// Registers all subcommands.

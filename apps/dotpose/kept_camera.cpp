@@ -35,11 +35,13 @@ void require_size(const Camera& file, const Camera& frames, const std::string& p
 void keep_mount(const Camera& from, Camera& to) {
     to.reference_px = reference_in(to, from);
     to.theta_offset_rad = from.theta_offset_rad;
+    to.tip = from.tip;
     to.flat_field = from.flat_field;
     to.readout_ms = from.readout_ms;
     to.exposure_us = from.exposure_us;
     to.gain = from.gain;
-    for (const char* key : {"reference_u_px", "reference_v_px", "theta_offset_rad", "readout_ms"}) {
+    for (const char* key : {"reference_u_px", "reference_v_px", "theta_offset_rad", "tip_x_mm",
+                            "tip_y_mm", "tip_z_mm", "tip_rest_mm", "readout_ms"}) {
         const auto sigma = from.sigma.find(key);
         if (sigma != from.sigma.end()) to.sigma[key] = sigma->second;
     }

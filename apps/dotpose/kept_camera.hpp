@@ -15,8 +15,8 @@ std::optional<Camera> replaced_camera(const std::string& option, const std::stri
 /// Throws Error if the image sizes of the camera file and of the frames differ.
 void require_size(const Camera& file, const Camera& frames, const std::string& path);
 
-/// Copies mount, flat field, readout time, exposure and gain from another calibration of the same
-/// camera. Also copies the standard deviations of mount and readout time.
+/// Copies mount, tip, flat field, readout time, exposure and gain from another calibration of the
+/// same camera. Also copies the standard deviations of mount, tip and readout time.
 void keep_mount(const Camera& from, Camera& to);
 
 }  // namespace dotpose::cli

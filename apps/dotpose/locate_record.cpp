@@ -18,6 +18,7 @@
 #include "dotpose/tools/image_file.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
 #include "space_fields.hpp"
+#include "tip_fields.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -268,6 +269,7 @@ Record empty_record(const Follower& follower) {
     Record record;
     record.has_sheets = !follower.sheets().empty();
     record.has_space = follower.fits_space_pose();
+    record.has_tip = follower.finds_tip();
     return record;
 }
 
@@ -281,6 +283,8 @@ Record record_of(const Located& located, const Follower& follower) {
     record.place = located.place;
     record.velocity = located.velocity;
     record.space = located.space;
+    record.tip = located.tip;
+    record.is_pen_down = located.is_pen_down;
     record.width_px = follower.image().width_px;
     record.height_px = follower.image().height_px;
     record.min_dots = follower.used_options().lattice.min_dots;
@@ -337,6 +341,9 @@ std::vector<Field> fields(const Record& record, Units units) {
     if (record.has_sheets) append(all, sheet_fields(record, units));
     if (record.has_space)
         append(all, space_fields(record.space, record.place, record.has_sheets, units));
+    if (record.has_tip)
+        append(all, tip_fields({record.tip, record.is_pen_down}, record.place, record.has_sheets,
+                               units));
     return all;
 }
 
@@ -349,7 +356,8 @@ std::vector<Field> columns_of(std::vector<Field> fields, Columns columns) {
     std::erase_if(fields, [&](const Field& field) {
         const bool is_pattern = is_among(kPatternPose, field.name);
         if (is_pattern) return has_sheet;
-        return !is_among(kBriefColumns, field.name) && !is_brief_space_field(field.name);
+        return !is_among(kBriefColumns, field.name) && !is_brief_space_field(field.name) &&
+               !is_brief_tip_field(field.name);
     });
     return fields;
 }

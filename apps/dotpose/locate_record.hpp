@@ -23,8 +23,11 @@ struct Record {
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
     /// Velocity of the camera during the readout of a rolling shutter; see Located.
     std::optional<ReadoutVelocity> velocity;
-    bool has_space = false;           ///< true if the record has the fields of a pose in space
-    std::optional<SpacePose> space;   ///< pose of the camera in space; see Located
+    bool has_space = false;          ///< true if the record has the fields of a pose in space
+    std::optional<SpacePose> space;  ///< pose of the camera in space; see Located
+    bool has_tip = false;            ///< true if the record has the fields of the tip of a pen
+    std::optional<TipPose> tip;      ///< tip of the pen; see Located
+    bool is_pen_down = false;
     bool has_sheets = false;          ///< true if the record has the fields of a sheet file
     std::optional<SheetPlace> place;  ///< place of the fix, or none if it is not on a sheet
     int min_side_px() const { return has_sheets ? kMinKnownFrameSide_px : kMinFrameSide_px; }

@@ -8,6 +8,7 @@
 #include "locate_record.hpp"
 #include "space_fields.hpp"
 #include "terminal_text.hpp"
+#include "tip_fields.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -61,7 +62,10 @@ std::string text_line(const Record& record, Units units) {
     std::string text =
         record.fix.status == Status::ok
             ? place_text(record, units) +
-                  (record.space ? "; " + space_text(*record.space, record.place, units) : "")
+                  (record.space ? "; " + space_text(*record.space, record.place, units) : "") +
+                  (record.tip
+                       ? "; " + tip_text({record.tip, record.is_pen_down}, record.place, units)
+                       : "")
             : fmt::format("no fix ({}): {}", name(record.fix.status), reason(record));
     for (const std::string& doubt : warnings(record)) {
         if (!doubt.empty()) text += "; warning: " + doubt;

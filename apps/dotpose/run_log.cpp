@@ -52,15 +52,13 @@ LogRow log_row(const LogCells& row) {
     return result;
 }
 
-LogCells::Columns columns_of(const std::string& header) {
+LogCells::Columns columns_of(const std::string& header, std::span<const char* const> needed) {
     LogCells::Columns columns;
     const auto names = cells_of(header);
     for (std::size_t i = 0; i < names.size(); ++i)
         columns[names[i]] = i;
-    for (const char* needed :
-         {"frame", "t_s", "status", "dots_seen", "p_wrong", "state", "events", "verdict", "plane",
-          "track_x_mm", "track_y_mm", "vx_mm_s", "vy_mm_s"}) {
-        if (!columns.contains(needed)) throw Error(fmt::format("no column {}", needed));
+    for (const char* name : needed) {
+        if (!columns.contains(name)) throw Error(fmt::format("no column {}", name));
     }
     return columns;
 }
@@ -90,7 +88,7 @@ double LogCells::required(std::string_view column) const {
     return *value;
 }
 
-LogReader::LogReader(const std::filesystem::path& path)
+LogReader::LogReader(const std::filesystem::path& path, std::span<const char* const> needed)
     : path_(path), file_(path, std::ios::binary) {
     const bool is_folder = std::filesystem::is_directory(path);
     if (is_folder || !file_) {
@@ -103,7 +101,7 @@ LogReader::LogReader(const std::filesystem::path& path)
     try {
         std::string header;
         if (!files::next_line(file_, header)) throw Error("it is empty");
-        columns_ = columns_of(header);
+        columns_ = columns_of(header, needed);
         width_ = cells_of(header).size();
     } catch (const Error& error) {
         refuse(error);

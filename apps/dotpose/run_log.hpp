@@ -2,6 +2,7 @@
 /// row for each frame, including frames without a fix.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,6 +29,7 @@ class LogCells {
     LogCells(const Columns& columns, std::vector<std::string> cells)
         : columns_(columns), cells_(std::move(cells)) {}
 
+    bool has(std::string_view column) const { return columns_.contains(column); }
     /// Returns the text of a cell, or an empty string if the log has no such column.
     std::string_view text(std::string_view column) const;
     /// Returns the number in a cell, or none if the cell is empty or the log has no such column.
@@ -43,7 +46,14 @@ class LogCells {
 /// number. An incomplete last line, which may be caused by a power failure, is ignored.
 class LogReader {
   public:
-    explicit LogReader(const std::filesystem::path& path);
+    /// Columns of a log of `watch --log` that `log_row` needs.
+    static constexpr std::array<const char*, 13> kWatchColumns = {
+        "frame",   "t_s",   "status",     "dots_seen",  "p_wrong", "state",  "events",
+        "verdict", "plane", "track_x_mm", "track_y_mm", "vx_mm_s", "vy_mm_s"};
+
+    /// Throws Error if a CSV file does not have all columns in `needed`.
+    explicit LogReader(const std::filesystem::path& path,
+                       std::span<const char* const> needed = kWatchColumns);
 
     /// Returns `parse(next row)`, or none at the end of the file. Adds the line number to errors
     /// thrown by `parse`.

@@ -68,6 +68,16 @@ void require_paper(const PaperScale& paper, const Camera& camera) {
     require(change <= 0.75, "perspective_per_px", "puts the horizon into the image");
 }
 
+void require_tip(const PenTip& tip) {
+    constexpr double kMaxTip_mm = 10'000;
+    for (const double mm : {tip.x_mm, tip.y_mm, tip.z_mm}) {
+        require(std::abs(mm) <= kMaxTip_mm, "tip_mm",
+                fmt::format("must be within {:g} mm of the camera", kMaxTip_mm));
+    }
+    require(std::abs(tip.rest_mm) <= kMaxTip_mm, "tip_rest_mm",
+            fmt::format("must be at most {:g} mm", kMaxTip_mm));
+}
+
 void require_flat_field(const Camera& camera) {
     const auto is_side = [](std::size_t values, int side_px) {
         return values >= 2 && values <= static_cast<std::size_t>(side_px);
@@ -116,6 +126,7 @@ void validate(const Camera& camera) {
     }
     require(std::abs(camera.theta_offset_rad) <= 2 * std::numbers::pi, "theta_offset_rad",
             "must be at most a full turn");
+    if (camera.tip) require_tip(*camera.tip);
     if (!camera.flat_field.empty()) require_flat_field(camera);
     if (camera.readout_ms) {
         constexpr double kMaxReadout_ms = 10'000;

@@ -315,10 +315,15 @@ std::optional<SpaceFit> fit_space(const std::vector<SpaceDot>& dots, const Vecto
     if (!(count > kParameters) || !std::isfinite(first.sums.squares)) return std::nullopt;
     SpaceFit fit;
     fit.state = first.state;
-    for (const WeightedDot& dot : solutions.dots)
-        fit.used.push_back(dot.dot);
     fit.residual_px = residual_px(solutions, focal_px);
-    const Eigen::MatrixXd inverse = inverse_of(first.sums.information);
+    const Information inverse = inverse_of(first.sums.information);
+    for (const auto& [dot, whitening] : solutions.dots) {
+        const Prediction predicted = predict(first.state, dot, focal_px);
+        const Parameters gradient =
+            (whitening * predicted.by_parameters).transpose() * whitening * predicted.residual_px;
+        fit.used.push_back(dot);
+        fit.influences.push_back((inverse * gradient).head<6>());
+    }
     fit.covariance = first.sums.squares / (count - kParameters) * inverse.topLeftCorner<6, 6>();
     if (solutions.second && std::isfinite(solutions.second->sums.squares)) {
         fit.second = solutions.second->state;

@@ -35,7 +35,10 @@ struct SpaceFit {
     /// rotation * exp(vector).
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
     std::vector<SpaceDot> used;  ///< dots that are not outliers
-    double residual_px = 0;      ///< rms residual of these dots, per axis
+    /// Shift of the pose caused by the residual of each of these dots, in the coordinates of the
+    /// covariance. The shifts show the errors that frames of the same dots have in common.
+    std::vector<Eigen::Matrix<double, 6, 1>> influences;
+    double residual_px = 0;  ///< rms residual of these dots, per axis
     std::optional<SpaceState> second;
     double second_odds_log2 = 0;
 };

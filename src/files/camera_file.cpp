@@ -43,26 +43,12 @@ Camera read_native(const YamlMap& file) {
         file.fail("version", fmt::format("is {}; this program reads version {}",
                                          file.integer("version"), kCameraFileVersion));
     }
-    file.allow_only({"format",
-                     "version",
-                     "width_px",
-                     "height_px",
-                     "k_per_px2",
-                     "centre_px",
-                     "mm_per_px",
-                     "skew",
-                     "perspective_per_px",
-                     "focal_px",
-                     "pinhole_px",
-                     "tilt_rad",
-                     "reference_px",
-                     "theta_offset_rad",
-                     "flip",
-                     "flat_field",
-                     "readout_ms",
-                     "exposure_us",
-                     "gain",
-                     "sigma"});
+    file.allow_only(
+        {"format",      "version",   "width_px",     "height_px",          "k_per_px2",
+         "centre_px",   "mm_per_px", "skew",         "perspective_per_px", "focal_px",
+         "pinhole_px",  "tilt_rad",  "reference_px", "theta_offset_rad",   "tip_mm",
+         "tip_rest_mm", "flip",      "flat_field",   "readout_ms",         "exposure_us",
+         "gain",        "sigma"});
     Camera camera;
     camera.width_px = file.integer("width_px");
     camera.height_px = file.integer("height_px");
@@ -80,6 +66,13 @@ Camera read_native(const YamlMap& file) {
     }
     if (file.has("reference_px")) camera.reference_px = point(file, "reference_px");
     camera.theta_offset_rad = optional_number(file, "theta_offset_rad").value_or(0);
+    if (file.has("tip_mm")) {
+        const auto numbers = file.numbers("tip_mm", 3);
+        camera.tip = PenTip{numbers[0], numbers[1], numbers[2],
+                            optional_number(file, "tip_rest_mm").value_or(0)};
+    } else if (file.has("tip_rest_mm")) {
+        file.fail("tip_rest_mm", "needs tip_mm");
+    }
     camera.flip = file.has("flip") && file.boolean("flip");
     if (file.has("flat_field")) camera.flat_field = file.rows_of_numbers("flat_field");
     camera.readout_ms = optional_number(file, "readout_ms");
@@ -160,6 +153,13 @@ std::string yaml_of(const Camera& camera) {
     }
     if (camera.theta_offset_rad != 0) {
         out.line("theta_offset_rad", camera.theta_offset_rad, "heading minus image x axis");
+    }
+    if (const auto& tip = camera.tip) {
+        out.line(
+            "tip_mm",
+            fmt::format("[{}, {}, {}]", text_of(tip->x_mm), text_of(tip->y_mm), text_of(tip->z_mm)),
+            "tip of the pen: x right and y down in the image, z forward");
+        out.line("tip_rest_mm", tip->rest_mm, "measured height of the tip on the paper");
     }
     if (camera.flip) out.line("flip", "true", "frames are mirrored: flip them left to right");
     if (!camera.flat_field.empty()) {

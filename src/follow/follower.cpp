@@ -144,6 +144,8 @@ Located Follower::located(const Found& found, const Fix& fix) const {
     result.reading = found.reading;
     result.velocity = found.velocity;
     if (fix.status == Status::ok) result.space = found.space;
+    if (result.space && !result.space->is_ambiguous() && options_.camera->tip)
+        result.tip = tip_of(*result.space, *options_.camera->tip, options_.camera->sigma);
     result.place = find_sheet(options_.sheets, found.reading.code, fix);
     result.spacing_mm = spacing_mm(result.place);
     if (options_.camera) {

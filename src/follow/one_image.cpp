@@ -21,6 +21,7 @@ Located Follower::locate(const GreyImage& image) {
     const Found found = read();
     Located result = located(found, in_whole_pixels(found.fix, by));
     result.reduced_by = by;
+    if (result.tip) result.is_pen_down = PenContact().take(*result.tip);
     return result;
 }
 

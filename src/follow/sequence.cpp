@@ -42,6 +42,7 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
         seen_.reset();
     }
     result.located = located(found, is_fix ? found.fix : strict);
+    if (result.located.tip) result.located.is_pen_down = contact_.take(*result.located.tip);
     result.located.reading.fix = result.located.fix;
     result.located.reading.evidence = evidence_;
     if (is_with_prior) result.located.fix.p_wrong_log2 = result.track.p_wrong_log2;

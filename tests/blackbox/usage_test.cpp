@@ -142,7 +142,7 @@ TEST_F(Usage, HelpOfACommandIsThatOfItsOption) {
 TEST_F(Usage, HelpHasAtMostAHundredColumnsAndNothingOfTheParser) {
     for (const std::string command :
          {"", "locate", "print", "overlay", "sheets place", "simulate", "evaluate", "check-print",
-          "calibrate", "optics", "listen", "replay", "watch", "fleet"}) {
+          "calibrate", "optics", "listen", "replay", "ink", "watch", "fleet"}) {
         ASSERT_EQ(run(command + " --help"), 0);
         std::istringstream lines(output_);
         for (std::string line; std::getline(lines, line);)

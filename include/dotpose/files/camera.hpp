@@ -61,6 +61,17 @@ struct Pinhole {
     PixelPoint centre_px;  ///< pixel on the optical axis
 };
 
+/// Tip of a pen in the camera frame in space: the origin is the projection centre, x is along the
+/// image x axis, y is down in the image, and z is along the optical axis.
+struct PenTip {
+    double x_mm = 0;
+    double y_mm = 0;
+    double z_mm = 0;
+    /// Measured height of the point while the pen rests on the paper. The pen pivots about this
+    /// point, which is above the paper: the centre of the ball of a ballpoint pen, for example.
+    double rest_mm = 0;
+};
+
 /// Contents of a camera file: one camera and its place on a robot.
 struct Camera {
     int width_px = 0;
@@ -83,6 +94,9 @@ struct Camera {
     std::optional<PixelPoint> reference_px;
     /// Heading of the robot minus the angle of the image x axis at the image centre.
     double theta_offset_rad = 0;
+
+    /// Tip of the pen that contains the camera. None if the camera is not in a pen.
+    std::optional<PenTip> tip;
 
     /// True if the camera delivers mirrored frames. dotpose flips these frames left to right before
     /// it locates them. All pixel coordinates in this struct refer to the flipped frames.

@@ -7,6 +7,7 @@
 ///
 /// - `calibrate_lens` determines the lens and the scale.
 /// - `calibrate_spin` and `calibrate_drive` determine the mount of the camera on a robot.
+/// - `calibrate_pivot` determines the tip of a pen that contains the camera.
 /// - `calibrate_flat_field` determines the vignetting.
 /// - `calibrate_readout` determines the readout time of a rolling shutter.
 /// - `stitch_sheets` determines the relative poses of adjacent sheets.
@@ -183,6 +184,38 @@ struct DriveCalibration {
 ///   line by more than this angle, or drove backwards.
 DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
                                  const std::optional<Camera>& camera,
+                                 const CalibrateOptions& options);
+
+/// Tip of a pen, from frames in which the tip rests on the paper while the pen pivots about it.
+struct PivotCalibration {
+    Camera camera;  ///< the given camera with `tip` set
+    int frames = 0;
+    int located = 0;
+    int used = 0;  ///< number of frames in which the tip is at rest
+    /// Rms angle of the rotations about the axis with the smallest rotations. A larger angle gives
+    /// a more accurate tip.
+    double pivot_rad = 0;
+    double min_tilt_rad = 0;
+    double max_tilt_rad = 0;
+    double residual_mm = 0;  ///< rms distance of the tip from the point of rest, per axis
+    /// Rms distance in standard deviations of the poses. Above 1, it also scales the standard
+    /// deviations of the tip.
+    double error_ratio = 0;
+};
+
+/// Computes the tip of a pen that contains the camera, from at least 6 frames. The tip rests at one
+/// point of a sheet while the pen is tilted by 0 to 40 degrees in several directions. 30 frames are
+/// recommended. Frames in which the tip is elsewhere are not used. `camera` must contain the focal
+/// length. Writes the standard deviations to `Camera::sigma`. Throws Error in these cases:
+/// - Too few frames have a pose in space.
+/// - A frame differs in size from the camera file.
+/// - The pen does not pivot enough, or only about one axis.
+/// - The tip moved: more than a third of the frames contradict the others, or the tip is not at
+///   rest to within half a spacing.
+/// - The tip has a standard deviation of more than half a spacing.
+///
+/// Throws BadArgument if the camera file has no focal length.
+PivotCalibration calibrate_pivot(int frames, const FrameAt& frame_at, const Camera& camera,
                                  const CalibrateOptions& options);
 
 /// Flat field of a camera, from frames of a moving camera.

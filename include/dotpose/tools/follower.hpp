@@ -24,6 +24,7 @@
 #include "dotpose/tools/flat_field.hpp"
 #include "dotpose/tools/grey_image.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
+#include "dotpose/tools/pen.hpp"
 #include "dotpose/tools/space_pose.hpp"
 #include "dotpose/track.hpp"
 
@@ -79,6 +80,10 @@ struct Located {
     /// Pose of the camera in space, if `FollowerOptions::fits_space_pose` is set. None if there is
     /// no fix, or if the spacing is not known.
     std::optional<SpacePose> space;
+    /// Tip of the pen in the pattern frame, if `space` is known and not ambiguous, and the camera
+    /// file contains a tip.
+    std::optional<TipPose> tip;
+    bool is_pen_down = false;    ///< true if `tip` is on the paper; see PenContact
     bool code_is_given = false;  ///< true if options or sheets determine the code variant
     int reduced_by = 1;          ///< factor by which the image was reduced
 };
@@ -124,6 +129,10 @@ class Follower {
     void set_sheets(std::vector<SheetEntry> sheets);
 
     bool fits_space_pose() const { return options_.fits_space_pose; }
+    /// Returns true if images have the tip of a pen.
+    bool finds_tip() const {
+        return options_.fits_space_pose && options_.camera && options_.camera->tip;
+    }
 
     /// Replaces the camera file, for example after a new calibration. The next image starts a new
     /// track, because the reference point may have moved on the robot. Throws BadArgument if the
@@ -196,6 +205,7 @@ class Follower {
     std::vector<KnownRegion> known_;  ///< regions of the sheets
     Locator locator_{DeviceOptions{}};
     Tracker tracker_;
+    PenContact contact_;
     std::optional<Seen> seen_;  ///< none if the latest fix is too old for a prediction
 };
 

@@ -66,6 +66,8 @@ focal_px: 300
 tilt_rad: [0, 0.1]
 reference_px: [90, 60]
 theta_offset_rad: 0.1
+tip_mm: [0.5, 5, 18]
+tip_rest_mm: 0.1
 exposure_us: 100
 gain: 2
 )";

@@ -31,6 +31,8 @@ focal_px: 348
 tilt_rad: [0.1, -0.05]
 reference_px: [400.5, -12]
 theta_offset_rad: 1.5
+tip_mm: [0.5, -5, 18]
+tip_rest_mm: 0.125
 flat_field:
   - [0.5, 0.75, 0.6]
   - [0.8, 1, 0.7]
@@ -82,6 +84,10 @@ void expect_whole(const Camera& camera) {
     EXPECT_DOUBLE_EQ(camera.reference_px.value().u, 400.5);
     EXPECT_DOUBLE_EQ(camera.reference_px.value().v, -12);
     EXPECT_DOUBLE_EQ(camera.theta_offset_rad, 1.5);
+    EXPECT_DOUBLE_EQ(camera.tip.value().x_mm, 0.5);
+    EXPECT_DOUBLE_EQ(camera.tip.value().y_mm, -5);
+    EXPECT_DOUBLE_EQ(camera.tip.value().z_mm, 18);
+    EXPECT_DOUBLE_EQ(camera.tip.value().rest_mm, 0.125);
     EXPECT_DOUBLE_EQ(camera.exposure_us.value(), 130);
     EXPECT_DOUBLE_EQ(camera.gain.value(), 2);
     EXPECT_DOUBLE_EQ(camera.sigma.at("k_per_px2"), 2e-8);
@@ -106,6 +112,10 @@ TEST_F(CameraFile, WrongFilesAreRefusedByKey) {
     EXPECT_THAT(refusal_with("format: dotpose-camera", "format: dotpose-sheets"),
                 HasSubstr(": format is 'dotpose-sheets'"));
     EXPECT_THAT(refusal_with("version: 1", "version: 2"), HasSubstr("version is 2"));
+    EXPECT_THAT(refusal_with("[0.5, -5, 18]", "[0.5, -5]"), HasSubstr("tip_mm"));
+    EXPECT_THAT(refusal_with("[0.5, -5, 18]", "[0.5, -5, 1e5]"),
+                HasSubstr("tip_mm must be within 10000 mm"));
+    EXPECT_THAT(refusal_with("tip_mm: [0.5, -5, 18]\n", ""), HasSubstr("tip_rest_mm needs tip_mm"));
     EXPECT_THAT(refusal_with("k_per_px2: -8.7e-06\n", ""), HasSubstr("k_per_px2 is missing"));
     EXPECT_THAT(refusal_with("k_per_px2: -8.7e-06", "k_per_px2: barrel"),
                 HasSubstr("k_per_px2 must be a number"));

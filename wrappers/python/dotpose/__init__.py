@@ -29,6 +29,7 @@ from dotpose._dotpose import (
     MeasuredMotion,
     Options,
     PaperScale,
+    PenTip,
     Picture,
     Prediction,
     Shot,
@@ -49,6 +50,7 @@ try:
         LensCalibration,
         Located,
         OverlayReport,
+        PivotCalibration,
         PrintCheck,
         PrintField,
         PrintScale,
@@ -62,11 +64,13 @@ try:
         SpinCalibration,
         Station,
         Stitching,
+        TipPose,
         WorldPlace,
         WorldPose,
         WorldSpacePose,
         calibrate,
         calibrate_drive,
+        calibrate_pivot,
         calibrate_spin,
         check_print,
         make_sheet,
@@ -88,12 +92,12 @@ except ModuleNotFoundError as error:
     def __getattr__(name):
         tools = """
             DriveCalibration Finding Follower LensCalibration Located
-            OverlayReport PrintCheck PrintField PrintScale Protocol
+            OverlayReport PivotCalibration PrintCheck PrintField PrintScale Protocol
             ProtocolResult Sheet SheetEntry SheetFile SheetPlace
-            SpacePose SpinCalibration Station Stitching WorldPlace WorldPose
-            WorldSpacePose
-            calibrate calibrate_drive calibrate_spin check_print make_sheet
-            make_sheets overlay print_sheet print_sheets read_image
+            SpacePose SpinCalibration Station Stitching TipPose WorldPlace
+            WorldPose WorldSpacePose
+            calibrate calibrate_drive calibrate_pivot calibrate_spin check_print
+            make_sheet make_sheets overlay print_sheet print_sheets read_image
             read_sheets run_protocol stitch_sheets write_image
         """.split()
         if name in tools:

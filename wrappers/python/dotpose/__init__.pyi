@@ -167,6 +167,13 @@ class Tilt:
     x_rad: float
     y_rad: float
 
+class PenTip:
+    def __init__(self, x_mm: float, y_mm: float, z_mm: float, rest_mm: float = 0.0) -> None: ...
+    x_mm: float
+    y_mm: float
+    z_mm: float
+    rest_mm: float
+
 class Camera:
     def __init__(
         self,
@@ -187,6 +194,7 @@ class Camera:
     tilt: Optional[Tilt]
     reference_px: Optional[Pixel]
     theta_offset_rad: float
+    tip: Optional[PenTip]
     flip: bool
     flat_field: list[list[float]]
     readout_ms: Optional[float]
@@ -397,6 +405,17 @@ class SpacePose:
     def on_sheet(self, entry: SheetEntry) -> tuple[float, float, float]: ...
     def in_world(self, entry: SheetEntry) -> Optional[WorldSpacePose]: ...
 
+class TipPose:
+    @property
+    def x_mm(self) -> float: ...
+    @property
+    def y_mm(self) -> float: ...
+    @property
+    def height_mm(self) -> float: ...
+    @property
+    def covariance(self) -> Floats: ...
+    def on_sheet(self, entry: SheetEntry) -> TipPose: ...
+
 class Located:
     @property
     def fix(self) -> Fix: ...
@@ -404,6 +423,10 @@ class Located:
     def place(self) -> Optional[SheetPlace]: ...
     @property
     def space(self) -> Optional[SpacePose]: ...
+    @property
+    def tip(self) -> Optional[TipPose]: ...
+    @property
+    def is_pen_down(self) -> bool: ...
     @property
     def track(self) -> Optional[Track]: ...
     @property
@@ -545,6 +568,16 @@ class LensCalibration:
     @property
     def coverage(self) -> float: ...
     def draw(self, path: Path) -> None: ...
+
+class PivotCalibration:
+    @property
+    def camera(self) -> Camera: ...
+    @property
+    def located(self) -> int: ...
+    @property
+    def used(self) -> int: ...
+    @property
+    def residual_mm(self) -> float: ...
 
 class SpinCalibration:
     @property
@@ -738,6 +771,13 @@ def calibrate(
     code: CodeOrAuto = "auto",
     spacing_mm: float = 0.508,
 ) -> LensCalibration: ...
+def calibrate_pivot(
+    images: Iterable[Union[Image, Path]],
+    camera: Camera,
+    *,
+    code: CodeOrAuto = "auto",
+    spacing_mm: float = 0.508,
+) -> PivotCalibration: ...
 def calibrate_spin(
     images: Iterable[Union[Image, Path]],
     camera: Optional[Camera] = None,

@@ -137,6 +137,27 @@ void define_mount(py::module_& module) {
         "images"_a, "camera"_a = py::none(), py::kw_only(), "code"_a = "auto",
         "spacing_mm"_a = kDefaultSpacing_mm,
         "Return the direction of the camera, from frames of a straight forward drive, in order.");
+    py::class_<PivotCalibration>(module, "PivotCalibration",
+                                 "The tip of a pen, from frames of a pen that pivots about it.")
+        .def_readonly("camera", &PivotCalibration::camera, "The Camera with its tip.")
+        .def_readonly("located", &PivotCalibration::located,
+                      "Number of frames with a pose in space.")
+        .def_readonly("used", &PivotCalibration::used, "Number of frames with the tip at rest.")
+        .def_readonly("residual_mm", &PivotCalibration::residual_mm,
+                      "Rms distance of the tip from the point of rest, per axis, in mm.");
+    module.def(
+        "calibrate_pivot",
+        [](const py::iterable& images, const Camera& camera, const std::string& code,
+           double spacing_mm) {
+            const CalibrateOptions options = options_of(code, spacing_mm);
+            return over(images, [&](int frames, const FrameAt& frame_at) {
+                return calibrate_pivot(frames, frame_at, camera, options);
+            });
+        },
+        "images"_a, "camera"_a, py::kw_only(), "code"_a = "auto",
+        "spacing_mm"_a = kDefaultSpacing_mm,
+        "Return the tip of a pen, from at least 6 frames of a pen whose tip rests at one point "
+        "while the pen is tilted to all sides. The camera needs a focal length.");
 }
 
 void define_stitching(py::module_& module) {

@@ -72,6 +72,17 @@ void define_view(py::module_& module) {
     py::class_<Tilt>(module, "Tilt", "Tilt of the paper relative to the image plane.")
         .def_readwrite("x_rad", &Tilt::x_rad, "About the image x axis, in rad.")
         .def_readwrite("y_rad", &Tilt::y_rad, "About the image y axis, in rad.");
+    py::class_<PenTip>(
+        module, "PenTip",
+        "Tip of a pen in the frame of its camera: x right and y down in the image, z "
+        "forward.")
+        .def(py::init<double, double, double, double>(), "x_mm"_a, "y_mm"_a, "z_mm"_a,
+             "rest_mm"_a = 0.0, "Make a tip.")
+        .def_readwrite("x_mm", &PenTip::x_mm, "x, in mm.")
+        .def_readwrite("y_mm", &PenTip::y_mm, "y, in mm.")
+        .def_readwrite("z_mm", &PenTip::z_mm, "z, in mm.")
+        .def_readwrite("rest_mm", &PenTip::rest_mm,
+                       "Measured height of the point while the pen rests on the paper, in mm.");
 }
 
 }  // namespace
@@ -116,6 +127,8 @@ void define_camera(py::module_& module) {
             "centre.")
         .def_readwrite("theta_offset_rad", &Camera::theta_offset_rad,
                        "Heading of the robot minus the angle of the image x axis, in rad.")
+        .def_readwrite("tip", &Camera::tip,
+                       "PenTip of the pen that contains the camera; None if it is in no pen.")
         .def_readwrite("flip", &Camera::flip,
                        "True if frames must be flipped, left to right, before they are located: "
                        "image[:, ::-1].")

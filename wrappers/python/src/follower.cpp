@@ -20,6 +20,8 @@ struct SeenLocated {
     SeenFix fix;
     std::optional<SeenPlace> place;
     std::optional<SpacePose> space;
+    std::optional<TipPose> tip;
+    bool is_pen_down = false;
     int reduced_by = 1;
     std::optional<Track> track;
 };
@@ -55,6 +57,8 @@ class FollowerOfPython {
         result.fix.fix = located.fix;
         result.place = seen_place(located.place);
         result.space = located.space;
+        result.tip = located.tip;
+        result.is_pen_down = located.is_pen_down;
         result.reduced_by = located.reduced_by;
         const DeviceOptions& used = follower_.used_options();
         result.fix.reference_q8 = {used.reference_dx_q8, used.reference_dy_q8};
@@ -107,6 +111,10 @@ void define_follower(py::module_& module) {
                       "SheetPlace of the fix; None if the fix is on no sheet.")
         .def_readonly("space", &SeenLocated::space,
                       "SpacePose of the camera; None without a fix or if it was not wanted.")
+        .def_readonly("tip", &SeenLocated::tip,
+                      "TipPose of the pen in the pattern frame; None unless the camera has a tip "
+                      "and the pose in space is known and not ambiguous.")
+        .def_readonly("is_pen_down", &SeenLocated::is_pen_down, "True if the tip is on the paper.")
         .def_readonly("track", &SeenLocated::track,
                       "Track after the image; None from Follower.locate.")
         .def_readonly("reduced_by", &SeenLocated::reduced_by,

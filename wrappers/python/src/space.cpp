@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include "binding.hpp"
+#include "dotpose/tools/pen.hpp"
 #include "dotpose/tools/space_pose.hpp"
 #include "sheets.hpp"
 
@@ -48,10 +49,38 @@ void define_world_pose(py::module_& module) {
             "the world, in rad, 6 x 6.");
 }
 
+void define_tip(py::module_& module) {
+    py::class_<TipPose>(module, "TipPose",
+                        "Place of the tip of a pen, in the pattern frame or on a page.")
+        .def_readonly("x_mm", &TipPose::x_mm, "x, in mm.")
+        .def_readonly("y_mm", &TipPose::y_mm, "y, downwards, in mm.")
+        .def_readonly("height_mm", &TipPose::height_mm,
+                      "Height above the paper, in mm; 0 while the pen rests on the paper.")
+        .def_property_readonly(
+            "covariance",
+            [](const TipPose& tip) {
+                py::array_t<double> array({3, 3});
+                auto at = array.mutable_unchecked<2>();
+                for (std::size_t i = 0; i < 3; ++i) {
+                    for (std::size_t j = 0; j < 3; ++j) {
+                        at(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(j)) =
+                            tip.covariance[i][j];
+                    }
+                }
+                return array;
+            },
+            "Covariance of x, y and the height, in mm^2, 3 x 3.")
+        .def(
+            "on_sheet",
+            [](const TipPose& tip, const SheetEntry& entry) { return on_sheet(tip, entry); },
+            "entry"_a, "TipPose from the top left corner of a page.");
+}
+
 }  // namespace
 
 void define_space(py::module_& module) {
     define_world_pose(module);
+    define_tip(module);
     py::class_<SpacePose>(
         module, "SpacePose",
         "Pose of a camera in space. Frames: pattern, x right, y DOWN, z INTO the paper, mm; "

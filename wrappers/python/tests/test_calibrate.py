@@ -92,6 +92,14 @@ def test_the_mount_is_found(tmp_path):
     assert drive.camera.theta_offset_rad == pytest.approx(-0.4, abs=0.01)
 
 
+def test_frames_that_do_not_pivot_are_an_error():
+    camera = dotpose.Camera(188, 120)
+    camera.focal_px = 16 / 0.046
+    shot = dotpose.draw_shots(1, seed=31, section=(0, 0))[0]
+    with pytest.raises(dotpose.Error, match="does not pivot enough"):
+        dotpose.calibrate_pivot([shot.render()] * 6, camera)
+
+
 def test_series_that_show_nothing_are_an_error(tmp_path):
     blank = np.full((120, 188), 200, np.uint8)
     with pytest.raises(dotpose.Error):

@@ -58,6 +58,23 @@ def test_the_pose_on_a_page_and_in_the_world():
     assert pose.in_world(entry) is None
 
 
+def test_the_tip_of_a_pen():
+    shot, camera = tilted_view()
+    follower = dotpose.Follower(camera=camera, space=True)
+    assert follower.locate(shot.render()).tip is None
+    # The point on the optical axis that is seen at the centre of the image is on the paper.
+    camera.tip = dotpose.PenTip(0, 0, DISTANCE_MM)
+    located = dotpose.Follower(camera=camera, space=True).locate(shot.render())
+    assert (located.tip.x_mm, located.tip.y_mm) == pytest.approx((shot.x_mm, shot.y_mm), abs=0.02)
+    assert located.tip.height_mm == pytest.approx(0, abs=0.02)
+    assert located.tip.covariance.shape == (3, 3)
+    assert located.is_pen_down
+    camera.tip = dotpose.PenTip(0, 0, DISTANCE_MM - 1, rest_mm=0.5)
+    located = dotpose.Follower(camera=camera, space=True).locate(shot.render())
+    assert located.tip.height_mm == pytest.approx(math.cos(TILT) - 0.5, abs=0.02)
+    assert not located.is_pen_down
+
+
 def test_no_pose_in_space_without_being_asked():
     shot, camera = tilted_view()
     assert dotpose.Follower(camera=camera).locate(shot.render()).space is None

@@ -1,0 +1,78 @@
+/// Ink: the strokes that a pen wrote, from the poses of its tip in a run.
+///
+///     const std::vector<InkPage> pages = ink_of(samples);
+///     for (const InkPage& page : pages)
+///         write_file(page.name + ".svg", ink_svg(page));
+///
+/// `ink_of` is in the library for following, and the functions that write files are in the library
+/// for drawing. Functions are pure and thread-safe.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dotpose/export.hpp"
+
+DOTPOSE_BEGIN_EXPORT
+
+namespace dotpose {
+
+/// Pose of the tip in one frame of a run.
+struct InkSample {
+    double t_s = 0;
+    std::string page;  ///< name of the page under the tip; empty if there are no sheets
+    double x_mm = 0;   ///< place on the page, or in the pattern frame: x right, y DOWN
+    double y_mm = 0;
+    double height_mm = 0;
+    double sigma_x_mm = 0;  ///< standard deviations, above 0
+    double sigma_y_mm = 0;
+    double sigma_height_mm = 0;
+    double tilt_rad = 0;  ///< as in CameraLean
+    double azimuth_rad = 0;
+};
+
+struct InkPoint {
+    double t_s = 0;
+    double x_mm = 0;
+    double y_mm = 0;
+    double tilt_rad = 0;
+    double azimuth_rad = 0;
+};
+
+/// Points of the pen between touching and leaving the paper.
+using InkStroke = std::vector<InkPoint>;
+
+struct InkPage {
+    std::string name;  ///< empty if there are no sheets
+    /// Size of the page, and place of its top left corner in the coordinates of the points. Set by
+    /// the caller if the page is known. If the width is 0, the page is the area of the strokes.
+    double width_mm = 0;
+    double height_mm = 0;
+    double left_mm = 0;
+    double top_mm = 0;
+    std::vector<InkStroke> strokes;
+};
+
+/// Maximum interval between samples of a stroke. A longer interval ends the stroke.
+inline constexpr double kMaxInkGap_s = 0.1;
+
+/// Returns the strokes on each page, in the order of the first strokes. `samples` must be in the
+/// order of their times.
+///
+/// The path is smoothed forwards and backwards (Rauch, Tung and Striebel 1965). The motion is an
+/// acceleration that is changed by white noise, whose strength is that with the maximum likelihood.
+/// PenContact detects whether the pen is on the paper; the smoothed heights then give the first and
+/// the last sample above the paper.
+std::vector<InkPage> ink_of(std::span<const InkSample> samples);
+
+/// Returns the page as SVG, in mm, with the size of the page.
+std::string ink_svg(const InkPage& page);
+
+/// Returns the page as InkML of the W3C, with the channels X, Y (in mm from the top left corner), T
+/// (in ms), OTx and OTy (tilts, in degrees).
+std::string ink_ml(const InkPage& page);
+
+}  // namespace dotpose
+
+DOTPOSE_END_EXPORT

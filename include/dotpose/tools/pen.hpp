@@ -1,0 +1,61 @@
+/// Pen: place and height of the tip of a pen that contains the camera. The camera file must contain
+/// the focal length and the tip (`calibrate_pivot`).
+///
+///     if (const auto pose = space_pose(fix, camera, image, trace)) {
+///         const TipPose tip = tip_of(*pose, *camera.tip, camera.sigma);
+///         if (contact.take(tip)) draw_to(tip.x_mm, tip.y_mm);
+///     }
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+
+#include "dotpose/export.hpp"
+#include "dotpose/files/camera.hpp"
+#include "dotpose/files/sheet_file.hpp"
+#include "dotpose/tools/space_pose.hpp"
+
+DOTPOSE_BEGIN_EXPORT
+
+namespace dotpose {
+
+/// Place of the tip of a pen in the pattern or sheet frame (x right, y DOWN).
+struct TipPose {
+    double x_mm = 0;
+    double y_mm = 0;
+    double height_mm = 0;  ///< above the paper; 0 while the pen rests on the paper
+    /// Covariance of (x_mm, y_mm, height_mm). Contains the errors of the pose and of the tip in the
+    /// camera file.
+    std::array<std::array<double, 3>, 3> covariance{};
+
+    /// Returns the standard deviation of x (0), y (1) or the height (2).
+    double sigma_mm(std::size_t axis) const;
+};
+
+/// Returns the place of the tip in the frame of the pose. `sigma` is `Camera::sigma`.
+TipPose tip_of(const SpacePose& pose, const PenTip& tip,
+               const std::map<std::string, double>& sigma = {});
+
+/// Converts a tip from the pattern frame to the frame of a sheet.
+TipPose on_sheet(const TipPose& tip, const SheetEntry& entry);
+
+/// Detects whether a pen touches the paper, with hysteresis. A pen leaves the paper if its height
+/// exceeds `kLift_mm` by three standard deviations. It touches the paper if its height is below
+/// `kLift_mm`.
+class PenContact {
+  public:
+    /// Unevenness of paper on a table.
+    static constexpr double kLift_mm = 0.05;
+
+    /// Takes the next pose. Returns true if the pen is on the paper.
+    bool take(double height_mm, double sigma_mm);
+    bool take(const TipPose& tip) { return take(tip.height_mm, tip.sigma_mm(2)); }
+
+  private:
+    bool is_down_ = true;
+};
+
+}  // namespace dotpose
+
+DOTPOSE_END_EXPORT

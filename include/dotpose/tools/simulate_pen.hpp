@@ -1,0 +1,59 @@
+/// Simulated pen: frames of a camera in a pen, and paths of handwriting.
+///
+///     const PenTip tip{0.5, 9, 20};
+///     for (const PenSample& sample : simulate_handwriting({}))
+///         save(render(shot_of_pen(shot, tip, sample.pose)));
+///
+/// Functions are pure and thread-safe.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dotpose/export.hpp"
+#include "dotpose/files/camera.hpp"
+#include "dotpose/tools/simulate.hpp"
+
+DOTPOSE_BEGIN_EXPORT
+
+namespace dotpose {
+
+/// Pose of a pen. The angles are those of `CameraLean`: the camera looks straight at the paper, is
+/// turned about its optical axis, and then leaned over by the tilt in the direction of the azimuth.
+struct PenPose {
+    double x_mm = 0;  ///< place of the tip in the pattern frame
+    double y_mm = 0;
+    double height_mm = 0;  ///< of the tip above the paper
+    double tilt_rad = 0;
+    double azimuth_rad = 0;
+    double turn_rad = 0;
+};
+
+/// Returns `shot` with the pose and working distance of the camera of a pen. The focal length of
+/// the camera is `working_distance_mm / mm_per_px` of `shot.camera`, and does not change. Throws
+/// BadArgument if the camera does not look down at the paper.
+Shot shot_of_pen(const Shot& shot, const PenTip& tip, const PenPose& pose);
+
+/// Options of simulated handwriting.
+struct Handwriting {
+    double x_mm = 0;  ///< place where the writing begins, in the pattern frame
+    double y_mm = 0;
+    int strokes = 6;
+    double rate_hz = 200;  ///< number of samples per second
+    std::uint64_t seed = 1;
+};
+
+struct PenSample {
+    double t_s = 0;
+    PenPose pose;
+    bool is_down = false;  ///< true if the tip is on the paper
+};
+
+/// Returns a path of random strokes with loops, written from left to right. Between the strokes,
+/// the pen is lifted by 1 to 3 mm. Strokes begin and end at rest along the paper. The pen leaves
+/// and reaches the paper with a velocity. The tilt changes slowly between 20 and 40 degrees.
+std::vector<PenSample> simulate_handwriting(const Handwriting& options);
+
+}  // namespace dotpose
+
+DOTPOSE_END_EXPORT

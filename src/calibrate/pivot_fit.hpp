@@ -1,0 +1,46 @@
+// Pivot fit: the point of a device that rests while the device turns about this point.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace dotpose::calibrate {
+
+/// Shift of a pose caused by the residual of one dot.
+struct DotInfluence {
+    std::uint64_t dot = 0;  ///< identifies the dot in all frames
+    Eigen::Matrix<double, 6, 1> shift;
+};
+
+/// Pose of the camera in one frame: X_paper = rotation * X_camera + position.
+struct PivotView {
+    Eigen::Matrix3d rotation;
+    Eigen::Vector3d position_mm;
+    /// Covariance of the position and of a small rotation vector in the camera frame.
+    Eigen::Matrix<double, 6, 6> covariance;
+    std::vector<DotInfluence> influences;
+};
+
+struct PivotFit {
+    Eigen::Vector3d tip_mm;   ///< in the camera frame
+    Eigen::Vector3d rest_mm;  ///< on the paper, in the frame of the views
+    /// Covariance of the tip and of the resting point. The frames show partly the same dots, whose
+    /// print errors shift all poses. The covariance is therefore computed from the residuals of
+    /// each dot in all frames. It is larger if the tip moved by more than the errors of the poses.
+    Eigen::Matrix<double, 6, 6> covariance;
+    std::vector<bool> is_used;  ///< by view
+    double residual_mm = 0;     ///< rms per axis
+    double error_ratio = 1;     ///< rms residual, in standard deviations of the poses
+};
+
+/// Returns the rms angle of the rotations about the axis with the smallest rotations. Rotations
+/// about a single axis give 0: they do not determine the tip along this axis.
+double pivot_angle_rad(const std::vector<PivotView>& views);
+
+/// Fits the tip by weighted least squares. Views that contradict the majority are not used.
+/// `pivot_angle_rad` of the views must exceed 0.
+PivotFit fit_pivot(const std::vector<PivotView>& views);
+
+}  // namespace dotpose::calibrate

@@ -1,0 +1,29 @@
+// Smoother: the path of a point along one axis, from noisy places.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace dotpose::follow {
+
+/// A measured place at a time.
+struct AxisSample {
+    double t_s = 0;
+    double place_mm = 0;
+    double variance_mm2 = 0;
+};
+
+/// A smoothed place.
+struct AxisPlace {
+    double place_mm = 0;
+    double variance_mm2 = 0;
+};
+
+/// Returns the log-likelihood of the places. `noise` is the power of the white noise that changes
+/// the acceleration, in mm^2/s^5.
+double log_likelihood(std::span<const AxisSample> samples, double noise);
+
+/// Returns the places, given all samples before and after them (Rauch, Tung and Striebel 1965).
+std::vector<AxisPlace> smoothed(std::span<const AxisSample> samples, double noise);
+
+}  // namespace dotpose::follow

@@ -1,0 +1,58 @@
+/// Simulated frames of the camera in a pen.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "dotpose/files/camera.hpp"
+#include "dotpose/tools/random.hpp"
+#include "dotpose/tools/simulate_pen.hpp"
+
+namespace dotpose::test {
+
+inline constexpr PenTip kTip{0.5, 5, 18, 0.1};
+inline constexpr double kPenSpacing_mm = 0.3;
+
+/// Returns a shot with the camera and the sheet of a pen: a spacing of 0.3 mm, and about 10 px per
+/// spacing.
+inline Shot pen_shot(std::uint64_t seed, std::uint64_t index) {
+    Setup setup;
+    setup.pattern.spacing_mm = kPenSpacing_mm;
+    setup.pattern.displacement_mm = kPenSpacing_mm / 6;
+    setup.pattern.dot_mm = kPenSpacing_mm / 6;
+    setup.random_section = false;
+    setup.camera.width_px = 320;
+    setup.camera.height_px = 240;
+    setup.camera.mm_per_px = 0.03;
+    setup.camera.working_distance_mm = 16;
+    setup.seed = seed;
+    Shot shot = draw_shot(setup, index);
+    // Dots of half the usual size have half the print error.
+    shot.imperfections.jitter_mm = 0.005;
+    return shot;
+}
+
+/// Returns the camera file of this camera, without the tip.
+inline Camera pen_camera() {
+    Camera camera;
+    camera.width_px = 320;
+    camera.height_px = 240;
+    camera.centre_px = {159.5, 119.5};
+    camera.focal_px = 16 / 0.03;
+    return camera;
+}
+
+/// Returns a pose of a pen that is tilted by up to 40 degrees to any side, with its tip at (x_mm,
+/// y_mm).
+inline PenPose pivoted(double x_mm, double y_mm, double max_tilt_rad, Rng& rng) {
+    PenPose pose;
+    pose.x_mm = x_mm;
+    pose.y_mm = y_mm;
+    pose.tilt_rad = rng.uniform(0, max_tilt_rad);
+    pose.azimuth_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
+    pose.turn_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
+    return pose;
+}
+
+}  // namespace dotpose::test
