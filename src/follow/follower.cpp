@@ -22,6 +22,7 @@ Follower::Follower(const FollowerOptions& options)
         flat_field_.emplace(*options.camera);
     }
     if (!options.sheets.empty()) use_sheets();
+    require_pages(options.print_map, options.sheets);
 }
 
 void Follower::require_space_camera() const {
@@ -54,8 +55,8 @@ void Follower::use_sheets() {
 void Follower::use_options_for(int width_px, int height_px) {
     used_ = options_.locate;
     if (options_.camera) use_camera(*options_.camera, width_px, height_px, used_);
-    if (options_.fits_space_pose)
-        used_.show_stages = true;  // space_pose fits the dots in the trace
+    // space_pose and with_print_map fit the dots in the trace.
+    if (options_.fits_space_pose || !options_.print_map.pages.empty()) used_.show_stages = true;
     if (options_.reference_px) {
         const auto from_centre_q8 = [](double px, int side_px) {
             return static_cast<std::int32_t>(std::lround((px - (side_px - 1) / 2.0) * 256));
@@ -82,14 +83,17 @@ Locator& Follower::locator(const DeviceOptions& options) {
     return locator_;
 }
 
-/// Applies the camera file to the fix of the latest image.
+/// Applies the print map and the camera file to the fix of the latest image.
 Follower::Found Follower::by_camera_file(const Fix& seen, const std::optional<SheetPlace>& place,
                                          const CodeReading& reading) const {
-    if (!options_.camera) return {seen, seen, place, reading, {}, {}};
+    if (!options_.camera) {
+        const MappedFix mapped = with_print_map(seen, options_.print_map, locator_.trace());
+        return {seen, mapped.fix, place, reading, {}, {}, mapped.use};
+    }
     const AxisScale print = place ? place->entry->print_scale() : AxisScale{};
-    const auto [fix, velocity] =
-        with_camera_and_velocity(seen, *options_.camera, locator_.trace(), print);
-    return {seen, fix, place, reading, velocity, space_of(seen, place)};
+    const auto [fix, velocity, map_use] = with_camera_and_velocity(
+        seen, *options_.camera, locator_.trace(), print, options_.print_map);
+    return {seen, fix, place, reading, velocity, space_of(seen, place), map_use};
 }
 
 /// Returns the pose in space for the fix of the latest image.
@@ -116,6 +120,7 @@ Located Follower::located(const Found& found, const Fix& fix) const {
     Located result;
     result.reading = found.reading;
     result.velocity = found.velocity;
+    if (fix.status == Status::ok) result.map_use = found.map_use;
     if (fix.status == Status::ok) result.space = found.space;
     result.place = find_sheet(options_.sheets, found.reading.code, fix);
     result.spacing_mm = spacing_mm(result.place);

@@ -11,6 +11,7 @@
 
 #include "dotpose/export.hpp"
 #include "dotpose/files/camera.hpp"
+#include "dotpose/files/print_map.hpp"
 #include "dotpose/files/sheet.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/trace.hpp"
@@ -50,9 +51,11 @@ struct ReadoutVelocity {
 struct MovingFix {
     Fix fix;
     std::optional<ReadoutVelocity> velocity;
+    MapUse map_use = MapUse::no_map;  ///< how the fix was corrected by the print map
 };
+/// `map` is the map of the print, if there is one.
 MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const Trace& trace,
-                                   const AxisScale& print = {});
+                                   const AxisScale& print = {}, const PrintMap& map = {});
 
 /// Returns the spacing of the pattern in nominal mm. This is the spacing computed from the fix and
 /// the view of the camera file, divided by the print scale of the sheet. Returns NaN without a fix
