@@ -42,6 +42,7 @@ constexpr Table kTables[] = {
     {"known", "How small views of known sheets may be", tables::known_table},
     {"together", "How soon a moving camera with small views is located", tables::together_table},
     {"limits", "How much frames may be degraded", tables::limits_table},
+    {"print_map", "How much a map of the print improves positions", tables::print_map_table},
     {"seams", "Whether covariances are right where two sheets are butted", tables::seams_table},
     {"slips", "Whether covariances are right where the sheet is not one plane",
      tables::slips_table},

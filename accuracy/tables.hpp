@@ -17,6 +17,7 @@ bool integrity_table(TableRun& run);
 bool known_table(TableRun& run);
 bool together_table(TableRun& run);
 bool limits_table(TableRun& run);
+bool print_map_table(TableRun& run);
 bool seams_table(TableRun& run);
 bool slips_table(TableRun& run);
 bool space_table(TableRun& run);

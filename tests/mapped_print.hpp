@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -23,7 +24,8 @@ struct MappedPrintOptions {
     double wave_mm = 0.040;
     double wavelength_mm = 50;
     double jitter_mm = 0.010;
-    CameraModel camera{.width_px = 320, .height_px = 240};
+    int width_px = 320;
+    int height_px = 240;
     std::uint64_t print = 1;  ///< seed of the print
 };
 
@@ -44,6 +46,8 @@ class MappedPrint {
         Rng rng(2024);
         imperfections_ = draw_imperfections(Preset::nominal, rng);
         imperfections_.jitter_mm = options.jitter_mm;
+        camera_.width_px = options.width_px;
+        camera_.height_px = options.height_px;
     }
     MappedPrint(const MappedPrint&) = delete;
     MappedPrint& operator=(const MappedPrint&) = delete;
@@ -66,8 +70,7 @@ class MappedPrint {
     Pose pose(std::uint64_t series, std::uint64_t index) const {
         Rng rng(series, index);
         const double reach =
-            options_.camera.mm_per_px *
-            std::hypot(options_.camera.width_px, options_.camera.height_px) / 2;
+            camera_.mm_per_px * std::hypot(camera_.width_px, camera_.height_px) / 2;
         const double low = 0.6 * reach;
         const double high = options_.side_mm - low;
         return {{rng.uniform(low, high), rng.uniform(low, high)},
@@ -83,7 +86,7 @@ class MappedPrint {
         camera.fraction_x = x - std::floor(x);
         camera.fraction_y = y - std::floor(y);
         camera.theta_rad = pose.theta_rad;
-        return render(page_, options_.camera, camera, imperfections_, seed);
+        return render(page_, camera_, camera, imperfections_, seed);
     }
 
   private:
@@ -91,6 +94,7 @@ class MappedPrint {
     SheetEntry entry_;
     Page page_;
     Imperfections imperfections_;
+    CameraModel camera_;
 };
 
 /// Errors of positions on a page, in mm.
@@ -98,7 +102,8 @@ class PlaceErrors {
   public:
     void add(Vec2 at_mm, Vec2 error_mm, Vec2 wave_mm, const Fix& fix) {
         places_.push_back({at_mm, error_mm, wave_mm});
-        variance_ += (static_cast<double>(fix.covariance[0][0]) +
+        variance_ += kDefaultSpacing_mm * kDefaultSpacing_mm *
+                     (static_cast<double>(fix.covariance[0][0]) +
                       static_cast<double>(fix.covariance[1][1])) /
                      2;
     }
@@ -173,10 +178,12 @@ struct MapTest {
 
 /// Locates `frames` frames that were not used for the map.
 inline MapTest test_map(const MappedPrint& print, const PrintMap& map, int frames,
-                        std::uint64_t series = 200) {
+                        std::uint64_t series = 200,
+                        const std::optional<Camera>& camera = {}) {
     MapTest result;
     FollowerOptions options;
     options.sheets = {print.entry()};
+    options.camera = camera;
     Follower plain(options);
     options.print_map = map;
     Follower mapped(options);

@@ -62,8 +62,8 @@ std::array<double, kViewTerms> view_sigma_of(const std::vector<FreeView>& views)
         }
         constexpr double kMedianOfSquare = 0.455;  // of a Gaussian variable with variance 1
         constexpr double kRigid = 0.01;
-        const double error = median(variances);
-        const double variance = median(squares) / kMedianOfSquare - error;
+        const double error = upper_median(variances);
+        const double variance = upper_median(squares) / kMedianOfSquare - error;
         result[static_cast<std::size_t>(k)] = std::sqrt(std::max(variance, kRigid * error));
     }
     return result;
@@ -106,7 +106,7 @@ Statistics measure(const MapGrid& grid, double limit, MapSolution& solution,
     }
     result.view_sigma = view_sigma_of(views);
     constexpr double kMedianOfSquare = 1.386;  // of a vector with variance 1 per axis
-    const double unit = median(squares) / kMedianOfSquare;
+    const double unit = upper_median(squares) / kMedianOfSquare;
     std::ranges::fill(solution.views, 0);
     solution.outliers = 0;
     for (std::size_t i = 0; i < observations.size(); ++i) {

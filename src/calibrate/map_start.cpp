@@ -49,7 +49,7 @@ double median_of(const std::vector<View>& views, const std::function<double(cons
     std::vector<double> values;
     for (const View& view : views)
         values.push_back(value(view));
-    return median(std::move(values));
+    return upper_median(std::move(values));
 }
 
 View median_view(const std::vector<View>& views) {
@@ -128,7 +128,7 @@ double start_map(const MapGrid& grid, const EarlierOffsets& earlier,
         solution.frames.push_back(frame);
         scales.push_back(fit.scale);
     }
-    const auto scale = static_cast<float>(median(scales));
+    const auto scale = static_cast<float>(upper_median(scales));
     for (MapObservation& seen : observations) {
         seen.x_mm *= scale;
         seen.y_mm *= scale;
@@ -160,7 +160,7 @@ double misfit(const MapGrid& grid, const EarlierOffsets& earlier, double reach_m
             residuals - design * normal.ldlt().solve(design.transpose() * residuals);
         const auto median_square = [&](Eigen::Index column) {
             const Eigen::VectorXd squares = left.col(column).cwiseAbs2();
-            return median({squares.begin(), squares.end()});
+            return upper_median({squares.begin(), squares.end()});
         };
         without += median_square(0);
         with_map += median_square(1);

@@ -8,7 +8,7 @@
 namespace dotpose::calibrate {
 
 /// Returns the upper median. `values` must not be empty.
-inline double median(std::vector<double> values) {
+inline double upper_median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::ranges::nth_element(values, middle);
     return *middle;

@@ -89,9 +89,10 @@ void write_page(const MapGrid& grid, const EarlierOffsets& earlier, const MapSol
     }
 }
 
-MappedPage statistics_of(const MapGrid& grid, const MapSolution& solution,
-                         std::size_t observations) {
+MappedPage statistics_of(const std::string& name, const MapGrid& grid,
+                         const MapSolution& solution, std::size_t observations) {
     MappedPage page;
+    page.name = name;
     page.frames = solution.frames.size();
     page.dots = grid.dots();
     page.observations = observations;
@@ -205,7 +206,7 @@ PrintMapResult PrintMapping::solve(const std::function<bool(double share)>& prog
         } else {
             result.map.pages.push_back(std::move(page));
         }
-        result.pages.push_back(statistics_of(grid, solution, seen.observations.size()));
+        result.pages.push_back(statistics_of(entry.name, grid, solution, seen.observations.size()));
     }
     if (result.pages.empty())
         throw Error(fmt::format(

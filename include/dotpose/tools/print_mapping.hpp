@@ -15,6 +15,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "dotpose/export.hpp"
@@ -40,6 +41,7 @@ struct PrintMappingOptions {
 
 /// Statistics of the map of one page.
 struct MappedPage {
+    std::string name;              ///< name of the sheet
     std::size_t frames = 0;        ///< number of frames used
     std::size_t dots = 0;          ///< number of dots of the page
     std::size_t seen = 0;          ///< number of dots that were seen
