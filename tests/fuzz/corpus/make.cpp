@@ -8,6 +8,7 @@
 #include "../../exif.hpp"
 #include "../../unit/capture/encoders.hpp"
 #include "../locate_input.hpp"
+#include "dotpose/files/print_map.hpp"
 #include "dotpose/tools/simulate.hpp"
 #include "texts.hpp"
 
