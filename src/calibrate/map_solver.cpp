@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 using FrameBlock = Eigen::Matrix<double, kFrameTerms, kFrameTerms>;
 
 /// Number of linearisations. Each also estimates the variances and finds the outliers again.
-constexpr int kRounds = 4;
+constexpr int kRounds = 3;
 /// Limit of the squared residual of an observation, in units of the variance per axis. Exceeded by
 /// chance once in 4,000. The limit is larger before the offsets of the dots are known.
 constexpr double kOutlier = 16.6;

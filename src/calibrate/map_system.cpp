@@ -12,9 +12,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Relative size of the preconditioned residual at which conjugate gradients end. The remaining
-/// error of the offsets is below a tenth of a micron for a distortion of the page by 0.1 mm.
-constexpr double kConverged = 1e-5;
+/// Mean square of the preconditioned residual at which conjugate gradients end, in units of the
+/// variance of an unknown. Smaller values do not change the errors of the map.
+constexpr double kConverged = 1e-6;
 constexpr int kMaxIterations = 400;
 constexpr int kParts = MapSystem::kParts;
 
@@ -270,9 +270,10 @@ void MapSystem::solve(MapSolution& solution, const MapProgress& progress) {
     keep_scale(residual);
     MapUnknowns direction = preconditioned(residual);
     double size = residual.inner(direction);
-    const double first_size = size;
+    const auto unknowns =
+        static_cast<double>(kFrameTerms * at.frames.size() + 2 * at.field.size());
     int i = 0;
-    for (; i < kMaxIterations && size > kConverged * kConverged * first_size; ++i) {
+    for (; i < kMaxIterations && size > kConverged * unknowns; ++i) {
         progress(static_cast<double>(i) / kMaxIterations);
         MapUnknowns image = product(direction, Residuals::omit);
         keep_scale(image);

@@ -218,8 +218,14 @@ Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace, const 
     return with_camera_and_velocity(fix, camera, trace, print).fix;
 }
 
-MovingFix with_camera_and_velocity(const Fix& seen, const Camera& camera, const Trace& trace,
-                                   const AxisScale& print, const PrintMap& map) {
+MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const Trace& trace,
+                                   const AxisScale& print) {
+    const MappedMovingFix moving = with_camera_and_map(fix, camera, trace, print, {});
+    return {moving.fix, moving.velocity};
+}
+
+MappedMovingFix with_camera_and_map(const Fix& seen, const Camera& camera, const Trace& trace,
+                                    const AxisScale& print, const PrintMap& map) {
     if (seen.status != Status::ok) return {seen, {}, MapUse::no_map};
     MappedFix mapped{seen};
     // Without a view of the camera, the plane of the fix is fitted to the mapped dots.

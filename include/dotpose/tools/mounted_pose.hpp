@@ -51,11 +51,19 @@ struct ReadoutVelocity {
 struct MovingFix {
     Fix fix;
     std::optional<ReadoutVelocity> velocity;
-    MapUse map_use = MapUse::no_map;  ///< how the fix was corrected by the print map
 };
-/// `map` is the map of the print, if there is one.
 MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const Trace& trace,
-                                   const AxisScale& print = {}, const PrintMap& map = {});
+                                   const AxisScale& print = {});
+
+/// A MovingFix, corrected by a map of the print if `map_use` is MapUse::used.
+struct MappedMovingFix {
+    Fix fix;
+    std::optional<ReadoutVelocity> velocity;
+    MapUse map_use = MapUse::no_map;
+};
+/// Variant of `with_camera_and_velocity` that fits the dots at their places in a map of the print.
+MappedMovingFix with_camera_and_map(const Fix& fix, const Camera& camera, const Trace& trace,
+                                    const AxisScale& print, const PrintMap& map);
 
 /// Returns the spacing of the pattern in nominal mm. This is the spacing computed from the fix and
 /// the view of the camera file, divided by the print scale of the sheet. Returns NaN without a fix
