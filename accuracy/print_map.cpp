@@ -51,8 +51,8 @@ std::string row_text(const PrintKind& kind, const PrintMapResult& map, const tes
     const double sigma = test.with.sigma_um();
     const double error = test.with.absolute_um();
     return fmt::format(
-        "| {} | {:.1f} | {:.2f} | {:.1f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.2f} |\n", kind.name,
-        1000 * page.jitter_mm, 1000 * page.noise_mm, 1000 * page.slow_mm,
+        "| {} | {:.1f} | {:.2f} | {:.1f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.2f} |\n",
+        kind.name, 1000 * page.jitter_mm, 1000 * page.noise_mm, 1000 * page.slow_mm,
         test.without.repeatability_um(wave), test.with.repeatability_um(0),
         test.without.absolute_um(), error, error * error / (sigma * sigma));
 }
@@ -81,8 +81,7 @@ bool print_map_table(TableRun& run) {
         options.wavelength_mm = kind.wavelength_mm;
         const test::MappedPrint print(options);
         const PrintMapResult map = make_map(print, numbers, kind.name);
-        const test::MapTest test =
-            test::test_map(print, map.map, static_cast<int>(numbers.tests));
+        const test::MapTest test = test::test_map(print, map.map, static_cast<int>(numbers.tests));
         text += row_text(kind, map, test);
         is_right &= test.with.repeatability_um(0) <= kMaxRepeatability_um &&
                     test.with.absolute_um() <= kMaxAbsolute * test.without.absolute_um();

@@ -178,8 +178,7 @@ struct MapTest {
 
 /// Locates `frames` frames that were not used for the map.
 inline MapTest test_map(const MappedPrint& print, const PrintMap& map, int frames,
-                        std::uint64_t series = 200,
-                        const std::optional<Camera>& camera = {}) {
+                        std::uint64_t series = 200, const std::optional<Camera>& camera = {}) {
     MapTest result;
     FollowerOptions options;
     options.sheets = {print.entry()};

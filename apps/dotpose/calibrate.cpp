@@ -43,8 +43,10 @@ constexpr const char* kCalibrateExamples =
     "Take 5 to 50 frames of any printed sheet, some centimetres apart and at any angles; for\n"
     "--spin, 12 frames of the robot turning on the spot; for --drive, some frames of it driving\n"
     "straight ahead; for --rolling, all images of a fast drive; for --flat, 20 or more images of\n"
-    "different places in constant light; for --print-map, all frames of a drive all over the page,\n"
-    "in different directions, several hundred or more. From a video or a camera, up to 50 frames that show new\n"
+    "different places in constant light; for --print-map, all frames of a drive all over the "
+    "page,\n"
+    "in different directions, several hundred or more. From a video or a camera, up to 50 frames "
+    "that show new\n"
     "places are taken; Ctrl-C ends the reading. With --live, a window (or, without a display,\n"
     "the terminal) shows what is still missing while you move the camera; frames are taken until\n"
     "they suffice, or until q or Ctrl-C. Exit status 1 if the frames do not determine the\n"
@@ -327,7 +329,8 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
 /// Makes a print map instead of calibrating a camera. Returns the exit status.
 int run_print_map(const CalibrateArguments& arguments) {
     if (arguments.sources.is_given())
-        throw BadArgument("--print-map names its frames itself: write all of them after --print-map");
+        throw BadArgument(
+            "--print-map names its frames itself: write all of them after --print-map");
     make_print_map({with_names(arguments.sources, arguments.print_map), arguments.sheets,
                     arguments.camera.path, arguments.camera.camera, arguments.out,
                     arguments.picture});
@@ -368,7 +371,8 @@ void add_live_options(Command& command, CalibrateArguments& arguments) {
     Option* live = command.add_flag(
         "--live", arguments.is_live,
         "Take frames automatically while you move the camera, and show what is still missing");
-    for (const char* other : {"--spin", "--drive", "--rolling", "--flat", "--stitch", "--print-map"})
+    for (const char* other :
+         {"--spin", "--drive", "--rolling", "--flat", "--stitch", "--print-map"})
         live->excludes(command.get_option(other));
     command
         .add_flag("--no-window", arguments.live.has_no_window,
@@ -396,7 +400,8 @@ void add_calibrate(Command& app, int& exit_code) {
     add_draw_option(
         *command, arguments->picture,
         "Also draw residuals and coverage of the image; with --spin, the turn (as NAME-spin.svg if "
-        "the lens is drawn, too); with --stitch, the sheets before and after; with --print-map, the map of the first page");
+        "the lens is drawn, too); with --stitch, the sheets before and after; with --print-map, "
+        "the map of the first page");
     add_camera_option(*command, arguments->camera,
                       "Camera file to start from: the values that are not calibrated now (lens or "
                       "mount) are kept; without --camera, the file of -o if it exists");

@@ -39,8 +39,8 @@ PrintMap earlier_map(const std::string& out) {
         tell(fmt::format("{} exists: the frames update it", out));
         return map;
     } catch (const Error& error) {
-        throw Error(fmt::format("{}; -o replaces only a print map: name another file",
-                                error.what()));
+        throw Error(
+            fmt::format("{}; -o replaces only a print map: name another file", error.what()));
     }
 }
 
@@ -64,8 +64,7 @@ void add_frames(const PrintMapArguments& arguments, Sources& sources, PrintMappi
         mapping.add(correction ? correction->corrected(frame.image.view()).view()
                                : frame.image.view());
     }
-    if (take_ctrl_c())
-        tell("no more frames are read; Ctrl-C once more ends without a result");
+    if (take_ctrl_c()) tell("no more frames are read; Ctrl-C once more ends without a result");
     if (interrupted()) throw Error("interrupted; no map was written");
 }
 
@@ -90,9 +89,9 @@ std::string report_of(const PrintMapResult& result) {
             1000 * page.slow_mm, 1000 * page.jitter_mm, 1000 * page.noise_mm,
             page.is_rigid ? "at constant height" : "at changing heights");
         if (page.seen < page.dots) {
-            text += fmt::format(
-                "            {} dots were not seen: frames there are not corrected\n",
-                page.dots - page.seen);
+            text +=
+                fmt::format("            {} dots were not seen: frames there are not corrected\n",
+                            page.dots - page.seen);
         }
     }
     return text;

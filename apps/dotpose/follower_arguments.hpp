@@ -25,8 +25,8 @@ struct FollowerArguments {
     /// Registers the input files.
     void add_files(RunFiles& files) const;
 
-    /// Reads the sheet file and the print map. Throws Error if a file cannot be read, if there are no
-    /// sheets, or if the map is of other sheets.
+    /// Reads the sheet file and the print map. Throws Error if a file cannot be read, if there are
+    /// no sheets, or if the map is of other sheets.
     FollowerOptions read() const;
 };
 

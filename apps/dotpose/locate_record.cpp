@@ -264,7 +264,8 @@ std::string space_warning(const Record& record) {
 
 std::string map_warning(const Record& record) {
     if (record.map_use != MapUse::contradicted) return {};
-    return "the dots contradict the print map, which is not used here: the print was moved, was bent "
+    return "the dots contradict the print map, which is not used here: the print was moved, was "
+           "bent "
            "or is another print; make a new map with calibrate --print-map";
 }
 

@@ -53,8 +53,7 @@ void MapField::for_each_difference(Use use) const {
             if (j + 2 < high)
                 use(std::array{n, n + wide, n + 2 * wide}, std::array{1.0, -2.0, 1.0});
             if (i + 1 < wide && j + 1 < high)
-                use(std::array{n, n + 1, n + wide, n + wide + 1},
-                    std::array{1.0, -1.0, -1.0, 1.0});
+                use(std::array{n, n + 1, n + wide, n + wide + 1}, std::array{1.0, -1.0, -1.0, 1.0});
         }
     }
 }

@@ -34,8 +34,8 @@ class MapView {
         /// Returns the change of the residual for a change of the parameters. `shared` is the sum
         /// of the view terms of the frame and the camera.
         Eigen::Vector2d change(const FrameVector& frame, const CameraVector& shared) const {
-            const double scale = shared[0] + shared[3] * x + shared[4] * y +
-                                 shared[5] * (x * x + y * y);
+            const double scale =
+                shared[0] + shared[3] * x + shared[4] * y + shared[5] * (x * x + y * y);
             return {frame[0] - frame[2] * y + x * (scale + shared[1]) + y * shared[2] -
                         frame[3] * direction.x(),
                     frame[1] + frame[2] * x + y * (scale - shared[1]) + x * shared[2] -

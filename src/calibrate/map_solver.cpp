@@ -101,8 +101,8 @@ Statistics measure(const MapGrid& grid, double limit, MapSolution& solution,
             sum += squares[i];
         }
         result.squares += sum;
-        views.push_back(free_view(block, right, frame,
-                                  sum / (2 * static_cast<double>(frame.count))));
+        views.push_back(
+            free_view(block, right, frame, sum / (2 * static_cast<double>(frame.count))));
     }
     result.view_sigma = view_sigma_of(views);
     constexpr double kMedianOfSquare = 1.386;  // of a vector with variance 1 per axis
@@ -135,13 +135,14 @@ void estimate_variances(const MapGrid& grid, double squares, std::size_t used,
         const auto columns = static_cast<std::size_t>(grid.columns);
         const Vector2d mean =
             solution.field.at(static_cast<int>(i % columns), static_cast<int>(i / columns));
-        jitter += (solution.offset_mm[i].cast<double>() - mean).squaredNorm() / 2 +
-                  1 / (own + prior);
+        jitter +=
+            (solution.offset_mm[i].cast<double>() - mean).squaredNorm() / 2 + 1 / (own + prior);
         ++seen;
     }
     const double free = std::max(2 * static_cast<double>(used) - fitted, 1.0);
     solution.noise_mm = std::max(std::sqrt(squares / free), kMinNoise_mm);
-    solution.jitter_mm = std::max(std::sqrt(jitter / static_cast<double>(std::max<std::size_t>(seen, 1))), kMinJitter_mm);
+    solution.jitter_mm = std::max(
+        std::sqrt(jitter / static_cast<double>(std::max<std::size_t>(seen, 1))), kMinJitter_mm);
 }
 
 /// Removes the mean offset, scale and turn of the seen dots from the offsets, because views of the

@@ -36,11 +36,9 @@ View view_of(const PlaneFromImage& plane, const Vector2d& pitch_mm) {
     Matrix2d linear;
     linear << plane.du_q24.x, plane.dv_q24.x, plane.du_q24.y, plane.dv_q24.y;
     linear = pitch_mm.asDiagonal() * linear * 0x1p-24;
-    const double angle =
-        std::atan2(linear(1, 0) - linear(0, 1), linear(0, 0) + linear(1, 1));
+    const double angle = std::atan2(linear(1, 0) - linear(0, 1), linear(0, 0) + linear(1, 1));
     const Matrix2d shape = Eigen::Rotation2D<double>(-angle).toRotationMatrix() * linear;
-    return {Vector2d(plane.centre_q8.x, plane.centre_q8.y) / 256,
-            (shape + shape.transpose()) / 2,
+    return {Vector2d(plane.centre_q8.x, plane.centre_q8.y) / 256, (shape + shape.transpose()) / 2,
             Vector2d(plane.perspective_q30.x, plane.perspective_q30.y) * 0x1p-30,
             plane.lens_q40 * 0x1p-40};
 }
@@ -77,11 +75,11 @@ bool add_sighting(const Fix& fix, const Trace& trace, const MapPage& page, std::
                   std::vector<MapSighting>& frames, std::vector<MapObservation>& observations) {
     MapSighting frame{observations.size(), 0, fix.pattern_from_image};
     for (const LocatedDot& dot : dots_read(trace)) {
-        const auto index = page.index_of(
-            moved(trace.options.code, trace.decoding.place, dot.step.x, dot.step.y));
+        const auto index =
+            page.index_of(moved(trace.options.code, trace.decoding.place, dot.step.x, dot.step.y));
         if (!index) continue;
-        observations.push_back({static_cast<std::uint32_t>(*index),
-                                static_cast<float>(dot.pixel.u), static_cast<float>(dot.pixel.v)});
+        observations.push_back({static_cast<std::uint32_t>(*index), static_cast<float>(dot.pixel.u),
+                                static_cast<float>(dot.pixel.v)});
     }
     frame.count = observations.size() - frame.first;
     if (frame.count < min_dots) {
@@ -93,9 +91,8 @@ bool add_sighting(const Fix& fix, const Trace& trace, const MapPage& page, std::
 }
 
 double start_map(const MapGrid& grid, const EarlierOffsets& earlier,
-                 const std::optional<Camera>& camera,
-                 const std::vector<MapSighting>& frames, std::vector<MapObservation>& observations,
-                 MapSolution& solution) {
+                 const std::optional<Camera>& camera, const std::vector<MapSighting>& frames,
+                 std::vector<MapObservation>& observations, MapSolution& solution) {
     std::vector<View> views;
     for (const MapSighting& frame : frames)
         views.push_back(view_of(frame.plane, grid.pitch_mm));

@@ -70,16 +70,15 @@ MapSystem::MapSystem(const MapGrid& grid, const EarlierOffsets& earlier,
       sums_(kParts, std::vector<Vector2d>(grid.dots())) {
     for (std::size_t i = 0; i < grid.dots(); ++i) {
         const float earlier_views = earlier.views.empty() ? 0 : earlier.views[i];
-        information_[i] += static_cast<float>(weight_) *
-                           (static_cast<float>(solution.views[i]) + earlier_views);
+        information_[i] +=
+            static_cast<float>(weight_) * (static_cast<float>(solution.views[i]) + earlier_views);
     }
     make_preconditioner();
 }
 
 MapUnknowns MapSystem::zeros() const {
     return {std::vector<FrameVector>(solution_.frames.size(), FrameVector::Zero()),
-            CameraVector::Zero(),
-            std::vector<Vector2d>(field_diagonal_.size(), Vector2d::Zero())};
+            CameraVector::Zero(), std::vector<Vector2d>(field_diagonal_.size(), Vector2d::Zero())};
 }
 
 MapUnknowns MapSystem::unknowns_of(const MapSolution& solution) const {
@@ -120,7 +119,8 @@ void MapSystem::eliminate(const MapUnknowns& at, Residuals residuals) {
             for (const auto& sums : sums_)
                 sum += sums[i];
             if (has_earlier)
-                sum += static_cast<double>(earlier_.views[i]) * earlier_.offset_mm[i].cast<double>();
+                sum +=
+                    static_cast<double>(earlier_.views[i]) * earlier_.offset_mm[i].cast<double>();
             const auto columns = static_cast<std::size_t>(grid_.columns);
             const Vector2d mean =
                 field.at(static_cast<int>(i % columns), static_cast<int>(i / columns));
@@ -129,8 +129,7 @@ void MapSystem::eliminate(const MapUnknowns& at, Residuals residuals) {
     });
 }
 
-void MapSystem::add_frames(const MapUnknowns& at, Residuals residuals,
-                           MapUnknowns& result) const {
+void MapSystem::add_frames(const MapUnknowns& at, Residuals residuals, MapUnknowns& result) const {
     std::array<CameraVector, kParts> camera;
     for_each_part([&](int part) {
         CameraVector& camera_sum = camera[static_cast<std::size_t>(part)];
@@ -270,8 +269,7 @@ void MapSystem::solve(MapSolution& solution, const MapProgress& progress) {
     keep_scale(residual);
     MapUnknowns direction = preconditioned(residual);
     double size = residual.inner(direction);
-    const auto unknowns =
-        static_cast<double>(kFrameTerms * at.frames.size() + 2 * at.field.size());
+    const auto unknowns = static_cast<double>(kFrameTerms * at.frames.size() + 2 * at.field.size());
     int i = 0;
     for (; i < kMaxIterations && size > kConverged * unknowns; ++i) {
         progress(static_cast<double>(i) / kMaxIterations);

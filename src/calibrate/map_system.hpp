@@ -52,17 +52,17 @@ class MapSystem {
     MapUnknowns preconditioned(const MapUnknowns& residual) const;
     void write(const MapUnknowns& at, MapSolution& solution);
 
-    /// Keeps the scale of the page: sets the scale of the camera and the mean scale of the frames to
-    /// 0. Without this constraint, a smaller page would have smaller residuals.
+    /// Keeps the scale of the page: sets the scale of the camera and the mean scale of the frames
+    /// to 0. Without this constraint, a smaller page would have smaller residuals.
     static void keep_scale(MapUnknowns& unknowns);
 
     const MapGrid& grid_;
     const EarlierOffsets& earlier_;
     const std::vector<MapObservation>& observations_;
     const MapSolution& solution_;
-    double weight_;        ///< of an observation: 1 / noise^2
-    double prior_weight_;  ///< of the field for the offset of a dot: 1 / jitter^2
-    std::vector<float> information_;         ///< weight of all that is known of an offset
+    double weight_;                   ///< of an observation: 1 / noise^2
+    double prior_weight_;             ///< of the field for the offset of a dot: 1 / jitter^2
+    std::vector<float> information_;  ///< weight of all that is known of an offset
     std::vector<Eigen::Vector2d> offsets_;
     std::vector<std::vector<Eigen::Vector2d>> sums_;  ///< of each part
     std::vector<Eigen::LLT<Eigen::Matrix<double, kFrameTerms, kFrameTerms>>> frame_blocks_;

@@ -131,8 +131,8 @@ Correction fit_terms(const Plane& plane, const std::vector<MapDot>& dots, double
     return result;
 }
 
-/// Returns true if two terms differ from 0. The limit is high, because the plane of the fix contains
-/// probable values, and because each additional term makes the place less accurate.
+/// Returns true if two terms differ from 0. The limit is high, because the plane of the fix
+/// contains probable values, and because each additional term makes the place less accurate.
 bool are_significant(const Correction& fit, int first) {
     constexpr double kSignificant = 20;
     const Vector2d terms = fit.terms.segment<2>(first);
@@ -150,8 +150,8 @@ Correction fit_correction(const Plane& plane, const std::vector<MapDot>& dots, d
     return used.size() == kTerms ? full : fit_terms(plane, dots, map_weight, used);
 }
 
-/// Returns the image point, relative to the centre of the plane, that the plane maps to the place of
-/// the fix.
+/// Returns the image point, relative to the centre of the plane, that the plane maps to the place
+/// of the fix.
 Vector2d reference_of(const Plane& plane, const Trace& trace, const Fix& fix) {
     const Cell start = trace.decoding.place.cell;
     const Vector2d place(steps(start.x, fix.cell.x) + fix.fraction_x_q16 / 65536.0,
@@ -181,18 +181,20 @@ void write_fix(const Plane& plane, const Correction& correction, const Trace& tr
     fix.fraction_y_q16 = static_cast<std::uint16_t>(y_q16 & 65535);
     // Derivative of the place along the image x axis, by the difference of two points.
     const double step = 8;
-    const MapDot left{reference - Vector2d(step, 0), Vector2d::Zero(), Vector2d::Zero(), Vector2d::Zero()};
-    const MapDot right{reference + Vector2d(step, 0), Vector2d::Zero(), Vector2d::Zero(), Vector2d::Zero()};
+    const MapDot left{reference - Vector2d(step, 0), Vector2d::Zero(), Vector2d::Zero(),
+                      Vector2d::Zero()};
+    const MapDot right{reference + Vector2d(step, 0), Vector2d::Zero(), Vector2d::Zero(),
+                       Vector2d::Zero()};
     const Eigen::Matrix<double, 2, kTerms> slope =
         derivatives_at(plane, right) - derivatives_at(plane, left);
     const Vector2d before = plane.place(right.pixel) - plane.place(left.pixel);
     const Vector2d along = before + slope * correction.terms;
-    const double turn = std::atan2(before.x() * along.y() - before.y() * along.x(),
-                                   before.dot(along));
+    const double turn =
+        std::atan2(before.x() * along.y() - before.y() * along.x(), before.dot(along));
     constexpr double kBam_per_rad = 2147483648.0 / std::numbers::pi;
-    fix.theta_bam = static_cast<std::int32_t>(static_cast<std::uint32_t>(fix.theta_bam) +
-                                              static_cast<std::uint32_t>(static_cast<std::int64_t>(
-                                                  std::llround(turn * kBam_per_rad))));
+    fix.theta_bam = static_cast<std::int32_t>(
+        static_cast<std::uint32_t>(fix.theta_bam) +
+        static_cast<std::uint32_t>(static_cast<std::int64_t>(std::llround(turn * kBam_per_rad))));
     Eigen::Matrix<double, 3, kTerms> gradients;
     gradients.topRows<2>() = at;
     gradients.row(2) = (along.x() * slope.row(1) - along.y() * slope.row(0)) / along.squaredNorm();
@@ -216,8 +218,8 @@ MappedFix with_print_map(const Fix& fix, const PrintMap& map, const Trace& trace
     std::vector<MapDot> dots;
     for (const auto& [dot, offset] : mapped.dots) {
         dots.push_back({Vector2d(dot.pixel.u, dot.pixel.v) - centre,
-                        Vector2d(dot.step.x, dot.step.y),
-                        Vector2d(dx(dot.symbol), dy(dot.symbol)), offset});
+                        Vector2d(dot.step.x, dot.step.y), Vector2d(dx(dot.symbol), dy(dot.symbol)),
+                        offset});
     }
     const Plane plane = plane_of(fixed);
     const Correction with_map = fit_correction(plane, dots, 1);

@@ -1,7 +1,6 @@
 // Fits the pose (place, angle and scale) of a camera with a known view of the paper, by least
 // squares.
 #include "dotpose/tools/mounted_pose.hpp"
-#include "dotpose/tools/print_mapping.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +14,7 @@
 #include "calibrate/dot_fit.hpp"
 #include "calibrate/least_squares.hpp"
 #include "calibrate/mapped_dots.hpp"
+#include "dotpose/tools/print_mapping.hpp"
 
 namespace dotpose {
 namespace {
@@ -49,8 +49,8 @@ CameraPoint turned(CameraPoint from, CameraPoint to, double angle_rad) {
     return {c * x - s * y, s * x + c * y};
 }
 
-/// Fits the pose to the dots at their mapped places. `reference` is the reference point. The equation is linear in the turn near
-/// `turn_rad`, so the fit for a rolling shutter is repeated.
+/// Fits the pose to the dots at their mapped places. `reference` is the reference point. The
+/// equation is linear in the turn near `turn_rad`, so the fit for a rolling shutter is repeated.
 PoseFit fit_pose(const std::vector<MappedDot>& dots, const Camera& camera, const AxisScale& print,
                  CameraPoint reference, double turn_rad) {
     std::vector<CameraPoint> points;
@@ -70,8 +70,8 @@ PoseFit fit_pose(const std::vector<MappedDot>& dots, const Camera& camera, const
             double x = points[i].x_mm - middle.x_mm;
             double y = points[i].y_mm - middle.y_mm;
             const auto& [dot, offset] = dots[i];
-            const double t = (distorted(camera, dot.pixel).v - (camera.height_px - 1) / 2.0) /
-                             camera.height_px;
+            const double t =
+                (distorted(camera, dot.pixel).v - (camera.height_px - 1) / 2.0) / camera.height_px;
             const CameraPoint arm = turned(reference, points[i], t * turn);
             if (turn != 0) {
                 x = arm.x_mm + reference.x_mm - middle.x_mm;

@@ -25,11 +25,11 @@ constexpr double kSamePrint = 0.8;
 
 MapGrid grid_of(const SheetEntry& entry) {
     const Sheet& sheet = entry.sheet;
-    MapGrid grid{sheet.columns,
-                 sheet.rows,
-                 sheet.pattern.spacing_mm *
-                     Eigen::Vector2d(entry.print_scale_x, entry.print_scale_y),
-                 {}};
+    MapGrid grid{
+        sheet.columns,
+        sheet.rows,
+        sheet.pattern.spacing_mm * Eigen::Vector2d(entry.print_scale_x, entry.print_scale_y),
+        {}};
     const Place first{sheet.origin, sheet.pattern.section};
     for (int j = 0; j < sheet.rows; ++j) {
         for (int i = 0; i < sheet.columns; ++i) {
@@ -83,14 +83,13 @@ void write_page(const MapGrid& grid, const EarlierOffsets& earlier, const MapSol
         const Eigen::Vector2d offset = solution.offset_mm[i].cast<double>();
         page.offsets[i] = {to_q14(offset.x() / grid.pitch_mm.x()),
                            to_q14(offset.y() / grid.pitch_mm.y())};
-        const auto before =
-            earlier.views.empty() ? 0U : static_cast<unsigned>(earlier.views[i]);
+        const auto before = earlier.views.empty() ? 0U : static_cast<unsigned>(earlier.views[i]);
         page.views[i] = static_cast<std::uint8_t>(std::min(before + solution.views[i], 255U));
     }
 }
 
-MappedPage statistics_of(const std::string& name, const MapGrid& grid,
-                         const MapSolution& solution, std::size_t observations) {
+MappedPage statistics_of(const std::string& name, const MapGrid& grid, const MapSolution& solution,
+                         std::size_t observations) {
     MappedPage page;
     page.name = name;
     page.frames = solution.frames.size();
@@ -138,7 +137,7 @@ struct PrintMapping::State {
     }
 
     PrintMappingOptions options;
-    std::vector<PageFrames> pages;  ///< in the order of the sheets
+    std::vector<PageFrames> pages;   ///< in the order of the sheets
     std::vector<KnownRegion> known;  ///< regions of the sheets, which the locator refers to
     std::size_t frames = 0;
     Locator locator{DeviceOptions{}};
@@ -169,7 +168,8 @@ bool PrintMapping::add(const ImageView& image) {
         const Fix fix = state.locator.locate(image);
         const auto place = find_sheet(sheets, code, fix);
         if (!place) continue;
-        State::PageFrames& page = state.pages[static_cast<std::size_t>(place->entry - sheets.data())];
+        State::PageFrames& page =
+            state.pages[static_cast<std::size_t>(place->entry - sheets.data())];
         return add_sighting(fix, state.locator.trace(), empty_page(*place->entry), kMinDots,
                             page.frames, page.observations);
     }
@@ -191,8 +191,8 @@ PrintMapResult PrintMapping::solve(const std::function<bool(double share)>& prog
         const bool is_update = known != result.map.pages.end();
         const EarlierOffsets earlier = earlier_of(is_update ? &*known : nullptr, grid);
         MapSolution solution;
-        const double reach_mm =
-            start_map(grid, earlier, state.options.camera, seen.frames, seen.observations, solution);
+        const double reach_mm = start_map(grid, earlier, state.options.camera, seen.frames,
+                                          seen.observations, solution);
         if (is_update && misfit(grid, earlier, reach_mm, seen.observations, solution) > kSamePrint)
             throw Error(fmt::format(
                 "the frames contradict the earlier map of '{}': the print was moved or bent, or is "

@@ -10,11 +10,10 @@ Similarity fit_similarity(const std::vector<SimilarPoint>& points) {
     std::vector<DotEquation> equations;
     for (const SimilarPoint& point : points) {
         const auto& seen = point.seen;
-        equations.push_back(
-            {AxisEquation{{1, 0, seen.x(), -seen.y(), -point.direction.x()},
-                          point.intersection.x()},
-             AxisEquation{{0, 1, seen.y(), seen.x(), -point.direction.y()},
-                          point.intersection.y()}});
+        equations.push_back({AxisEquation{{1, 0, seen.x(), -seen.y(), -point.direction.x()},
+                                          point.intersection.x()},
+                             AxisEquation{{0, 1, seen.y(), seen.x(), -point.direction.y()},
+                                          point.intersection.y()}});
     }
     const auto parameters = fit_dots(equations, 5).parameters;
     return {{parameters[0], parameters[1]},

@@ -60,9 +60,9 @@ class OffsetMap {
     void add_dots() {
         for (int j = 0; j < page_.rows; ++j) {
             for (int i = 0; i < page_.columns; ++i) {
-                const auto dot = static_cast<std::size_t>(j) *
-                                     static_cast<std::size_t>(page_.columns) +
-                                 static_cast<std::size_t>(i);
+                const auto dot =
+                    static_cast<std::size_t>(j) * static_cast<std::size_t>(page_.columns) +
+                    static_cast<std::size_t>(i);
                 if (page_.views[dot] == 0) continue;
                 OffsetBlock& block = at(i / side_, j / side_);
                 block.sum_mm[0] += page_.offsets[dot].x() * page_.spacing_mm;
@@ -86,7 +86,8 @@ class OffsetMap {
 
     void draw_panel(std::size_t axis) {
         const double width = side_ * columns_ * scale_;
-        const Point corner{kOffsetMargin + (axis == 0 ? 0 : width + kOffsetGap), kOffsetMargin + kOffsetHead};
+        const Point corner{kOffsetMargin + (axis == 0 ? 0 : width + kOffsetGap),
+                           kOffsetMargin + kOffsetHead};
         svg_.text({corner.x, corner.y - 14}, 19, axis == 0 ? "along x" : "along y (down)",
                   R"(fill="#17202a")");
         const double step = side_ * scale_;
@@ -95,9 +96,10 @@ class OffsetMap {
                 const OffsetBlock& block = at(i, j);
                 if (block.dots == 0) continue;
                 // A small overlap hides the seams between blocks.
-                svg_.add(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="{}"/>)",
-                         corner.x + i * step, corner.y + j * step, step + 0.3, step + 0.3,
-                         colour_of(block.sum_mm[axis] / block.dots / full_mm_));
+                svg_.add(
+                    R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="{}"/>)",
+                    corner.x + i * step, corner.y + j * step, step + 0.3, step + 0.3,
+                    colour_of(block.sum_mm[axis] / block.dots / full_mm_));
             }
         }
         svg_.add(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="none" )"

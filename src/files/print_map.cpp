@@ -176,8 +176,8 @@ PrintMap parse_print_map(std::string_view text) {
     bytes.take(kMagic.size());
     const auto version = bytes.number<std::uint32_t>();
     if (version != kVersion)
-        throw Error(fmt::format("it has version {}, and this program reads version {}", version,
-                                kVersion));
+        throw Error(
+            fmt::format("it has version {}, and this program reads version {}", version, kVersion));
     if (text.size() < kMagic.size() + 2 * kSumBytes) throw Error("it is truncated");
     Bytes sum(text.substr(text.size() - kSumBytes));
     if (crc32_of(text.substr(0, text.size() - kSumBytes)) != sum.number<std::uint32_t>())

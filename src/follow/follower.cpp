@@ -91,8 +91,8 @@ Follower::Found Follower::by_camera_file(const Fix& seen, const std::optional<Sh
         return {seen, mapped.fix, place, reading, {}, {}, mapped.use};
     }
     const AxisScale print = place ? place->entry->print_scale() : AxisScale{};
-    const auto [fix, velocity, map_use] = with_camera_and_map(
-        seen, *options_.camera, locator_.trace(), print, options_.print_map);
+    const auto [fix, velocity, map_use] =
+        with_camera_and_map(seen, *options_.camera, locator_.trace(), print, options_.print_map);
     return {seen, fix, place, reading, velocity, space_of(seen, place), map_use};
 }
 

@@ -39,8 +39,8 @@ PrintMap small_map() {
     page.noise = 0.003;
     page.jitter = 0.02;
     for (int i = 0; i < page.columns * page.rows; ++i) {
-        page.offsets.push_back({static_cast<std::int16_t>(7 * i - 9000),
-                                static_cast<std::int16_t>(300 - 5 * i)});
+        page.offsets.push_back(
+            {static_cast<std::int16_t>(7 * i - 9000), static_cast<std::int16_t>(300 - 5 * i)});
         page.views.push_back(static_cast<std::uint8_t>(i));
     }
     return {{page}};
@@ -100,7 +100,8 @@ TEST(PrintMapFile, ExplainsRefusals) {
     newer[8] = 2;
     EXPECT_THAT([&] { (void)parse_print_map(newer); }, refuses("has version 2"));
     EXPECT_THAT([&] { (void)parse_print_map(bytes + "x"); }, refuses("checksum"));
-    EXPECT_THAT([&] { (void)read_print_map("missing.map"); }, refuses("missing.map does not exist"));
+    EXPECT_THAT([&] { (void)read_print_map("missing.map"); },
+                refuses("missing.map does not exist"));
 }
 
 TEST(PrintMapFile, RefusesInvalidPages) {

@@ -82,8 +82,9 @@ TEST_F(PrintMapping, AnotherPrintContradictsTheMap) {
 
 TEST_F(PrintMapping, RefusesToUpdateTheMapOfAnotherPrint) {
     const MappedPrint other({.side_mm = kSide_mm, .print = 2});
-    EXPECT_THAT([&] { (void)map_of(other, 20, 300, map_->map); },
-                ::testing::ThrowsMessage<Error>(::testing::HasSubstr("contradict the earlier map")));
+    EXPECT_THAT(
+        [&] { (void)map_of(other, 20, 300, map_->map); },
+        ::testing::ThrowsMessage<Error>(::testing::HasSubstr("contradict the earlier map")));
 }
 
 TEST_F(PrintMapping, AnUpdateAddsViewsAndKeepsThePlace) {
