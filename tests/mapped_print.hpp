@@ -112,7 +112,7 @@ class PlaceErrors {
     /// Returns the rms error per axis, without the mean offset, scale and turn.
     double absolute_um() const { return left_um(4, 0); }
     /// Returns the rms error per axis, without the part that changes slowly over the page: the
-    /// given wave, and cubic polynomials.
+    /// given wave, which moves fixes to the other side, and cubic polynomials.
     double repeatability_um(double wave_share) const { return left_um(20, wave_share); }
     double sigma_um() const {
         return 1000 * std::sqrt(variance_ / static_cast<double>(places_.size()));
@@ -143,8 +143,8 @@ class PlaceErrors {
                 design.row(row).head(10) = cubic;
                 design.row(row + 1).tail(10) = cubic;
             }
-            right[row] = error.x - wave_share * wave.x;
-            right[row + 1] = error.y - wave_share * wave.y;
+            right[row] = error.x + wave_share * wave.x;
+            right[row + 1] = error.y + wave_share * wave.y;
         }
         const Eigen::VectorXd left = right - design * design.colPivHouseholderQr().solve(right);
         return 1000 * std::sqrt(left.squaredNorm() / static_cast<double>(rows - terms));

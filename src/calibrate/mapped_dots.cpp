@@ -13,6 +13,7 @@ MappedDots mapped_dots(const Fix& fix, const PrintMap& map, const Trace& trace) 
     constexpr std::size_t kMinDots = 20;
     // Minimum fraction of the dots in view that the map must contain.
     constexpr double kMinCovered = 0.75;
+    result.noise = page->noise;
     const std::vector<LocatedDot> all = dots_read(trace);
     for (const LocatedDot& dot : all) {
         const auto index =
@@ -28,10 +29,13 @@ MappedDots mapped_dots(const Fix& fix, const PrintMap& map, const Trace& trace) 
     return result;
 }
 
-bool is_same_print(double variance_with_map, double variance_without) {
-    // Another print doubles the variance. The variance of dots without jitter does not change.
+bool is_same_print(double variance_with_map, double variance_without, double noise) {
+    // Another print doubles the variance.
     constexpr double kMaxRatio = 0.8;
-    return variance_with_map <= kMaxRatio * variance_without;
+    // The map hardly changes the residuals of a print without jitter. They are then noise.
+    constexpr double kMaxNoise_2 = 2;
+    return variance_with_map <= kMaxRatio * variance_without ||
+           variance_with_map <= kMaxNoise_2 * noise * noise;
 }
 
 }  // namespace dotpose::calibrate

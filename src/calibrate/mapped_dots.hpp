@@ -21,13 +21,14 @@ struct MappedDot {
 /// Dots of a fix that were seen for the map. There are no dots unless `use` is MapUse::used.
 struct MappedDots {
     MapUse use = MapUse::no_map;
+    double noise = 0;  ///< MapPage::noise
     std::vector<MappedDot> dots;
 };
 
 MappedDots mapped_dots(const Fix& fix, const PrintMap& map, const Trace& trace);
 
 /// Returns true if the variances of the residuals with and without the map show that the map is of
-/// this print.
-bool is_same_print(double variance_with_map, double variance_without);
+/// this print. `noise` is the noise of the map, in the unit of the residuals.
+bool is_same_print(double variance_with_map, double variance_without, double noise);
 
 }  // namespace dotpose::calibrate

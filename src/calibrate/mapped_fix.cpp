@@ -224,7 +224,8 @@ MappedFix with_print_map(const Fix& fix, const PrintMap& map, const Trace& trace
     const Plane plane = plane_of(fixed);
     const Correction with_map = fit_correction(plane, dots, 1);
     const Correction without = fit_correction(plane, dots, 0);
-    if (!is_same_print(with_map.variance, without.variance)) return {fix, MapUse::contradicted};
+    if (!is_same_print(with_map.variance, without.variance, mapped.noise))
+        return {fix, MapUse::contradicted};
     MappedFix result{fix, MapUse::used};
     write_fix(plane, with_map, trace, result.fix);
     return result;

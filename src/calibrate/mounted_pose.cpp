@@ -125,7 +125,7 @@ PoseFit fit_mapped_pose(const Fix& fix, const Camera& camera, const Trace& trace
             return fit_pose(dots, camera, print, reference, fix.readout_turn_rad);
         };
         PoseFit with_map = fit(mapped.dots);
-        if (is_same_print(with_map.variance, fit(without_map(mapped.dots)).variance))
+        if (is_same_print(with_map.variance, fit(without_map(mapped.dots)).variance, mapped.noise))
             return with_map;
         use = MapUse::contradicted;
     }
