@@ -116,6 +116,14 @@ TEST_F(PrintMapping, UsesTheViewOfACameraFile) {
     EXPECT_LE(test.with.absolute_um(), 0.2);
 }
 
+/// The map of such a print hardly changes the residuals of a frame, but moves its fix by microns.
+TEST(PrintMapOfAPrintWithoutJitter, IsUsed) {
+    const MappedPrint print({.side_mm = kSide_mm, .jitter_mm = 0});
+    const MapTest test = test_map(print, map_of(print, kFrames).map, 20);
+    EXPECT_EQ(test.used, 20);
+    EXPECT_LE(test.with.absolute_um(), test.without.absolute_um() / 5);
+}
+
 TEST(PrintMapOfFewFrames, IsRefused) {
     const MappedPrint print({.side_mm = kSide_mm});
     EXPECT_THAT([&] { (void)map_of(print, 5); },
