@@ -44,6 +44,7 @@ constexpr Table kTables[] = {
     {"together", "How soon a moving camera with small views is located", tables::together_table},
     {"limits", "How much frames may be degraded", tables::limits_table},
     {"pens", "Errors of the tip of a pen, and of its ink", tables::pens_table},
+    {"print_map", "How much a map of the print improves positions", tables::print_map_table},
     {"seams", "Whether covariances are right where two sheets are butted", tables::seams_table},
     {"slips", "Whether covariances are right where the sheet is not one plane",
      tables::slips_table},

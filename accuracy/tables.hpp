@@ -19,6 +19,7 @@ bool known_table(TableRun& run);
 bool together_table(TableRun& run);
 bool limits_table(TableRun& run);
 bool pens_table(TableRun& run);
+bool print_map_table(TableRun& run);
 bool seams_table(TableRun& run);
 bool slips_table(TableRun& run);
 bool space_table(TableRun& run);

@@ -11,6 +11,7 @@
 
 #include <fmt/core.h>
 
+#include "calibrate_print_map.hpp"
 #include "calibrate_report.hpp"
 #include "calibration_frames.hpp"
 #include "commands.hpp"
@@ -40,14 +41,17 @@ constexpr const char* kCalibrateExamples =
     "  dotpose calibrate video.mp4 --sheets sheets.json -o camera.yaml\n"
     "  dotpose calibrate --camera camera.yaml -o camera.yaml --spin turn/*.png --drive line/*.png\n"
     "  dotpose calibrate --camera camera.yaml -o camera.yaml --pivot pen/*.png\n"
-    "  dotpose calibrate --stitch --sheets sheets.json --camera camera.yaml seams/*.png\n\n"
+    "  dotpose calibrate --stitch --sheets sheets.json --camera camera.yaml seams/*.png\n"
+    "  dotpose calibrate --print-map run.mp4 --sheets sheets.json -o desk.map\n\n"
     "Take 5 to 50 frames of any printed sheet, some centimetres apart and at any angles; for\n"
     "--spin, 12 frames of the robot turning on the spot; for --drive, some frames of it driving\n"
     "straight ahead; for --pivot, 30 frames of a pen that is tilted to all sides while its tip\n"
     "rests; for --rolling, all images of a fast drive; for --flat, 20 or more images of\n"
-    "different places in constant light. From a video or a camera, up to 50 frames that show new\n"
-    "places are taken; Ctrl-C ends the reading. With --live, a window (or, without a display,\n"
-    "the terminal) shows what is still missing while you move the camera; frames are taken until\n"
+    "different places in constant light; for --print-map, several hundred frames of a drive over\n"
+    "the whole page, in different directions. From a video or a camera, up to 50 frames that\n"
+    "show new places are taken; Ctrl-C ends the reading. With --live, a window (or,\n"
+    "without a display, the terminal) shows what is still missing while you move the camera; "
+    "frames are taken until\n"
     "they suffice, or until q or Ctrl-C. Exit status 1 if the frames do not determine the\n"
     "requested values.\n";
 
@@ -60,6 +64,7 @@ struct CalibrateArguments {
     std::vector<std::string> pivot;
     std::vector<std::string> rolling;
     std::vector<std::string> flat;
+    std::vector<std::string> print_map;
     bool stitch = false;
     ScaleReference reference;
     std::string sheets;
@@ -314,8 +319,20 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
     }
 }
 
+/// Makes a print map instead of calibrating a camera. Returns the exit status.
+int run_print_map(const CalibrateArguments& arguments) {
+    if (arguments.sources.is_given())
+        throw BadArgument(
+            "--print-map names its frames itself: write all of them after --print-map");
+    make_print_map({with_names(arguments.sources, arguments.print_map), arguments.sheets,
+                    arguments.camera.path, arguments.camera.camera, arguments.out,
+                    arguments.picture});
+    return 0;
+}
+
 /// Returns the exit status.
 int run(CalibrateArguments& arguments) {
+    if (!arguments.print_map.empty()) return run_print_map(arguments);
     const bool has_series = !arguments.spin.empty() || !arguments.drive.empty() ||
                             !arguments.pivot.empty() || !arguments.rolling.empty() ||
                             !arguments.flat.empty();
@@ -349,7 +366,8 @@ void add_live_options(Command& command, CalibrateArguments& arguments) {
     Option* live = command.add_flag(
         "--live", arguments.is_live,
         "Take frames automatically while you move the camera, and show what is still missing");
-    for (const char* other : {"--spin", "--drive", "--pivot", "--rolling", "--flat", "--stitch"})
+    for (const char* other :
+         {"--spin", "--drive", "--pivot", "--rolling", "--flat", "--stitch", "--print-map"})
         live->excludes(command.get_option(other));
     command
         .add_flag("--no-window", arguments.live.has_no_window,
@@ -371,12 +389,14 @@ void add_calibrate(Command& app, int& exit_code) {
     arguments->sources.add_to(*command);
     command
         ->add_option("-o,--out", arguments->out,
-                     "Camera file to write (YAML), or - for standard output")
+                     "Camera file to write (YAML), or - for standard output; with --print-map, the "
+                     "map")
         ->type_name("FILE|-");
     add_draw_option(
         *command, arguments->picture,
         "Also draw residuals and coverage of the image; with --spin, the turn (as NAME-spin.svg if "
-        "the lens is drawn, too); with --stitch, the sheets before and after");
+        "the lens is drawn, too); with --stitch, the sheets before and after; with --print-map, "
+        "the map of the first page");
     add_camera_option(*command, arguments->camera,
                       "Camera file to start from: the values that are not calibrated now (lens or "
                       "mount) are kept; without --camera, the file of -o if it exists");
@@ -403,6 +423,14 @@ void add_calibrate(Command& app, int& exit_code) {
                      "At least 20 images of a sheet under the moving camera, with constant light: "
                      "find the vignetting (flat_field), which is then removed from all frames")
         ->type_name("IMAGE");
+    Option* print_map =
+        command
+            ->add_option("--print-map", arguments->print_map,
+                         "Frames from all over the pages of --sheets: measure the offset of each "
+                         "dot, and write them to the map file of -o, which is updated if it exists")
+            ->type_name("SOURCE");
+    for (const char* other : {"--spin", "--drive", "--rolling", "--flat"})
+        print_map->excludes(command->get_option(other));
     Option* stitch = command->add_flag("--stitch", arguments->stitch,
                                        "Find the poses of the sheets of a sheet file from frames "
                                        "that show two sheets, and write them into the file");
@@ -422,6 +450,7 @@ void add_calibrate(Command& app, int& exit_code) {
         ->needs(stitch);
     stitch->needs(sheets);
     stitch->excludes(command->get_option("--out"));
+    stitch->excludes(print_map);
     add_live_options(*command, *arguments);
     add_spacing_option(*command, arguments->options.pattern.spacing_mm);
     add_code_option(*command, arguments->code);

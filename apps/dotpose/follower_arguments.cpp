@@ -41,6 +41,7 @@ void FollowerArguments::fit_to(SourceArguments& sources) {
 void FollowerArguments::add_files(RunFiles& files) const {
     files.reads("--sheets", sheets);
     files.reads("--camera", camera.path);
+    files.reads("--print-map", print_map);
 }
 
 FollowerOptions FollowerArguments::read() const {
@@ -57,6 +58,13 @@ FollowerOptions FollowerArguments::read() const {
     if (sheets.empty()) return result;
     result.sheets = read_sheets(system::path_of(sheets));
     if (result.sheets.empty()) throw Error(sheets + " has no sheets");
+    if (print_map.empty()) return result;
+    result.print_map = read_print_map(system::path_of(print_map));
+    try {
+        require_pages(result.print_map, result.sheets);
+    } catch (const Error& error) {
+        throw Error(fmt::format("{}: {}", print_map, error.what()));
+    }
     return result;
 }
 
@@ -71,6 +79,12 @@ void add_follower_options(Command& command, FollowerArguments& arguments,
     command
         .add_flag("--only-sheets", options.has_only_sheets,
                   "No other sheet than those of --sheets can be in view: smaller views suffice")
+        ->needs(sheets);
+    command
+        .add_option("--print-map", arguments.print_map,
+                    "Map of the printed pages, from 'dotpose calibrate --print-map': correct the "
+                    "errors of the print")
+        ->type_name("FILE")
         ->needs(sheets);
     command.add_flag("--inverted", arguments.is_inverted, "The dots are white on black");
     add_camera_option(command, arguments.camera,

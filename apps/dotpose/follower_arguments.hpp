@@ -14,6 +14,7 @@ namespace dotpose::cli {
 struct FollowerArguments {
     std::string sheets;  ///< path of the sheet file, or empty for none
     CameraArgument camera;
+    std::string print_map;  ///< path of the print map, or empty for none
     bool is_inverted = false;
     FollowerOptions options;  ///< options of the follower, without the contents of the sheet file
                               ///< and the camera file
@@ -25,7 +26,8 @@ struct FollowerArguments {
     /// Registers the input files.
     void add_files(RunFiles& files) const;
 
-    /// Reads the sheet file. Throws Error if it cannot be read or has no sheets.
+    /// Reads the sheet file and the print map. Throws Error if a file cannot be read, if there are
+    /// no sheets, or if the map is of other sheets.
     FollowerOptions read() const;
 };
 

@@ -263,6 +263,13 @@ std::string space_warning(const Record& record) {
         p_wrong_text(std::exp2(record.space->second->odds_log2)));
 }
 
+std::string map_warning(const Record& record) {
+    if (record.map_use != MapUse::contradicted) return {};
+    return "the dots contradict the print map, which is not used here: the print was moved, was "
+           "bent "
+           "or is another print; make a new map with calibrate --print-map";
+}
+
 }  // namespace
 
 Record empty_record(const Follower& follower) {
@@ -285,6 +292,7 @@ Record record_of(const Located& located, const Follower& follower) {
     record.space = located.space;
     record.tip = located.tip;
     record.is_pen_down = located.is_pen_down;
+    record.map_use = located.map_use;
     record.width_px = follower.image().width_px;
     record.height_px = follower.image().height_px;
     record.min_dots = follower.used_options().lattice.min_dots;
@@ -295,7 +303,7 @@ Record record_of(const Located& located, const Follower& follower) {
 
 std::array<std::string, kWarnings> warnings(const Record& record) {
     return {code_warning(record), sheet_warning(record), spacing_warning(record),
-            space_warning(record)};
+            space_warning(record), map_warning(record)};
 }
 
 std::string reason(const Record& record) {

@@ -28,6 +28,7 @@ struct Record {
     bool has_tip = false;            ///< true if the record has the fields of the tip of a pen
     std::optional<TipPose> tip;      ///< tip of the pen; see Located
     bool is_pen_down = false;
+    MapUse map_use = MapUse::no_map;  ///< how the print map was used; see Located
     bool has_sheets = false;          ///< true if the record has the fields of a sheet file
     std::optional<SheetPlace> place;  ///< place of the fix, or none if it is not on a sheet
     int min_side_px() const { return has_sheets ? kMinKnownFrameSide_px : kMinFrameSide_px; }
@@ -43,13 +44,14 @@ struct Record {
 Record record_of(const Located& located, const Follower& follower);
 
 /// Number of kinds of warnings.
-inline constexpr std::size_t kWarnings = 4;
+inline constexpr std::size_t kWarnings = 5;
 /// Returns the warnings for a frame. An empty string means no warning. The warnings are, in this
 /// order:
 /// - another code than the given code explains the frame,
 /// - the place is not on any sheet of the sheet file,
 /// - the spacing implied by the camera file differs from the spacing of the sheet,
-/// - the dots do not exclude the second pose in space.
+/// - the dots do not exclude the second pose in space,
+/// - the dots contradict the print map.
 std::array<std::string, kWarnings> warnings(const Record& record);
 
 /// Explains why there is no fix, with the relevant numbers. Returns an empty string if there is a

@@ -13,7 +13,8 @@
 
 #include "calibrate/dot_fit.hpp"
 #include "calibrate/least_squares.hpp"
-#include "calibrate/located_frame.hpp"
+#include "calibrate/mapped_dots.hpp"
+#include "dotpose/tools/print_mapping.hpp"
 
 namespace dotpose {
 namespace {
@@ -48,13 +49,13 @@ CameraPoint turned(CameraPoint from, CameraPoint to, double angle_rad) {
     return {c * x - s * y, s * x + c * y};
 }
 
-/// Fits the pose. `reference` is the reference point. The equation is linear in the turn near
-/// `turn_rad`, so the fit for a rolling shutter is repeated.
-PoseFit fit_pose(const std::vector<LocatedDot>& dots, const Camera& camera, const AxisScale& print,
+/// Fits the pose to the dots at their mapped places. `reference` is the reference point. The
+/// equation is linear in the turn near `turn_rad`, so the fit for a rolling shutter is repeated.
+PoseFit fit_pose(const std::vector<MappedDot>& dots, const Camera& camera, const AxisScale& print,
                  CameraPoint reference, double turn_rad) {
     std::vector<CameraPoint> points;
     CameraPoint middle;
-    for (const LocatedDot& dot : dots) {
+    for (const auto& [dot, offset] : dots) {
         points.push_back(on_paper(camera, dot.pixel));
         middle.x_mm += points.back().x_mm / static_cast<double>(dots.size());
         middle.y_mm += points.back().y_mm / static_cast<double>(dots.size());
@@ -68,8 +69,9 @@ PoseFit fit_pose(const std::vector<LocatedDot>& dots, const Camera& camera, cons
         for (std::size_t i = 0; i < dots.size(); ++i) {
             double x = points[i].x_mm - middle.x_mm;
             double y = points[i].y_mm - middle.y_mm;
-            const double t = (distorted(camera, dots[i].pixel).v - (camera.height_px - 1) / 2.0) /
-                             camera.height_px;
+            const auto& [dot, offset] = dots[i];
+            const double t =
+                (distorted(camera, dot.pixel).v - (camera.height_px - 1) / 2.0) / camera.height_px;
             const CameraPoint arm = turned(reference, points[i], t * turn);
             if (turn != 0) {
                 x = arm.x_mm + reference.x_mm - middle.x_mm;
@@ -87,10 +89,10 @@ PoseFit fit_pose(const std::vector<LocatedDot>& dots, const Camera& camera, cons
                 turn_y = t * (-p[3] * arm.y_mm + p[2] * arm.x_mm) + t * t / 2 * motion.x_mm;
             }
             equations.push_back(
-                {AxisEquation{{1, 0, x, -y, -print.x * dx(dots[i].symbol), way_x, -way_y, turn_x},
-                              print.x * dots[i].step.x},
-                 AxisEquation{{0, 1, y, x, -print.y * dy(dots[i].symbol), way_y, way_x, turn_y},
-                              print.y * dots[i].step.y}});
+                {AxisEquation{{1, 0, x, -y, -print.x * dx(dot.symbol), way_x, -way_y, turn_x},
+                              print.x * (dot.step.x + offset.x())},
+                 AxisEquation{{0, 1, y, x, -print.y * dy(dot.symbol), way_y, way_x, turn_y},
+                              print.y * (dot.step.y + offset.y())}});
         }
         return fit_dots(equations, parameters);
     };
@@ -102,6 +104,35 @@ PoseFit fit_pose(const std::vector<LocatedDot>& dots, const Camera& camera, cons
         fit.turn_rad += fit.parameters[kMovingParameters];
     }
     return fit;
+}
+
+/// Dots without offsets.
+std::vector<MappedDot> without_map(std::vector<MappedDot> dots) {
+    for (MappedDot& dot : dots)
+        dot.offset.setZero();
+    return dots;
+}
+
+/// Fits the pose to all dots of a frame or, if the map is of this print, to the mapped dots. Sets
+/// `use`.
+PoseFit fit_mapped_pose(const Fix& fix, const Camera& camera, const Trace& trace,
+                        const AxisScale& print, const PrintMap& map, CameraPoint reference,
+                        MapUse& use) {
+    const MappedDots mapped = mapped_dots(fix, map, trace);
+    use = mapped.use;
+    if (use == MapUse::used) {
+        const auto fit = [&](const std::vector<MappedDot>& dots) {
+            return fit_pose(dots, camera, print, reference, fix.readout_turn_rad);
+        };
+        PoseFit with_map = fit(mapped.dots);
+        if (is_same_print(with_map.variance, fit(without_map(mapped.dots)).variance, mapped.noise))
+            return with_map;
+        use = MapUse::contradicted;
+    }
+    std::vector<MappedDot> dots;
+    for (const LocatedDot& dot : dots_read(trace))
+        dots.push_back({dot});
+    return fit_pose(dots, camera, print, reference, fix.readout_turn_rad);
 }
 
 std::uint32_t to_bam(double angle_rad) {
@@ -189,20 +220,29 @@ Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace, const 
 
 MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const Trace& trace,
                                    const AxisScale& print) {
-    if (fix.status != Status::ok) return {fix, {}};
+    const MappedMovingFix moving = with_camera_and_map(fix, camera, trace, print, {});
+    return {moving.fix, moving.velocity};
+}
+
+MappedMovingFix with_camera_and_map(const Fix& seen, const Camera& camera, const Trace& trace,
+                                    const AxisScale& print, const PrintMap& map) {
+    if (seen.status != Status::ok) return {seen, {}, MapUse::no_map};
+    MappedFix mapped{seen};
+    // Without a view of the camera, the plane of the fix is fitted to the mapped dots.
+    if (!camera.paper) mapped = with_print_map(seen, map, trace);
+    const Fix& fix = mapped.fix;
     Fix result = fix;
     std::optional<ReadoutVelocity> velocity;
     // Angle on the paper. The nominal angle differs slightly if the print scales of the axes
     // differ.
     double theta_rad =
         std::atan2(std::sin(fix.theta_rad()) * print.y, std::cos(fix.theta_rad()) * print.x);
-    const auto dots = dots_read(trace);
-    if (camera.paper && dots.size() >= kMinPoseDots) {
+    if (camera.paper && dots_read(trace).size() >= kMinPoseDots) {
         const PixelPoint reference{
             (camera.width_px - 1) / 2.0 + trace.options.reference_dx_q8 / 256.0,
             (camera.height_px - 1) / 2.0 + trace.options.reference_dy_q8 / 256.0};
         const CameraPoint at = on_paper(camera, reference);
-        const PoseFit pose = fit_pose(dots, camera, print, at, fix.readout_turn_rad);
+        const PoseFit pose = fit_mapped_pose(fix, camera, trace, print, map, at, mapped.use);
         if (camera.readout_ms) velocity = velocity_of(pose, *camera.readout_ms, print);
         const double x = at.x_mm - pose.middle.x_mm;
         const double y = at.y_mm - pose.middle.y_mm;
@@ -222,7 +262,7 @@ MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const T
     theta_rad += camera.theta_offset_rad;
     result.theta_bam = static_cast<std::int32_t>(
         to_bam(std::atan2(std::sin(theta_rad) / print.y, std::cos(theta_rad) / print.x)));
-    return {result, velocity};
+    return {result, velocity, mapped.use};
 }
 
 }  // namespace dotpose

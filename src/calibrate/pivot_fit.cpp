@@ -10,6 +10,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "calibrate/least_squares.hpp"
+#include "calibrate/median.hpp"
 #include "dotpose/tools/random.hpp"
 
 namespace dotpose::calibrate {
@@ -70,12 +71,6 @@ Points points_of(const NormalEquations& equations) {
     return {{solved[0], solved[1], solved[2]}, {solved[3], solved[4], solved[5]}};
 }
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
-
 /// Returns the fit to a small subset of the views for which the median of all residuals is smallest
 /// (Rousseeuw 1984). Almost half of the views may be wrong.
 Points robust_start(const std::vector<PivotView>& views) {
@@ -95,7 +90,7 @@ Points robust_start(const std::vector<PivotView>& views) {
         std::vector<double> distances_mm;
         for (const PivotView& view : views)
             distances_mm.push_back(residual_mm(view, points).norm());
-        const double middle_mm = median(distances_mm);
+        const double middle_mm = upper_median(distances_mm);
         if (middle_mm >= best_mm) continue;
         best_mm = middle_mm;
         best = points;
@@ -118,7 +113,7 @@ Step improved(const std::vector<PivotView>& views, const Points& start) {
         whitenings.push_back(whitening_at(view, start.tip_mm));
         squares.push_back((whitenings.back() * residual_mm(view, start)).squaredNorm());
     }
-    const double scale = std::max(median(squares) / kMedianSquare, 1.0);
+    const double scale = std::max(upper_median(squares) / kMedianSquare, 1.0);
     Step step;
     NormalEquations equations(6);
     for (std::size_t i = 0; i < views.size(); ++i) {

@@ -36,18 +36,18 @@ struct WeightedDot {
 
 /// Residual of a dot in the image (measured minus predicted), and the derivatives of the
 /// prediction.
-struct Prediction {
+struct PredictedDot {
     Vector2d residual_px;
     Derivative by_parameters;
     Matrix2d px_per_mm;  ///< derivative with respect to the place of the dot on the paper
     bool is_in_front = false;
 };
 
-Prediction predict(const SpaceState& state, const SpaceDot& dot, const Vector2d& focal_px) {
+PredictedDot predict(const SpaceState& state, const SpaceDot& dot, const Vector2d& focal_px) {
     const Vector2d place = dot.intersection_mm + state.displacement * dot.direction_mm;
     const Vector3d from_camera = Vector3d(place.x(), place.y(), 0) - state.position_mm;
     const Vector3d seen = state.rotation.transpose() * from_camera;
-    Prediction result;
+    PredictedDot result;
     result.is_in_front = seen.z() > 0;
     const double depth = seen.z();
     result.residual_px =
@@ -92,7 +92,7 @@ Sums sums_at(const SpaceState& state, const std::vector<WeightedDot>& dots,
              const Vector2d& focal_px) {
     Sums sums;
     for (const auto& [dot, whitening] : dots) {
-        const Prediction predicted = predict(state, dot, focal_px);
+        const PredictedDot predicted = predict(state, dot, focal_px);
         if (!predicted.is_in_front) {
             sums.squares = std::numeric_limits<double>::infinity();
             return sums;
@@ -163,7 +163,7 @@ class NoiseModel {
     NoiseModel(const SpaceState& state, const std::vector<WeightedDot>& dots,
                const Vector2d& focal_px) {
         for (const auto& [dot, whitening] : dots) {
-            const Prediction predicted = predict(state, dot, focal_px);
+            const PredictedDot predicted = predict(state, dot, focal_px);
             const Matrix2d shape = predicted.px_per_mm * predicted.px_per_mm.transpose();
             print_.push_back(shape);
             centre_.push_back(dot.centre_covariance);
@@ -318,7 +318,7 @@ std::optional<SpaceFit> fit_space(const std::vector<SpaceDot>& dots, const Vecto
     fit.residual_px = residual_px(solutions, focal_px);
     const Information inverse = inverse_of(first.sums.information);
     for (const auto& [dot, whitening] : solutions.dots) {
-        const Prediction predicted = predict(first.state, dot, focal_px);
+        const PredictedDot predicted = predict(first.state, dot, focal_px);
         const Parameters gradient =
             (whitening * predicted.by_parameters).transpose() * whitening * predicted.residual_px;
         fit.used.push_back(dot);

@@ -20,6 +20,7 @@ Follower::Follower(const FollowerOptions& options)
     if (options.code) codes_ = {*options.code};
     use_flat_field();
     if (!options.sheets.empty()) use_sheets();
+    require_pages(options.print_map, options.sheets);
 }
 
 void Follower::use_flat_field() {
@@ -71,8 +72,8 @@ void Follower::use_sheets() {
 void Follower::use_options_for(int width_px, int height_px) {
     used_ = options_.locate;
     if (options_.camera) use_camera(*options_.camera, width_px, height_px, used_);
-    if (options_.fits_space_pose)
-        used_.show_stages = true;  // space_pose fits the dots in the trace
+    // space_pose and with_print_map fit the dots in the trace.
+    if (options_.fits_space_pose || !options_.print_map.pages.empty()) used_.show_stages = true;
     if (options_.reference_px) {
         const auto from_centre_q8 = [](double px, int side_px) {
             return static_cast<std::int32_t>(std::lround((px - (side_px - 1) / 2.0) * 256));
@@ -109,14 +110,17 @@ Locator& Follower::locator(const DeviceOptions& options) {
     return locator_;
 }
 
-/// Applies the camera file to the fix of the latest image.
+/// Applies the print map and the camera file to the fix of the latest image.
 Follower::Found Follower::by_camera_file(const Fix& seen, const std::optional<SheetPlace>& place,
                                          const CodeReading& reading) const {
-    if (!options_.camera) return {seen, seen, place, reading, {}, {}};
+    if (!options_.camera) {
+        const MappedFix mapped = with_print_map(seen, options_.print_map, locator_.trace());
+        return {seen, mapped.fix, place, reading, {}, {}, mapped.use};
+    }
     const AxisScale print = place ? place->entry->print_scale() : AxisScale{};
-    const auto [fix, velocity] =
-        with_camera_and_velocity(seen, *options_.camera, locator_.trace(), print);
-    return {seen, fix, place, reading, velocity, space_of(seen, place)};
+    const auto [fix, velocity, map_use] =
+        with_camera_and_map(seen, *options_.camera, locator_.trace(), print, options_.print_map);
+    return {seen, fix, place, reading, velocity, space_of(seen, place), map_use};
 }
 
 /// Returns the pose in space for the fix of the latest image.
@@ -143,6 +147,7 @@ Located Follower::located(const Found& found, const Fix& fix) const {
     Located result;
     result.reading = found.reading;
     result.velocity = found.velocity;
+    if (fix.status == Status::ok) result.map_use = found.map_use;
     if (fix.status == Status::ok) result.space = found.space;
     if (result.space && !result.space->is_ambiguous() && options_.camera->tip)
         result.tip = tip_of(*result.space, *options_.camera->tip, options_.camera->sigma);

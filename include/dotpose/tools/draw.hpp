@@ -29,6 +29,7 @@ DOTPOSE_BEGIN_EXPORT
 namespace dotpose {
 
 struct LensCalibration;
+struct MapPage;
 struct PrintCheck;
 struct Protocol;
 struct SpinCalibration;
@@ -113,6 +114,10 @@ void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibra
 /// each frame over a seam.
 void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
                     const Stitching& stitching);
+
+/// Draws the slow distortion of a mapped page, enlarged, as a deformed grid, and the two components
+/// of the offsets of all dots as images.
+void draw_print_map(const std::filesystem::path& path, const MapPage& page);
 
 /// Draws the sheets in the world, seen from above with x to the right and y up. Sheets without a
 /// known pose are drawn beside the other sheets. Throws Error if the sheets are too far apart to be

@@ -25,6 +25,7 @@
 #include "dotpose/tools/grey_image.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
 #include "dotpose/tools/pen.hpp"
+#include "dotpose/tools/print_mapping.hpp"
 #include "dotpose/tools/space_pose.hpp"
 #include "dotpose/track.hpp"
 
@@ -56,6 +57,9 @@ struct FollowerOptions {
     /// True to fit the pose of the camera in space, in addition to the pose on the paper. Requires
     /// a camera file with a focal length.
     bool fits_space_pose = false;
+    /// Map of the print, by which fixes are corrected (print_mapping.hpp). Requires the sheets of
+    /// the map. A pose in space is not corrected.
+    PrintMap print_map;
     TrackOptions track;
 };
 
@@ -83,7 +87,9 @@ struct Located {
     /// Tip of the pen in the pattern frame, if `space` is known and not ambiguous, and the camera
     /// file contains a tip.
     std::optional<TipPose> tip;
-    bool is_pen_down = false;    ///< true if `tip` is on the paper; see PenContact
+    bool is_pen_down = false;  ///< true if `tip` is on the paper; see PenContact
+    /// How the fix was corrected by `FollowerOptions::print_map`.
+    MapUse map_use = MapUse::no_map;
     bool code_is_given = false;  ///< true if options or sheets determine the code variant
     int reduced_by = 1;          ///< factor by which the image was reduced
 };
@@ -106,7 +112,7 @@ std::optional<Sighting> world_sighting(const Fix& fix, const SheetPlace& place,
 class Follower {
   public:
     /// Throws BadArgument if the options require a pose in space, and the camera file is missing or
-    /// has no focal length.
+    /// has no focal length. Throws Error if the print map is of other sheets.
     explicit Follower(const FollowerOptions& options);
 
     /// Locates an image without a prediction from other images. Reduces images larger than
@@ -153,6 +159,7 @@ class Follower {
         CodeReading reading;
         std::optional<ReadoutVelocity> velocity;
         std::optional<SpacePose> space;
+        MapUse map_use = MapUse::no_map;
     };
     /// The result of the latest image with a fix.
     struct Seen {

@@ -11,6 +11,7 @@
 
 #include "dotpose/export.hpp"
 #include "dotpose/files/camera.hpp"
+#include "dotpose/files/print_map.hpp"
 #include "dotpose/files/sheet.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/trace.hpp"
@@ -53,6 +54,16 @@ struct MovingFix {
 };
 MovingFix with_camera_and_velocity(const Fix& fix, const Camera& camera, const Trace& trace,
                                    const AxisScale& print = {});
+
+/// A MovingFix, corrected by a map of the print if `map_use` is MapUse::used.
+struct MappedMovingFix {
+    Fix fix;
+    std::optional<ReadoutVelocity> velocity;
+    MapUse map_use = MapUse::no_map;
+};
+/// Variant of `with_camera_and_velocity` that fits the dots at their places in a map of the print.
+MappedMovingFix with_camera_and_map(const Fix& fix, const Camera& camera, const Trace& trace,
+                                    const AxisScale& print, const PrintMap& map);
 
 /// Returns the spacing of the pattern in nominal mm. This is the spacing computed from the fix and
 /// the view of the camera file, divided by the print scale of the sheet. Returns NaN if there is no

@@ -8,6 +8,7 @@
 #include "../../exif.hpp"
 #include "../../unit/capture/encoders.hpp"
 #include "../locate_input.hpp"
+#include "dotpose/files/print_map.hpp"
 #include "dotpose/tools/simulate.hpp"
 #include "texts.hpp"
 
@@ -129,6 +130,23 @@ void make_options(const fs::path& folder) {
     }
 }
 
+/// Writes a small print map without its checksum, which the fuzz target adds.
+void make_print_map(const fs::path& folder) {
+    MapPage page;
+    page.name = "desk";
+    page.origin = {2000, 3000};
+    page.columns = 8;
+    page.rows = 9;
+    page.spacing_mm = kDefaultSpacing_mm;
+    page.frames = 500;
+    page.noise = 0.003;
+    page.jitter = 0.02;
+    page.offsets.resize(72, {-5, 300});
+    page.views.resize(72, 20);
+    const std::string bytes = print_map_bytes({{page}});
+    write(folder / "page", {bytes.begin(), bytes.end() - 4});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -138,6 +156,7 @@ int main(int argc, char** argv) {
     make_drawn(folder / "locate");
     make_images(folder / "image_file");
     make_options(folder / "options");
+    make_print_map(folder / "print_map");
     for (const fuzz::TextSeed& seed : fuzz::text_seeds())
         write(folder / seed.path, {seed.bytes.begin(), seed.bytes.end()});
 }

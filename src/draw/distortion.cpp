@@ -33,9 +33,9 @@ double round_down(double value) {
     return power;
 }
 
-class PrintMap {
+class DistortionMap {
   public:
-    PrintMap(const ImageView& scan, const PrintCheck& check)
+    DistortionMap(const ImageView& scan, const PrintCheck& check)
         : check_(check),
           scale_(kMaxMapSide / std::max(scan.width_px, scan.height_px)),
           width_(scan.width_px * scale_),
@@ -102,7 +102,7 @@ class PrintMap {
 
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check) {
-    write_file(path, [&](std::ostream& out) { out << PrintMap(scan, check).draw(); });
+    write_file(path, [&](std::ostream& out) { out << DistortionMap(scan, check).draw(); });
 }
 
 }  // namespace dotpose

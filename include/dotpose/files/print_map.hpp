@@ -1,0 +1,105 @@
+/// Print map: the measured offset of each printed dot from its nominal place, for the pages of a
+/// sheet file. `PrintMapping` (tools/print_mapping.hpp) makes a map, and `with_print_map` uses it.
+///
+///     const PrintMap map = read_print_map("desk.map");
+///     require_pages(map, sheets);  // throws Error if the map is of other pages
+///
+/// The file is binary and little-endian: 2 bytes per dot and axis, and 1 byte for the number of
+/// views (docs/print-map.md).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dotpose/code.hpp"
+#include "dotpose/export.hpp"
+#include "dotpose/files/error.hpp"
+#include "dotpose/files/sheet_file.hpp"
+
+DOTPOSE_BEGIN_EXPORT
+
+namespace dotpose {
+
+/// Offset of a dot, in 2^-14 spacings along x and y. The spacing includes the print scale.
+struct DotOffset {
+    std::int16_t x_q14 = 0;
+    std::int16_t y_q14 = 0;
+
+    double x() const { return x_q14 / 16384.0; }
+    double y() const { return y_q14 / 16384.0; }
+};
+
+/// Map of one page.
+struct MapPage {
+    std::string name;  ///< name of the sheet
+    CodeVariant code = CodeVariant::anoto;
+    Section section;
+    Cell origin;
+    int columns = 0;
+    int rows = 0;
+    double spacing_mm = 0;
+    std::uint32_t frames = 0;  ///< number of frames from which the map was made
+    /// Standard deviation, per axis, of the measured centre of a dot in one frame, in spacings.
+    double noise = 0;
+    /// Standard deviation, per axis, of the offset of a dot from the mean offset around it, in
+    /// spacings.
+    double jitter = 0;
+    /// Offsets of the dots, row by row. The offset of a dot that was never seen is the mean offset
+    /// around it.
+    std::vector<DotOffset> offsets;
+    std::vector<std::uint8_t> views;  ///< number of views of each dot, at most 255
+
+    /// Returns the index of the dot of a cell, or none if the cell is not on the page.
+    std::optional<std::size_t> index_of(const Place& place) const {
+        const std::uint32_t x = place.cell.x - origin.x;
+        const std::uint32_t y = place.cell.y - origin.y;
+        if (place.section != section || x >= std::uint32_t(columns) || y >= std::uint32_t(rows))
+            return std::nullopt;
+        return std::size_t{y} * std::size_t(columns) + x;
+    }
+};
+
+/// Maps of the pages of a sheet file.
+struct PrintMap {
+    std::vector<MapPage> pages;
+};
+
+/// Returns the map of the page that contains a place in a code variant, or null.
+const MapPage* find_page(const PrintMap& map, CodeVariant code, const Place& place);
+
+/// How a map was used for a fix.
+enum class MapUse : std::uint8_t {
+    no_map,       ///< there is no map of the page, or there is no fix
+    used,         ///< the fix is corrected by the map
+    not_covered,  ///< the map contains too few of the dots in view
+    contradicted  ///< the dots in view contradict the map: the print was moved, or is another print
+};
+
+/// Maximum size of a map file, in bytes. A page with the size of A0 has 20 MB.
+inline constexpr std::size_t kMaxMapBytes = std::size_t{512} << 20;
+
+/// Parses the contents of a map file. Throws Error if they are not a map, are truncated or damaged,
+/// or have another version.
+PrintMap parse_print_map(std::string_view bytes);
+
+/// Reads a map file. Throws Error, with the name of the file, if it cannot be read, or as
+/// `parse_print_map` does.
+PrintMap read_print_map(const std::filesystem::path& path);
+
+/// Returns the contents of a map file. Throws BadArgument if a page has no valid region, or vectors
+/// of the wrong size.
+std::string print_map_bytes(const PrintMap& map);
+
+/// Throws Error unless each page of the map is a sheet of `sheets`, with the same code variant,
+/// section, region and spacing.
+void require_pages(const PrintMap& map, std::span<const SheetEntry> sheets);
+
+}  // namespace dotpose
+
+DOTPOSE_END_EXPORT

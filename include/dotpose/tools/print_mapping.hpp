@@ -1,0 +1,106 @@
+/// Print mapping: makes a map of a printed page from many frames, and corrects fixes by the map.
+///
+///     PrintMapping mapping({.sheets = read_sheets("sheets.json"), .camera = camera});
+///     for (const GreyImage& image : images) mapping.add(image.view());
+///     const PrintMapResult result = mapping.solve();
+///     write_file("desk.map", print_map_bytes(result.map));
+///
+///     const MappedFix mapped = with_print_map(fix, result.map, locator.trace());
+///     if (mapped.use == MapUse::used) use(mapped.fix);
+///
+/// `FollowerOptions::print_map` applies a map to all fixes of a Follower.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dotpose/export.hpp"
+#include "dotpose/files/camera.hpp"
+#include "dotpose/files/print_map.hpp"
+#include "dotpose/files/sheet_file.hpp"
+#include "dotpose/fix.hpp"
+#include "dotpose/image.hpp"
+#include "dotpose/trace.hpp"
+
+DOTPOSE_BEGIN_EXPORT
+
+namespace dotpose {
+
+struct PrintMappingOptions {
+    std::vector<SheetEntry> sheets;  ///< the pages that may be in view
+    /// Lens and view of the camera. Without a camera file, the lens is assumed to have no
+    /// distortion, and the view is taken from the fixes.
+    std::optional<Camera> camera;
+    /// Earlier map of the same pages, which the frames update. Pages without frames are kept.
+    PrintMap earlier;
+};
+
+/// Statistics of the map of one page.
+struct MappedPage {
+    std::string name;              ///< name of the sheet
+    std::size_t frames = 0;        ///< number of frames used
+    std::size_t dots = 0;          ///< number of dots of the page
+    std::size_t seen = 0;          ///< number of dots that were seen
+    std::size_t observations = 0;  ///< number of measured dots in all frames
+    std::size_t outliers = 0;      ///< number of measured dots that were not used
+    double noise_mm = 0;           ///< standard deviation of a measured dot, per axis
+    double jitter_mm = 0;          ///< standard deviation of the print jitter, per axis
+    double slow_mm = 0;            ///< rms of the slow distortion of the page, per axis
+    bool is_rigid = true;          ///< true if height and tilt of the camera were constant
+    int iterations = 0;            ///< iterations of the solver in its last round
+};
+
+struct PrintMapResult {
+    PrintMap map;
+    std::vector<MappedPage> pages;  ///< for the pages of the map with frames, in the same order
+    std::size_t frames = 0;         ///< number of frames given
+};
+
+/// Collects the dots of frames, and computes the map. Uses 12 bytes for each dot in each frame.
+class PrintMapping {
+  public:
+    /// Throws BadArgument if there are no sheets or if the camera is not valid, and Error if the
+    /// earlier map is of other pages.
+    explicit PrintMapping(PrintMappingOptions options);
+    ~PrintMapping();
+    PrintMapping(PrintMapping&&) noexcept;
+    PrintMapping& operator=(PrintMapping&&) noexcept;
+
+    /// Locates a frame. Returns true if it is on one of the sheets, and therefore used. Throws
+    /// BadArgument if the image does not have the size in the camera file.
+    bool add(const ImageView& image);
+
+    /// Minimum number of frames of a page.
+    static constexpr std::size_t kMinFrames = 10;
+
+    /// Computes the map. `progress` is called with the share of the work that is done. If it
+    /// returns false, the work ends with an Error. Throws Error if no page was seen in kMinFrames
+    /// frames, or if the frames contradict the earlier map.
+    PrintMapResult solve(const std::function<bool(double share)>& progress = {});
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// A fix, corrected by a map if `use` is MapUse::used.
+struct MappedFix {
+    Fix fix;
+    MapUse use = MapUse::no_map;
+};
+
+/// Corrects a fix by a map of the print, given the trace of the frame. Fits the place, angle and
+/// scale to the dots at their mapped places. Also fits perspective and shear if they are
+/// significant. The covariance is computed from the residuals, so it no longer contains the errors
+/// of the print.
+///
+/// The map is used only if the residuals of the dots are smaller with the map than without.
+MappedFix with_print_map(const Fix& fix, const PrintMap& map, const Trace& trace);
+
+}  // namespace dotpose
+
+DOTPOSE_END_EXPORT

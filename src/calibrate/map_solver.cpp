@@ -1,0 +1,195 @@
+#include "calibrate/map_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/LU>
+
+#include "calibrate/map_geometry.hpp"
+#include "calibrate/map_system.hpp"
+#include "calibrate/median.hpp"
+
+namespace dotpose::calibrate {
+namespace {
+
+using Eigen::Vector2d;
+using FrameBlock = Eigen::Matrix<double, kFrameTerms, kFrameTerms>;
+
+/// Number of linearisations. Each also estimates the variances and finds the outliers again.
+constexpr int kRounds = 3;
+/// Limit of the squared residual of an observation, in units of the variance per axis. Exceeded by
+/// chance once in 4,000. The limit is larger before the offsets of the dots are known.
+constexpr double kOutlier = 16.6;
+constexpr double kFirstOutlier = 30;
+constexpr double kMinNoise_mm = 1e-4;
+constexpr double kMinJitter_mm = 5e-4;
+/// First values of the variances.
+constexpr double kFirstNoise = 0.005;
+constexpr double kFirstJitter = 0.02;
+
+/// Residuals of all frames with the offsets and views of a solution.
+struct Statistics {
+    double squares = 0;  ///< sum over the observations that are not outliers
+    std::array<double, kViewTerms> view_sigma{};
+};
+
+/// View terms of a frame if all other unknowns are right, with their variances.
+struct FreeView {
+    Eigen::Matrix<double, kViewTerms, 1> terms;
+    Eigen::Matrix<double, kViewTerms, 1> variance;
+};
+
+FreeView free_view(const FrameBlock& block, const FrameVector& right, const MapFrame& frame,
+                   double variance) {
+    FrameBlock damped = block;
+    damped.diagonal().array() += 1e-9 * block.diagonal().maxCoeff();
+    const FrameBlock inverse = damped.inverse();
+    return {frame.view - (inverse * right).tail<kViewTerms>(),
+            variance * inverse.diagonal().tail<kViewTerms>()};
+}
+
+/// Returns the standard deviations of the view terms between frames. A camera whose terms do not
+/// differ more than their errors counts as rigid.
+std::array<double, kViewTerms> view_sigma_of(const std::vector<FreeView>& views) {
+    std::array<double, kViewTerms> result{};
+    for (int k = 0; k < kViewTerms; ++k) {
+        std::vector<double> squares;
+        std::vector<double> variances;
+        for (const FreeView& view : views) {
+            squares.push_back(view.terms[k] * view.terms[k]);
+            variances.push_back(view.variance[k]);
+        }
+        constexpr double kMedianOfSquare = 0.455;  // of a Gaussian variable with variance 1
+        constexpr double kRigid = 0.01;
+        const double error = upper_median(variances);
+        const double variance = upper_median(squares) / kMedianOfSquare - error;
+        result[static_cast<std::size_t>(k)] = std::sqrt(std::max(variance, kRigid * error));
+    }
+    return result;
+}
+
+Vector2d residual_of(const MapView& view, const MapView::Terms& terms, const MapSolution& solution,
+                     const MapFrame& frame, const MapObservation& seen) {
+    FrameVector own = FrameVector::Zero();
+    own.tail<kViewTerms>() = frame.view;
+    return view.residual(seen) + terms.change(own, shared_terms(own, solution.camera)) -
+           view.page_from_camera().transpose() * solution.offset_mm[seen.index()].cast<double>();
+}
+
+/// Computes the statistics and marks outliers. `limit` is the limit of squared residuals, in units
+/// of their typical variance per axis.
+Statistics measure(const MapGrid& grid, double limit, MapSolution& solution,
+                   std::vector<MapObservation>& observations) {
+    std::vector<double> squares(observations.size());
+    std::vector<FreeView> views;
+    Statistics result;
+    for (const MapFrame& frame : solution.frames) {
+        const MapView view(grid, frame, solution.reach_mm);
+        FrameBlock block = FrameBlock::Zero();
+        FrameVector right = FrameVector::Zero();
+        double unused = 0;
+        double sum = 0;
+        for (std::size_t i = frame.first; i < frame.first + frame.count; ++i) {
+            const MapView::Terms terms = view.terms(observations[i]);
+            const Vector2d residual = residual_of(view, terms, solution, frame, observations[i]);
+            squares[i] = residual.squaredNorm();
+            if (observations[i].is_outlier()) continue;
+            const auto derivatives = terms.derivatives();
+            block += derivatives.transpose() * derivatives;
+            terms.add_transposed(residual, right, unused);
+            sum += squares[i];
+        }
+        result.squares += sum;
+        views.push_back(
+            free_view(block, right, frame, sum / (2 * static_cast<double>(frame.count))));
+    }
+    result.view_sigma = view_sigma_of(views);
+    constexpr double kMedianOfSquare = 1.386;  // of a vector with variance 1 per axis
+    const double unit = upper_median(squares) / kMedianOfSquare;
+    std::ranges::fill(solution.views, 0);
+    solution.outliers = 0;
+    for (std::size_t i = 0; i < observations.size(); ++i) {
+        const std::uint32_t dot = observations[i].index();
+        const bool is_outlier = squares[i] > limit * unit;
+        observations[i].dot = dot | (is_outlier ? MapObservation::kOutlier : 0);
+        solution.outliers += is_outlier ? 1 : 0;
+        solution.views[dot] += is_outlier ? 0 : 1;
+    }
+    return result;
+}
+
+/// Estimates noise and jitter from the residuals. `used` is the number of observations that are not
+/// outliers.
+void estimate_variances(const MapGrid& grid, double squares, std::size_t used,
+                        MapSolution& solution) {
+    const double weight = 1 / (solution.noise_mm * solution.noise_mm);
+    const double prior = 1 / (solution.jitter_mm * solution.jitter_mm);
+    double fitted = kFrameTerms * static_cast<double>(solution.frames.size());
+    double jitter = 0;
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < grid.dots(); ++i) {
+        if (solution.views[i] == 0) continue;
+        const double own = weight * solution.views[i];
+        fitted += 2 * own / (own + prior);
+        const auto columns = static_cast<std::size_t>(grid.columns);
+        const Vector2d mean =
+            solution.field.at(static_cast<int>(i % columns), static_cast<int>(i / columns));
+        jitter +=
+            (solution.offset_mm[i].cast<double>() - mean).squaredNorm() / 2 + 1 / (own + prior);
+        ++seen;
+    }
+    const double free = std::max(2 * static_cast<double>(used) - fitted, 1.0);
+    solution.noise_mm = std::max(std::sqrt(squares / free), kMinNoise_mm);
+    solution.jitter_mm = std::max(
+        std::sqrt(jitter / static_cast<double>(std::max<std::size_t>(seen, 1))), kMinJitter_mm);
+}
+
+/// Removes the mean offset, scale and turn of the seen dots from the offsets, because views of the
+/// page do not determine them.
+void fix_gauge(const MapGrid& grid, MapSolution& solution) {
+    const Vector2d middle =
+        grid.pitch_mm.cwiseProduct(Vector2d(grid.columns - 1, grid.rows - 1)) / 2;
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    const auto rows_of = [](const Vector2d& at) {
+        Eigen::Matrix<double, 2, 4> rows;
+        rows << 1, 0, at.x(), -at.y(), 0, 1, at.y(), at.x();
+        return rows;
+    };
+    for (std::size_t i = 0; i < grid.dots(); ++i) {
+        if (solution.views[i] == 0) continue;
+        const auto rows = rows_of(grid.place_mm(i) - middle);
+        normal += rows.transpose() * rows;
+        right += rows.transpose() * solution.offset_mm[i].cast<double>();
+    }
+    const Eigen::Vector4d gauge = normal.ldlt().solve(right);
+    for (std::size_t i = 0; i < grid.dots(); ++i)
+        solution.offset_mm[i] -= (rows_of(grid.place_mm(i) - middle) * gauge).cast<float>();
+}
+
+}  // namespace
+
+void solve_map(const MapGrid& grid, const EarlierOffsets& earlier, double reach_mm,
+               std::vector<MapObservation>& observations, MapSolution& solution,
+               const MapProgress& progress) {
+    solution.reach_mm = reach_mm;
+    solution.field = MapField(grid.columns, grid.rows, grid.pitch_mm.mean());
+    solution.offset_mm.assign(grid.dots(), Eigen::Vector2f::Zero());
+    if (!earlier.offset_mm.empty()) solution.offset_mm = earlier.offset_mm;
+    solution.views.assign(grid.dots(), 0);
+    solution.noise_mm = kFirstNoise * grid.pitch_mm.mean();
+    solution.jitter_mm = kFirstJitter * grid.pitch_mm.mean();
+    solution.view_sigma = measure(grid, kFirstOutlier, solution, observations).view_sigma;
+    for (int round = 0; round < kRounds; ++round) {
+        MapSystem system(grid, earlier, observations, solution);
+        system.solve(solution, [&](double share) { progress((round + share) / kRounds); });
+        const std::size_t used = observations.size() - solution.outliers;
+        const Statistics now = measure(grid, kOutlier, solution, observations);
+        estimate_variances(grid, now.squares, used, solution);
+        solution.view_sigma = now.view_sigma;
+    }
+    if (earlier.views.empty()) fix_gauge(grid, solution);
+}
+
+}  // namespace dotpose::calibrate

@@ -1,0 +1,104 @@
+// Map solver: computes the offsets of the dots of a page and the poses of all frames together, by
+// sparse least squares.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "calibrate/map_field.hpp"
+
+namespace dotpose::calibrate {
+
+/// A dot in one frame: its index on the page, and its place on the paper in mm, in the frame of the
+/// camera.
+struct MapObservation {
+    /// Marks observations that are not used, because their residuals are too large.
+    static constexpr std::uint32_t kOutlier = 1U << 31;
+    std::uint32_t dot = 0;
+    float x_mm = 0;
+    float y_mm = 0;
+
+    bool is_outlier() const { return (dot & kOutlier) != 0; }
+    std::uint32_t index() const { return dot & ~kOutlier; }
+};
+
+/// Number of terms of the view that may differ between frames: scale, two shears, two perspectives.
+inline constexpr int kViewTerms = 5;
+/// Number of terms that all frames have in common: these terms and the lens distortion.
+inline constexpr int kCameraTerms = kViewTerms + 1;
+/// Parameters of a frame: place (2), angle, displacement of the dots, and the view terms.
+inline constexpr int kFrameTerms = 4 + kViewTerms;
+using FrameVector = Eigen::Matrix<double, kFrameTerms, 1>;
+using CameraVector = Eigen::Matrix<double, kCameraTerms, 1>;
+
+/// Pose and view of a frame. A place P in the camera frame is seen at place + R(angle) (P + view
+/// terms) on the page.
+struct MapFrame {
+    std::size_t first = 0;  ///< index of its first observation
+    std::size_t count = 0;  ///< number of observations
+    Eigen::Vector2d place_mm = Eigen::Vector2d::Zero();
+    double angle_rad = 0;
+    double displacement_mm = 0;
+    Eigen::Matrix<double, kViewTerms, 1> view = Eigen::Matrix<double, kViewTerms, 1>::Zero();
+};
+
+/// The page of a map.
+struct MapGrid {
+    int columns = 0;
+    int rows = 0;
+    Eigen::Vector2d pitch_mm = Eigen::Vector2d::Zero();
+    /// Directions of the displacements of the dots.
+    std::vector<std::array<std::int8_t, 2>> directions;
+
+    std::size_t dots() const { return directions.size(); }
+    Eigen::Vector2d place_mm(std::size_t dot) const {
+        const auto wide = static_cast<std::size_t>(columns);
+        return {pitch_mm.x() * static_cast<double>(dot % wide),
+                pitch_mm.y() * static_cast<double>(dot / wide)};
+    }
+    /// Place of the dot, without its offset.
+    Eigen::Vector2d place_mm(std::size_t dot, double displacement_mm) const {
+        return place_mm(dot) +
+               displacement_mm * Eigen::Vector2d(directions[dot][0], directions[dot][1]);
+    }
+};
+
+/// Offset of a dot from an earlier map, with its information. Empty if there is no earlier map.
+struct EarlierOffsets {
+    std::vector<Eigen::Vector2f> offset_mm;
+    std::vector<float> views;
+};
+
+/// Unknowns and statistics of a map.
+struct MapSolution {
+    std::vector<MapFrame> frames;
+    CameraVector camera = CameraVector::Zero();  ///< terms that all frames have in common
+    double reach_mm = 1;                         ///< unit of lengths in the view terms
+    MapField field;                              ///< mean offset around each place
+    std::vector<Eigen::Vector2f> offset_mm;      ///< offset of each dot
+    std::vector<std::uint32_t> views;            ///< number of views of each dot
+    double noise_mm = 0;                         ///< see MapPage::noise
+    double jitter_mm = 0;                        ///< see MapPage::jitter
+    /// Standard deviations of the view terms between frames. 0 at the start if not known.
+    std::array<double, kViewTerms> view_sigma{};
+    std::size_t outliers = 0;
+    int iterations = 0;  ///< iterations of conjugate gradients in the last round
+};
+
+/// Called after each part of the work, with its share. Throws to end the work.
+using MapProgress = std::function<void(double share)>;
+
+/// Computes the map. `solution` contains the approximate poses of the frames. The observations of a
+/// frame are consecutive. Marks outliers.
+void solve_map(const MapGrid& grid, const EarlierOffsets& earlier, double reach_mm,
+               std::vector<MapObservation>& observations, MapSolution& solution,
+               const MapProgress& progress);
+
+}  // namespace dotpose::calibrate

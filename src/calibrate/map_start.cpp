@@ -1,0 +1,168 @@
+#include "calibrate/map_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "calibrate/located_frame.hpp"
+#include "calibrate/map_geometry.hpp"
+#include "calibrate/median.hpp"
+#include "calibrate/similarity.hpp"
+
+namespace dotpose::calibrate {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+/// View of the paper: x = shape * q / (1 + perspective . q + lens q^2), with q in px from `centre`.
+struct View {
+    Vector2d centre_px;
+    Matrix2d shape_mm = Matrix2d::Identity();  ///< symmetric
+    Vector2d perspective = Vector2d::Zero();
+    double lens = 0;
+
+    Vector2d at(const MapObservation& seen) const {
+        const Vector2d q = Vector2d(seen.x_mm, seen.y_mm) - centre_px;
+        return shape_mm * q / (1 + perspective.dot(q) + lens * q.squaredNorm());
+    }
+};
+
+/// Returns the view of a frame, without its rotation.
+View view_of(const PlaneFromImage& plane, const Vector2d& pitch_mm) {
+    Matrix2d linear;
+    linear << plane.du_q24.x, plane.dv_q24.x, plane.du_q24.y, plane.dv_q24.y;
+    linear = pitch_mm.asDiagonal() * linear * 0x1p-24;
+    const double angle = std::atan2(linear(1, 0) - linear(0, 1), linear(0, 0) + linear(1, 1));
+    const Matrix2d shape = Eigen::Rotation2D<double>(-angle).toRotationMatrix() * linear;
+    return {Vector2d(plane.centre_q8.x, plane.centre_q8.y) / 256, (shape + shape.transpose()) / 2,
+            Vector2d(plane.perspective_q30.x, plane.perspective_q30.y) * 0x1p-30,
+            plane.lens_q40 * 0x1p-40};
+}
+
+double median_of(const std::vector<View>& views, const std::function<double(const View&)>& value) {
+    std::vector<double> values;
+    for (const View& view : views)
+        values.push_back(value(view));
+    return upper_median(std::move(values));
+}
+
+View median_view(const std::vector<View>& views) {
+    View view = views.front();
+    for (int i = 0; i < 2; ++i) {
+        view.perspective[i] = median_of(views, [&](const View& v) { return v.perspective[i]; });
+        for (int j = 0; j < 2; ++j)
+            view.shape_mm(i, j) = median_of(views, [&](const View& v) { return v.shape_mm(i, j); });
+    }
+    view.lens = median_of(views, [](const View& v) { return v.lens; });
+    return view;
+}
+
+/// Returns true if the scales of the views differ as those of a hand-held camera.
+bool differ(const std::vector<View>& views, const View& typical) {
+    constexpr double kMaxMedianChange = 0.01;
+    return median_of(views, [&](const View& view) {
+               return (view.shape_mm - typical.shape_mm).norm() / typical.shape_mm.norm();
+           }) > kMaxMedianChange;
+}
+
+}  // namespace
+
+bool add_sighting(const Fix& fix, const Trace& trace, const MapPage& page, std::size_t min_dots,
+                  std::vector<MapSighting>& frames, std::vector<MapObservation>& observations) {
+    MapSighting frame{observations.size(), 0, fix.pattern_from_image};
+    for (const LocatedDot& dot : dots_read(trace)) {
+        const auto index =
+            page.index_of(moved(trace.options.code, trace.decoding.place, dot.step.x, dot.step.y));
+        if (!index) continue;
+        observations.push_back({static_cast<std::uint32_t>(*index), static_cast<float>(dot.pixel.u),
+                                static_cast<float>(dot.pixel.v)});
+    }
+    frame.count = observations.size() - frame.first;
+    if (frame.count < min_dots) {
+        observations.resize(frame.first);
+        return false;
+    }
+    frames.push_back(frame);
+    return true;
+}
+
+double start_map(const MapGrid& grid, const EarlierOffsets& earlier,
+                 const std::optional<Camera>& camera, const std::vector<MapSighting>& frames,
+                 std::vector<MapObservation>& observations, MapSolution& solution) {
+    std::vector<View> views;
+    for (const MapSighting& frame : frames)
+        views.push_back(view_of(frame.plane, grid.pitch_mm));
+    const View typical = median_view(views);
+    const bool is_mounted = !differ(views, typical);
+    double reach_mm = 0;
+    std::vector<double> scales;
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+        MapFrame frame{.first = frames[f].first, .count = frames[f].count};
+        std::vector<SimilarPoint> points;
+        for (std::size_t i = frame.first; i < frame.first + frame.count; ++i) {
+            MapObservation& seen = observations[i];
+            Vector2d at = (is_mounted ? typical : views[f]).at(seen);
+            if (camera && camera->paper) {
+                const CameraPoint on = on_paper(*camera, {seen.x_mm, seen.y_mm});
+                at = {on.x_mm, on.y_mm};
+            }
+            seen.x_mm = static_cast<float>(at.x());
+            seen.y_mm = static_cast<float>(at.y());
+            reach_mm = std::max(reach_mm, at.norm());
+            const auto& [dx, dy] = grid.directions[seen.dot];
+            Vector2d place = grid.place_mm(seen.dot);
+            if (!earlier.views.empty()) place += earlier.offset_mm[seen.dot].cast<double>();
+            points.push_back({at, place, Vector2d(dx, dy)});
+        }
+        const Similarity fit = fit_similarity(points);
+        frame.place_mm = fit.place;
+        frame.angle_rad = fit.angle_rad;
+        frame.displacement_mm = fit.displacement;
+        solution.frames.push_back(frame);
+        scales.push_back(fit.scale);
+    }
+    const auto scale = static_cast<float>(upper_median(scales));
+    for (MapObservation& seen : observations) {
+        seen.x_mm *= scale;
+        seen.y_mm *= scale;
+    }
+    return reach_mm * double(scale);
+}
+
+double misfit(const MapGrid& grid, const EarlierOffsets& earlier, double reach_mm,
+              const std::vector<MapObservation>& observations, const MapSolution& solution) {
+    double with_map = 0;
+    double without = 0;
+    for (const MapFrame& frame : solution.frames) {
+        const MapView view(grid, frame, reach_mm);
+        // Removes the mean residual and the change of scale, rotation and shear, which the poses
+        // absorb.
+        Eigen::MatrixXd design(2 * static_cast<Eigen::Index>(frame.count), kFrameTerms);
+        Eigen::MatrixXd residuals(design.rows(), 2);
+        for (std::size_t k = 0; k < frame.count; ++k) {
+            const MapObservation& seen = observations[frame.first + k];
+            const auto row = 2 * static_cast<Eigen::Index>(k);
+            design.middleRows<2>(row) = view.terms(seen).derivatives();
+            residuals.block<2, 1>(row, 0) = view.residual(seen);
+            residuals.block<2, 1>(row, 1) =
+                view.residual(seen) - view.page_from_camera().transpose() *
+                                          earlier.offset_mm[seen.index()].cast<double>();
+        }
+        const Eigen::MatrixXd normal = design.transpose() * design;
+        const Eigen::MatrixXd left =
+            residuals - design * normal.ldlt().solve(design.transpose() * residuals);
+        const auto median_square = [&](Eigen::Index column) {
+            const Eigen::VectorXd squares = left.col(column).cwiseAbs2();
+            return upper_median({squares.begin(), squares.end()});
+        };
+        without += median_square(0);
+        with_map += median_square(1);
+    }
+    return with_map / without;
+}
+
+}  // namespace dotpose::calibrate

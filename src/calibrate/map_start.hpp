@@ -1,0 +1,41 @@
+// Map start: collects the dots of the frames of a page, and computes approximate poses.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "calibrate/map_solver.hpp"
+#include "dotpose/files/camera.hpp"
+#include "dotpose/files/print_map.hpp"
+#include "dotpose/fix.hpp"
+#include "dotpose/trace.hpp"
+
+namespace dotpose::calibrate {
+
+/// A frame of a page, with its view from the fix.
+struct MapSighting {
+    std::size_t first = 0;  ///< index of its first observation
+    std::size_t count = 0;
+    PlaneFromImage plane;
+};
+
+/// Adds the dots of a fix on a page. Their places are undistorted pixels, until `start_map`
+/// converts them to mm. Returns false, without adding dots, if there are fewer than `min_dots`.
+bool add_sighting(const Fix& fix, const Trace& trace, const MapPage& page, std::size_t min_dots,
+                  std::vector<MapSighting>& frames, std::vector<MapObservation>& observations);
+
+/// Converts the observations to places on the paper in the frame of the camera, and sets the
+/// approximate poses of the frames of `solution`. All frames use the view of the camera file or, if
+/// it has none, their median view. If the views differ too much, because the camera was hand-held,
+/// each frame uses its own view. The median scale of the frames on the page, with the offsets of
+/// the earlier map, becomes 1. Returns the distance to the most distant dots, in mm.
+double start_map(const MapGrid& grid, const EarlierOffsets& earlier,
+                 const std::optional<Camera>& camera, const std::vector<MapSighting>& frames,
+                 std::vector<MapObservation>& observations, MapSolution& solution);
+
+/// Returns the median squared residual of the dots with the offsets of a map, divided by that
+/// without. `solution` contains the poses of `start_map`.
+double misfit(const MapGrid& grid, const EarlierOffsets& earlier, double reach_mm,
+              const std::vector<MapObservation>& observations, const MapSolution& solution);
+
+}  // namespace dotpose::calibrate

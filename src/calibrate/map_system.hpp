@@ -1,0 +1,73 @@
+// Map system: the linear equations of a print map. The offsets of the dots are eliminated, because
+// each of them is in the equations of one dot only (Schur complement).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "calibrate/map_solver.hpp"
+
+namespace dotpose::calibrate {
+
+/// Unknowns that remain after the elimination. Places, angles (times the reach) and displacements
+/// of the frames are relative to the frames of the solution. All other values are absolute.
+struct MapUnknowns {
+    std::vector<FrameVector> frames;
+    CameraVector camera = CameraVector::Zero();
+    std::vector<Eigen::Vector2d> field;
+
+    double inner(const MapUnknowns& other) const;
+    /// Replaces this with scale * this + by * other.
+    void combine(double scale, double by, const MapUnknowns& other);
+};
+
+/// Equations, linearised at the frames of a solution.
+class MapSystem {
+  public:
+    MapSystem(const MapGrid& grid, const EarlierOffsets& earlier,
+              const std::vector<MapObservation>& observations, const MapSolution& solution);
+
+    /// Solves the equations by preconditioned conjugate gradients. Updates frames, camera, field
+    /// and offsets of `solution`, which must be the solution of the constructor.
+    void solve(MapSolution& solution, const MapProgress& progress);
+
+    /// Number of parts of the frames. Constant, because sums must not depend on the number of
+    /// threads.
+    static constexpr int kParts = 8;
+
+  private:
+    enum class Residuals : bool { omit, add };
+
+    MapUnknowns zeros() const;
+    MapUnknowns unknowns_of(const MapSolution& solution) const;
+    /// Returns the product of the matrix and `at`. With Residuals::add, returns the gradient at
+    /// `at`.
+    MapUnknowns product(const MapUnknowns& at, Residuals residuals);
+    /// Sets `offsets_` to the most likely offsets for `at`.
+    void eliminate(const MapUnknowns& at, Residuals residuals);
+    void add_frames(const MapUnknowns& at, Residuals residuals, MapUnknowns& result) const;
+    void add_field(const MapUnknowns& at, MapUnknowns& result) const;
+    void make_preconditioner();
+    MapUnknowns preconditioned(const MapUnknowns& residual) const;
+    void write(const MapUnknowns& at, MapSolution& solution);
+
+    /// Keeps the scale of the page: sets the scale of the camera and the mean scale of the frames
+    /// to 0. Without this constraint, a smaller page would have smaller residuals.
+    static void keep_scale(MapUnknowns& unknowns);
+
+    const MapGrid& grid_;
+    const EarlierOffsets& earlier_;
+    const std::vector<MapObservation>& observations_;
+    const MapSolution& solution_;
+    double weight_;                   ///< of an observation: 1 / noise^2
+    double prior_weight_;             ///< of the field for the offset of a dot: 1 / jitter^2
+    std::vector<float> information_;  ///< weight of all that is known of an offset
+    std::vector<Eigen::Vector2d> offsets_;
+    std::vector<std::vector<Eigen::Vector2d>> sums_;  ///< of each part
+    std::vector<Eigen::LLT<Eigen::Matrix<double, kFrameTerms, kFrameTerms>>> frame_blocks_;
+    Eigen::LLT<Eigen::Matrix<double, kCameraTerms, kCameraTerms>> camera_block_;
+    std::vector<double> field_diagonal_;
+};
+
+}  // namespace dotpose::calibrate

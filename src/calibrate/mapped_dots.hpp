@@ -1,0 +1,34 @@
+// Mapped dots: the dots of a fix, with their offsets in a print map.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "calibrate/located_frame.hpp"
+#include "dotpose/files/print_map.hpp"
+#include "dotpose/fix.hpp"
+#include "dotpose/trace.hpp"
+
+namespace dotpose::calibrate {
+
+/// A dot that `locate` read, and its offset in spacings.
+struct MappedDot {
+    LocatedDot dot;
+    Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+};
+
+/// Dots of a fix that were seen for the map. There are no dots unless `use` is MapUse::used.
+struct MappedDots {
+    MapUse use = MapUse::no_map;
+    double noise = 0;  ///< MapPage::noise
+    std::vector<MappedDot> dots;
+};
+
+MappedDots mapped_dots(const Fix& fix, const PrintMap& map, const Trace& trace);
+
+/// Returns true if the variances of the residuals with and without the map show that the map is of
+/// this print. `noise` is the noise of the map, in the unit of the residuals.
+bool is_same_print(double variance_with_map, double variance_without, double noise);
+
+}  // namespace dotpose::calibrate

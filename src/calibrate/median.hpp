@@ -1,0 +1,17 @@
+// Median of numbers.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace dotpose::calibrate {
+
+/// Returns the upper median. `values` must not be empty.
+inline double upper_median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+}  // namespace dotpose::calibrate

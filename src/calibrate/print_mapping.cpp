@@ -1,0 +1,219 @@
+// Print mapping: collects the dots of the frames of each page, and converts the solution to a map.
+#include "dotpose/tools/print_mapping.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "calibrate/located_frame.hpp"
+#include "calibrate/map_solver.hpp"
+#include "calibrate/map_start.hpp"
+#include "dotpose/files/sheet_place.hpp"
+#include "dotpose/locate.hpp"
+
+namespace dotpose {
+namespace {
+
+using namespace dotpose::calibrate;
+
+constexpr std::size_t kMinDots = 20;
+/// Minimum reduction of the squared residuals by an earlier map of the same print.
+constexpr double kSamePrint = 0.8;
+
+MapGrid grid_of(const SheetEntry& entry) {
+    const Sheet& sheet = entry.sheet;
+    MapGrid grid{
+        sheet.columns,
+        sheet.rows,
+        sheet.pattern.spacing_mm * Eigen::Vector2d(entry.print_scale_x, entry.print_scale_y),
+        {}};
+    const Place first{sheet.origin, sheet.pattern.section};
+    for (int j = 0; j < sheet.rows; ++j) {
+        for (int i = 0; i < sheet.columns; ++i) {
+            const Place place = moved(sheet.pattern.code, first, i, j);
+            const Symbol symbol = symbol_at(sheet.pattern.code, place.cell, place.section);
+            grid.directions.push_back(
+                {static_cast<std::int8_t>(dx(symbol)), static_cast<std::int8_t>(dy(symbol))});
+        }
+    }
+    return grid;
+}
+
+MapPage empty_page(const SheetEntry& entry) {
+    const Sheet& sheet = entry.sheet;
+    MapPage page;
+    page.name = entry.name;
+    page.code = sheet.pattern.code;
+    page.section = sheet.pattern.section;
+    page.origin = sheet.origin;
+    page.columns = sheet.columns;
+    page.rows = sheet.rows;
+    page.spacing_mm = sheet.pattern.spacing_mm;
+    return page;
+}
+
+EarlierOffsets earlier_of(const MapPage* page, const MapGrid& grid) {
+    EarlierOffsets earlier;
+    if (page == nullptr) return earlier;
+    for (std::size_t i = 0; i < grid.dots(); ++i) {
+        const DotOffset& offset = page->offsets[i];
+        earlier.offset_mm.emplace_back(
+            Eigen::Vector2d(offset.x() * grid.pitch_mm.x(), offset.y() * grid.pitch_mm.y())
+                .cast<float>());
+        earlier.views.push_back(page->views[i]);
+    }
+    return earlier;
+}
+
+std::int16_t to_q14(double spacings) {
+    return static_cast<std::int16_t>(std::clamp(std::lround(spacings * 16384), -32767L, 32767L));
+}
+
+void write_page(const MapGrid& grid, const EarlierOffsets& earlier, const MapSolution& solution,
+                MapPage& page) {
+    page.noise = solution.noise_mm / grid.pitch_mm.mean();
+    page.jitter = solution.jitter_mm / grid.pitch_mm.mean();
+    page.frames += static_cast<std::uint32_t>(solution.frames.size());
+    page.offsets.resize(grid.dots());
+    page.views.resize(grid.dots());
+    for (std::size_t i = 0; i < grid.dots(); ++i) {
+        const Eigen::Vector2d offset = solution.offset_mm[i].cast<double>();
+        page.offsets[i] = {to_q14(offset.x() / grid.pitch_mm.x()),
+                           to_q14(offset.y() / grid.pitch_mm.y())};
+        const auto before = earlier.views.empty() ? 0U : static_cast<unsigned>(earlier.views[i]);
+        page.views[i] = static_cast<std::uint8_t>(std::min(before + solution.views[i], 255U));
+    }
+}
+
+MappedPage statistics_of(const std::string& name, const MapGrid& grid, const MapSolution& solution,
+                         std::size_t observations) {
+    MappedPage page;
+    page.name = name;
+    page.frames = solution.frames.size();
+    page.dots = grid.dots();
+    page.observations = observations;
+    page.outliers = solution.outliers;
+    page.noise_mm = solution.noise_mm;
+    page.jitter_mm = solution.jitter_mm;
+    page.iterations = solution.iterations;
+    double squares = 0;
+    for (std::size_t i = 0; i < grid.dots(); ++i) {
+        if (solution.views[i] == 0) continue;
+        ++page.seen;
+        squares += solution.offset_mm[i].cast<double>().squaredNorm() / 2;
+    }
+    const double all = squares / static_cast<double>(std::max<std::size_t>(page.seen, 1));
+    page.slow_mm = std::sqrt(std::max(all - solution.jitter_mm * solution.jitter_mm, 0.0));
+    // Limit of the relative change of the scale.
+    constexpr double kRigid = 2e-4;
+    page.is_rigid = solution.view_sigma[0] < kRigid * solution.reach_mm;
+    return page;
+}
+
+}  // namespace
+
+struct PrintMapping::State {
+    struct PageFrames {
+        std::vector<MapSighting> frames;
+        std::vector<MapObservation> observations;  ///< in px before `start_map`
+    };
+
+    explicit State(PrintMappingOptions given)
+        : options(std::move(given)), pages(options.sheets.size()) {
+        for (const SheetEntry& entry : options.sheets) {
+            validate(entry);
+            const Sheet& sheet = entry.sheet;
+            known.push_back({sheet.pattern.code, sheet.pattern.section, sheet.origin,
+                             static_cast<std::uint32_t>(sheet.columns),
+                             static_cast<std::uint32_t>(sheet.rows)});
+        }
+        if (known.empty()) throw BadArgument("a print map needs a sheet file with sheets");
+        require_pages(options.earlier, options.sheets);
+        if (options.camera) validate(*options.camera);
+        (void)locator.set_known(known, OtherSheets::possible);
+    }
+
+    PrintMappingOptions options;
+    std::vector<PageFrames> pages;   ///< in the order of the sheets
+    std::vector<KnownRegion> known;  ///< regions of the sheets, which the locator refers to
+    std::size_t frames = 0;
+    Locator locator{DeviceOptions{}};
+};
+
+PrintMapping::PrintMapping(PrintMappingOptions options)
+    : state_(std::make_unique<State>(std::move(options))) {}
+PrintMapping::~PrintMapping() = default;
+PrintMapping::PrintMapping(PrintMapping&&) noexcept = default;
+PrintMapping& PrintMapping::operator=(PrintMapping&&) noexcept = default;
+
+bool PrintMapping::add(const ImageView& image) {
+    State& state = *state_;
+    ++state.frames;
+    DeviceOptions options;
+    if (state.options.camera)
+        use_camera(*state.options.camera, image.width_px, image.height_px, options);
+    options.show_stages = true;
+    const auto& sheets = state.options.sheets;
+    for (std::size_t i = 0; i < sheets.size(); ++i) {
+        const CodeVariant code = sheets[i].sheet.pattern.code;
+        const bool was_tried = std::ranges::any_of(
+            sheets.begin(), sheets.begin() + static_cast<std::ptrdiff_t>(i),
+            [&](const SheetEntry& entry) { return entry.sheet.pattern.code == code; });
+        if (was_tried) continue;
+        options.code = code;
+        state.locator.set_options(options);
+        const Fix fix = state.locator.locate(image);
+        const auto place = find_sheet(sheets, code, fix);
+        if (!place) continue;
+        State::PageFrames& page =
+            state.pages[static_cast<std::size_t>(place->entry - sheets.data())];
+        return add_sighting(fix, state.locator.trace(), empty_page(*place->entry), kMinDots,
+                            page.frames, page.observations);
+    }
+    return false;
+}
+
+PrintMapResult PrintMapping::solve(const std::function<bool(double share)>& progress) {
+    State& state = *state_;
+    PrintMapResult result{state.options.earlier, {}, state.frames};
+    const auto go_on = [&](double share) {
+        if (progress && !progress(share)) throw Error("interrupted");
+    };
+    for (std::size_t i = 0; i < state.pages.size(); ++i) {
+        State::PageFrames& seen = state.pages[i];
+        if (seen.frames.size() < kMinFrames) continue;
+        const SheetEntry& entry = state.options.sheets[i];
+        const MapGrid grid = grid_of(entry);
+        const auto known = std::ranges::find(result.map.pages, entry.name, &MapPage::name);
+        const bool is_update = known != result.map.pages.end();
+        const EarlierOffsets earlier = earlier_of(is_update ? &*known : nullptr, grid);
+        MapSolution solution;
+        const double reach_mm = start_map(grid, earlier, state.options.camera, seen.frames,
+                                          seen.observations, solution);
+        if (is_update && misfit(grid, earlier, reach_mm, seen.observations, solution) > kSamePrint)
+            throw Error(fmt::format(
+                "the frames contradict the earlier map of '{}': the print was moved or bent, or is "
+                "another print; make a new map in another file",
+                entry.name));
+        solve_map(grid, earlier, reach_mm, seen.observations, solution, go_on);
+        MapPage page = is_update ? *known : empty_page(entry);
+        write_page(grid, earlier, solution, page);
+        if (is_update) {
+            *known = std::move(page);
+        } else {
+            result.map.pages.push_back(std::move(page));
+        }
+        result.pages.push_back(statistics_of(entry.name, grid, solution, seen.observations.size()));
+    }
+    if (result.pages.empty())
+        throw Error(fmt::format(
+            "no page was seen in {} frames, of {} frames given: take frames all over a page of the "
+            "sheet file, at different angles",
+            kMinFrames, state.frames));
+    return result;
+}
+
+}  // namespace dotpose

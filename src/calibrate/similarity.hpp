@@ -1,0 +1,28 @@
+// Similarity: the place, angle and scale at which the dots of a frame are seen.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace dotpose::calibrate {
+
+/// A dot in the frame of the camera and on the page.
+struct SimilarPoint {
+    Eigen::Vector2d seen;
+    Eigen::Vector2d intersection;
+    Eigen::Vector2d direction;  ///< displacement of the dot for a displacement of 1
+};
+
+struct Similarity {
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< of the origin of the camera frame
+    double angle_rad = 0;
+    double scale = 1;
+    double displacement = 0;
+};
+
+/// Fits intersection + displacement * direction = place + scale * R(angle) * seen by least squares,
+/// without points whose residuals exceed four standard deviations.
+Similarity fit_similarity(const std::vector<SimilarPoint>& points);
+
+}  // namespace dotpose::calibrate

@@ -1,0 +1,226 @@
+// Reads and writes print maps.
+#include "dotpose/files/print_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <concepts>
+
+#include <fmt/core.h>
+
+#include "files/input_file.hpp"
+
+namespace dotpose {
+namespace {
+
+constexpr std::string_view kMagic = "DOTPOSEM";
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kMaxPages = 10'000;
+constexpr std::size_t kMaxName = 4096;
+
+/// Returns the CRC-32 of IEEE 802.3 and PNG.
+std::uint32_t crc32_of(std::string_view bytes) {
+    static const auto kTable = [] {
+        std::array<std::uint32_t, 256> table{};
+        for (std::uint32_t i = 0; i < table.size(); ++i) {
+            std::uint32_t crc = i;
+            for (int bit = 0; bit < 8; ++bit)
+                crc = crc >> 1 ^ ((crc & 1) != 0 ? 0xEDB88320 : 0);
+            table[i] = crc;
+        }
+        return table;
+    }();
+    std::uint32_t crc = 0xFFFFFFFF;
+    for (const char byte : bytes)
+        crc = crc >> 8 ^ kTable[(crc ^ static_cast<std::uint8_t>(byte)) & 0xFF];
+    return ~crc;
+}
+
+template <std::unsigned_integral Number>
+void append(std::string& bytes, Number number) {
+    for (std::size_t i = 0; i < sizeof(Number); ++i)
+        bytes += static_cast<char>(number >> (8 * i) & 0xFF);
+}
+
+void append(std::string& bytes, double number) {
+    append(bytes, std::bit_cast<std::uint64_t>(number));
+}
+
+/// Takes numbers from the front of a text. Throws Error at the end of the text.
+class Bytes {
+  public:
+    explicit Bytes(std::string_view text) : text_(text) {}
+
+    std::string_view take(std::size_t count) {
+        if (count > text_.size()) throw Error("it is truncated");
+        const std::string_view front = text_.substr(0, count);
+        text_.remove_prefix(count);
+        return front;
+    }
+    template <std::unsigned_integral Number>
+    Number number() {
+        Number number = 0;
+        int shift = 0;
+        for (const char byte : take(sizeof(Number))) {
+            number = static_cast<Number>(number | Number{static_cast<std::uint8_t>(byte)} << shift);
+            shift += 8;
+        }
+        return number;
+    }
+    double real() { return std::bit_cast<double>(number<std::uint64_t>()); }
+    bool is_empty() const { return text_.empty(); }
+
+  private:
+    std::string_view text_;
+};
+
+/// Returns the reason why the header of a page is invalid, or an empty text.
+std::string fault_of(const MapPage& page) {
+    if (static_cast<int>(page.code) >= kCodeVariantCount) return "unknown code variant";
+    if (page.section.u >= kSections || page.section.v >= kSections) return "unknown section";
+    if (page.columns < kMinSheetCells || page.rows < kMinSheetCells ||
+        page.origin.x >= kPositionsPerAxis || page.origin.y >= kPositionsPerAxis ||
+        page.origin.x + std::uint32_t(page.columns) > kPositionsPerAxis ||
+        page.origin.y + std::uint32_t(page.rows) > kPositionsPerAxis)
+        return "a region that is not in the plane of the code";
+    const auto is_length = [](double length, double max) { return length >= 0 && length <= max; };
+    if (!is_length(page.spacing_mm, kMaxPage_mm) || page.spacing_mm == 0 ||
+        !is_length(page.noise, 1) || !is_length(page.jitter, 1))
+        return "a spacing or a standard deviation out of range";
+    return {};
+}
+
+MapPage parse_page(Bytes& bytes) {
+    MapPage page;
+    const std::size_t name_bytes = bytes.number<std::uint32_t>();
+    if (name_bytes > kMaxName) throw Error("a name is too long");
+    page.name = bytes.take(name_bytes);
+    page.code = static_cast<CodeVariant>(bytes.number<std::uint8_t>());
+    page.section.u = bytes.number<std::uint8_t>();
+    page.section.v = bytes.number<std::uint8_t>();
+    page.origin.x = bytes.number<std::uint32_t>();
+    page.origin.y = bytes.number<std::uint32_t>();
+    const auto columns = bytes.number<std::uint32_t>();
+    const auto rows = bytes.number<std::uint32_t>();
+    if (columns > kPositionsPerAxis || rows > kPositionsPerAxis) throw Error("a page is too large");
+    page.columns = static_cast<int>(columns);
+    page.rows = static_cast<int>(rows);
+    page.spacing_mm = bytes.real();
+    page.frames = bytes.number<std::uint32_t>();
+    page.noise = bytes.real();
+    page.jitter = bytes.real();
+    if (const std::string fault = fault_of(page); !fault.empty())
+        throw Error(fmt::format("a page has {}", fault));
+    // Takes all bytes before the vectors are allocated, because the numbers may be wrong.
+    const std::size_t dots = std::size_t{columns} * rows;
+    Bytes offsets(bytes.take(4 * dots));
+    const std::string_view views = bytes.take(dots);
+    page.offsets.resize(dots);
+    for (DotOffset& offset : page.offsets) {
+        offset.x_q14 = static_cast<std::int16_t>(offsets.number<std::uint16_t>());
+        offset.y_q14 = static_cast<std::int16_t>(offsets.number<std::uint16_t>());
+    }
+    page.views.assign(views.begin(), views.end());
+    return page;
+}
+
+void append_page(const MapPage& page, std::string& bytes) {
+    const std::size_t dots = std::size_t(page.columns) * std::size_t(page.rows);
+    const std::string fault = fault_of(page);
+    if (!fault.empty() || page.name.size() > kMaxName || page.offsets.size() != dots ||
+        page.views.size() != dots)
+        throw BadArgument("a page of a print map is not valid");
+    append(bytes, static_cast<std::uint32_t>(page.name.size()));
+    bytes += page.name;
+    append(bytes, static_cast<std::uint8_t>(page.code));
+    append(bytes, page.section.u);
+    append(bytes, page.section.v);
+    append(bytes, page.origin.x);
+    append(bytes, page.origin.y);
+    append(bytes, static_cast<std::uint32_t>(page.columns));
+    append(bytes, static_cast<std::uint32_t>(page.rows));
+    append(bytes, page.spacing_mm);
+    append(bytes, page.frames);
+    append(bytes, page.noise);
+    append(bytes, page.jitter);
+    for (const DotOffset& offset : page.offsets) {
+        append(bytes, static_cast<std::uint16_t>(offset.x_q14));
+        append(bytes, static_cast<std::uint16_t>(offset.y_q14));
+    }
+    bytes.append(page.views.begin(), page.views.end());
+}
+
+/// Returns true if the map of a page is of this sheet.
+bool is_page(const MapPage& page, const SheetEntry& entry) {
+    const Sheet& sheet = entry.sheet;
+    return page.code == sheet.pattern.code && page.section == sheet.pattern.section &&
+           page.origin == sheet.origin && page.columns == sheet.columns &&
+           page.rows == sheet.rows &&
+           std::abs(page.spacing_mm / sheet.pattern.spacing_mm - 1) < 1e-9;
+}
+
+}  // namespace
+
+const MapPage* find_page(const PrintMap& map, CodeVariant code, const Place& place) {
+    const auto page = std::ranges::find_if(map.pages, [&](const MapPage& candidate) {
+        return candidate.code == code && candidate.index_of(place);
+    });
+    return page == map.pages.end() ? nullptr : &*page;
+}
+
+PrintMap parse_print_map(std::string_view text) {
+    constexpr std::size_t kSumBytes = 4;
+    if (!text.starts_with(kMagic)) throw Error("it is not a print map of dotpose");
+    Bytes bytes(text);
+    bytes.take(kMagic.size());
+    const auto version = bytes.number<std::uint32_t>();
+    if (version != kVersion)
+        throw Error(
+            fmt::format("it has version {}, and this program reads version {}", version, kVersion));
+    if (text.size() < kMagic.size() + 2 * kSumBytes) throw Error("it is truncated");
+    Bytes sum(text.substr(text.size() - kSumBytes));
+    if (crc32_of(text.substr(0, text.size() - kSumBytes)) != sum.number<std::uint32_t>())
+        throw Error("it is truncated or damaged: its checksum is wrong; make the map again");
+    const auto pages = bytes.number<std::uint32_t>();
+    if (pages > kMaxPages) throw Error("it has too many pages");
+    PrintMap map;
+    for (std::uint32_t i = 0; i < pages; ++i)
+        map.pages.push_back(parse_page(bytes));
+    bytes.take(kSumBytes);
+    if (!bytes.is_empty()) throw Error("it has bytes after its last page");
+    return map;
+}
+
+PrintMap read_print_map(const std::filesystem::path& path) {
+    const auto text = files::text_of(path, kMaxMapBytes);
+    if (!text) throw Error(fmt::format("{} does not exist", path.string()));
+    try {
+        return parse_print_map(*text);
+    } catch (const Error& error) {
+        throw Error(fmt::format("{}: {}", path.string(), error.what()));
+    }
+}
+
+std::string print_map_bytes(const PrintMap& map) {
+    std::string bytes(kMagic);
+    append(bytes, kVersion);
+    append(bytes, static_cast<std::uint32_t>(map.pages.size()));
+    for (const MapPage& page : map.pages)
+        append_page(page, bytes);
+    append(bytes, crc32_of(bytes));
+    return bytes;
+}
+
+void require_pages(const PrintMap& map, std::span<const SheetEntry> sheets) {
+    for (const MapPage& page : map.pages) {
+        if (std::ranges::any_of(sheets, [&](const auto& entry) { return is_page(page, entry); }))
+            continue;
+        throw Error(
+            fmt::format("the print map is of page '{}', which is not in the sheet file with the "
+                        "same code, region and spacing: make a map of the pages of this file",
+                        page.name));
+    }
+}
+
+}  // namespace dotpose

@@ -1,0 +1,213 @@
+/// A simulated print with jitter and a feed wave, frames for its map, and other frames that test
+/// the map.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/QR>
+
+#include "dotpose/tools/follower.hpp"
+#include "dotpose/tools/print.hpp"
+#include "dotpose/tools/print_mapping.hpp"
+#include "dotpose/tools/simulate.hpp"
+
+namespace dotpose::test {
+
+struct MappedPrintOptions {
+    double side_mm = 60;  ///< side of the square page
+    double wave_mm = 0.040;
+    double wavelength_mm = 50;
+    double jitter_mm = 0.010;
+    int width_px = 320;
+    int height_px = 240;
+    std::uint64_t print = 1;  ///< seed of the print
+};
+
+class MappedPrint {
+  public:
+    explicit MappedPrint(const MappedPrintOptions& options) : options_(options) {
+        SheetOptions sheet;
+        sheet.paper = {options.side_mm, options.side_mm};
+        sheet.margin_mm = 0;
+        sheet.origin = {2000, 3000};
+        entry_.name = "page";
+        entry_.sheet = make_sheet(sheet);
+        page_ = page_of(entry_.sheet, options.print);
+        page_.shift_mm = [this](Vec2 place) {
+            return wave({(place.x - entry_.sheet.origin.x) * entry_.sheet.pattern.spacing_mm,
+                         (place.y - entry_.sheet.origin.y) * entry_.sheet.pattern.spacing_mm});
+        };
+        Rng rng(2024);
+        imperfections_ = draw_imperfections(Preset::nominal, rng);
+        imperfections_.jitter_mm = options.jitter_mm;
+        camera_.width_px = options.width_px;
+        camera_.height_px = options.height_px;
+    }
+    MappedPrint(const MappedPrint&) = delete;
+    MappedPrint& operator=(const MappedPrint&) = delete;
+
+    const SheetEntry& entry() const { return entry_; }
+    const MappedPrintOptions& options() const { return options_; }
+
+    /// Offset of the dots at a place. The wave is along y, the direction of paper feed. A tenth of
+    /// the amplitude is along x.
+    Vec2 wave(Vec2 at_mm) const {
+        const double phase = 2 * std::numbers::pi * at_mm.y / options_.wavelength_mm;
+        return {0.1 * options_.wave_mm * std::cos(phase), options_.wave_mm * std::sin(phase)};
+    }
+
+    struct Pose {
+        Vec2 at_mm;  ///< place under the image centre, from the first intersection
+        double theta_rad;
+    };
+    /// Returns a random pose whose view is on the page.
+    Pose pose(std::uint64_t series, std::uint64_t index) const {
+        Rng rng(series, index);
+        const double reach =
+            camera_.mm_per_px * std::hypot(camera_.width_px, camera_.height_px) / 2;
+        const double low = 0.6 * reach;
+        const double high = options_.side_mm - low;
+        return {{rng.uniform(low, high), rng.uniform(low, high)},
+                rng.uniform(-std::numbers::pi, std::numbers::pi)};
+    }
+
+    GreyImage frame(const Pose& pose, std::uint64_t seed) const {
+        const Sheet& sheet = entry_.sheet;
+        const double x = sheet.origin.x + pose.at_mm.x / sheet.pattern.spacing_mm;
+        const double y = sheet.origin.y + pose.at_mm.y / sheet.pattern.spacing_mm;
+        CameraPose camera;
+        camera.cell = {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
+        camera.fraction_x = x - std::floor(x);
+        camera.fraction_y = y - std::floor(y);
+        camera.theta_rad = pose.theta_rad;
+        return render(page_, camera_, camera, imperfections_, seed);
+    }
+
+  private:
+    MappedPrintOptions options_;
+    SheetEntry entry_;
+    Page page_;
+    Imperfections imperfections_;
+    CameraModel camera_;
+};
+
+/// Errors of positions on a page, in mm.
+class PlaceErrors {
+  public:
+    void add(Vec2 at_mm, Vec2 error_mm, Vec2 wave_mm, const Fix& fix) {
+        places_.push_back({at_mm, error_mm, wave_mm});
+        variance_ += kDefaultSpacing_mm * kDefaultSpacing_mm *
+                     (static_cast<double>(fix.covariance[0][0]) +
+                      static_cast<double>(fix.covariance[1][1])) /
+                     2;
+    }
+    std::size_t count() const { return places_.size(); }
+
+    /// Returns the rms error per axis, without the mean offset, scale and turn.
+    double absolute_um() const { return left_um(4, 0); }
+    /// Returns the rms error per axis, without the part that changes slowly over the page: the
+    /// given wave, which moves fixes to the other side, and cubic polynomials.
+    double repeatability_um(double wave_share) const { return left_um(20, wave_share); }
+    double sigma_um() const {
+        return 1000 * std::sqrt(variance_ / static_cast<double>(places_.size()));
+    }
+
+  private:
+    struct One {
+        Vec2 at;
+        Vec2 error;
+        Vec2 wave;
+    };
+
+    double left_um(int terms, double wave_share) const {
+        const auto rows = 2 * static_cast<Eigen::Index>(places_.size());
+        Eigen::MatrixXd design = Eigen::MatrixXd::Zero(rows, terms);
+        Eigen::VectorXd right(rows);
+        for (std::size_t k = 0; k < places_.size(); ++k) {
+            const auto row = 2 * static_cast<Eigen::Index>(k);
+            const auto& [at, error, wave] = places_[k];
+            if (terms == 4) {
+                design.row(row) << 1, 0, at.x, -at.y;
+                design.row(row + 1) << 0, 1, at.y, at.x;
+            } else {
+                const double x = at.x / 100;
+                const double y = at.y / 100;
+                Eigen::RowVectorXd cubic(10);
+                cubic << 1, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y;
+                design.row(row).head(10) = cubic;
+                design.row(row + 1).tail(10) = cubic;
+            }
+            right[row] = error.x + wave_share * wave.x;
+            right[row + 1] = error.y + wave_share * wave.y;
+        }
+        const Eigen::VectorXd left = right - design * design.colPivHouseholderQr().solve(right);
+        return 1000 * std::sqrt(left.squaredNorm() / static_cast<double>(rows - terms));
+    }
+
+    std::vector<One> places_;
+    double variance_ = 0;
+};
+
+/// Returns the map of a print from `frames` frames. `begin` is called before each frame.
+inline PrintMapResult map_of(const MappedPrint& print, int frames, std::uint64_t series = 100,
+                             const PrintMap& earlier = {},
+                             const std::function<void(int)>& begin = {}) {
+    PrintMapping mapping({.sheets = {print.entry()}, .camera = {}, .earlier = earlier});
+    for (int i = 0; i < frames; ++i) {
+        if (begin) begin(i);
+        const auto index = static_cast<std::uint64_t>(i);
+        mapping.add(print.frame(print.pose(series, index), scramble(series + index)).view());
+    }
+    return mapping.solve();
+}
+
+/// Errors of the same frames with and without a map.
+struct MapTest {
+    PlaceErrors without;
+    PlaceErrors with;
+    int used = 0;
+    int contradicted = 0;
+    int not_covered = 0;
+};
+
+/// Locates `frames` frames that were not used for the map.
+inline MapTest test_map(const MappedPrint& print, const PrintMap& map, int frames,
+                        std::uint64_t series = 200, const std::optional<Camera>& camera = {}) {
+    MapTest result;
+    FollowerOptions options;
+    options.sheets = {print.entry()};
+    options.camera = camera;
+    Follower plain(options);
+    options.print_map = map;
+    Follower mapped(options);
+    const double mm = print.entry().sheet.pattern.spacing_mm;
+    const Cell origin = print.entry().sheet.origin;
+    for (int i = 0; i < frames; ++i) {
+        const auto index = static_cast<std::uint64_t>(i);
+        const MappedPrint::Pose pose = print.pose(series, index);
+        const GreyImage image = print.frame(pose, scramble(series + index));
+        const Located before = plain.locate(image);
+        const Located after = mapped.locate(image);
+        if (!before.fix || !after.fix) continue;
+        const auto add = [&](const Fix& fix, PlaceErrors& errors) {
+            errors.add(pose.at_mm,
+                       {(fix.x_grid() - origin.x) * mm - pose.at_mm.x,
+                        (fix.y_grid() - origin.y) * mm - pose.at_mm.y},
+                       print.wave(pose.at_mm), fix);
+        };
+        add(before.fix, result.without);
+        add(after.fix, result.with);
+        result.used += after.map_use == MapUse::used ? 1 : 0;
+        result.contradicted += after.map_use == MapUse::contradicted ? 1 : 0;
+        result.not_covered += after.map_use == MapUse::not_covered ? 1 : 0;
+    }
+    return result;
+}
+
+}  // namespace dotpose::test

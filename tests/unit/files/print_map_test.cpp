@@ -1,0 +1,137 @@
+#include "dotpose/files/print_map.hpp"
+
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dotpose/tools/print.hpp"
+
+namespace dotpose {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+SheetEntry sheet_entry() {
+    SheetOptions options;
+    options.paper = {30, 40};
+    options.origin = {2000, 3000};
+    SheetEntry entry;
+    entry.name = "desk";
+    entry.sheet = make_sheet(options);
+    return entry;
+}
+
+/// A map with a different offset for each dot.
+PrintMap small_map() {
+    const SheetEntry entry = sheet_entry();
+    MapPage page;
+    page.name = entry.name;
+    page.code = entry.sheet.pattern.code;
+    page.section = entry.sheet.pattern.section;
+    page.origin = entry.sheet.origin;
+    page.columns = entry.sheet.columns;
+    page.rows = entry.sheet.rows;
+    page.spacing_mm = entry.sheet.pattern.spacing_mm;
+    page.frames = 70'000;
+    page.noise = 0.003;
+    page.jitter = 0.02;
+    for (int i = 0; i < page.columns * page.rows; ++i) {
+        page.offsets.push_back(
+            {static_cast<std::int16_t>(7 * i - 9000), static_cast<std::int16_t>(300 - 5 * i)});
+        page.views.push_back(static_cast<std::uint8_t>(i));
+    }
+    return {{page}};
+}
+
+auto refuses(const std::string& reason) {
+    return ThrowsMessage<Error>(HasSubstr(reason));
+}
+
+TEST(PrintMapFile, KeepsAllValues) {
+    const PrintMap map = small_map();
+    const PrintMap read = parse_print_map(print_map_bytes(map));
+    ASSERT_EQ(read.pages.size(), 1U);
+    const MapPage& a = map.pages[0];
+    const MapPage& b = read.pages[0];
+    EXPECT_EQ(b.name, "desk");
+    EXPECT_EQ(b.code, a.code);
+    EXPECT_EQ(b.section, a.section);
+    EXPECT_EQ(b.origin, a.origin);
+    EXPECT_EQ(b.columns, a.columns);
+    EXPECT_EQ(b.rows, a.rows);
+    EXPECT_EQ(b.spacing_mm, a.spacing_mm);
+    EXPECT_EQ(b.frames, 70'000U);
+    EXPECT_EQ(b.noise, 0.003);
+    EXPECT_EQ(b.jitter, 0.02);
+    EXPECT_EQ(b.views, a.views);
+    for (std::size_t i = 0; i < a.offsets.size(); ++i) {
+        ASSERT_EQ(b.offsets[i].x_q14, a.offsets[i].x_q14);
+        ASSERT_EQ(b.offsets[i].y_q14, a.offsets[i].y_q14);
+    }
+}
+
+TEST(PrintMapFile, UsesFiveBytesForEachDot) {
+    const PrintMap map = small_map();
+    EXPECT_LE(print_map_bytes(map).size(), 5 * map.pages[0].offsets.size() + 200);
+}
+
+TEST(PrintMapFile, RefusesEveryTruncation) {
+    const std::string bytes = print_map_bytes(small_map());
+    for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 40)
+        EXPECT_THROW((void)parse_print_map(bytes.substr(0, size)), Error) << size;
+}
+
+TEST(PrintMapFile, RefusesEveryChangedByte) {
+    const std::string bytes = print_map_bytes(small_map());
+    for (std::size_t i = 0; i < bytes.size(); i += 1 + i / 40) {
+        std::string changed = bytes;
+        changed[i] = static_cast<char>(changed[i] ^ 0x10);
+        EXPECT_THROW((void)parse_print_map(changed), Error) << i;
+    }
+}
+
+TEST(PrintMapFile, ExplainsRefusals) {
+    const std::string bytes = print_map_bytes(small_map());
+    EXPECT_THAT([&] { (void)parse_print_map("{}"); }, refuses("not a print map"));
+    std::string newer = bytes;
+    newer[8] = 2;
+    EXPECT_THAT([&] { (void)parse_print_map(newer); }, refuses("has version 2"));
+    EXPECT_THAT([&] { (void)parse_print_map(bytes + "x"); }, refuses("checksum"));
+    EXPECT_THAT([&] { (void)read_print_map("missing.map"); },
+                refuses("missing.map does not exist"));
+}
+
+TEST(PrintMapFile, RefusesInvalidPages) {
+    PrintMap map = small_map();
+    map.pages[0].offsets.pop_back();
+    EXPECT_THROW((void)print_map_bytes(map), BadArgument);
+    map = small_map();
+    map.pages[0].origin.x = kPositionsPerAxis - 1;
+    EXPECT_THROW((void)print_map_bytes(map), BadArgument);
+}
+
+TEST(PrintMapFile, RequiresThePagesOfTheSheetFile) {
+    SheetEntry entry = sheet_entry();
+    EXPECT_NO_THROW(require_pages(small_map(), std::vector{entry}));
+    entry.sheet.origin.x += 1;
+    EXPECT_THAT([&] { require_pages(small_map(), std::vector{entry}); }, refuses("page 'desk'"));
+}
+
+TEST(PrintMapFile, FindsThePageOfACell) {
+    const PrintMap map = small_map();
+    const MapPage& page = map.pages[0];
+    const CodeVariant code = page.code;
+    EXPECT_EQ(find_page(map, code, {{2000, 3000}, page.section}), &page);
+    EXPECT_EQ(find_page(map, code, {{1999, 3000}, page.section}), nullptr);
+    const auto end = 2000 + static_cast<std::uint32_t>(page.columns);
+    EXPECT_EQ(find_page(map, code, {{end, 3000}, page.section}), nullptr);
+    EXPECT_EQ(find_page(map, code, {{2000, 3000}, {1, 1}}), nullptr);
+    EXPECT_EQ(page.index_of({{2003, 3001}, page.section}),
+              static_cast<std::size_t>(page.columns) + 3);
+}
+
+}  // namespace
+}  // namespace dotpose

@@ -1,0 +1,134 @@
+// Maps of simulated prints, and fixes corrected by them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "../../mapped_print.hpp"
+
+namespace dotpose::test {
+namespace {
+
+/// Side of a page on which few frames see each dot several times.
+constexpr double kSide_mm = 30;
+constexpr int kFrames = 100;
+
+/// The map of a print with jitter and a feed wave, made once.
+class PrintMapping : public ::testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        print_ = new MappedPrint({.side_mm = kSide_mm});
+        map_ = new PrintMapResult(map_of(*print_, kFrames));
+    }
+    static void TearDownTestSuite() {
+        delete map_;
+        delete print_;
+    }
+    static MappedPrint* print_;
+    static PrintMapResult* map_;
+};
+MappedPrint* PrintMapping::print_ = nullptr;
+PrintMapResult* PrintMapping::map_ = nullptr;
+
+TEST_F(PrintMapping, FindsTheJitterOfThePrint) {
+    ASSERT_EQ(map_->pages.size(), 1U);
+    const MappedPage& page = map_->pages[0];
+    EXPECT_EQ(page.frames, std::size_t{kFrames});
+    EXPECT_GT(page.seen, page.dots * 9 / 10);
+    EXPECT_NEAR(page.jitter_mm, print_->options().jitter_mm, 0.0005);
+    EXPECT_TRUE(page.is_rigid);
+}
+
+TEST_F(PrintMapping, KeepsOffsetScaleAndTurnOfThePage) {
+    const MapPage& page = map_->map.pages[0];
+    double sum_x = 0;
+    double sum_y = 0;
+    double along = 0;
+    double across = 0;
+    for (int j = 0; j < page.rows; ++j) {
+        for (int i = 0; i < page.columns; ++i) {
+            const auto dot = static_cast<std::size_t>(j * page.columns + i);
+            if (page.views[dot] == 0) continue;
+            const DotOffset& offset = page.offsets[dot];
+            const double x = i - (page.columns - 1) / 2.0;
+            const double y = j - (page.rows - 1) / 2.0;
+            sum_x += offset.x();
+            sum_y += offset.y();
+            along += x * offset.x() + y * offset.y();
+            across += x * offset.y() - y * offset.x();
+        }
+    }
+    const auto dots = static_cast<double>(page.columns * page.rows);
+    EXPECT_NEAR(sum_x / dots, 0, 1e-5);
+    EXPECT_NEAR(sum_y / dots, 0, 1e-5);
+    EXPECT_NEAR(along / dots, 0, 1e-4);
+    EXPECT_NEAR(across / dots, 0, 1e-4);
+}
+
+TEST_F(PrintMapping, CorrectsFramesThatWereNotUsed) {
+    const MapTest test = test_map(*print_, map_->map, 40);
+    EXPECT_EQ(test.used, 40);
+    EXPECT_LE(test.with.absolute_um(), test.without.absolute_um() / 5);
+    EXPECT_LE(test.with.absolute_um(), 0.2);
+    const double ratio = test.with.absolute_um() / test.with.sigma_um();
+    EXPECT_LT(ratio * ratio, 4);
+}
+
+TEST_F(PrintMapping, AnotherPrintContradictsTheMap) {
+    const MappedPrint other({.side_mm = kSide_mm, .print = 2});
+    const MapTest test = test_map(other, map_->map, 20);
+    EXPECT_EQ(test.used, 0);
+    EXPECT_EQ(test.contradicted, 20);
+    EXPECT_EQ(test.with.absolute_um(), test.without.absolute_um());
+}
+
+TEST_F(PrintMapping, RefusesToUpdateTheMapOfAnotherPrint) {
+    const MappedPrint other({.side_mm = kSide_mm, .print = 2});
+    EXPECT_THAT(
+        [&] { (void)map_of(other, 20, 300, map_->map); },
+        ::testing::ThrowsMessage<Error>(::testing::HasSubstr("contradict the earlier map")));
+}
+
+TEST_F(PrintMapping, AnUpdateAddsViewsAndKeepsThePlace) {
+    const PrintMapResult updated = map_of(*print_, 60, 400, map_->map);
+    const MapPage& before = map_->map.pages[0];
+    const MapPage& after = updated.map.pages[0];
+    EXPECT_EQ(after.frames, before.frames + 60);
+    long views_before = 0;
+    long views_after = 0;
+    for (std::size_t i = 0; i < before.views.size(); ++i) {
+        views_before += before.views[i];
+        views_after += after.views[i];
+    }
+    EXPECT_GT(views_after, views_before * 5 / 4);
+    const MapTest test = test_map(*print_, updated.map, 40);
+    EXPECT_LE(test.with.absolute_um(), test.without.absolute_um() / 5);
+}
+
+TEST_F(PrintMapping, UsesTheViewOfACameraFile) {
+    Camera camera;
+    camera.width_px = print_->options().width_px;
+    camera.height_px = print_->options().height_px;
+    camera.centre_px = {(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
+    const double mm_per_px = CameraModel{}.mm_per_px;
+    camera.paper = PaperScale{mm_per_px, mm_per_px, 0, 0, 0};
+    const MapTest test = test_map(*print_, map_->map, 40, 200, camera);
+    EXPECT_EQ(test.used, 40);
+    EXPECT_LE(test.with.absolute_um(), test.without.absolute_um() / 5);
+    EXPECT_LE(test.with.absolute_um(), 0.2);
+}
+
+/// The map of such a print hardly changes the residuals of a frame, but moves its fix by microns.
+TEST(PrintMapOfAPrintWithoutJitter, IsUsed) {
+    const MappedPrint print({.side_mm = kSide_mm, .jitter_mm = 0});
+    const MapTest test = test_map(print, map_of(print, kFrames).map, 20);
+    EXPECT_EQ(test.used, 20);
+    EXPECT_LE(test.with.absolute_um(), test.without.absolute_um() / 5);
+}
+
+TEST(PrintMapOfFewFrames, IsRefused) {
+    const MappedPrint print({.side_mm = kSide_mm});
+    EXPECT_THAT([&] { (void)map_of(print, 5); },
+                ::testing::ThrowsMessage<Error>(::testing::HasSubstr("no page was seen in 10")));
+}
+
+}  // namespace
+}  // namespace dotpose::test
