@@ -31,13 +31,14 @@ constexpr std::array kPrints = {PrintKind{"jitter of 10 µm", 0.010, 0, 50},
                                 PrintKind{"both", 0.010, 0.040, 50},
                                 PrintKind{"both, every 25 mm", 0.010, 0.040, 25}};
 
-struct Numbers {
+struct FrameNumbers {
     std::uint64_t frames = 500;
     std::uint64_t tests = 300;
     double side_mm = 60;
 };
 
-PrintMapResult make_map(const test::MappedPrint& print, const Numbers& numbers, const char* name) {
+PrintMapResult make_map(const test::MappedPrint& print, const FrameNumbers& numbers,
+                        const char* name) {
     cli::ProgressLine line(fmt::format("mapping {}", name));
     return test::map_of(print, static_cast<int>(numbers.frames), 100, {}, [&](int i) {
         line.update(i, static_cast<std::int64_t>(numbers.frames));
@@ -60,7 +61,7 @@ std::string row_text(const PrintKind& kind, const PrintMapResult& map, const tes
 }  // namespace
 
 bool print_map_table(TableRun& run) {
-    Numbers numbers;
+    FrameNumbers numbers;
     run.add_count("--frames", numbers.frames, "Number of frames of each map");
     run.add_count("--tests", numbers.tests, "Number of other frames that test each map");
     run.command.add_option("--side", numbers.side_mm, "Side of the page, mm")

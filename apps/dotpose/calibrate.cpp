@@ -49,11 +49,10 @@ constexpr const char* kCalibrateExamples =
     "rests; for --rolling, all images of a fast drive; for --flat, 20 or more images of\n"
     "different places in constant light; for --print-map, several hundred frames of a drive over\n"
     "the whole page, in different directions. From a video or a camera, up to 50 frames that\n"
-    "show new places are taken; Ctrl-C ends the reading. With --live, a window (or,\n"
-    "without a display, the terminal) shows what is still missing while you move the camera; "
-    "frames are taken until\n"
-    "they suffice, or until q or Ctrl-C. Exit status 1 if the frames do not determine the\n"
-    "requested values.\n";
+    "show new places are taken; Ctrl-C ends the reading. With --live, a window (or, without a\n"
+    "display, the terminal) shows what is still missing while you move the camera; frames are\n"
+    "taken until they suffice, or until q or Ctrl-C. Exit status 1 if the frames do not determine\n"
+    "the requested values.\n";
 
 struct CalibrateArguments {
     SourceArguments sources;
