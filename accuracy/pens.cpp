@@ -13,6 +13,7 @@
 
 #include <fmt/core.h>
 
+#include "../tests/pen_frames.hpp"
 #include "calibration.hpp"
 #include "dotpose/files/degrees.hpp"
 #include "dotpose/files/write_file.hpp"
@@ -25,61 +26,32 @@
 namespace dotpose::tables {
 namespace {
 
-constexpr double kPenSpacing_mm = 0.3;
-/// Print jitter: half that of the preset `nominal`, because the dots have about half the size.
-constexpr double kPenJitter_mm = 0.005;
-constexpr PenTip kPenTip{0.5, 5, 18, 0.1};
 constexpr int kPivotFrames = 30;
 constexpr double kPenRate_hz = 200;
 constexpr int kStrokesPerWord = 4;
 constexpr int kDrawnStrokes = 12;
 
-/// Returns a shot with the camera and the sheet of a pen.
+/// Returns a shot of a print of its own for each seed.
 Shot pen_shot(std::uint64_t seed, std::uint64_t index) {
-    Setup setup;
-    setup.pattern.spacing_mm = kPenSpacing_mm;
-    setup.pattern.displacement_mm = kPenSpacing_mm / 6;
-    setup.pattern.dot_mm = kPenSpacing_mm / 6;
-    setup.random_section = false;
-    setup.camera.width_px = 320;
-    setup.camera.height_px = 240;
-    setup.camera.mm_per_px = 0.03;
-    setup.camera.working_distance_mm = 16;
-    setup.seed = seed;
-    Shot shot = draw_shot(setup, index);
+    Shot shot = test::pen_shot(seed, index);
     shot.page.seed = seed;
-    shot.imperfections.jitter_mm = kPenJitter_mm;
     return shot;
-}
-
-Camera pen_camera() {
-    Camera camera;
-    camera.width_px = 320;
-    camera.height_px = 240;
-    camera.centre_px = {159.5, 119.5};
-    camera.focal_px = 16 / 0.03;
-    return camera;
 }
 
 PivotCalibration calibrated(std::uint64_t seed, double max_tilt_deg) {
     CalibrateOptions options;
-    options.pattern.spacing_mm = kPenSpacing_mm;
+    options.pattern.spacing_mm = test::kPenSpacing_mm;
     Rng rng(seed, 7);
     const double x_mm = rng.uniform(1000, 5000);
     const double y_mm = rng.uniform(1000, 5000);
-    std::vector<PenPose> poses(kPivotFrames);
-    for (PenPose& pose : poses) {
-        pose.x_mm = x_mm;
-        pose.y_mm = y_mm;
-        pose.tilt_rad = rng.uniform(0, max_tilt_deg) / kDegrees;
-        pose.azimuth_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
-        pose.turn_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
-    }
+    std::vector<PenPose> poses;
+    for (int i = 0; i < kPivotFrames; ++i)
+        poses.push_back(test::pivoted(x_mm, y_mm, max_tilt_deg / kDegrees, rng));
     const auto frame_at = [&](int i) {
         const auto index = static_cast<std::size_t>(i);
-        return render(shot_of_pen(pen_shot(seed, index), kPenTip, poses[index]));
+        return render(shot_of_pen(pen_shot(seed, index), test::kTip, poses[index]));
     };
-    return calibrate_pivot(kPivotFrames, frame_at, pen_camera(), options);
+    return calibrate_pivot(kPivotFrames, frame_at, test::pen_camera(), options);
 }
 
 struct PivotTally {
@@ -101,10 +73,10 @@ void measure_pivot(std::uint64_t seed, double max_tilt_deg, PivotTally& tally) {
     const auto add = [&](std::size_t i, double error_mm, const char* key) {
         tally.errors[i].add(error_mm, pivot.camera.sigma.at(key));
     };
-    add(0, tip.x_mm - kPenTip.x_mm, "tip_x_mm");
-    add(1, tip.y_mm - kPenTip.y_mm, "tip_y_mm");
-    add(2, tip.z_mm - kPenTip.z_mm, "tip_z_mm");
-    add(3, tip.rest_mm - kPenTip.rest_mm, "tip_rest_mm");
+    add(0, tip.x_mm - test::kTip.x_mm, "tip_x_mm");
+    add(1, tip.y_mm - test::kTip.y_mm, "tip_y_mm");
+    add(2, tip.z_mm - test::kTip.z_mm, "tip_z_mm");
+    add(3, tip.rest_mm - test::kTip.rest_mm, "tip_rest_mm");
     tally.residual_mm += pivot.residual_mm;
     tally.error_ratio += pivot.error_ratio;
 }
@@ -184,7 +156,7 @@ void compare_strokes(const std::vector<PenSample>& path, const InkPage& page, In
 InkPage measure_ink(std::uint64_t seed, int strokes, InkTally& tally) {
     FollowerOptions options;
     options.camera = calibrated(scramble(seed), 40).camera;
-    options.spacing_mm = kPenSpacing_mm;
+    options.spacing_mm = test::kPenSpacing_mm;
     options.fits_space_pose = true;
     Follower follower(options);
     const std::vector<PenSample> path =
@@ -192,7 +164,7 @@ InkPage measure_ink(std::uint64_t seed, int strokes, InkTally& tally) {
     std::vector<InkSample> samples;
     for (std::size_t i = 0; i < path.size(); ++i) {
         ++tally.frames;
-        const GreyImage image = render(shot_of_pen(pen_shot(seed, i), kPenTip, path[i].pose));
+        const GreyImage image = render(shot_of_pen(pen_shot(seed, i), test::kTip, path[i].pose));
         const auto time_us = static_cast<std::int64_t>(std::llround(path[i].t_s * 1e6));
         const Located now = follower.follow(image.view(), time_us).located;
         if (!now.tip) continue;
