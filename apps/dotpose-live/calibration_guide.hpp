@@ -1,9 +1,9 @@
 /// Calibrates the camera of a running `dotpose watch`, step by step: the lens, the mount by a turn
 /// on the spot, the direction by a straight drive, and the readout time by a fast drive.
 ///
-/// The main thread offers frames and gives commands, which return immediately. A thread with a
-/// lower priority selects the frames of the lens, solves, and writes the file. The main thread
-/// copies only frames that are needed.
+/// The main thread passes frames and commands to the guide. These calls return immediately, and
+/// copy only frames that are needed. A thread with a lower priority selects the frames for the
+/// lens, computes the calibration, and writes the file.
 #pragma once
 
 #include <atomic>

@@ -58,7 +58,7 @@ struct TiltResidual {
     }
 };
 
-/// Place (x, y in mm) and direction (radians) of the image centre.
+/// Position of the image centre (x, y in mm), and direction of the image x axis there (radians).
 using CentrePose = std::array<double, 3>;
 
 /// Returns the pose of the image centre of `camera` relative to the view of `other`. Like

@@ -88,8 +88,9 @@ std::optional<NominalPlace> place_beyond(const SheetEntry& entry, CodeVariant co
                         place->theta_rad};
 }
 
-/// Sets the view of a camera whose file contains a view of the paper, by fitting an affine map to
-/// the dots. `first` is the place of step (0, 0).
+/// Sets place, axes and errors of `view` for a camera whose file contains the map to the paper, by
+/// fitting an affine map to the dots. `first` is the position of the intersection with
+/// `LocatedDot::step` (0, 0) on the sheet, in nominal mm.
 void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
                     const Eigen::Vector2d& first, double spacing_mm, SheetView& view) {
     std::vector<Eigen::Vector2d> points;
@@ -116,8 +117,8 @@ void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
     view.rows = 6;
 }
 
-/// Sets the view of a camera whose file contains no view of the paper. The fix gives the place of
-/// the image centre and the direction of the x axis.
+/// Sets place, axes and errors of `view` for a camera whose map to the paper is not known. The fix
+/// determines only the position of the image centre and the direction of the image x axis.
 void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacing_mm,
                        SheetView& view) {
     const double c = std::cos(centre.theta_rad);

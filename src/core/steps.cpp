@@ -26,7 +26,8 @@ bool are_valid(const DeviceOptions& options) {
 
 Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w) {
     if (!are_valid(options)) return Status::bad_argument;
-    // The second attempt does not locate images that are smaller than kMinFrameSide_px.
+    // The second attempt requires sides of at least kMinFrameSide_px. With Decoder::window, it is
+    // the only attempt, unless the effort is `device`.
     const bool may_be_small = options.effort == Effort::device || options.decoder == Decoder::all;
     if (std::min(width_px, height_px) < (may_be_small ? w.min_side_px : kMinFrameSide_px))
         return Status::image_too_small;

@@ -1,5 +1,6 @@
-// Draws the sheets before and after stitching, in two panels. Arrows show the difference between
-// the two positions of each frame over a seam.
+// Draws the sheets before and after stitching, in two panels. Each frame that shows two sheets
+// gives two positions of its image centre, one from each sheet. An arrow shows the difference
+// between them.
 #include <algorithm>
 #include <cmath>
 #include <limits>

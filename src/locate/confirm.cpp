@@ -329,7 +329,8 @@ bool is_plausible(const ImageView& image, const FloatPlane& plane) {
 
 namespace {
 
-/// Corrects biases, tests for uneven paper, and writes the fix. Returns implausible if the fitted
+/// Corrects biases, fits the rotation during the readout if `w.rolling.is_fitted`, tests for uneven
+/// paper, and writes the fix. Returns implausible if the rotation cannot be fitted or the fitted
 /// plane is not plausible, and uncertain if the fit does not explain the frame well.
 Confirmation finish(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
                     const DotReader& reader, const CellsInView& view, const BitsRead& bits,

@@ -130,8 +130,9 @@ class McapFile::Writer {
     McapOptions options_;
     int descriptor_;
     Crc32 data_;
-    std::uint64_t size_ = 0;     ///< length of the file without its end, in bytes
-    std::size_t end_bytes_ = 0;  ///< length of the end in bytes
+    std::uint64_t size_ = 0;  ///< number of bytes before the data end record
+    /// Number of bytes from the data end record to the end of the file.
+    std::size_t end_bytes_ = 0;
     Contents contents_;
     std::map<std::string, std::uint16_t> schemas_;  ///< schema IDs by name
     Chunk chunk_;

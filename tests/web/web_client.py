@@ -29,7 +29,9 @@ class Client:
         return self.status()
 
     def status(self):
-        """Returns the status of the answer, or 0 if the connection was closed without one."""
+        """Returns the HTTP status of the response, or 0 if the connection is closed before the end
+        of the response headers.
+        """
         head = b""
         try:
             while b"\r\n\r\n" not in head:

@@ -64,7 +64,8 @@ void write(const GreyImage& image, std::FILE* file) {
     std::fwrite(image.pixels.data(), 1, image.pixels.size(), file);
 }
 
-/// Numbers in the order of the columns. Floating-point numbers are written as their bits.
+/// Numbers in the order of the columns. Floating-point numbers are written as their bits, in
+/// hexadecimal digits.
 class Numbers {
   public:
     template <std::integral Int>
@@ -109,7 +110,7 @@ class Numbers {
     std::vector<std::string> all_;
 };
 
-/// Returns all numbers of a fix with the status ok.
+/// Returns all numbers of a fix, separated by commas. The status of the fix must be ok.
 std::string numbers_of(const Fix& fix) {
     Numbers all;
     const double mm = fix.spacing_mm();

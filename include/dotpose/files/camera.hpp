@@ -80,9 +80,9 @@ struct Camera {
     /// distortion.
     double k_per_px2 = 0;
     PixelPoint centre_px;
-    std::optional<PaperScale> paper;  ///< none if the camera is hand-held, or if its view is not
-                                      ///< known
-    std::optional<double> focal_px;   ///< none if the calibration did not determine it
+    /// Map to the paper. None if the camera is hand-held, or if the map is not known.
+    std::optional<PaperScale> paper;
+    std::optional<double> focal_px;  ///< none if the calibration did not determine it
     /// Directions of view, if pixels are not square or `centre_px` is not on the optical axis. The
     /// files of ROS describe such cameras. See `pinhole_of`.
     std::optional<Pinhole> pinhole;

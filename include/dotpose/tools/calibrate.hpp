@@ -105,9 +105,10 @@ struct LensCalibration {
     std::vector<CalibrationDot> seen;
 };
 
-/// Computes lens and scale and, if the frames determine them, tilt and focal length. Throws Error
-/// if there is only one frame, no frame shows a pattern, the frames differ in size, or all frames
-/// are the same image.
+/// Computes lens and scale and, if the frames determine them, tilt and focal length. Throws
+/// BadArgument if `frames` is less than 1. Throws Error if fewer than two different frames can be
+/// located, if the frames differ in size, if `options.sheets` is not empty and no frame shows one
+/// of these sheets, or if the frames give no plausible lens.
 LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
                                const CalibrateOptions& options);
 

@@ -106,8 +106,9 @@ class CalibrationCoverage {
 
     int frames() const { return frames_; }
     const ImageCoverage& image() const { return image_; }
-    /// Returns the number of places on the sheet that are at least a quarter of the shorter side of
-    /// the image apart from each other.
+    /// Returns the number of distinct places. A frame adds a place if the pattern position under
+    /// its image centre is at least a quarter of the shorter image side away from all earlier
+    /// places in the same section.
     int places() const { return static_cast<int>(places_.size()); }
     /// Returns the number of sectors that contain the direction of at least one frame.
     int directions() const;

@@ -110,8 +110,8 @@ ResidualField residual_field(const LensCalibration& calibration);
 /// frame.
 void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibration);
 
-/// Draws the sheets before and after stitching, with the difference between the two positions of
-/// each frame over a seam.
+/// Draws the sheets before and after stitching. Each frame that shows two sheets gives two
+/// positions of its image centre, one from each sheet. An arrow shows the difference between them.
 void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
                     const Stitching& stitching);
 

@@ -63,8 +63,8 @@ struct PrintMapResult {
 /// Collects the dots of frames, and computes the map. Uses 12 bytes for each dot in each frame.
 class PrintMapping {
   public:
-    /// Throws BadArgument if there are no sheets or if the camera is not valid, and Error if the
-    /// earlier map is of other pages.
+    /// Throws BadArgument if there are no sheets, or if a sheet or the camera is not valid. Throws
+    /// Error if the earlier map contains a page that is not among the sheets.
     explicit PrintMapping(PrintMappingOptions options);
     ~PrintMapping();
     PrintMapping(PrintMapping&&) noexcept;

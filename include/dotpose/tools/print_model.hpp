@@ -9,15 +9,14 @@ DOTPOSE_BEGIN_EXPORT
 namespace dotpose {
 
 /// A model (not a measurement) of the errors of a printer over a page: a smooth, low-frequency
-/// shift. The maximum errors over the measured area are those of Table III of the paper. The errors
-/// are larger along y, the direction of paper feed, than along x.
+/// shift. By default, the maximum errors in the area are those of Table III of the paper, rounded
+/// down to 0.01 mm: 0.15 mm along x, and 0.27 mm along y, the direction of paper feed.
 class PrintModel {
   public:
     /// Side of the square area to which the maximum errors apply.
     static constexpr double kSide_mm = 200;
 
-    /// `worst_x_mm` and `worst_y_mm` are the maximum errors in the area, along x and y. The
-    /// defaults are the values of Table III.
+    /// `worst_x_mm` and `worst_y_mm` are the maximum errors in the area, along x and y.
     PrintModel(double worst_x_mm = 0.15, double worst_y_mm = 0.27);
 
     /// Returns printed minus intended position, at a position relative to the middle of the area.

@@ -10,8 +10,8 @@ namespace dotpose::core {
 /// log2 in units of 2^-8.
 struct AlternativeSet {
     int alternatives_q8 = 0;  ///< number of alternatives
-    /// Probability that, in one step from a line to the next, all digits of an alternative in the
-    /// sequences of the set equal the digits of the reading.
+    /// Probability that, in one step from a line to the next, an alternative has the same digits as
+    /// the reading in all sequences of the set.
     int equal_q8 = 0;
 };
 /// Sets of sequences in which the place of an alternative differs from the place of the reading:

@@ -44,10 +44,10 @@ inline constexpr float kNegligible = 5.5e-20F;
 /// minus the score of the alternative. A negative loss is a gain. A shared line has no loss.
 class LikelihoodRatios {
   public:
-    /// Uses scored lines. Requires odds_per_bit_q8 > 0.
+    /// Constructs the ratios from scored lines. `odds_per_bit_q8` must be positive.
     LikelihoodRatios(CodeVariant code, const Lines& lines_, const AxisReading& reading,
                      int odds_per_bit_q8);
-    /// Uses hard bits. Each bit that was read has the weight 127.
+    /// Constructs the ratios from hard bits. Each bit that was read has the weight 127.
     LikelihoodRatios(CodeVariant code, std::span<const ComparedLine> lines_,
                      const AxisReading& reading, int odds_per_bit_q8);
 

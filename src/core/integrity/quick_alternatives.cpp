@@ -357,8 +357,9 @@ int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
         constexpr int kLittle_q8 = -5 * 256;
         const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
         sequences = add_by_tables(ratios, little_q8, sequences, singles);
-        // Adds the single alternatives without a shared line. Each of them loses at least as much
-        // as another section.
+        // Adds the single alternatives at shifts without a shared line. They lose at least
+        // `min_loss` in each line, so the bound for the other sections (one for each shift) applies
+        // to each alternative.
         singles = add_log2(singles, kSingles_q8 + other_sections);
     }
     if (sequences != 0) singles = add_log2(singles, singles_log2_q8(ratios, sequences));

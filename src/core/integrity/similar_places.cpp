@@ -63,8 +63,8 @@ Steps::Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused)
     }
     constexpr int kParts = kLimitParts;
     const int part = (needed + kParts - 1) / kParts;
-    // Maximum loss up to the current step, and up to the preceding step. Two adjacent steps never
-    // both count.
+    // Maximum loss, in parts, of a set of steps without adjacent steps: of all steps so far, and of
+    // all except the last. Adjacent steps share a line, whose loss must not count twice.
     int max_loss = 0;
     int max_loss_before = 0;
     for (int step = 0; step < count; ++step) {

@@ -29,8 +29,8 @@ float sum_one_by_one(const RankedLines& lines) {
             lines.set_offsets(k, alternative, offsets);
             for (auto shared = offsets.begin(); shared < offsets.begin() + lines.count();
                  ++shared) {
-                // Counts an alternative that shares several lines at one shift only at the first of
-                // these lines.
+                // An alternative may share several lines at the same shift. It is counted once, at
+                // the first of these lines.
                 if (std::find(offsets.begin(), shared, *shared) != shared) continue;
                 sum += odds_at(lines, offsets, static_cast<std::size_t>(shared - offsets.begin()));
             }

@@ -182,9 +182,10 @@ inline constexpr float kFarOff = 0.04F;
 /// Dots belong to neither side of the line if their distance from the line is below this limit, in
 /// spacings. The position of the line is uncertain by about this distance.
 inline constexpr float kMargin = 0.8F;
-/// Search for a common residual of the dots beyond the line. Uses dots within kReach spacings of
-/// the reference point. At least kMinAgreeing dots must agree with this residual. A dot agrees if
-/// the squared difference is less than kAgreement, in spacings^2.
+/// Parameters of the search for a common residual of the dots beyond the line. kReach is the
+/// maximum distance of the dots from the reference point along each axis, in spacings. kMinAgreeing
+/// is the minimum number of dots that agree with the common residual. A dot agrees if the squared
+/// difference between its residual and the common residual is less than kAgreement, in spacings^2.
 inline constexpr float kReach = 10;
 inline constexpr int kMinAgreeing = 8;
 inline constexpr float kAgreement = 0.08F * 0.08F;

@@ -1,5 +1,5 @@
-// Draws the progress of a calibration. The covered parts of the image are shown on the frame, and
-// gauges are shown beside the frame.
+// Draws the progress of a calibration: tints the parts of the frame that are not covered yet, and
+// draws gauges beside the frame.
 #pragma once
 
 #include <opencv2/core.hpp>

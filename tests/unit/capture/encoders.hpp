@@ -45,7 +45,7 @@ Bytes encode_pnm(const Raster& raster, bool as_text, int max_value);
 /// triples) has 1 channel.
 Bytes encode_png(const Raster& raster, const Bytes& palette = {}, const Bytes& exif = {});
 
-/// Encodes 8-bit samples. 1 channel needs a palette (RGB triples), 3 channels are RGB.
+/// Encodes 8-bit samples. One channel requires a palette (RGB triples). Three channels are RGB.
 Bytes encode_bmp(const Raster& raster, const Bytes& palette = {});
 
 /// Encodes an uncompressed file with one strip and the directory before the pixels. Channels and

@@ -1,4 +1,4 @@
-// Bindings for the options of locating, with the same names and units as in C++.
+// Bindings for the locator options, with the same names and units as in C++.
 #include <array>
 
 #include "binding.hpp"

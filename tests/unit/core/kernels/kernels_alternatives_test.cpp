@@ -245,8 +245,9 @@ double expected_in_double(const OwnPlaces& places, unsigned different,
     return alternatives * sum;
 }
 
-/// In views of two patterns, the lines of one pattern contradict an alternative and the lines of
-/// the other pattern confirm it. In between, the odds are far outside the range of a float.
+/// In a view of two patterns, 12 adjacent lines contradict the alternatives, and the other 9 lines
+/// confirm them. The product of the odds of the contradicting lines is far outside the range of a
+/// float.
 TEST(KernelsAlternatives, ExpectationsOfTwoPatternsAreThoseInDoublePrecision) {
     repeat_with_each_form(3, [&](const Kernels& kernels, Rng& rng) {
         const OwnPlaces places(rng);
