@@ -14,6 +14,7 @@
 #include <fmt/core.h>
 
 #include "dot_image.hpp"
+#include "dotpose/files/degrees.hpp"
 #include "dotpose/tools/simulate.hpp"
 #include "tables.hpp"
 
@@ -118,8 +119,7 @@ int print_row(const BoundFrames& frames, std::uint64_t count, const TableRun& ru
     const DotTable table(dot);
     const double bound = bound_px(frames, dot);
     const std::string angle =
-        frames.theta_rad < 0 ? "any"
-                             : fmt::format("{:.0f}", frames.theta_rad * 180 / std::numbers::pi);
+        frames.theta_rad < 0 ? "any" : fmt::format("{:.0f}", frames.theta_rad * kDegrees);
     std::string row = fmt::format("| {} x {} | {} | {} | {} | {:.0f} | {:.5f} |", frames.width_px,
                                   frames.height_px, frames.spacing_px, angle, frames.motion_px,
                                   100 * frames.fall, bound);

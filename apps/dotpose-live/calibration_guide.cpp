@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 
 /// Minimum time between two frames that are offered for the calibration of the lens.
 constexpr std::chrono::milliseconds kOfferPeriod = 50ms;
-/// Maximum number of waiting commands. Further commands are ignored.
+/// Maximum number of waiting jobs. A command of a page is ignored if so many wait.
 constexpr std::size_t kMaxJobs = 8;
 
 constexpr std::array<const char*, 4> kSteps = {"lens", "spin", "drive", "readout"};
@@ -170,7 +170,12 @@ void CalibrationGuide::fail(const std::string& problem) {
 }
 
 void CalibrationGuide::set_sheets(std::vector<SheetEntry> sheets) {
-    post(false, [this, sheets = std::move(sheets)] { options_.calibrate.sheets = sheets; });
+    {
+        const std::lock_guard lock(mutex_);
+        jobs_.emplace_back(
+            [this, sheets = std::move(sheets)] { options_.calibrate.sheets = sheets; });
+    }
+    changed_.notify_one();
 }
 
 void CalibrationGuide::take(const capture::Frame& frame, const Reading& reading, ImageView image,

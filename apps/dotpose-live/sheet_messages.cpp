@@ -1,11 +1,11 @@
 #include "sheet_messages.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include <nlohmann/json.hpp>
 
 #include "common.hpp"
+#include "dotpose/files/degrees.hpp"
 #include "sheet_changes.hpp"
 
 namespace dotpose::cli {
@@ -15,7 +15,6 @@ using nlohmann::json;
 
 /// Maximum number of sheets in a message.
 constexpr std::size_t kMaxSheets = 2000;
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 json json_of(const std::optional<PagePose>& pose) {
     if (!pose) return nullptr;

@@ -8,7 +8,7 @@
 
 namespace dotpose::cli {
 
-/// Throws Error if the page has so many dots that making it would take minutes.
+/// Throws Error if the page has too many dots. Its PDF would take minutes to write.
 void require_printable(const Sheet& sheet);
 
 /// Returns the PDF of the page of a sheet, which `dotpose sheets reprint` would write. `goes_on` is

@@ -38,6 +38,12 @@ const T& require(const serve::Command& command, std::string_view key) {
     return *value;
 }
 
+/// Returns the id of a command, or an empty string if there is none or it is too long.
+std::string id_of(const serve::Command& command) {
+    const std::string* id = command.argument<std::string>("id");
+    return id != nullptr && id->size() <= kMaxIdLength ? *id : std::string();
+}
+
 double require_number(const serve::Command& command, std::string_view key, double min, double max) {
     const double value = require<double>(command, key);
     if (value >= min && value <= max) return value;
@@ -107,8 +113,6 @@ void WebSheets::start() {
 
 bool WebSheets::obey(const serve::Command& command) {
     if (!command.name.starts_with("sheet-") && !command.name.starts_with("stitch-")) return false;
-    const std::string* id = command.argument<std::string>("id");
-    const bool has_id = id != nullptr && id->size() <= kMaxIdLength;
     {
         const std::lock_guard lock(mutex_);
         if (options_.may_edit && waiting_.size() < kMaxWaiting) {
@@ -117,8 +121,7 @@ bool WebSheets::obey(const serve::Command& command) {
             return true;
         }
     }
-    if (!has_id) return true;
-    answer({.id = *id,
+    answer({.id = id_of(command),
             .message = options_.may_edit ? "too many changes are waiting; try again" : kReadOnly});
     return true;
 }
@@ -159,10 +162,7 @@ void WebSheets::refresh() {
 }
 
 void WebSheets::answer_to(const serve::Command& command) {
-    SheetAnswer given;
-    if (const std::string* id = command.argument<std::string>("id");
-        id != nullptr && id->size() <= kMaxIdLength)
-        given.id = *id;
+    SheetAnswer given{.id = id_of(command)};
     try {
         perform(command, given);
         given.is_ok = true;

@@ -5,8 +5,10 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "calibrate/least_squares.hpp"
+#include "calibrate/median.hpp"
 
 namespace dotpose::calibrate {
 namespace {
@@ -55,10 +57,8 @@ DotFit fit_dots(const std::vector<DotEquation>& dots, int parameters) {
         std::vector<double> squares;
         for (const DotEquation& dot : dots)
             squares.push_back(squared_residual(dot, fit.parameters));
-        const auto median = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-        std::ranges::nth_element(squares, median);
-        // The median of the squared length of a two-dimensional Gaussian vector is 1.386 sigma^2.
-        limit = kOutlier_sigmas * kOutlier_sigmas * *median / 1.386;
+        limit = kOutlier_sigmas * kOutlier_sigmas * upper_median(std::move(squares)) /
+                kMedianOfSquaredLength;
     }
     return fit;
 }

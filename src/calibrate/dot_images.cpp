@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <Eigen/Cholesky>
 
 #include "calibrate/least_squares.hpp"
+#include "calibrate/median.hpp"
 
 namespace dotpose::calibrate {
 namespace {
@@ -162,9 +164,7 @@ double median_contrast(const std::vector<DotImage>& images) {
         if (image.is_valid) contrasts.push_back(image.contrast);
     }
     if (contrasts.empty()) return 0;
-    const auto middle = contrasts.begin() + static_cast<std::ptrdiff_t>(contrasts.size() / 2);
-    std::ranges::nth_element(contrasts, middle);
-    return *middle;
+    return upper_median(std::move(contrasts));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <ceres/ceres.h>
 
+#include "calibrate/median.hpp"
 #include "calibrate/normal_inverse.hpp"
 
 namespace dotpose::calibrate {
@@ -189,12 +190,6 @@ void start_from_nothing(const std::vector<LocatedFrame>& frames, const FitSettin
     fit.camera.shape = {kReachPerFocal, 1, 0};
 }
 
-double median_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
-
 class Fitter {
   public:
     Fitter(const std::vector<LocatedFrame>& frames, const FitSetting& setting, LensFit& fit)
@@ -298,7 +293,7 @@ class Fitter {
         }
         // Median of the squared length of a two-dimensional Gaussian vector, in sigma^2.
         constexpr double kMedian = 1.386;
-        const double variance = median_of(std::move(squares)) / kMedian;
+        const double variance = upper_median(std::move(squares)) / kMedian;
         for (std::size_t i = 0; i < frames_.size(); ++i) {
             for (std::size_t k = 0; k < frames_[i].dots.size(); ++k) {
                 const auto& [du, dv] = fit_.residuals_px[i][k];

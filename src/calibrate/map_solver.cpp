@@ -105,8 +105,7 @@ Statistics measure(const MapGrid& grid, double limit, MapSolution& solution,
             free_view(block, right, frame, sum / (2 * static_cast<double>(frame.count))));
     }
     result.view_sigma = view_sigma_of(views);
-    constexpr double kMedianOfSquare = 1.386;  // of a vector with variance 1 per axis
-    const double unit = upper_median(squares) / kMedianOfSquare;
+    const double unit = upper_median(squares) / kMedianOfSquaredLength;
     std::ranges::fill(solution.views, 0);
     solution.outliers = 0;
     for (std::size_t i = 0; i < observations.size(); ++i) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -9,6 +10,7 @@
 #include <Eigen/LU>
 
 #include "calibrate/mapped_dots.hpp"
+#include "calibrate/median.hpp"
 #include "dotpose/tools/print_mapping.hpp"
 
 namespace dotpose {
@@ -124,9 +126,7 @@ Correction fit_terms(const Plane& plane, const std::vector<MapDot>& dots, double
             const Vector2d wanted = dot.step + map_weight * dot.offset - plane.place(dot.pixel);
             squares.push_back((wanted - derivatives_at(plane, dot) * last).squaredNorm());
         }
-        const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-        std::ranges::nth_element(squares, middle);
-        limit = kOutlier * *middle / 1.386;
+        limit = kOutlier * upper_median(std::move(squares)) / kMedianOfSquaredLength;
     }
     return result;
 }

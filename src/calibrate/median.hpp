@@ -7,6 +7,9 @@
 
 namespace dotpose::calibrate {
 
+/// Median of the squared length of a two-dimensional Gaussian vector with variance 1 per axis.
+inline constexpr double kMedianOfSquaredLength = 1.386;
+
 /// Returns the upper median. `values` must not be empty.
 inline double upper_median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

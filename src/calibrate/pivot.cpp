@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "calibrate/dots_in_view.hpp"
 #include "calibrate/pivot_fit.hpp"
 #include "dotpose/code_evidence.hpp"
+#include "dotpose/files/degrees.hpp"
 #include "dotpose/files/sheet_place.hpp"
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/calibrate.hpp"
@@ -26,9 +26,8 @@ using calibrate::PivotView;
 
 constexpr int kMinPivotFrames = 6;
 /// Below this angle, the tip is less accurate than the poses by more than a factor of about 10.
-constexpr double kMinPivot_rad = 3 * std::numbers::pi / 180;
+constexpr double kMinPivot_rad = 3 / kDegrees;
 constexpr double kMinUsed = 2.0 / 3;
-constexpr double kDegrees_per_rad = 180 / std::numbers::pi;
 
 /// Poses of all frames that have a pose in space.
 struct PivotViews {
@@ -109,7 +108,7 @@ void require_pivot(double pivot_rad) {
         fmt::format("the pen does not pivot enough: its rotations about one axis are {:.1f} "
                     "degrees (rms), and {:.0f} are needed; keep the tip at one point of the sheet, "
                     "and tilt the pen by up to 40 degrees to all sides",
-                    pivot_rad * kDegrees_per_rad, kMinPivot_rad * kDegrees_per_rad));
+                    pivot_rad * kDegrees, kMinPivot_rad * kDegrees));
 }
 
 /// Throws Error if the tip was not at rest.

@@ -5,6 +5,8 @@
 #include <functional>
 #include <utility>
 
+#include "calibrate/median.hpp"
+
 namespace dotpose::calibrate {
 namespace {
 
@@ -40,9 +42,7 @@ Field field_of(const Group& group, const Tiling& tiling) {
         field.tiles[static_cast<std::size_t>(tile.tile)] = tile;
         papers.push_back(tile.levels.paper);
     }
-    const auto middle = papers.begin() + static_cast<std::ptrdiff_t>(papers.size() / 2);
-    std::ranges::nth_element(papers, middle);
-    field.paper = *middle;
+    field.paper = upper_median(std::move(papers));
     return field;
 }
 

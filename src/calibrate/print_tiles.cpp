@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "calibrate/median.hpp"
+
 namespace dotpose::calibrate {
 namespace {
 
@@ -96,9 +98,7 @@ double TileLocator::probe_spacing_px(const Tiling& tiling, int step) {
         if (located) spacings_px.push_back(located->map.spacing_px());
     }
     if (spacings_px.empty()) return 0;
-    const auto middle = spacings_px.begin() + static_cast<long>(spacings_px.size() / 2);
-    std::ranges::nth_element(spacings_px, middle);
-    return *middle;
+    return upper_median(std::move(spacings_px));
 }
 
 CodeReader TileLocator::read_without_code(const LocatedTiles& tiles) {

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "calibrate/least_squares.hpp"
+#include "calibrate/median.hpp"
 #include "calibrate/plane_start.hpp"
 
 namespace dotpose::calibrate {
@@ -144,11 +145,8 @@ std::vector<WeightedDot> inliers(const SpaceState& state, const std::vector<Weig
     std::vector<double> squares;
     for (const auto& [dot, whitening] : dots)
         squares.push_back((whitening * predict(state, dot, focal_px).residual_px).squaredNorm());
-    std::vector<double> sorted = squares;
-    const auto median = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::ranges::nth_element(sorted, median);
-    // The median of the squared length of a two-dimensional Gaussian vector is 1.386 sigma^2.
-    const double limit = kMaxResidual_sigmas * kMaxResidual_sigmas * *median / 1.386;
+    const double limit =
+        kMaxResidual_sigmas * kMaxResidual_sigmas * upper_median(squares) / kMedianOfSquaredLength;
     std::vector<WeightedDot> kept;
     for (std::size_t i = 0; i < dots.size(); ++i) {
         if (squares[i] <= limit) kept.push_back(dots[i]);

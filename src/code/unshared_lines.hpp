@@ -1,7 +1,7 @@
 // Unshared lines: numbers of lines that two positions do not share if their places differ in a
 // single sequence. Two positions share a line at shift s if their rolls in this line differ by s.
-// The same s applies to all lines. The tables were generated, and
-// tests/unit/code/unshared_lines_test.cpp recomputes them.
+// The shift s is the same for all lines. The test tests/unit/code/unshared_lines_test.cpp computes
+// the tables again.
 #pragma once
 
 #include <array>

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include <fmt/core.h>
 
+#include "dotpose/files/degrees.hpp"
 #include "draw/svg.hpp"
 
 namespace dotpose {
@@ -18,7 +18,6 @@ namespace {
 constexpr double kMargin_mm = 5;
 /// Width of the line of a ballpoint pen.
 constexpr double kLine_mm = 0.4;
-constexpr double kDegrees_per_rad = 180 / std::numbers::pi;
 
 /// Returns the page with its size. If the size is not known, the page is the area of the strokes
 /// with a margin.
@@ -97,8 +96,8 @@ std::string ink_ml(const InkPage& given) {
             append_place(text, page, point);
             const double slope = std::tan(point.tilt_rad);
             fmt::format_to(std::back_inserter(text), " {:.3f} {:.2f} {:.2f}", 1000 * point.t_s,
-                           std::atan(slope * std::cos(point.azimuth_rad)) * kDegrees_per_rad,
-                           std::atan(slope * std::sin(point.azimuth_rad)) * kDegrees_per_rad);
+                           std::atan(slope * std::cos(point.azimuth_rad)) * kDegrees,
+                           std::atan(slope * std::sin(point.azimuth_rad)) * kDegrees);
         }
         text += "</trace>\n";
     }

@@ -78,7 +78,7 @@ function drawUnknown(context: CanvasRenderingContext2D, positions: Positions, pl
     context.stroke();
 }
 
-/** Draws the names, unless there are so many that they would cover each other. */
+/** Draws the names. Draws none if there is too little room for them. */
 export function drawNames(context: CanvasRenderingContext2D, { names, at_mm, count }: Positions, view: Viewport): void {
     const kArea_px = 6000;
     if (names === undefined || count * kArea_px > view.width * view.height) return;
