@@ -1,14 +1,15 @@
-/// Position code: returns the symbol printed at each grid intersection, and decodes windows of
-/// symbols.
+/// The position code: functions that return the symbol printed at a grid intersection, and
+/// functions that decode a window of symbols.
 ///
-/// The code follows section II-A of the paper. Every column contains the same cyclic sequence,
-/// called *main*, read downwards. The *roll* of a column is the index in *main* of the bit in row
-/// 0. Rolls of adjacent columns differ by 5 to 58, modulo 63. Each difference has four digits,
-/// taken from the cyclic sequences a1 to a4. The lengths of these sequences are coprime, so
-/// consecutive differences determine the position of a column. Rows encode y in the same way.
+/// The code is that of section II-A of the paper. Every column contains the same cyclic sequence of
+/// bits, called *main*, read downwards. The *roll* of a column is the index in *main* of its bit in
+/// row 0. The rolls of adjacent columns differ by 5 to 58, modulo 63. Each difference consists of
+/// four digits, one from each of the cyclic sequences a1 to a4. The lengths of these sequences are
+/// coprime, so a few consecutive differences determine the position of a column. The rows encode y
+/// in the same way.
 ///
-/// Coordinates: x points right and y points DOWN, as the printed page is read. All functions are
-/// pure and thread-safe, and do not allocate.
+/// Coordinates: x points right and y points DOWN on the printed page. All functions are pure and
+/// thread-safe, and do not allocate memory.
 #pragma once
 
 #include <cstdint>
@@ -21,16 +22,16 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Positions per axis: 236 * 233 * 31 * 241. The places in the four digit sequences repeat together
-/// after this number of positions.
+/// Number of positions per axis: 236 * 233 * 31 * 241, the product of the lengths of the four digit
+/// sequences. The combination of digits repeats after this number of positions.
 inline constexpr std::uint32_t kPositionsPerAxis = 410'815'348;
-/// Length of the main sequence. Also the number of sections per axis.
+/// Number of sections per axis. Also the length of the main sequence.
 inline constexpr int kSections = 63;
 
 /// Variant of the position code. Variants differ only in sequence a4.
 enum class CodeVariant : std::uint8_t {
-    /// Sequence a4 with the patent's misprint corrected (docs/position-code.md). Unambiguous on the
-    /// whole plane. The default for printing.
+    /// The patent's sequence a4 with its misprint corrected (docs/position-code.md). Windows are
+    /// unique on the whole plane. The default for printing.
     anoto,
     /// Sequence a4 as misprinted in the patent. Used by libdots and other open tools. Windows
     /// smaller than 8 x 8 symbols may be ambiguous.
@@ -41,23 +42,23 @@ enum class CodeVariant : std::uint8_t {
 /// Number of code variants.
 inline constexpr int kCodeVariantCount = 3;
 
-/// Grid intersection in column x and row y. Both are in [0, kPositionsPerAxis).
+/// Grid intersection in column x and row y, each in [0, kPositionsPerAxis).
 struct Cell {
     std::uint32_t x = 0;
     std::uint32_t y = 0;
     friend constexpr bool operator==(const Cell&, const Cell&) = default;
 };
 
-/// Section of the code plane: the rolls of column 0 (u) and row 0 (v). Both are in [0, 63). The
-/// paper uses the term "sector".
+/// Section of the code plane, called "sector" in the paper. `u` is the roll of column 0, and `v` is
+/// the roll of row 0. Each is in [0, 63).
 struct Section {
     std::uint8_t u = 0;
     std::uint8_t v = 0;
     friend constexpr bool operator==(const Section&, const Section&) = default;
 };
 
-/// Direction in which a dot is displaced from its intersection. Bit 0 is the x bit. Bit 1 is the y
-/// bit.
+/// Direction in which a dot is displaced from its intersection. Bit 0 of the value is the x bit,
+/// and bit 1 is the y bit.
 enum class Symbol : std::uint8_t { up = 0, left = 1, right = 2, down = 3 };
 
 /// Returns the symbol with the given bits. Each bit must be 0 or 1.
@@ -72,11 +73,11 @@ constexpr int x_bit(Symbol symbol) {
 constexpr int y_bit(Symbol symbol) {
     return static_cast<int>(symbol) >> 1 & 1;
 }
-/// Returns the displacement of a dot along x, in displacement lengths: -1, 0 or 1.
+/// Returns the direction of the displacement along x: -1, 0 or 1.
 constexpr int dx(Symbol symbol) {
     return y_bit(symbol) - x_bit(symbol);
 }
-/// Returns the displacement of a dot along y (down), in displacement lengths: -1, 0 or 1.
+/// Returns the direction of the displacement along y (down): -1, 0 or 1.
 constexpr int dy(Symbol symbol) {
     return x_bit(symbol) + y_bit(symbol) - 1;
 }
@@ -90,15 +91,14 @@ constexpr char letter(Symbol symbol) {
 int delta(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns the roll of column (or row) p in section 0, in O(1). The result is in [0, 63). `p` may
-/// exceed kPositionsPerAxis. Rolls do not repeat with this period: p and p + kPositionsPerAxis have
-/// different rolls.
+/// be kPositionsPerAxis or more. The rolls of p and p + kPositionsPerAxis are different.
 int roll(CodeVariant code, std::uint32_t p) noexcept;
 
 /// Returns one bit of the cyclic main sequence. Any index is valid.
 int main_bit(std::uint32_t index) noexcept;
 
-/// Returns the symbol at one intersection, in O(1). For whole pages, call `roll` once per column
-/// and row instead.
+/// Returns the symbol at one intersection, in O(1). For a whole page, it is faster to call `roll`
+/// once per column and once per row.
 Symbol symbol_at(CodeVariant code, Cell cell, Section section) noexcept;
 
 /// Rectangle of symbols, stored row by row. The rectangle must have 6 to 32 columns and 6 to 32
@@ -118,12 +118,12 @@ struct Place {
 };
 
 /// Returns the place that is (dx, dy) intersections away from `place`. |dx| and |dy| must be less
-/// than kPositionsPerAxis. Beyond one end of an axis, the result wraps around to the opposite end,
-/// in another section.
+/// than kPositionsPerAxis. Places wrap around at the ends of each axis, into a different
+/// section.
 Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noexcept;
 
-/// Decodes an upright window without wrong symbols. Sets `place` only if the window occurs exactly
-/// once in the code. Errors:
+/// Decodes an upright window in which all symbols are correct. Sets `place` only if the window
+/// occurs exactly once in the code. Errors:
 /// - bad_window: not 6 to 32 columns and rows, or fewer than columns * rows symbols.
 /// - not_in_code: the code does not contain the window.
 /// - ambiguous: the window occurs at several places. Only `libdots` windows below 8 x 8 are
@@ -135,9 +135,9 @@ Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexce
 Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 
-/// Returns `Section::u` for the column at `position`, or `Section::v` for the row at `position`.
-/// `roll_seen` is the main sequence index of one bit of this column (or row). The bit is in row (or
-/// column) `cross_position`.
+/// Returns `Section::u` of the column at `position`, or `Section::v` of the row at `position`.
+/// `roll_seen` is the index in the main sequence of the bit that this column (or row) has in row
+/// (or column) `cross_position`.
 int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
                std::uint32_t cross_position) noexcept;
 

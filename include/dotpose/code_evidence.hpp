@@ -1,8 +1,8 @@
 /// Code evidence: the probability of each code variant, given the frames of a sheet.
 ///
-/// Code variants agree on most of the plane. Many frames can therefore be read in several variants,
-/// usually at the same place. If the places differ, further frames of the sheet resolve the
-/// ambiguity:
+/// The code variants agree on most of the plane, so many frames can be read in several variants,
+/// usually at the same place. If the places differ, further frames of the sheet show which variant
+/// is correct:
 ///
 ///     CodeEvidence evidence;
 ///     for (;;) {
@@ -10,7 +10,7 @@
 ///         evidence = reading.evidence;
 ///     }
 ///
-/// docs/integrity.md, "Which code?", derives the odds.
+/// docs/integrity.md, "Which code?", derives the formulas.
 #pragma once
 
 #include <array>
@@ -28,22 +28,22 @@ namespace dotpose {
 
 /// Odds for each code variant of a sheet, given all frames so far.
 ///
-/// Consecutive frames at one place contain the same dots with the same defects, so they count as a
-/// single frame. A single frame divides the odds of a variant by some factor. All frames at one
-/// place together divide the odds by the mean of these factors. Frames are at the same place if
-/// they are less than 64 cells from the first frame at this place, along both axes.
+/// Consecutive frames at one place show the same dots with the same defects, so together they have
+/// the weight of a single frame. Each frame alone would divide the odds of a variant by some
+/// factor. All frames at one place together divide the odds by the mean of these factors. A frame
+/// is at the same place as the frames before it if it is less than 64 cells from the first of them,
+/// along both axes.
 class CodeEvidence {
   public:
-    /// Log-likelihood or log-odds for each code variant: log2, in units of 2^-8.
+    /// log2 of the likelihood or of the odds of each code variant, in units of 2^-8.
     using LogOdds = std::array<std::int32_t, kCodeVariantCount>;
 
-    /// Maximum log2 ratio between the odds for the likeliest code variant and for any other code
-    /// variant. Applies to each frame and to all frames together. With this limit, later frames can
-    /// show that the sheet was replaced.
+    /// Maximum log2 ratio between the odds of the likeliest code variant and the odds of any other
+    /// code variant. The limit applies to each frame and to all frames together. Because of this
+    /// limit, later frames can show that the sheet was replaced.
     static constexpr std::int32_t kMax_log2 = 40;
-    /// Maximum log2 factor by which consecutive frames at one place together reduce the odds of a
-    /// variant. These frames contain the same dots with the same defects, so they are not
-    /// independent.
+    /// Maximum log2 factor by which all consecutive frames at one place together reduce the odds of
+    /// a variant.
     static constexpr std::int32_t kMaxOfPlace_log2 = 32;
 
     /// Starts with equal odds for all code variants.
@@ -57,17 +57,16 @@ class CodeEvidence {
     /// Returns the probability, in [0, 1], that the sheet is not printed in `code`.
     float p_wrong(CodeVariant code) const;
 
-    /// Adds a frame located at `cell`. `log2_q8` contains the log2 likelihood of the bits of the
-    /// frame in each code variant, in units of 2^-8.
+    /// Adds a frame located at `cell`. `log2_q8` contains the log2 likelihood of the frame's bits
+    /// in each code variant, in units of 2^-8.
     void add(Cell cell, const LogOdds& log2_q8);
 
   private:
     LogOdds sum() const;
 
-    LogOdds before_log2_q8_{};  ///< log2 odds from all places except the newest
-    /// Sum over the frames at the newest place, for each code variant. A frame adds the factor by
-    /// which it alone would reduce the odds of the variant, relative to the likeliest variant.
-    /// `sum()` uses the mean, factors_here_ / frames_here_.
+    LogOdds before_log2_q8_{};  ///< log2 odds from the frames at all places before the newest place
+    /// Sum of the factors by which each frame at the newest place alone would reduce the odds of a
+    /// code variant, relative to the likeliest variant. `sum()` uses the mean of these factors.
     std::array<float, kCodeVariantCount> factors_here_{};
     Cell here_;
     std::uint32_t frames_here_ = 0;
@@ -75,26 +74,27 @@ class CodeEvidence {
 
 /// Result of locating one frame, with the evidence for each code variant.
 struct CodeReading {
-    /// If the status is ambiguous_code, two places explain the frame. The pose and the counts
-    /// belong to one of these places.
+    /// If the status is ambiguous_code, two places explain the frame, and the pose and the counts
+    /// refer to one of them.
     Fix fix;
     CodeVariant code = CodeVariant::anoto;  ///< code variant of `fix`
     CodeEvidence evidence;                  ///< evidence including this frame
     /// True if a place in another code variant also explains the frame. The members below contain
-    /// this place. `Locator::locate_in_any_code` sets the flag only with the status ambiguous_code.
-    /// The documentation of `Locator::locate_in_code` lists the cases in which that function sets
-    /// the flag. If the fix is ok, its `p_wrong_log2` excludes the odds of this place.
+    /// this other place. `Locator::locate_in_any_code` sets the flag only with the status
+    /// ambiguous_code. `Locator::locate_in_code` also sets it in other cases, which are listed
+    /// there. If the fix is ok, its `p_wrong_log2` does not include the probability that the other
+    /// place is correct.
     bool has_other = false;
     CodeVariant other_code = CodeVariant::anoto;
-    Cell other_cell{};  ///< `Fix::cell` for the other place; fractions and angle are the same as in
-                        ///< `fix`
+    Cell other_cell{};  ///< `Fix::cell` of the other place; the fractions and the angle are those
+                        ///< of `fix`
     Section other_section{};
 };
 
 class Locator;
 
-/// Locates the frames of one sheet in a given code variant. Without a given code variant, detects
-/// the code variant from the frames.
+/// Locates the frames of one sheet, either in a given code variant or in the variant that the
+/// frames show.
 class CodeReader {
   public:
     /// Uses the code variant `given`. If `given` is empty, detects the code variant from all frames

@@ -16,12 +16,12 @@ namespace dotpose {
 /// Radial lens distortion (paper, eq. 1-2): p_u = m + r_d / (1 + k |r_d|^2). p_u is the undistorted
 /// point, m is the distortion centre, and r_d is the vector from m to the image point.
 struct FixedLens {
-    /// Coefficient k, in units of 2^-40 / px^2. Negative for barrel distortion. Default 0: no
-    /// distortion. [any]
+    /// Coefficient k, in units of 2^-40 / px^2. Negative for barrel distortion. The default of 0
+    /// means no distortion. [any]
     std::int32_t k_q40 = 0;
-    /// Distortion centre m relative to the image centre, in px times 256. Default: the image
-    /// centre, as in the paper. The distortion centre of real lenses is a few pixels off the image
-    /// centre. [-1024 to 1024 px]
+    /// Distortion centre m relative to the image centre, in units of 2^-8 px. Default: the image
+    /// centre, as in the paper. In a real camera, the distortion centre is typically a few pixels
+    /// from the image centre. [-1024 to 1024 px]
     std::int32_t centre_dx_q8 = 0;
     std::int32_t centre_dy_q8 = 0;
 
@@ -34,8 +34,8 @@ struct FixedLens {
 };
 
 /// Thresholds that separate dots from paper (paper, section II-B.1). Used on devices and in the
-/// second attempt (see Effort). The second attempt lowers the thresholds, because it filters the
-/// image first.
+/// second attempt (see Effort). The second attempt uses lower thresholds than these, because it
+/// filters the image first.
 struct ThresholdOptions {
     /// Low threshold, in 1/256 of the local contrast. All pixels in a blob must be at least this
     /// much darker than the paper. Smaller values merge neighbouring dots. Larger values lose
@@ -44,40 +44,39 @@ struct ThresholdOptions {
     /// High threshold, in 1/256 of the local contrast. The darkest pixel of a blob must be at least
     /// this much darker than the paper. Larger values reject more noise. [1 to 256]
     int high_q8 = 155;
-    /// Contrast below which an image tile counts as blank, in grey levels. The effective limit is
-    /// clamp(c / 6, min_contrast, 2 * min_contrast), where c is the largest contrast in the frame
-    /// so far. Devices use this option or `DeviceOptions::min_contrast`, whichever is larger. [1 to
-    /// 255]
+    /// Contrast below which an image tile counts as blank, in grey levels. The limit in use is
+    /// clamp(c / 6, min_contrast, 2 * min_contrast), where c is the largest contrast of a tile in
+    /// the frame so far. Devices use this option or `DeviceOptions::min_contrast`, whichever is
+    /// larger. [1 to 255]
     int min_contrast = 8;
 };
 
-/// Criteria that select dots among the dark blobs (paper, section II-B.1). Used on devices and in
-/// the second attempt.
+/// Criteria that distinguish dots from other dark blobs (paper, section II-B.1). Used on devices
+/// and in the second attempt.
 struct BlobOptions {
-    /// Minimum area of a dot, in pixels. A value of 1 does not remove salt-and-pepper noise. [0 to
-    /// 2^20]
+    /// Minimum area of a dot, in pixels. With a value of 1 or less, salt-and-pepper noise is not
+    /// removed. [0 to 2^20]
     int min_area_px = 2;
-    /// Minimum mass (summed darkness) of a dot, in 1/256 of the upper quartile over all blobs.
-    /// Paler blobs are noise. [0 to 256]
+    /// Minimum mass (summed darkness) of a dot, in 1/256 of the upper quartile of the masses of all
+    /// blobs. Blobs with less mass are noise. [0 to 256]
     int min_mass_q8 = 64;
-    /// Maximum area of a dot, as a multiple of the upper quartile over all blobs. Larger blobs are
-    /// graphics. [1 to 1024]
+    /// Maximum area of a dot, as a multiple of the upper quartile of the areas of all blobs. Larger
+    /// blobs are graphics. [1 to 1024]
     int max_area_ratio = 5;
 };
 
-/// Options for finding the grid (paper, sections II-B.2 and II-B.3). `max_offset_q16` only affects
-/// devices and the second attempt.
+/// Options for finding the grid (paper, sections II-B.2 and II-B.3).
 struct LatticeOptions {
     /// Minimum number of dots required to search for a grid. A position needs at least 6 x 6 dots.
     /// [0 to 2^20]
     int min_dots = 40;
     /// Maximum distance between a dot and its intersection along each axis, in units of 2^-16
-    /// spacings. Dots farther away count as noise. The nominal distance is 1/6 spacing. [0 to
-    /// 32768]
+    /// spacings. Dots farther away count as noise. The nominal distance is 1/6 spacing. Used only
+    /// on devices and in the second attempt. [0 to 32768]
     int max_offset_q16 = 24000;
 };
 
-/// Limits beyond which a position is refused as not_certain.
+/// Criteria for accepting a position. Other positions are refused as not_certain.
 struct IntegrityOptions {
     /// Maximum accepted bound on the probability that a fix is wrong, as log2. Positions with a
     /// larger bound are refused. The default is slightly below 1e-9. [-2^20 to 0]
@@ -89,16 +88,17 @@ struct IntegrityOptions {
 
 /// Attempts that `locate` makes.
 enum class Effort : std::uint8_t {
-    device,  ///< one attempt in integer arithmetic, as in a DeviceLocator
-    once,    ///< tracked attempt, if there is a prediction, then first attempt
-    twice,   ///< like `once`, then a second attempt on the filtered image if the first attempt
-             ///< fails or its fix has large residuals
+    device,  ///< one attempt in integer arithmetic, like that of a DeviceLocator
+    once,    ///< the tracked attempt, if there is a prediction, and then the first attempt
+    twice,   ///< the attempts of `once`, and then a second attempt on the filtered image if the
+             ///< first attempt fails or its fix has large residuals
 };
 
-/// Dots used to read the position.
+/// Selects the dots from which the position is decoded.
 enum class Decoder : std::uint8_t {
-    /// The clearest window of 8 x 8 symbols, as in the paper. Intended for comparison. Skips the
-    /// first attempt, and makes the second attempt with every Effort except `device`.
+    /// The clearest window of 8 x 8 symbols, as in the paper. Intended for comparison with the
+    /// paper. Replaces the first attempt by the second attempt, even with Effort::once. Has no
+    /// effect with Effort::device.
     window,
     all,  ///< all dots in view
 };
@@ -115,14 +115,15 @@ struct DeviceOptions {
     IntegrityOptions integrity;
 
     /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast gets the
-    /// status no_contrast, or not_tracked if a DeviceLocator only tracks it. Default 0: any
-    /// readable contrast. [0 to 255]
+    /// status no_contrast, or the status not_tracked if a DeviceLocator began it with a prediction.
+    /// The default of 0 accepts any readable contrast. [0 to 255]
     int min_contrast = 0;
 
-    /// Maximum number of dots in the pose fit, for the first and the tracked attempt. The fit uses
-    /// dots spread evenly over the frame. The pose error is proportional to 1 / sqrt(max_dots), and
-    /// the time to max_dots. The default includes all dots of a VGA frame at 9 px per spacing.
-    /// [any; clamped to the range from 64 to the capacity of the memory]
+    /// Maximum number of dots in the pose fit of the first and the tracked attempt. The fit uses
+    /// dots that are spread evenly over the frame. The pose error is proportional to 1 /
+    /// sqrt(max_dots), and the time of the fit is proportional to max_dots. The default includes
+    /// all dots of a VGA frame at 9 px per spacing. [any; clamped to the range from 64 to the
+    /// capacity of the memory]
     int max_dots = 4096;
 
     /// Spacing of the printed grid, in nm. Used to convert a fix to millimetres. Default: 0.508 mm,
@@ -134,8 +135,8 @@ struct DeviceOptions {
     /// store them.
     bool show_stages = false;
 
-    /// Reference point: the image point whose pose is reported. Relative to the image centre, in px
-    /// times 256. Default: the image centre. [-16384 to 16384 px]
+    /// Reference point: the image point whose pose is reported. Relative to the image centre, in
+    /// units of 2^-8 px. Default: the image centre. [-16384 to 16384 px]
     std::int32_t reference_dx_q8 = 0;
     std::int32_t reference_dy_q8 = 0;
 };

@@ -1,4 +1,4 @@
-/// Includes all headers of the core, which are sufficient to find a pose in an image.
+/// Includes all headers that are needed to find the pose of a camera in an image.
 #pragma once
 
 #include "dotpose/code.hpp"

@@ -26,22 +26,22 @@ enum class Attempt : std::uint8_t {
 /// Returns the identifier, such as "tracked".
 const char* name(Attempt attempt) noexcept;
 
-/// Flatness of the visible paper, as determined from the dots.
+/// Flatness of the paper in view, as determined from the dots.
 enum class Surface : std::uint8_t {
     even,     ///< one plane explains all dots
-    divided,  ///< a part of the paper is displaced; the pose is that of the part that contains the
-              ///< reference point
+    divided,  ///< one part of the paper is displaced, for example at a step between two sheets; the
+              ///< pose is that of the part under the reference point
     uneven,   ///< neighbouring dots have correlated residuals, as on wrinkled paper; the covariance
-              ///< is widened to account for them
+              ///< includes the effect of this correlation
 };
 /// Returns the identifier, such as "divided".
 const char* name(Surface surface) noexcept;
 
-/// Places that counted as possible when the probability of a wrong fix was computed.
+/// Places that were considered possible when `p_wrong_log2` was computed.
 enum class Prior : std::uint8_t {
     plane,        ///< all places of the code
-    sheets,       ///< places on known sheets; the bits make any other sheet improbable
-    only_sheets,  ///< places on known sheets, because no other sheet can be in view
+    sheets,       ///< places on the known sheets; the bits of the frame exclude other sheets
+    only_sheets,  ///< places on the known sheets; other sheets were declared impossible
 };
 /// Returns the identifier, such as "plane".
 const char* name(Prior prior) noexcept;
@@ -62,14 +62,15 @@ struct Fix {
                                        ///< reference point
     std::uint16_t fraction_x_q16 = 0;  ///< distance from `cell` to the right, in 1/65536 spacing
     std::uint16_t fraction_y_q16 = 0;  ///< distance from `cell` downwards, in 1/65536 spacing
-    std::int32_t theta_bam = 0;        ///< binary angle in [-2^31, 2^31); 2^31 is half a turn
+    std::int32_t theta_bam = 0;        ///< angle `theta` as a binary angle in [-2^31, 2^31); 2^31
+                                       ///< is half a turn
     Section section;                   ///< section where `cell` was read
     std::int32_t spacing_px_q16 = 0;   ///< grid spacing in the image, in 2^-16 px
     /// Spacing of the printed grid, from the options. 0 if unknown.
     std::int32_t spacing_nm = 508'000;
 
-    /// Number of frames whose bits were combined to find the position. The number exceeds 1 only if
-    /// the camera motion between the frames was given.
+    /// Number of frames whose bits were combined to find the position. It exceeds 1 only if the
+    /// caller gave the camera motion between the frames.
     int frames = 1;
     int dots_seen = 0;  ///< number of dot-sized blobs
     int dots_used = 0;  ///< number of dots in the pose fit
@@ -77,11 +78,12 @@ struct Fix {
     int bit_errors = 0;
     /// Upper bound on the probability that the position is wrong, as log2.
     int p_wrong_log2 = 0;
-    /// Root mean square distance between the dots and their fitted places, along each axis.
+    /// Root mean square distance of the dots from their fitted places, per axis.
     float residual_px = 0;
 
-    /// Map from the image to the pattern, in spacings relative to `place`. The pose is the value
-    /// and orientation of the map at the reference point. `Prediction` uses this map.
+    /// Map from the image to the pattern, in spacings relative to `place`. The pose is the point to
+    /// which the map takes the reference point, and the direction of the image x axis there.
+    /// `Prediction` contains the same map.
     PlaneFromImage pattern_from_image;
     Place place;                        ///< origin of `pattern_from_image`
     std::int32_t displacement_q16 = 0;  ///< typical distance of a dot from its intersection, in
@@ -100,7 +102,8 @@ struct Fix {
     /// Returns true if the frame was located.
     explicit operator bool() const { return status == Status::ok; }
 
-    // Only the functions below use double precision. They are not in the object code of the core.
+    // The functions below are inline, because the object code of the core must not use double
+    // precision.
     double x_grid() const { return cell.x + fraction_x_q16 / 65536.0; }
     double y_grid() const { return cell.y + fraction_y_q16 / 65536.0; }
     /// Position in the pattern frame, in mm. NaN if the grid spacing is unknown.

@@ -8,7 +8,7 @@
 ///         sleep_until(pacer.next_frame_us(fix, now_us()));
 ///     }
 ///
-/// No heap, no floating point, no globals.
+/// The functions use no heap, no floating point and no global variables.
 #pragma once
 
 #include <cstdint>
@@ -23,23 +23,23 @@ namespace dotpose {
 /// Criteria for movement, and frame periods.
 struct PacerOptions {
     /// Time without movement after which the device counts as stationary. A longer time uses more
-    /// energy. With a shorter time, brief stops count as stationary and delay the detection of the
-    /// next movement.
+    /// energy. With a shorter time, the device counts as stationary during brief stops, so its next
+    /// movement is detected late.
     std::int64_t stationary_after_us = 5'000'000;
     /// Frame period while stationary. A longer period saves energy but delays the detection of
     /// movement.
     std::int64_t stationary_period_us = 1'000'000;
-    /// Frame period while moving. Default 0: as fast as possible.
+    /// Frame period while moving. With the default of 0, frames are taken as fast as possible.
     std::int64_t moving_period_us = 0;
     /// Movement threshold along either axis, in units of 2^-16 spacings. The distance is measured
-    /// from the place where the device came to rest. The threshold must be well above the noise at
-    /// rest. Default: a tenth of a spacing.
+    /// from the place where the device came to rest. The threshold must be well above the noise of
+    /// fixes at rest. Default: a tenth of a spacing.
     std::int32_t moved_q16 = 6554;
     /// Movement threshold for rotations, as a binary angle: 2^31 is half a turn. Default: one
     /// degree.
     std::int32_t turned_bam = 11'930'465;
-    /// If true, a stationary device that loses the pattern counts as moved. It may have been
-    /// lifted. Set this to false if frames also fail at rest.
+    /// True if a stationary device counts as moved when it loses the pattern, because it may have
+    /// been lifted. Set this to false if frames also fail while the device is at rest.
     bool lost_is_moved = true;
 };
 
@@ -65,9 +65,9 @@ class FramePacer {
     Motion motion_ = Motion::moving;
     bool has_begun_ = false;
     /// Result of the newest frame that counted as movement, with or without a fix. Later frames are
-    /// compared with this result. The first frame always counts as movement.
+    /// compared with it. The first frame always counts as movement.
     Fix rest_;
-    std::int64_t rest_since_us_ = 0;  ///< time of the `rest_` frame
+    std::int64_t rest_since_us_ = 0;  ///< time of the frame of `rest_`
 };
 
 }  // namespace dotpose

@@ -1,5 +1,6 @@
-/// Known regions: printed parts of the code plane that may be in view. With known regions, a
-/// Locator also reads views that are too small to be unique on the whole plane.
+/// Known regions: the parts of the code plane that are printed on the sheets that may be in view.
+/// With known regions, a Locator also reads views that are too small to be unique on the whole
+/// plane.
 ///
 ///     static constexpr KnownRegion kSheets[] = {
 ///         {.first = {1024, 1024}, .columns = 393, .rows = 563}};
@@ -24,13 +25,13 @@ struct KnownRegion {
     std::uint32_t rows = 0;
 };
 
-/// Minimum number of dots required to search for a grid on known regions. The options may set a
-/// lower `min_dots`. The smallest views that can be certain have about 25 dots.
+/// Minimum number of dots of a grid if regions are known, unless the options contain a lower
+/// `min_dots`. The smallest views with a certain position have about 25 dots.
 inline constexpr int kMinKnownDots = 16;
 
-/// Whether sheets other than the known sheets may be in view.
+/// Specifies whether sheets other than the known sheets may be in view.
 enum class OtherSheets : std::uint8_t {
-    possible,    ///< other sheets are also located, but need more dots in view
+    possible,    ///< other sheets are also located, but they need more dots in view
     impossible,  ///< only places on known sheets are possible
 };
 

@@ -3,7 +3,7 @@
 ///     dotpose::Locator locator;
 ///     if (const dotpose::Fix fix = locator.locate(image)) use(fix.x_mm(), fix.y_mm());
 ///
-/// An image can also be pushed row by row, as a camera delivers it: call `begin`, then `push_row`
+/// An image can also be given row by row, as a camera delivers it: call `begin`, then `push_row`
 /// for every row from the top, then `finish`. A DeviceLocator then needs no frame buffer.
 ///
 /// Dots are dark on light paper. For white dots on black, invert the pixels first:
@@ -11,8 +11,8 @@
 ///     for (std::uint8_t& grey : pixels) grey = 255 - grey;
 ///
 /// Memory: the constructor of a Locator allocates all memory, unless the caller provides it.
-/// Locating a frame does not allocate, print or throw. There are no globals. Different locators may
-/// be used concurrently.
+/// Locating a frame does not allocate, print or throw. There are no global variables. Different
+/// locators may be used concurrently.
 #pragma once
 
 #include <concepts>
@@ -48,7 +48,7 @@ class RowLocator {
 
     /// Returns the options in use.
     const DeviceOptions& options() const { return options_; }
-    /// Sets the options for the following frames. Drops a frame that was begun but not finished.
+    /// Sets the options for the following frames. Discards a frame that was begun but not finished.
     void set_options(const DeviceOptions& options);
 
     /// Returns the results of each stage for the last frame. The stages of a DeviceLocator share
@@ -60,15 +60,15 @@ class RowLocator {
         : workspace_(workspace), options_(options) {}
     ~RowLocator() = default;
 
-    /// Stores the status of `begin` and the number of rows to be pushed. Returns `status`.
+    /// Stores the status that `begin` returns, and the number of rows of the frame. Returns
+    /// `status`.
     Status note_begin(Status status, int height_px);
-    /// Counts a row. Returns false if all rows of the frame were already pushed.
+    /// Counts a row. Returns false if all rows of the frame have already been pushed.
     bool takes_row();
     /// Returns true if a frame was begun. Otherwise, sets the status of the fix to the status of
     /// `begin`, or to bad_argument if `begin` was not called.
     bool has_rows();
-    /// Ends the frame. Sets the spacing of the printed grid in the fix of the frame, and returns
-    /// the fix.
+    /// Ends the frame. Adds the spacing from the options to its fix, and returns the fix.
     Fix finished();
 
     core::Workspace* workspace_;
@@ -96,8 +96,8 @@ class Locator : public RowLocator {
         : Locator(memory.workspace_, options) {
         detects_code_ = !options.code;
     }
-    // Overloads for fixed-point options, which always contain the code. The overloads are templates
-    // because `Locator(memory, {...})` must select LocatorOptions.
+    // Overloads for fixed-point options, which always contain the code. They are templates so that
+    // `Locator(memory, {...})` selects LocatorOptions.
     template <std::same_as<DeviceOptions> Fixed>
     explicit Locator(const Fixed& options) : Locator(new LargeMemory, options) {}
     template <std::same_as<DeviceOptions> Fixed>
@@ -106,7 +106,7 @@ class Locator : public RowLocator {
     Locator(LargeMemory& memory, const Fixed& options) : Locator(memory.workspace_, options) {}
     ~Locator() { delete owned_; }
 
-    /// Sets the options for the following frames. Drops a frame that was begun but not finished.
+    /// Sets the options for the following frames. Discards a frame that was begun but not finished.
     /// Restarts the detection of the code, unless the options contain the code.
     void set_options(const LocatorOptions& options) {
         set_fixed_options(options);
@@ -117,38 +117,39 @@ class Locator : public RowLocator {
         set_fixed_options(options);
     }
 
-    /// Sets the regions of the code plane on the printed sheets that may be in view. With known
-    /// regions, views of about 30 dots suffice. `regions` must remain valid while the locator uses
-    /// it. An empty span makes all places possible again. If a region is empty, extends beyond the
-    /// plane, or has an invalid code or section, keeps the previous regions and returns
-    /// bad_argument. Effort::device does not use the regions.
+    /// Sets the known regions: the parts of the code plane that are printed on the sheets that may
+    /// be in view. With known regions, a view of about 30 dots is sufficient for a fix. `regions`
+    /// must remain valid while the locator uses it. An empty span makes all places possible again.
+    /// If a region is empty, extends beyond the plane, or has an invalid code or section, the
+    /// function returns bad_argument, and the previous regions remain in use. Effort::device does
+    /// not use the regions.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 
     /// Locates the pattern in an image. If the options do not contain the code, detects the code
     /// from all images so far, and sets `options().code` to the code of the fix. The fix is
-    /// bit-identical on every processor, except for the covariance and the residual.
+    /// bit-identical on all processors, except for the covariance and the residual.
     Fix locate(const ImageView& image);
 
-    /// Locates the pattern near the predicted place. A frame that does not confirm the prediction
-    /// is located without the prediction. `Fix::attempt` reports which attempt succeeded. The
+    /// Locates the pattern near the predicted place. If the image does not confirm the prediction,
+    /// it is located without the prediction. `Fix::attempt` reports which attempt succeeded. The
     /// prediction must have been made in `options().code`.
     Fix locate(const ImageView& image, const Prediction& prediction);
 
     /// Locates an image of a camera that has moved by `since_last` since the previous image. If the
-    /// previous image was located, first searches near the place that the motion predicts. If the
-    /// position from this image alone is not certain, reads the image together with the previous
-    /// images of the series. Views that are too small or too dirty can therefore become certain as
+    /// previous image was located, first searches near the place that the motion predicts. If this
+    /// image alone does not give a certain position, reads it together with the previous images of
+    /// the series. A series of views that are too small or too dirty can therefore give a fix while
     /// the camera moves. `Fix::frames` is the number of images read together. The series may
-    /// include images without a pattern. The series ends if another function locates an image. If
-    /// the options do not contain the spacing of the printed grid, or if the motion is not usable,
+    /// include images without a pattern. It ends if another function locates an image. If the
+    /// motion is not usable, or if the options do not contain the spacing of the printed grid,
     /// locates the image alone.
     Fix locate(const ImageView& image, const MeasuredMotion& since_last);
 
     /// Locates an image whose code variant is not known. Considers places in all code variants,
-    /// weighted by the odds in `evidence`. If places of two code variants explain the frame about
-    /// equally well, the status is ambiguous_code. Sets `options().code` to the code variant of the
-    /// result, `CodeReading::code`.
+    /// weighted by the odds in `evidence`. If places in two code variants explain the image about
+    /// equally well, the status is ambiguous_code. Sets `options().code` to `CodeReading::code`,
+    /// the code variant of the result.
     CodeReading locate_in_any_code(const ImageView& image, const CodeEvidence& evidence);
 
     /// Locates an image whose code variant is not known, and tries the predicted place first. The
@@ -161,23 +162,23 @@ class Locator : public RowLocator {
     CodeReading locate_in_any_code(const ImageView& image, const MeasuredMotion& since_last,
                                    const CodeEvidence& evidence);
 
-    /// Locates an image in `options().code`, with the same fix as `locate`. Sets `has_other` in
-    /// three cases:
-    /// - A place in another code variant, other than the place of the fix, explains the image about
-    ///   as well as the fix.
-    /// - The place of the fix explains the image much better in another code variant.
+    /// Locates an image in `options().code`. The fix is that of `locate`. In addition, sets
+    /// `has_other` in three cases:
+    /// - A different place, in another code variant, explains the image about as well as the place
+    ///   of the fix.
+    /// - The place of the fix explains the image much better if it is read in another code variant.
     /// - The image has no fix in `options().code`, but a place in another code variant explains the
     ///   image with few wrong bits.
     CodeReading locate_in_code(const ImageView& image);
 
     /// Starts an image that is pushed row by row, with or without a prediction. The locator stores
     /// the rows. Errors: bad_argument, image_too_small, image_too_large. An image is too large if
-    /// it is wider than the memory supports, or has more pixels than the memory can store: 188 x
-    /// 188 for a SmallMemory, 1280 x 1024 for a LargeMemory.
+    /// it is wider than the memory supports, or if it has more pixels than the memory can store:
+    /// 188 x 188 for a SmallMemory, 1280 x 1024 for a LargeMemory.
     Status begin(int width_px, int height_px);
     Status begin(int width_px, int height_px, const Prediction& prediction);
-    /// Appends the next row of `width_px` pixels. Ignores rows beyond the height of the image, and
-    /// all rows if no image was begun.
+    /// Appends the next row of `width_px` pixels. Ignores rows beyond the height of the image. Also
+    /// ignores all rows if `begin` was not called.
     void push_row(const std::uint8_t* pixels);
     /// Locates the image whose rows were pushed, as `locate` does. Missing rows count as white
     /// paper. If `begin` failed, the fix has the status of `begin`. If `begin` was not called, the
@@ -195,9 +196,9 @@ class Locator : public RowLocator {
     Fix locate_one(const ImageView& image, const Prediction* prediction);
     CodeReading read_one(const ImageView& image, const Prediction* prediction,
                          const CodeEvidence& evidence);
-    /// Adds the motion `since_last` to the series, and returns the prediction for the image to be
-    /// located. Returns nullopt if the previous image was not located. If the motion is not usable
-    /// or the spacing is unknown, ends the series and returns nullopt.
+    /// Adds the motion `since_last` to the series, and returns the prediction for the next image.
+    /// Returns nullopt if the previous image was not located. If the motion is not usable or the
+    /// spacing is unknown, ends the series and returns nullopt.
     std::optional<Prediction> begin_motion(const MeasuredMotion& since_last);
     CodeReading finished(CodeReading reading);
     using RowLocator::finished;
@@ -209,27 +210,26 @@ class Locator : public RowLocator {
 
 /// A locator for microcontrollers with a camera that looks straight at the paper. Uses only integer
 /// arithmetic. The time per frame is short and bounded. The options `effort` and `decoder` have no
-/// effect. Computes neither covariance nor residual. Computes only a fast upper bound on the
-/// probability that a position is wrong, and refuses the position as not_certain if this bound
-/// exceeds IntegrityOptions::max_p_wrong_log2. A program that uses only this class is linked
-/// without the attempts of a Locator.
+/// effect. Computes neither a covariance nor a residual. Its bound on the probability that a
+/// position is wrong is simpler than that of a Locator. Positions whose bound exceeds
+/// IntegrityOptions::max_p_wrong_log2 are refused as not_certain. A program that uses only this
+/// class does not contain the code of Locator.
 class DeviceLocator : public RowLocator {
   public:
-    /// The rules for memory and options are the same as for Locator.
+    /// Memory and options have the same rules as for Locator.
     explicit DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options = {});
 
-    /// Sets the regions of the code plane on the printed sheets that may be in view, as
-    /// Locator::set_known does. Searches the regions first, and the other parts of the plane only
-    /// if other sheets are possible. Regions in a code other than `options().code` have no effect.
-    /// A search needs no additional memory. Its time is proportional to the number of columns and
-    /// rows of all regions, so there should be few regions.
+    /// Sets the known regions, as Locator::set_known does. Searches the regions first, and the
+    /// other parts of the plane only if other sheets are possible. Ignores regions in a code other
+    /// than `options().code`. A search needs no additional memory. Its time is proportional to the
+    /// total number of columns and rows of the regions, so there should be few regions.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 
-    /// Returns the pose of an image, in the code of the options.
+    /// Locates the pattern in an image, in the code of the options.
     Fix locate(const ImageView& image);
-    /// Measures the dots of an image at their predicted places. A frame that does not confirm the
-    /// prediction is located without the prediction.
+    /// Measures the dots of an image at their predicted places. If the image does not confirm the
+    /// prediction, it is located without the prediction.
     Fix locate(const ImageView& image, const Prediction& prediction);
 
     /// Starts a frame that is pushed row by row. The dots of each row are detected as the row
@@ -238,12 +238,13 @@ class DeviceLocator : public RowLocator {
 
     /// Starts a frame whose dots are measured at their predicted places, as the rows arrive.
     /// Returns not_tracked if the prediction cannot be used. If the frame does not confirm the
-    /// prediction, the fix of `finish` has the status not_tracked. The caller can then push the
-    /// rows again without a prediction, if it still has them.
+    /// prediction, the fix that `finish` returns has the status not_tracked. A caller that has kept
+    /// the rows can then push them again without a prediction.
     Status begin(int width_px, int height_px, const Prediction& prediction);
 
     /// Processes the next row of `width_px` pixels. The pixels need not remain valid afterwards.
-    /// Ignores rows beyond the height of the frame, and all rows if no frame was begun.
+    /// Ignores rows beyond the height of the frame. Also ignores all rows if `begin` was not
+    /// called.
     void push_row(const std::uint8_t* pixels);
 
     /// Locates the frame whose rows were pushed. If `begin` failed, the fix has the status of

@@ -43,8 +43,8 @@ struct LocatorOptions {
     /// A larger fraction indicates that the frame contains two patterns. [0 to 1]
     double max_bit_errors = 0.18;
     /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast gets the
-    /// status no_contrast. Default 0: any readable contrast. Use a larger value for noisy cameras.
-    /// [0 to 255]
+    /// status no_contrast. The default of 0 accepts any readable contrast. A larger value is useful
+    /// for noisy cameras. [0 to 255]
     int min_contrast = 0;
     /// Minimum number of dots required to search for a grid. A position needs at least 6 x 6 dots.
     /// [0 to 2^20]
@@ -56,8 +56,8 @@ struct LocatorOptions {
     /// these results, but storing them takes time.
     bool show_stages = false;
 
-    /// Returns the same options in fixed point. If any option is out of range, the result causes
-    /// Status::bad_argument.
+    /// Returns the same options in fixed point. If any option is out of range, the returned options
+    /// make every frame fail with Status::bad_argument.
     operator DeviceOptions() const;
 };
 
@@ -90,7 +90,7 @@ inline const char* bad_option(const LocatorOptions& options) {
     return nullptr;
 }
 
-// Double precision is used only in headers, not in the object code of the core.
+// This function is inline, because the object code of the core must not use double precision.
 inline LocatorOptions::operator DeviceOptions() const {
     DeviceOptions fixed;
     if (bad_option(*this) != nullptr) {

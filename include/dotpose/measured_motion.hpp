@@ -1,6 +1,6 @@
 /// Measured motion: the displacement and rotation of the camera between two frames, from wheel
-/// odometry or an inertial unit. A Locator uses motions to combine frames that are not certain
-/// alone. A Tracker uses motions to follow a robot across places without a pattern.
+/// odometry or an inertial unit. A Locator uses it to combine frames that are not certain alone. A
+/// Tracker uses it to follow a robot over areas without a pattern.
 #pragma once
 
 #include "dotpose/export.hpp"
@@ -10,15 +10,15 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Camera motion since the previous frame, with its uncertainty. The displacement is the
-/// displacement of the reference point, along the axes of the previous image.
+/// Camera motion since the previous frame, with its uncertainty. The displacement is that of the
+/// reference point, along the axes of the previous image.
 struct MeasuredMotion {
     float right_mm = 0;  ///< displacement along the image x axis
     float down_mm = 0;   ///< displacement along the image y axis
-    float turn_rad = 0;  ///< change in the fix's angle, clockwise as seen on the paper
+    float turn_rad = 0;  ///< change of `Fix::theta_rad`, clockwise as seen on the paper
     /// Standard deviations of the displacement along each axis, and of the rotation. The errors are
-    /// assumed to be independent and normally distributed. Values that are too small lead to wrong
-    /// fixes.
+    /// assumed to be independent and normally distributed. If the values are too small, fixes may
+    /// be wrong.
     float sigma_mm = 0;
     float sigma_rad = 0;
 
@@ -27,7 +27,7 @@ struct MeasuredMotion {
     bool is_usable() const;
 };
 
-/// Returns the combined motion: `first`, then `second`.
+/// Returns the motion that consists of `first` and then `second`.
 MeasuredMotion followed_by(const MeasuredMotion& first, const MeasuredMotion& second);
 
 }  // namespace dotpose

@@ -1,6 +1,6 @@
 /// Memory of fixed size for a Locator or DeviceLocator. A locator reuses its memory for each frame.
-/// The memory belongs to the caller, unless a Locator allocates it. It may be static, on the heap
-/// or, if small enough, on the stack. Its content is private to the core.
+/// The memory belongs to the caller, unless a Locator allocates it. It may be static, on the heap,
+/// or on the stack if the stack is large enough. Its content is private to the core.
 #pragma once
 
 #include <array>
@@ -44,11 +44,10 @@ class AnyDeviceMemory {
     friend class DeviceLocator;
 };
 
-/// Memory of a DeviceLocator on a small microcontroller, with a sensor of Width x Height px. The
-/// end of this header lists the supported sizes. Frames may be smaller. The memory for 36 x 36 px
-/// is for the sensors of optical mice, whose frames can be located only on known sheets
-/// (DeviceLocator::set_known). The memories for a width of 160 or 188 px also support frames that
-/// are taller than Height.
+/// Memory of a DeviceLocator for a sensor of Width x Height px. The end of this header lists the
+/// supported sizes. Frames may be smaller. The memory for 36 x 36 px is intended for the sensors of
+/// optical mice, whose frames can be located only on known sheets (DeviceLocator::set_known). The
+/// memories for widths of 160 and 188 px also support frames with more rows than Height.
 template <int Width, int Height>
 class DeviceMemoryFor : public AnyDeviceMemory {
   public:
@@ -61,8 +60,8 @@ class DeviceMemoryFor : public AnyDeviceMemory {
     alignas(8) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory of a Locator for images up to 188 px wide, such as images of the paper's sensor: about
-/// 330 KB.
+/// Memory of a Locator for images up to 188 px wide, the width of the paper's sensor. Its size is
+/// about 330 KB.
 class SmallMemory {
   public:
     SmallMemory();
@@ -76,7 +75,7 @@ class SmallMemory {
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory of a Locator for images up to 4096 x 4096 px: about 4.4 MB.
+/// Memory of a Locator for images up to 4096 x 4096 px. Its size is about 4.4 MB.
 class LargeMemory {
   public:
     LargeMemory();

@@ -10,9 +10,10 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// An option outside its range.
+/// An option whose value is outside its range.
 struct OptionFault {
-    const char* name = nullptr;  ///< such as "lattice.min_dots"; null if all options are in range
+    const char* name = nullptr;  ///< name of the option, such as "lattice.min_dots"; null if all
+                                 ///< options are in range
     std::int32_t value = 0;
     std::int32_t low = 0;
     std::int32_t high = 0;

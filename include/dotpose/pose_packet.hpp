@@ -9,7 +9,8 @@
 ///
 /// The reader refuses all packets with one to four wrong bits. It accepts about 1 in 65536 packets
 /// with five or more wrong bits. After a damaged packet, the reader continues with the next packet.
-/// No heap, no double, no globals. Different objects may be used concurrently.
+/// The functions use no heap, no double precision and no global variables. Different objects may be
+/// used concurrently.
 #pragma once
 
 #include <array>
@@ -25,13 +26,13 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Packet format version, for writing and reading.
+/// Version of the packet format that is written and read.
 inline constexpr int kPacketVersion = 1;
 
-/// The part of a frame's result that is sent in a packet. If `status` is not ok, only the members
-/// above `cell` are valid. `make_packet` then leaves the other members at their default, 0.
+/// The part of a fix that is sent in a packet. If `status` is not ok, only the members above `cell`
+/// are valid, and `make_packet` sets the other members to 0.
 struct PosePacket {
-    std::uint16_t sequence = 0;  ///< frame number; a gap means lost packets
+    std::uint16_t sequence = 0;  ///< frame number; a missing number indicates a lost packet
     std::uint32_t time_us = 0;   ///< frame time on the sender's clock; wraps every 71.6 minutes
     Status status = Status::not_run;
     CodeVariant code = CodeVariant::anoto;
@@ -48,7 +49,8 @@ struct PosePacket {
     /// 255 means 255 or more, or unknown.
     std::uint8_t deviation_q12 = 0;
 
-    // Only the functions below use double precision. They are not in the object code for devices.
+    // The functions below are inline, because the object code for devices must not use double
+    // precision.
     double x_grid() const { return cell.x + fraction_x_q16 / 65536.0; }
     double y_grid() const { return cell.y + fraction_y_q16 / 65536.0; }
     /// Angle of the image x axis in the pattern frame, in [-pi, pi).
@@ -82,7 +84,7 @@ class PacketReader {
 
   private:
     std::array<std::uint8_t, 31> bytes_{};  ///< bytes since the last end mark
-    /// Number of bytes since the last end mark. 32 means that these are too many bytes for a
+    /// Number of bytes since the last end mark. 32 means 32 or more, which is too long for a
     /// packet.
     std::size_t count_ = 0;
     std::uint32_t damaged_ = 0;

@@ -1,6 +1,6 @@
 /// Prediction: the expected place of the pattern in the next frame. With a prediction, a Locator
-/// computes the next fix in a fraction of the time. It measures the dots at their expected places
-/// and compares their bits with the code. A prediction never makes a fix less certain. A frame that
+/// needs only a fraction of the time, because it measures the dots at their expected places and
+/// compares their bits with the code. A prediction never makes a fix less certain. A frame that
 /// does not confirm the prediction is located without it.
 ///
 ///     Fix fix = locator.locate(image);
@@ -31,7 +31,7 @@ struct Prediction {
     /// is min(3 sigma, 0.6) on a DeviceLocator, and min(3 sigma + 0.1, 0.6) on a Locator.
     std::int32_t sigma_q16 = 65536 / 5;
     /// Standard deviation of the angle, as a binary angle: 2^31 is half a turn. Default: 1.4
-    /// degrees. The search ignores this value and always covers rotations of up to 4 degrees.
+    /// degrees. The search ignores this value. It always covers rotations of up to 4 degrees.
     std::int32_t sigma_theta_bam = 1 << 24;
     /// Change of theta during the readout of a rolling shutter (see Fix). A DeviceLocator ignores
     /// this value.

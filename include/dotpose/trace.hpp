@@ -1,6 +1,6 @@
-/// Trace: results from each stage of `Locator::locate` for the last frame, for drawing, evaluation
-/// and calibration. The trace is read-only. It is not a stable interface, because its members
-/// change with the stages.
+/// Trace: results of each stage of `Locator::locate` for the last frame, for drawing, evaluation
+/// and calibration. The trace is read-only. Its members change when the stages change, so it is not
+/// a stable interface.
 ///
 ///     DeviceOptions options;
 ///     options.show_stages = true;  // otherwise the first and the tracked attempt store little
@@ -36,8 +36,8 @@ struct DetectedDot {
     std::uint16_t area_px = 0;
 };
 
-/// Connection between two seeds, the dots from which the lattice is found. Each seed is among the
-/// four nearest neighbours of the other seed.
+/// Edge between two seeds. Seeds are the dots from which the lattice is found. Each of the two
+/// seeds is among the four nearest neighbours of the other.
 struct SeedEdge {
     std::int16_t from = 0;  ///< index of a seed
     std::int16_t to = 0;
@@ -46,7 +46,7 @@ struct SeedEdge {
 };
 
 /// First estimate of the grid. In the image, intersection (i, j) is at origin + i u + j v. All
-/// vectors are in 2^-16 px.
+/// vectors are in units of 2^-16 px.
 struct Lattice {
     FixedVec u_q16;
     FixedVec v_q16;
@@ -56,13 +56,14 @@ struct Lattice {
 /// Cell of the grid, with its entries in the paper's matrices P (Fig. 8).
 struct GridCell {
     static constexpr std::uint16_t kNoDot = 65535;
-    /// Marks a cell where graphics cover some of the four possible dot places. The low bits are a
-    /// mask of the covered places, indexed by Symbol.
+    /// Marks a cell in which graphics cover some of the four possible dot places. The low bits are
+    /// a mask of the covered places, indexed by Symbol.
     static constexpr std::uint16_t kHidden = 65504;
     bool has_dot() const { return dot < kHidden; }
     bool is_hidden() const { return dot >= kHidden && dot != kNoDot; }
     bool is_hidden(int symbol) const { return is_hidden() && (dot >> symbol & 1) != 0; }
-    /// Quasi-probabilities of the x bit and the y bit, from -127 (surely 0) to 127 (surely 1).
+    /// Quasi-probabilities of the x bit and the y bit (paper, eq. 9), from -127 (certainly 0) to
+    /// 127 (certainly 1).
     std::int8_t x = 0;
     std::int8_t y = 0;
     /// Index of the cell's dot, kNoDot, or kHidden plus the mask.
@@ -101,15 +102,16 @@ struct GridRegion {
 /// Decoded position of the grid.
 struct Decoding {
     GridRegion window;  ///< the clearest window of 8 x 8 cells
-    GridRegion region;  ///< all decoded cells: at most kMaxLines x kMaxLines
-    /// Agreement of the voting lines with the main sequence, at the likeliest quarter turn.
+    GridRegion region;  ///< all decoded cells, at most kMaxLines x kMaxLines
+    /// Total score of the columns and rows that voted for the quarter turn. It measures how well
+    /// their bits agree with the main sequence.
     std::int32_t agreement = 0;
     QuarterTurn pattern_from_grid;
-    Place place;  ///< place of grid cell (0, 0) in the code; the cell may be out of view
-    /// True if the workspace contains the scores of the lines of the region. The lines are rotated
+    Place place;  ///< place of grid cell (0, 0) in the code; this cell may be outside the view
+    /// True if the workspace contains the scores of the lines of the region, after their rotation
     /// by `pattern_from_grid`.
     bool lines_are_scored = false;
-    int bits = 0;  ///< number of bits compared with the code at `place`, two per dot
+    int bits = 0;  ///< number of bits that were compared with the code at `place`; two per dot
     /// Upper bounds on the probability that the position is wrong along x and y, as log2 times 256.
     std::array<int, 2> p_wrong_log2_q8{};
 };
@@ -117,7 +119,7 @@ struct Decoding {
 /// The paper's matrices P^(x) and P^(y) (Fig. 8), for a rectangle of grid cells.
 struct GridView {
     std::span<const GridCell> cells;  ///< row by row
-    GridRegion region;                ///< grid region that `cells` covers
+    GridRegion region;                ///< grid region of `cells`
 
     /// Returns the cell in grid column i and row j. The cell must be in the region.
     const GridCell& at(int i, int j) const {
@@ -130,8 +132,8 @@ struct GridView {
     }
 };
 
-/// Results from all stages for the last frame, in order. The spans are valid until the next frame
-/// begins.
+/// Results of all stages for the last frame, in the order of the stages. The spans are valid until
+/// the next frame begins.
 struct Trace {
     DeviceOptions options;  ///< options used by the Locator, with the code variant of the fix
     std::span<const DetectedDot> dots;

@@ -13,13 +13,13 @@
 /// `predict` returns the expected place of the pattern in the next frame. See the loop in
 /// examples/follow_robot.cpp.
 ///
-/// Coordinates: all poses are in the same plane as the sightings. This plane is the pattern frame
-/// or the world of a sheet file, in which a robot may drive from sheet to sheet. Positions are
-/// integers in nanometres, which cover the whole pattern plane (2.1e14 nm). Angles are binary, from
-/// +x towards +y; 2^31 is half a turn. Velocities are in mm/s along x and y. Angular velocities are
-/// in rad/s.
+/// Coordinates: all poses are in the plane of the sightings. This plane is the pattern frame, or
+/// the world of a sheet file if the robot drives from sheet to sheet. Positions are integers in
+/// nanometres, which cover the whole pattern plane (2.1e14 nm). Angles are binary, from +x towards
+/// +y; 2^31 is half a turn. Velocities are in mm/s along x and y. Angular velocities are in rad/s.
 ///
-/// No heap, no double, no globals. Different trackers may be used concurrently.
+/// The functions use no heap, no double precision and no global variables. Different trackers may
+/// be used concurrently.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Covariance of (x, y, theta) and their velocities, in mm, rad and seconds.
+/// Covariance of (x, y, theta) and their velocities, in units of mm, rad and s.
 using Covariance6 = std::array<std::array<float, 6>, 6>;
 
 /// Robot position and angle, measured in one frame.
@@ -64,55 +64,54 @@ Sighting sighting_of(const Fix& fix, std::int64_t time_us);
 
 /// Limits on the robot's motion, and criteria for accepting sightings.
 struct TrackOptions {
-    /// Standard deviation of the robot's acceleration while manoeuvring. During steady motion, the
-    /// filter estimates a lower acceleration. With a larger value, the filter follows sudden
+    /// Standard deviation of the robot's acceleration while it manoeuvres. The filter lowers this
+    /// value automatically during steady motion. With a larger value, the filter follows sudden
     /// changes faster. The default is suitable for a table-top robot.
     float acceleration_mm_s2 = 600;
     float angular_acceleration_rad_s2 = 6;
 
-    /// Maximum possible acceleration, for example in a collision. If this acceleration does not
-    /// explain a sighting, the tracker accepts the sighting only after further sightings have
-    /// confirmed it.
+    /// Maximum possible acceleration, for example in a collision. A sighting that would need a
+    /// larger acceleration is accepted only after further sightings have confirmed it.
     float max_acceleration_mm_s2 = 10'000;
     float max_angular_acceleration_rad_s2 = 200;
-    /// Maximum speed. Limits how far the robot can have moved since its last sighting.
+    /// Maximum speed. It limits the distance that the robot can have moved since its last sighting.
     float max_speed_mm_s = 1000;
     float max_turn_rad_s = 20;
-    /// Gate margin, in standard deviations of the innovation (the difference between sighting and
-    /// prediction). A sighting is inside the gate if the innovation is at most this margin plus the
-    /// motion that the maximum accelerations can cause.
+    /// Tolerance of the gate, in standard deviations of the innovation (the difference between the
+    /// sighting and its prediction). A sighting is inside the gate if the innovation is at most
+    /// this tolerance plus the motion that the maximum accelerations can cause.
     float gate_sigmas = 5;
     /// Number of consecutive sightings that must be consistent with each other before a jump is
     /// accepted. With a larger number, acceptance takes longer. With a smaller number, a single
     /// wrong fix may be accepted.
     int confirmations = 3;
 
-    /// Time after which the robot is lost if there was neither an accepted sighting nor a motion.
+    /// Time without an accepted sighting or a motion after which the robot is lost.
     std::int64_t lost_after_us = 70'000;
-    /// Maximum standard deviation of the position along either axis, while only motions update the
-    /// pose. Above this value, the robot is lost.
+    /// Maximum standard deviation of the position along either axis while the pose is updated only
+    /// by motions. The robot is lost if the standard deviation is larger.
     float max_sigma_mm = 5;
 
-    /// Stationary limits. A robot is stationary if its pose changes by at most these limits along
-    /// each axis for `stationary_after_us`.
+    /// Limits of the motion of a stationary robot. A robot is stationary if its pose changes by at
+    /// most these limits along each axis for `stationary_after_us`.
     float still_mm = 0.1F;
     float still_rad = 0.02F;
     std::int64_t stationary_after_us = 500'000;
 
-    /// Standard deviations of printing errors. The squares of these values are added to the
-    /// covariance of each sighting. Printing errors at one place are the same in every frame, so
-    /// they do not average out.
+    /// Standard deviations of printing errors. Their squares are added to the covariance of each
+    /// sighting. Printing errors do not average out, because they are the same in every frame at
+    /// one place.
     float min_sigma_mm = 0.0002F;
     float min_sigma_rad = 0.00002F;
 
-    /// Maximum accepted bound on the probability that a sighting is wrong, as log2. For a weak
-    /// sighting, the bound assumes that the robot is inside the gate. This assumption is the
-    /// *prior*.
+    /// Maximum accepted bound on the probability that a sighting is wrong, as log2. The bound of a
+    /// weak sighting is computed with the *prior*: the assumption that the robot is inside the
+    /// gate.
     int max_p_wrong_log2 = -30;
-    /// Maximum `p_wrong_log2` for an accepted weak sighting, regardless of the prior. Must be at
+    /// Maximum `p_wrong_log2` of an accepted weak sighting, computed without the prior. Must be at
     /// most -1.
     int max_weak_p_wrong_log2 = -10;
-    /// Pattern spacing. Determines how many code places are inside the gate.
+    /// Pattern spacing. It determines the number of places of the code inside the gate.
     float spacing_mm = 0.508F;
 };
 
@@ -128,7 +127,8 @@ struct TrackedPose {
     float turn_rad_s = 0;
     Covariance6 covariance{};
 
-    // Only the functions below use double precision. They are not in the object code for devices.
+    // The functions below are inline, because the object code for devices must not use double
+    // precision.
     double x_mm() const { return static_cast<double>(x_nm) * 1e-6; }
     double y_mm() const { return static_cast<double>(y_nm) * 1e-6; }
     /// Angle in [-pi, pi).
@@ -138,17 +138,18 @@ struct TrackedPose {
 /// The tracker's verdict on the sighting of a frame.
 enum class Verdict : std::uint8_t {
     none,  ///< there was no sighting
-    /// Certain enough without the prior, and possible or confirmed. A sighting inside the gate is
-    /// possible. While the robot is lost, a sighting is possible at every place that the robot can
-    /// have reached. The first sighting is always possible. A sighting is confirmed after
-    /// TrackOptions::confirmations sightings that are consistent with each other.
+    /// The sighting is certain enough without the prior, and its place is possible or confirmed. A
+    /// place is possible if it is inside the gate or, while the robot is lost, if the robot can
+    /// have reached it. The place of the first sighting is always possible. A place is confirmed
+    /// after TrackOptions::confirmations sightings that are consistent with each other.
     accepted,
-    /// Weak, but certain enough together with the prior.
+    /// The sighting is weak, but certain enough together with the prior.
     with_prior,
-    /// Certain enough without the prior, but at an impossible place and not confirmed yet.
+    /// The sighting is certain enough without the prior, but its place is impossible and not
+    /// confirmed yet.
     gated,
-    /// Weak and rejected. Either the robot is lost, or the sighting is outside the gate, or the
-    /// sighting is not certain enough even with the prior.
+    /// The sighting is weak and was rejected, because the robot is lost, because the sighting is
+    /// outside the gate, or because the sighting is not certain enough even with the prior.
     too_weak,
 };
 /// Number of verdicts.
@@ -159,8 +160,8 @@ const char* name(Verdict verdict) noexcept;
 /// Events in a frame. Several events may occur together.
 struct TrackEvents {
     bool fix = false;  ///< the robot was found, for the first time or after being lost
-    /// The robot is now lost. There was no accepted sighting or motion for
-    /// TrackOptions::lost_after_us, or the uncertainty exceeds TrackOptions::max_sigma_mm.
+    /// The tracker has lost the robot, because there was no accepted sighting or motion for
+    /// TrackOptions::lost_after_us, or because the uncertainty exceeds TrackOptions::max_sigma_mm.
     bool lost = false;
     /// Confirmed sightings are at a place that the robot cannot have reached by driving since its
     /// last accepted sighting.
@@ -174,12 +175,12 @@ struct Track {
     bool is_lost = true;
     bool is_stationary = false;
     Verdict verdict = Verdict::none;
-    /// Upper bound on the probability that the pose is wrong, as log2. For a weak sighting, the
-    /// bound takes the prior into account. 0 if the frame has no accepted sighting.
+    /// Upper bound on the probability that the pose is wrong, as log2. 0 if the frame has no
+    /// accepted sighting. The bound of a weak sighting is computed with the prior.
     int p_wrong_log2 = 0;
     TrackEvents events;
-    /// Pose at the time of the latest frame. Predicted if the frame had no accepted sighting. Not
-    /// valid while the robot is lost.
+    /// Pose at the time of the latest frame. It is a prediction if the frame had no accepted
+    /// sighting. Not valid while the robot is lost.
     TrackedPose pose;
 };
 
@@ -195,14 +196,14 @@ using Covariance9 = std::array<Vector9, 9>;
 struct MotionEstimate {
     TrackedPose pose;
     Vector3 acceleration{};    ///< mm/s^2, rad/s^2
-    Covariance9 covariance{};  ///< covariance of (x, y, theta), and of the velocities and
+    Covariance9 covariance{};  ///< covariance of (x, y, theta), their velocities and their
                                ///< accelerations
-    /// Process noise along each axis: the variance of new accelerations, relative to the variance
-    /// from TrackOptions.
+    /// Agility: factor, at most 1, by which the filter scales the acceleration variance of each
+    /// axis in TrackOptions.
     Vector3 agility{1, 1, 1};
     Vector3 innovation{};  ///< difference between the newest sighting and its prediction
     Matrix3 noise{};       ///< covariance of the newest sighting, including printing errors
-    /// Running mean of the squared innovations, relative to the innovation covariances.
+    /// Running mean of the ratio between the squared innovations and their predicted variances.
     float scatter = 1;
 };
 
@@ -219,9 +220,9 @@ class Tracker {
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
     /// Updates the state with a frame and the odometry motion since the previous update. `right_mm`
-    /// is along the direction theta of the sightings. This is the image x axis or, with a camera
-    /// file, the robot's heading. Without a sighting, the motion moves the pose, and its
-    /// uncertainty increases the pose covariance.
+    /// is along the direction theta of the sightings, which is the image x axis or, with a camera
+    /// file, the robot's heading. If there is no sighting, the motion changes the pose, and its
+    /// uncertainty is added to the covariance of the pose.
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion& motion);
 
@@ -229,9 +230,10 @@ class Tracker {
     const Track& track() const { return track_; }
 
     /// Predicts the place of the pattern in the frame at `time_us`. `newest` must be a fix with
-    /// status ok, and `seen` must be its sighting. Moves the map of `newest` to the pose predicted
-    /// by the filter, and adds the uncertainty of that pose. If `seen` is not accepted yet, the
-    /// prediction uses the consistent sightings that end with `seen`.
+    /// status ok, and `seen` must be its sighting. The prediction is the map of `newest`, moved to
+    /// the pose that the filter predicts, with the uncertainty of that pose. If `seen` is not
+    /// accepted yet, the prediction is computed from `seen` and the earlier sightings that are
+    /// consistent with it.
     ///
     /// Returns Prediction::like(newest) if no prediction is possible:
     /// - `seen` is not the newest sighting of a motion estimate,
@@ -253,13 +255,12 @@ class Tracker {
     const track::MotionEstimate* following(const Sighting& seen) const;
     const Track& update(std::int64_t time_us, const Sighting* sighting,
                         const MeasuredMotion* motion);
-    /// Returns the verdict on a sighting. `dt_s` is the time from the previous state to this frame,
-    /// in seconds. If the frame has a measured motion, `last_` already contains the state after the
-    /// motion.
+    /// Returns the verdict on a sighting. `dt_s` is the time since the previous state, in seconds.
+    /// If the frame has a measured motion, `last_` must already include it.
     Verdict judge(const track::MotionEstimate& prediction, const Sighting& sighting, float dt_s);
     bool is_confirmed(const Sighting& sighting);
-    /// Returns true if the last accepted sighting or motion is too old, or if the position is too
-    /// uncertain.
+    /// Returns true if the robot must be considered lost: the last accepted sighting or motion is
+    /// too old, or the position is too uncertain.
     bool is_stale() const;
     void restart(const track::MotionEstimate& motion);
     void watch_motion();
@@ -272,11 +273,11 @@ class Tracker {
     std::int64_t newest_us_ = 0;  ///< time of the newest frame
     /// State after the newest accepted sighting or measured motion.
     track::MotionEstimate last_;
-    /// Estimate from the newest sightings that contradict the track. They are filtered like
-    /// accepted sightings, because the robot may have been put down elsewhere.
+    /// Estimate from the newest sightings that contradict the track. It is updated like the track,
+    /// because the robot may have been put down elsewhere.
     track::MotionEstimate candidate_;
     int agreeing_ = 0;  ///< number of sightings in `candidate_`
-    TrackedPose rest_;  ///< pose from which movement is measured
+    TrackedPose rest_;  ///< pose relative to which movement is measured
 };
 
 }  // namespace dotpose

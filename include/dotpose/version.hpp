@@ -1,5 +1,5 @@
 /// Version of dotpose, as preprocessor macros. The build, the packages and the other languages read
-/// the version from this header.
+/// it from this header.
 #pragma once
 
 #include "dotpose/language.hpp"

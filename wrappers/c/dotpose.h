@@ -184,11 +184,11 @@ enum {
 enum {
     /* One plane explains all dots. */
     DOTPOSE_SURFACE_EVEN = 0,
-    /* A part of the paper is displaced; the pose is that of the part that contains the reference
-     * point. */
+    /* One part of the paper is displaced, for example at a step between two sheets; the pose is
+     * that of the part under the reference point. */
     DOTPOSE_SURFACE_DIVIDED = 1,
-    /* Neighbouring dots have correlated residuals, as on wrinkled paper; the covariance is widened
-     * to account for them. */
+    /* Neighbouring dots have correlated residuals, as on wrinkled paper; the covariance includes
+     * the effect of this correlation. */
     DOTPOSE_SURFACE_UNEVEN = 2
 };
 
@@ -196,9 +196,9 @@ enum {
 enum {
     /* All places of the code. */
     DOTPOSE_PRIOR_PLANE = 0,
-    /* Places on known sheets; the bits make any other sheet improbable. */
+    /* Places on the known sheets; the bits of the frame exclude other sheets. */
     DOTPOSE_PRIOR_SHEETS = 1,
-    /* Places on known sheets, because no other sheet can be in view. */
+    /* Places on the known sheets; other sheets were declared impossible. */
     DOTPOSE_PRIOR_ONLY_SHEETS = 2
 };
 
@@ -267,7 +267,7 @@ typedef struct dotpose_fix {
     int32_t displacement_q16; /* 200 */
     /* Covariance of x, y and theta, row by row, in spacings and rad. */
     float covariance_grid[9]; /* 204 */
-    /* Places that counted as possible in p_wrong: DOTPOSE_PRIOR_. */
+    /* Places that were considered possible when p_wrong was computed: DOTPOSE_PRIOR_. */
     int32_t prior; /* 240 */
     /* Number of frames whose bits determined the position; more than 1 only if the motion between
      * the frames was given. */

@@ -4,8 +4,8 @@
 /// - *pixel*: the centre of the first pixel is (0, 0), and v points down.
 /// - *undistorted* pixel: the pixel of the same point in a camera without distortion. It may be
 ///   outside the image.
-/// - *camera*: mm on the paper from the point under the distortion centre, x along the image x
-///   axis, y DOWN.
+/// - *camera*: coordinates on the paper in mm, relative to the point under the distortion centre. x
+///   is along the image x axis, and y points DOWN.
 #pragma once
 
 #include <map>
@@ -35,22 +35,23 @@ struct PixelPoint {
 struct PaperScale {
     double mm_per_px_x = 0;
     double mm_per_px_y = 0;
-    double skew = 0;           ///< relative shift of adjacent rows, px per px
+    double skew = 0;           ///< shift between adjacent rows, in px per px
     double perspective_u = 0;  ///< in 1/px; 0 for a camera perpendicular to the paper
     double perspective_v = 0;
 };
 
 /// Tilt of the paper relative to the image plane, with the sign convention of tools/simulate.hpp.
 struct Tilt {
-    double x_rad = 0;  ///< about the image x axis; if above 0, the paper recedes towards the bottom
-    /// About the image y axis. If the angle is above 0, the paper comes closer towards the right.
+    double x_rad = 0;  ///< about the image x axis; if it is positive, the paper recedes towards the
+                       ///< bottom
+    /// About the image y axis. If it is positive, the paper comes closer towards the right.
     double y_rad = 0;
 };
 
 /// Minimum value of a flat field. Darker parts of an image are too noisy to show dots.
 inline constexpr double kMinFlatField = 0.05;
 
-/// Directions of view of the undistorted image. Pixel (u, v) shows the points in the direction
+/// Pinhole model of the undistorted image. Pixel (u, v) shows the points in the direction
 ///
 ///     ((u - centre_px.u) / focal_u_px, (v - centre_px.v) / focal_v_px, 1).
 ///
@@ -67,8 +68,8 @@ struct PenTip {
     double x_mm = 0;
     double y_mm = 0;
     double z_mm = 0;
-    /// Measured height of the point while the pen rests on the paper. The pen pivots about this
-    /// point, which is above the paper: the centre of the ball of a ballpoint pen, for example.
+    /// Height of the tip above the paper, as measured while the pen rests on the paper. The tip is
+    /// the point about which the pen pivots, for example the centre of the ball of a ballpoint pen.
     double rest_mm = 0;
 };
 
@@ -82,9 +83,9 @@ struct Camera {
     PixelPoint centre_px;
     /// Map to the paper. None if the camera is hand-held, or if the map is not known.
     std::optional<PaperScale> paper;
-    std::optional<double> focal_px;  ///< none if the calibration did not determine it
-    /// Directions of view, if pixels are not square or `centre_px` is not on the optical axis. The
-    /// files of ROS describe such cameras. See `pinhole_of`.
+    std::optional<double> focal_px;  ///< focal length; none if the calibration did not determine it
+    /// Pinhole model, if pixels are not square or `centre_px` is not on the optical axis. The files
+    /// of ROS describe such cameras. See `pinhole_of`.
     std::optional<Pinhole> pinhole;
     /// Tilt of a mounted camera. None if the calibration did not determine the tilt.
     std::optional<Tilt> tilt;
@@ -102,24 +103,24 @@ struct Camera {
     /// it locates them. All pixel coordinates in this struct refer to the flipped frames.
     bool flip = false;
 
-    /// Flat field: the brightness of evenly lit white paper in the image, relative to its brightest
-    /// point. Contains rows of values from kMinFlatField to 1. The values are sampled at equal
-    /// distances, from the first to the last pixel along each axis. Values between them are
-    /// interpolated bilinearly. The flat field includes the vignetting of the lens and the light of
-    /// the lamps. Empty if the brightness is even or not known.
+    /// Flat field: the brightness of evenly lit white paper in the image, relative to its maximum.
+    /// Rows of values from kMinFlatField to 1, at equal distances from the first to the last pixel
+    /// along each axis. Values between them are interpolated bilinearly. The flat field includes
+    /// the vignetting of the lens and the light of the lamps. Empty if the brightness is even or
+    /// not known.
     std::vector<std::vector<double>> flat_field;
 
-    /// Time from the first to the last row of an image, if the sensor has a rolling shutter. The
-    /// pose then applies to the time of the middle row, and the velocity of the camera is also
-    /// fitted.
+    /// Time from the first to the last row of an image, if the sensor has a rolling shutter. If the
+    /// time is known, the velocity of the camera is fitted together with the pose, and the pose
+    /// applies to the time of the middle row.
     std::optional<double> readout_ms;
 
     /// Sensor settings, for information only. dotpose does not use them.
     std::optional<double> exposure_us;
     std::optional<double> gain;
 
-    /// Standard deviations from a calibration, indexed by the name of the key in the camera file,
-    /// in the unit of the key.
+    /// Standard deviations from a calibration, in the units of their keys. The index is the name of
+    /// the key in the camera file.
     std::map<std::string, double> sigma;
 };
 
@@ -134,11 +135,12 @@ void validate(const Camera& camera);
 /// Returns the undistorted pixel of `pixel` (paper eq. 1-2).
 PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
 /// Returns the distorted pixel of an undistorted pixel. If the camera cannot see the point, returns
-/// the pixel at twice the distance of `undistorted` from the distortion centre.
+/// a pixel in the same direction from the distortion centre as `undistorted`, at twice the
+/// distance.
 PixelPoint distorted(const Camera& camera, PixelPoint undistorted);
 
-/// Returns `pinhole` or, if there is none, square pixels with `focal_px` and the optical axis at
-/// `centre_px`. Returns none if neither is known.
+/// Returns `pinhole` if there is one. Otherwise, returns a model with square pixels, `focal_px`,
+/// and the optical axis at `centre_px`. Returns none if neither `pinhole` nor `focal_px` is known.
 std::optional<Pinhole> pinhole_of(const Camera& camera);
 
 /// A point in the camera frame.
@@ -146,8 +148,8 @@ struct CameraPoint {
     double x_mm = 0;
     double y_mm = 0;
 };
-/// Returns the point on the paper that an undistorted pixel shows. The point is in the camera
-/// frame. `camera.paper` must be known.
+/// Returns the point on the paper that an undistorted pixel shows, in the camera frame.
+/// `camera.paper` must be known.
 CameraPoint on_paper(const Camera& camera, PixelPoint undistorted);
 /// Returns the undistorted pixel of a point in the camera frame. `camera.paper` must be known.
 PixelPoint on_image(const Camera& camera, CameraPoint point);
@@ -155,17 +157,18 @@ PixelPoint on_image(const Camera& camera, CameraPoint point);
 /// Returns the direction, in the camera frame, of the image x axis at an undistorted pixel.
 double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 
-/// Returns the point on the paper that an undistorted pixel shows. Coordinates are in mm from the
-/// point under the image centre. x is along the image x axis at this point. `camera.paper` must be
-/// known. In this frame, two calibrations of the same camera give positions that agree to within
-/// microns, even far outside the image. The undistorted pixels of the same points differ by more.
+/// Returns the point on the paper that an undistorted pixel shows, in mm relative to the point
+/// under the image centre. x is along the image x axis at this point. `camera.paper` must be known.
+/// This frame is suitable for comparing two calibrations of the same camera, because their
+/// positions agree to within microns, even far outside the image. The undistorted pixels of the
+/// same points differ by more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 /// Returns the undistorted pixel of a point returned by `from_image_centre`.
 PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
 
-/// Returns the reference point of `camera` as an undistorted pixel of `other`, another calibration
-/// of the same camera. If the view of either camera is not known, returns the reference pixel
-/// unchanged.
+/// Returns the reference point of `camera` as an undistorted pixel of `other`, which is another
+/// calibration of the same camera. If the view of either camera is not known, returns the reference
+/// pixel unchanged.
 std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera);
 
 /// Returns the camera for crops of the images of `camera`. A crop has `width_px` x `height_px`

@@ -4,8 +4,8 @@
 ///     DeviceOptions options;
 ///     use_camera(camera, image.width_px, image.height_px, options);
 ///
-/// `read_camera` also reads the `camera_info` files of ROS (`plumb_bob`) and converts the lens in
-/// these files.
+/// `read_camera` also reads the `camera_info` files of ROS with the distortion model `plumb_bob`,
+/// and converts this model to that of the paper.
 #pragma once
 
 #include <filesystem>
@@ -25,8 +25,8 @@ inline constexpr int kCameraFileVersion = 1;
 /// the key, in these cases:
 /// - The file cannot be read, or has another format or version.
 /// - A key is missing, unknown, of the wrong type or out of range.
-/// - The distortion model is not plumb_bob, or eq. 2 cannot approximate the lens to within 0.5 px
-///   rms.
+/// - The distortion model is not plumb_bob, or eq. 2 of the paper cannot approximate the lens to
+///   within 0.5 px rms.
 Camera read_camera(const std::filesystem::path& path);
 
 /// Reads a camera from the text of a camera file. `name` is the name of the file in messages.

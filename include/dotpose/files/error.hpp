@@ -1,5 +1,5 @@
-/// Exceptions of the layers around the core (printing, simulation, files, the tool). The core never
-/// throws, but returns a Status.
+/// Exceptions of the layers around the core (printing, simulation, files, the command-line tool).
+/// The core never throws, but returns a Status.
 #pragma once
 
 #include <stdexcept>
@@ -11,16 +11,15 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Thrown if an operation fails. `what()` is one sentence for the user without a full stop. It
-/// names the file or value.
+/// Thrown if an operation fails. `what()` is one sentence for the user, without a full stop, that
+/// contains the name of the file or the value.
 class Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// Thrown if an argument is invalid regardless of the state of the machine, for example a margin
-/// wider than the page or an unknown paper size. `what()` names the wrong value and the permitted
-/// values.
+/// Thrown if an argument is invalid on any system, for example a margin wider than the page or an
+/// unknown paper size. `what()` contains the wrong value and the permitted values.
 class BadArgument : public Error {
   public:
     using Error::Error;

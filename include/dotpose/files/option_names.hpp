@@ -18,8 +18,8 @@ inline constexpr std::array kEfforts = {Effort::device, Effort::once, Effort::tw
 const char* name(Decoder decoder);
 const char* name(Effort effort);
 
-/// Returns a sentence that names the option outside its range, and the range. Returns an empty text
-/// if all options are valid.
+/// Returns a message about the first option outside its range, with the name of the option and the
+/// range. Returns an empty text if all options are valid.
 std::string fault_text(const DeviceOptions& options);
 
 }  // namespace dotpose

@@ -1,11 +1,12 @@
 /// Print map: the measured offset of each printed dot from its nominal place, for the pages of a
-/// sheet file. `PrintMapping` (tools/print_mapping.hpp) makes a map, and `with_print_map` uses it.
+/// sheet file. `PrintMapping` (tools/print_mapping.hpp) makes a map, and `with_print_map` corrects
+/// a fix by a map.
 ///
 ///     const PrintMap map = read_print_map("desk.map");
 ///     require_pages(map, sheets);  // throws Error if the map is of other pages
 ///
-/// The file is binary and little-endian: 2 bytes per dot and axis, and 1 byte for the number of
-/// views (docs/print-map.md).
+/// The file is binary and little-endian. It contains 5 bytes for each dot: 2 bytes for the offset
+/// along each axis, and 1 byte for the number of views (docs/print-map.md).
 #pragma once
 
 #include <cstddef>
@@ -47,15 +48,15 @@ struct MapPage {
     std::uint32_t frames = 0;  ///< number of frames from which the map was made
     /// Standard deviation, per axis, of the measured centre of a dot in one frame, in spacings.
     double noise = 0;
-    /// Standard deviation, per axis, of the offset of a dot from the mean offset around it, in
-    /// spacings.
+    /// Standard deviation, per axis, of the difference between the offset of a dot and the mean
+    /// offset of the dots around it, in spacings.
     double jitter = 0;
-    /// Offsets of the dots, row by row. The offset of a dot that was never seen is the mean offset
+    /// Offsets of the dots, row by row. A dot that was never seen has the mean offset of the dots
     /// around it.
     std::vector<DotOffset> offsets;
     std::vector<std::uint8_t> views;  ///< number of views of each dot, at most 255
 
-    /// Returns the index of the dot of a cell, or none if the cell is not on the page.
+    /// Returns the index of the dot in a cell, or none if the cell is not on the page.
     std::optional<std::size_t> index_of(const Place& place) const {
         const std::uint32_t x = place.cell.x - origin.x;
         const std::uint32_t y = place.cell.y - origin.y;
@@ -73,27 +74,28 @@ struct PrintMap {
 /// Returns the map of the page that contains a place in a code variant, or null.
 const MapPage* find_page(const PrintMap& map, CodeVariant code, const Place& place);
 
-/// How a map was used for a fix.
+/// Result of applying a map to a fix.
 enum class MapUse : std::uint8_t {
     no_map,       ///< there is no map of the page, or there is no fix
     used,         ///< the fix is corrected by the map
     not_covered,  ///< the map contains too few of the dots in view
-    contradicted  ///< the dots in view contradict the map: the print was moved, or is another print
+    contradicted  ///< the dots in view contradict the map, because the print was moved or is
+                  ///< another print
 };
 
-/// Maximum size of a map file, in bytes. A page with the size of A0 has 20 MB.
+/// Maximum size of a map file, in bytes. The map of a page with the size of A0 is about 20 MB.
 inline constexpr std::size_t kMaxMapBytes = std::size_t{512} << 20;
 
 /// Parses the contents of a map file. Throws Error if they are not a map, are truncated or damaged,
 /// or have another version.
 PrintMap parse_print_map(std::string_view bytes);
 
-/// Reads a map file. Throws Error, with the name of the file, if it cannot be read, or as
-/// `parse_print_map` does.
+/// Reads a map file. Throws Error, with the name of the file, if the file cannot be read or if its
+/// contents are not valid (see `parse_print_map`).
 PrintMap read_print_map(const std::filesystem::path& path);
 
-/// Returns the contents of a map file. Throws BadArgument if a page has no valid region, or vectors
-/// of the wrong size.
+/// Returns the contents of a map file. Throws BadArgument if the region of a page is not valid, or
+/// if its vectors have the wrong size.
 std::string print_map_bytes(const PrintMap& map);
 
 /// Throws Error unless each page of the map is a sheet of `sheets`, with the same code variant,

@@ -12,7 +12,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Grid spacing at which dots cover whole printer pixels at 300, 600 and 1200 dpi (paper III-A.1).
+/// Default grid spacing. With this spacing, dots cover whole printer pixels at 300, 600 and 1200
+/// dpi (paper III-A.1).
 inline constexpr double kDefaultSpacing_mm = 0.508;
 
 /// Maximum width and height of a page, in mm.
@@ -26,17 +27,19 @@ struct Pattern {
     CodeVariant code = CodeVariant::anoto;
     Section section;
     double spacing_mm = kDefaultSpacing_mm;
-    double displacement_mm = kDefaultSpacing_mm / 6;  ///< from the intersection to the dot's centre
+    double displacement_mm = kDefaultSpacing_mm / 6;  ///< distance from an intersection to the
+                                                      ///< centre of its dot
     double dot_mm = kDefaultSpacing_mm / 6;           ///< diameter of a dot
 };
 
-/// Returns the maximum distance in mm, along x or y, between the ink of a dot and its intersection.
+/// Returns the maximum distance in mm, along x or y, from an intersection to the outer edge of its
+/// dot.
 inline double reach_mm(const Pattern& pattern) {
     return pattern.displacement_mm + pattern.dot_mm / 2;
 }
 
-/// Printed length over nominal length, per axis. The scale depends on the printer, and differs
-/// between the direction of paper feed and the direction across it.
+/// Ratio of the printed length to the nominal length, along each axis. It depends on the printer,
+/// and differs between the direction of paper feed and the direction across it.
 struct AxisScale {
     double x = 1;
     double y = 1;

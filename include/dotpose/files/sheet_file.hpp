@@ -43,9 +43,9 @@ namespace dotpose {
 /// Version of the format that is written and read.
 inline constexpr int kSheetFileVersion = 1;
 
-/// Number of free cells around every allocated region. This number exceeds the diagonal of the
-/// largest frame: 4096 x 4096 px at 6 px per spacing, 966 cells. The pose of a frame that shows two
-/// sheets is therefore always on the sheet whose dots were read.
+/// Number of free cells around every allocated region. It exceeds the diagonal of the largest
+/// frame, which is 966 cells (4096 x 4096 px at 6 px per spacing). The pose of a frame that shows
+/// two sheets is therefore always on the sheet whose dots were read.
 inline constexpr std::uint32_t kSheetGap_cells = 1024;
 
 /// Place and direction of a page in the world.
@@ -55,7 +55,8 @@ struct WorldPose {
     double yaw_rad = 0;  ///< counter-clockwise from the world's x axis
 };
 
-/// The print parameters of a page. Together with the sheet, they reproduce the page.
+/// Print parameters of a page. Together with the sheet, they are sufficient to print the page
+/// again.
 struct SheetPrint {
     std::string title;          ///< title of the page and its document
     int pages = 1;              ///< number of pages with dots in the document
@@ -71,8 +72,8 @@ struct SheetEntry {
     std::string name;  ///< name of the page, unique in the file
     int page = 1;      ///< number of the page among the pages printed together, from 1
     Sheet sheet;
-    /// Printed length over nominal length, 0.5 to 2. The first intersection is the centre of
-    /// scaling: it is at (sheet.origin_x_mm, sheet.origin_y_mm) for any scale.
+    /// Ratio of the printed to the nominal length, 0.5 to 2. The page is scaled about the first
+    /// intersection, which is at (sheet.origin_x_mm, sheet.origin_y_mm) for any scale.
     double print_scale_x = 1;
     double print_scale_y = 1;
     AxisScale print_scale() const { return {print_scale_x, print_scale_y}; }
@@ -81,8 +82,8 @@ struct SheetEntry {
     std::optional<WorldPose> world;
     /// Print parameters. None if the entry was made by an earlier version, or not by printing.
     std::optional<SheetPrint> print;
-    /// True if the region is reserved for a page that may not exist. The page is being written, or
-    /// the program was stopped while it wrote the page.
+    /// True if the region is reserved for a page that may not exist, because the page is being
+    /// written, or because the program was stopped while it wrote the page.
     bool is_reserved = false;
 };
 
@@ -95,9 +96,9 @@ struct SheetEntry {
 /// - `print` has no pages, a resolution of 0 or less, or an unknown method of drawing dots.
 void validate(const SheetEntry& entry);
 
-/// Returns true if two sheets share cells. Different sections never overlap. The code variants
-/// anoto and libdots count as one variant, because they agree on most of the plane. microdots is
-/// separate.
+/// Returns true if two sheets share cells. Sheets in different sections never overlap. The code
+/// variants anoto and libdots count as one variant, because they agree on most of the plane. The
+/// variant microdots is separate.
 bool overlap(const Sheet& a, const Sheet& b);
 
 /// Reads a sheet file. Throws Error, with the names of the file and the key, in these cases:
@@ -142,24 +143,23 @@ class SheetFile {
     /// the plane is full, or the count is below 1.
     std::vector<SheetEntry> allocate(const std::string& name, const Sheet& sheet, int count = 1);
 
-    /// Adds one page, with its own name and number, in the next free region (see the overload
-    /// above).
+    /// Adds one page, with its own name and number, in the next free region.
     SheetEntry allocate(SheetEntry entry);
 
     /// Adds a sheet with a given region. The region may touch other regions but must not overlap
     /// them. Throws BadArgument as `validate` does, and if the name or the region is taken. The
-    /// message names the other sheet.
+    /// message contains the name of the other sheet.
     void add(const SheetEntry& entry);
 
-    /// Replaces the sheet with the name of `entry`. Throws BadArgument as `add` does, or if there
-    /// is no such sheet.
+    /// Replaces the sheet that has the same name as `entry`. Throws BadArgument as `add` does, or
+    /// if there is no such sheet.
     void replace(const SheetEntry& entry);
 
     /// Renames the sheet `name` and keeps its unknown keys. Throws BadArgument if the sheet does
     /// not exist, or if the new name is taken or invalid.
     void rename(const std::string& name, const std::string& new_name);
 
-    /// Removes the sheet with this name if it exists.
+    /// Removes the sheet with this name, if there is one.
     void remove(const std::string& name);
 
     /// Writes the file completely or not at all. Keeps the unknown keys of the old file. Throws
@@ -171,14 +171,15 @@ class SheetFile {
 
     std::filesystem::path path_;
     std::unique_ptr<system::FileLock> lock_;  ///< lock on a hidden file beside the sheet file
-    std::optional<std::string> text_;  ///< the file as read or saved; none if it did not exist
+    std::optional<std::string> text_;  ///< contents of the file as read or saved; none if it did
+                                       ///< not exist
     std::vector<SheetEntry> sheets_;
     /// Name in `text_` of each renamed sheet, indexed by its new name.
     std::map<std::string, std::string> names_in_text_;
 };
 
 /// Adds sheets to a sheet file before their pages are written. The sheets are marked as reserved,
-/// and their regions remain taken even if this program is killed. `confirm` removes the mark. Other
+/// so their regions remain taken even if this program is killed. `confirm` removes the mark. Other
 /// programs may change the file in the meantime.
 class SheetReservation {
   public:
@@ -186,15 +187,15 @@ class SheetReservation {
     /// reserved.
     SheetReservation(const std::filesystem::path& path,
                      const std::function<void(SheetFile&)>& enter, const SheetFileWait& wait = {});
-    /// Removes unconfirmed entries if possible. Restores the previous file if no other program has
-    /// changed the file.
+    /// Removes the entries that were not confirmed, if possible. Restores the previous file if no
+    /// other program has changed it.
     ~SheetReservation();
     SheetReservation(const SheetReservation&) = delete;
     SheetReservation& operator=(const SheetReservation&) = delete;
 
     /// Removes the marks. Must be called after the pages have been written. Throws Error if the
-    /// file cannot be changed, in which case the sheets remain reserved. Also throws Error if
-    /// another program has removed the sheets and assigned their cells to other sheets.
+    /// file cannot be changed. The sheets then remain reserved. Also throws Error if another
+    /// program has removed the sheets and assigned their cells to other sheets.
     void confirm();
 
   private:

@@ -1,5 +1,4 @@
-/// Places: the pose of a fix on a page of a sheet file and in the world, with the full covariance
-/// of this pose.
+/// Places: the pose of a fix on a page of a sheet file, and in the world, with its full covariance.
 ///
 ///     const std::vector<SheetEntry> sheets = read_sheets("sheets.json");
 ///     if (const auto place = find_sheet(sheets, CodeVariant::anoto, fix)) {
@@ -25,14 +24,14 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Covariance of a pose (x, y, angle), in squares and products of the units of that pose.
+/// Covariance of a pose (x, y, angle). The units are squares and products of the units of the pose.
 using PoseCovariance = std::array<std::array<float, 3>, 3>;
 
 /// Place of a fix on a page of a sheet file.
 struct SheetPlace {
     const SheetEntry* entry = nullptr;  ///< entry of the page, in the span passed to `find_sheet`
-    double x_mm = 0;                    ///< position in the sheet frame, with the print scale
-                                        ///< applied
+    double x_mm = 0;                    ///< position in the sheet frame, corrected by the print
+                                        ///< scale
     double y_mm = 0;
     double theta_rad = 0;  ///< angle of the image x axis, from the sheet's +x towards +y, in (-pi,
                            ///< pi]
@@ -41,9 +40,9 @@ struct SheetPlace {
     PoseCovariance covariance{};
 };
 
-/// Returns the place of `fix`. `code` is the code variant in which the fix was read. Prefers a
-/// sheet whose region contains the fix to a sheet whose margins contain it. Returns none if the fix
-/// is not ok or is not on any sheet.
+/// Returns the place of `fix` on its sheet. `code` is the code variant in which the fix was read. A
+/// sheet whose region contains the fix takes precedence over a sheet whose margins contain it.
+/// Returns none if the fix is not ok or is not on any sheet.
 std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, CodeVariant code,
                                      const Fix& fix);
 
@@ -62,9 +61,9 @@ struct WorldPlace {
 /// known.
 std::optional<WorldPlace> world_place(const SheetPlace& place);
 
-/// Converts the covariance of a pose from the sheet to the world. `sheet_yaw_rad` is the direction
-/// of the upper edge of the page in the world. Rotates the covariance by this angle, and negates y
-/// and the angle. The unit of length does not change.
+/// Converts the covariance of a pose from the sheet frame to the world frame, by a rotation and a
+/// change of the signs of y and of the angle. `sheet_yaw_rad` is the direction of the upper edge of
+/// the page in the world. The unit of length does not change.
 PoseCovariance world_covariance(const PoseCovariance& on_sheet, double sheet_yaw_rad);
 
 }  // namespace dotpose

@@ -15,8 +15,8 @@
 /// If the frames do not determine a result, the functions throw Error with advice. Standard
 /// deviations are computed from the residuals of the fit.
 ///
-/// Functions request frames by index, possibly several times, and do not store them. Functions
-/// share no state.
+/// Functions request frames by index, possibly several times, and do not store them. They share no
+/// state.
 #pragma once
 
 #include <functional>
@@ -58,7 +58,7 @@ struct CalibrateOptions {
 /// Returns the code variant of the options, or none if it must be detected from the frames.
 std::optional<CodeVariant> given_code(const CalibrateOptions& options);
 
-/// Required number of frames. With fewer frames, the verdict is `too_few_frames`.
+/// Required number of frames. If there are fewer, the verdict is `too_few_frames`.
 inline constexpr int kWantedFrames = 5;
 
 /// Verdict on a lens calibration: `good`, or the reason why it is not reliable.
@@ -83,9 +83,9 @@ struct CalibrationDot {
 /// The calibrated camera, with measures of its reliability.
 struct LensCalibration {
     Camera camera;
-    /// True if the camera is mounted: all frames have the same height and tilt. A hand-held camera
-    /// has an individual height and tilt in each frame, so `camera.paper` and `camera.tilt` are not
-    /// known.
+    /// True if the camera is mounted, so that all frames have the same height and tilt. A hand-held
+    /// camera has an individual height and tilt in each frame. Its `camera.paper` and `camera.tilt`
+    /// are therefore not known.
     bool is_mounted = true;
     CodeVariant code = CodeVariant::anoto;  ///< given or detected code variant
     double spacing_mm = 0;                  ///< given spacing, or spacing of the sheet
@@ -97,8 +97,10 @@ struct LensCalibration {
     double residual_before_px = 0;  ///< rms residual per axis for a camera without distortion, skew
                                     ///< and tilt
     double residual_px = 0;         ///< rms residual per axis for the calibrated camera
-    double px_per_spacing = 0;      ///< mean over the frames, at the image centre
-    double dot_width = 0;           ///< width at half darkness, in spacings; 1/6 for a sharp dot
+    double px_per_spacing = 0;      ///< mean grid spacing at the image centre over all frames, in
+                                    ///< px
+    double dot_width = 0;           ///< mean width of the dots at half darkness, in spacings; 1/6
+                                    ///< if they are sharp
     double coverage = 0;            ///< fraction of the 12 x 8 parts of the image that show dots
     CalibrationVerdict verdict = CalibrationVerdict::good;
     std::string advice;  ///< one or two sentences for the user
@@ -133,8 +135,8 @@ enum class MountVerdict {
 /// Returns the identifier, such as "drifted".
 const char* name(MountVerdict verdict);
 
-/// Position of the camera on a robot, from a turn on the spot: the centre of rotation is the
-/// reference point.
+/// Position of the camera on a robot, from a turn on the spot. The reference point is the centre of
+/// rotation.
 struct SpinCalibration {
     Camera camera;  ///< the given camera with `reference_px` set
     /// Reference point in mm, relative to the point under the image centre and along the image axes
@@ -145,8 +147,8 @@ struct SpinCalibration {
     double sigma_mm = 0;     ///< standard deviation of the centre of rotation, per axis
     double residual_mm = 0;  ///< rms residual of the frames about the centre of rotation, per axis
     double turn_rad = 0;  ///< angle of the smallest arc that contains the directions of all frames
-    /// Error of the centre of rotation, per axis, due to a drift of the robot while it turned. 0 if
-    /// noise explains the drift. Included in `sigma_mm`.
+    /// Error of the centre of rotation, per axis, due to a drift of the robot while it turned. It
+    /// is included in `sigma_mm`. 0 if noise explains the drift.
     double drift_mm = 0;
     MountVerdict verdict = MountVerdict::good;
     std::vector<SpinStation> stations;
@@ -159,8 +161,8 @@ struct SpinCalibration {
 /// - A frame differs in size from the camera file or from the first frame.
 /// - The spacing contradicts the view of the camera.
 /// - The reference point is beyond the range of a camera file.
-/// - The centre of rotation varies by more than one spacing (rms per axis), or has an uncertainty
-///   of more than half a spacing.
+/// - The centre of rotation varies by more than one spacing (rms per axis), or its uncertainty is
+///   more than half a spacing.
 SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
                                const std::optional<Camera>& camera,
                                const CalibrateOptions& options);
@@ -181,13 +183,14 @@ struct DriveCalibration {
 /// - Too few frames have a fix, or the drive is too short.
 /// - A frame differs in size from the camera file or from the first frame.
 /// - The spacing contradicts the view of the camera.
-/// - The robot turned by more than 5 degrees from its mean direction, deviated from the straight
-///   line by more than this angle, or drove backwards.
+/// - The robot turned by more than 5 degrees from its mean direction, deviated from a straight line
+///   by more than 4.4 % of the length of the drive, or drove backwards.
 DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
                                  const std::optional<Camera>& camera,
                                  const CalibrateOptions& options);
 
-/// Tip of a pen, from frames in which the tip rests on the paper while the pen pivots about it.
+/// Tip of a pen, computed from frames in which the tip rests on the paper while the pen pivots
+/// about it.
 struct PivotCalibration {
     Camera camera;  ///< the given camera with `tip` set
     int frames = 0;
@@ -199,8 +202,8 @@ struct PivotCalibration {
     double min_tilt_rad = 0;
     double max_tilt_rad = 0;
     double residual_mm = 0;  ///< rms distance of the tip from the point of rest, per axis
-    /// Rms distance in standard deviations of the poses. Above 1, it also scales the standard
-    /// deviations of the tip.
+    /// Ratio of the rms distance to its standard deviation according to the poses. If it is above
+    /// 1, the standard deviations of the tip are increased accordingly.
     double error_ratio = 0;
 };
 
@@ -211,8 +214,8 @@ struct PivotCalibration {
 /// - Too few frames have a pose in space.
 /// - A frame differs in size from the camera file.
 /// - The pen does not pivot enough, or only about one axis.
-/// - The tip moved: more than a third of the frames contradict the others, or the tip is not at
-///   rest to within half a spacing.
+/// - The tip did not rest at one point: more than a third of the frames contradict the others, or
+///   the tip moved by more than half a spacing (rms per axis).
 /// - The tip has a standard deviation of more than half a spacing.
 ///
 /// Throws BadArgument if the camera file has no focal length.
@@ -223,18 +226,18 @@ PivotCalibration calibrate_pivot(int frames, const FrameAt& frame_at, const Came
 struct FlatFieldCalibration {
     Camera camera;  ///< the given camera with `flat_field` set
     int frames = 0;
-    double min_brightness = 0;  ///< brightness at the darkest point, relative to the brightest
-                                ///< point
-    /// Rms deviation of the mean frame from the flat field, relative to the flat field. It is due
-    /// to remaining dots, and to pixels with a different sensitivity.
+    double min_brightness = 0;  ///< minimum brightness of the flat field, relative to its maximum
+    /// Rms deviation of the mean frame from the flat field, relative to the flat field. It is
+    /// caused by remaining dots, and by differences in the sensitivity of the pixels.
     double residual = 0;
 };
 
 /// Computes the flat field of a camera from at least 20 frames of a sheet or of white paper, taken
 /// with constant exposure and light. The dots must be at different places in the frames, because
-/// the mean of the frames must show even paper. Without a camera, makes one with the size of the
-/// frames. Throws Error if there are fewer frames, frames differ in size, the image is too dark, or
-/// the mean frame is not smooth. Uses only `progress` of the options.
+/// the mean of the frames must show even paper. If no camera is given, the result is a new camera
+/// with the size of the frames. Throws Error if there are fewer frames, if frames differ in size,
+/// if the image is too dark, or if the mean frame is not smooth. Of the options, only `progress` is
+/// used.
 FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
                                           const std::optional<Camera>& camera,
                                           const CalibrateOptions& options);
@@ -250,18 +253,18 @@ struct ReadoutCalibration {
 
 /// Computes the readout time of a camera that moves over a sheet, from at least 7 consecutive
 /// frames, taken at intervals of `interval_ms`. Compares the motion during the readout of each
-/// frame with the motion from the previous to the next frame. Throws Error in these cases:
+/// frame with the motion from the previous frame to the next. Throws Error in these cases:
 /// - The camera file has no view of the paper.
 /// - Fewer than 5 located frames are preceded and followed by a located frame.
 /// - The motion does not determine the readout time to 10 %.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);
 
-/// Reference for the print scales. Frames determine the ratios between the scales of sheets and
-/// axes, but not the absolute scale.
+/// Reference for the print scales of sheets. Frames determine the ratios between the scales of
+/// sheets and axes, but not the absolute scale.
 struct ScaleReference {
     enum class By {
-        /// No measurement: the mean of the two print scales of the fixed sheet does not change.
+        /// No measurement. The mean of the two print scales of the fixed sheet remains unchanged.
         fixed_sheet,
         /// The scale of the camera, in mm per px, is assumed to be true. Requires a camera that was
         /// calibrated with the true spacing.
@@ -281,7 +284,7 @@ inline constexpr bool is_scale_known(double sigma_scale) {
     return sigma_scale < kUsualPrintError / 2;
 }
 
-/// Accuracy of one sheet after stitching.
+/// Accuracy of the pose of one sheet after stitching.
 struct StitchedSheet {
     std::string name;
     /// Standard deviation, per axis, of the position of the corner relative to the fixed sheet.
@@ -296,8 +299,10 @@ struct Seam {
     std::string first;
     std::string second;
     int frames = 0;
-    double residual_mm = 0;   ///< rms difference between the two positions of a frame, per axis
-    double residual_rad = 0;  ///< rms difference between the two directions of a frame
+    double residual_mm = 0;   ///< rms difference between the positions of a frame according to the
+                              ///< two sheets, per axis
+    double residual_rad = 0;  ///< rms difference between the directions of a frame according to the
+                              ///< two sheets
 };
 /// Position of the image centre of one frame on two sheets, relative to the first intersection of
 /// each sheet, in nominal mm.

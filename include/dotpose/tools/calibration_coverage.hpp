@@ -43,9 +43,9 @@ inline constexpr double kWantedCornerSigma_px = 0.1;
 PixelPoint farthest_corner(const Camera& camera);
 
 /// Returns the standard deviation, in px, of the undistorted position of the farthest corner
-/// relative to the middle of the image. Computed from the standard deviations of `k_per_px2` and of
-/// the distortion centre, which `camera.sigma` must contain. Assumes that the errors of k and of
-/// the centre are independent.
+/// relative to the middle of the image. It is computed from the standard deviations of `k_per_px2`
+/// and of the distortion centre, which `camera.sigma` must contain. Assumes that the errors of k
+/// and of the centre are independent.
 double corner_sigma_px(const Camera& camera);
 
 /// The parts of the image in which dots have been seen.

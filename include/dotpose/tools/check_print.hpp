@@ -43,30 +43,33 @@ struct CheckPrintOptions {
     /// `pattern`.
     bool any_code = false;
     /// Sheets that the scan may contain, for example the sheets of a sheet file. A field within the
-    /// region of a sheet is checked against the pattern of that sheet. Only sheets with the code
+    /// region of a sheet is compared with the pattern of that sheet. Only sheets with the code
     /// variant of `pattern` are found.
     std::vector<Sheet> sheets;
-    /// Resolution of the scan. An image counts as a photo if it has no resolution, or if it has the
-    /// perspective or lens distortion of a camera. The check of a photo allows for perspective and
-    /// lens distortion, and does not judge the scale. A resolution that contradicts the spacing is
-    /// reported as a fault.
+    /// Resolution of the scan. An image counts as a photo if it has no resolution, or if it shows
+    /// the perspective or lens distortion of a camera. The check of a photo allows for perspective
+    /// and lens distortion, and does not judge the scale. If the resolution contradicts the
+    /// spacing, the check reports a fault.
     std::optional<Resolution> resolution;
     /// True if the image file states that a camera took the image. In this case, the resolution is
     /// ignored.
     bool is_photo = false;
-    /// Reflectance of solid ink relative to the paper, 0 to 0.9. The value must be given, because
-    /// dots of a few pixels are too small to measure it. The measured diameter of a dot is the
-    /// diameter of a disc of this ink that has the same total darkness.
+    /// Reflectance of solid ink relative to the paper, 0 to 0.9. It cannot be measured, because
+    /// dots are only a few pixels wide. The measured diameter of a dot is the diameter of a disc of
+    /// this ink that has the same total darkness.
     double ink_reflectance = 0.15;
     /// Called after each part of the work. Returning false stops the work with an Error.
     std::function<bool(int done, int total)> progress;
 };
 
-/// Scale and angles of a print on a flatbed scan, including the scale and angles of the scanner. A
-/// second scan, with the page turned by 90 degrees, separates the printer from the scanner.
+/// Scale and angles of a print in a flatbed scan. They include the scale and angles of the scanner.
+/// A second scan, with the page turned by 90 degrees, separates the errors of the printer from
+/// those of the scanner.
 struct PrintScale {
-    double scale_x = 1;       ///< printed length over nominal length along the pattern's x axis
-    double scale_y = 1;       ///< printed length over nominal length along the pattern's y axis
+    double scale_x = 1;       ///< ratio of the printed to the nominal length along the pattern's x
+                              ///< axis
+    double scale_y = 1;       ///< ratio of the printed to the nominal length along the pattern's y
+                              ///< axis
     double rotation_rad = 0;  ///< direction of the pattern's x axis in the scan, from +u towards +v
     double skew_rad = 0;      ///< angle from the x axis to the y axis, minus 90 degrees
 };
@@ -107,7 +110,7 @@ struct PrintField {
     double spacing_px = 0;                  ///< spacing in the middle of the field
     /// Rms deviation per axis of the dots from their fitted places, in mm on the paper.
     double residual_mm = 0;
-    /// Rms deviation per axis of single dots from their neighbours, in mm on the paper.
+    /// Rms deviation per axis of a dot from its neighbours, in mm on the paper.
     double scatter_mm = 0;
     std::vector<DistortionBin> distortion;
     double largest_distortion_mm = 0;  ///< maximum length of a deviation in `distortion`
@@ -125,21 +128,21 @@ struct PrintField {
                               ///< deviation
     double paper_level = 0;   ///< median grey level of blank paper
     double contrast = 0;      ///< darkness at the centres of the dots relative to the paper, 0 to 1
-    /// False if the blur and the tone curve of a photo do not allow sizes and contrast to be
-    /// measured.
+    /// False if the sizes and the contrast cannot be measured, because of the blur and the tone
+    /// curve of a photo.
     bool are_sizes_told = true;
-    /// False if the noise of a photo does not allow missing and wrong dots to be detected.
+    /// False if missing and wrong dots cannot be detected, because of the noise of a photo.
     bool are_dots_told = true;
 
     double covered_share() const { return covered > 0 ? double(covered) / (covered + cells) : 0; }
     double missing_share() const { return cells > 0 ? double(missing) / cells : 0; }
     double merged_share() const { return dots > 0 ? double(merged) / dots : 0; }
     double wrong_share() const { return dots > 0 ? 0.5 * bits_wrong / dots : 0; }
-    /// Returns the relative growth of the dot diameter over the nominal diameter. Negative if the
-    /// dots shrank.
+    /// Returns the relative increase of the dot diameter from its nominal value. Negative if the
+    /// dots are smaller than intended.
     double gain() const { return dot_mm / pattern.dot_mm - 1; }
-    /// Returns the fraction of the cells that cannot be used: covered, missing, merged or with a
-    /// wrong bit.
+    /// Returns the fraction of the cells that cannot be used, because they are covered, missing,
+    /// merged or have a wrong bit.
     double bad_share() const;
 };
 
@@ -172,13 +175,13 @@ const char* name(FindingKind kind);
 struct Finding {
     FindingKind kind = FindingKind::good;
     bool is_fault = false;  ///< true for a fault to correct, false for a remark
-    /// Index of the field concerned. None for the scan as a whole.
+    /// Index of the field concerned. None if the finding concerns the whole scan.
     std::optional<std::size_t> field;
     /// One or two sentences for the user: the fault, the likely cause, the remedy.
     std::string text;
 };
 
-/// Two fields that show the same cells. A place read in these cells is not unique.
+/// Two fields that show the same cells, so that a place read in these cells is not unique.
 struct RepeatedCells {
     std::size_t first = 0;  ///< indices of the fields
     std::size_t second = 0;
@@ -201,8 +204,7 @@ struct PrintCheck {
     double code_p_wrong = 0;                ///< probability that a detected code variant is wrong
     std::optional<Resolution> resolution;   ///< resolution that was used; none for a photo
     bool is_photo = false;                  ///< CheckPrintOptions::is_photo
-    /// Evidence that the image is a photo. None unless the stated resolution was ignored because of
-    /// this evidence.
+    /// Evidence that the image is a photo, if the stated resolution was ignored because of it.
     std::optional<CameraSigns> camera;
     std::vector<RepeatedCells> repeated;
     bool is_test_page = false;

@@ -1,6 +1,5 @@
-/// Drawing: writes self-contained SVG pictures of the stages of `locate` in a frame, paths over a
-/// sheet, calibrations, checked prints and evaluations. The stages contain no drawing code. Drawing
-/// uses the trace or the result.
+/// Drawing: writes self-contained SVG pictures of the stages of `locate` in a frame, of paths over
+/// a sheet, and of calibrations, checked prints and evaluations.
 ///
 ///     const dotpose::Fix fix = locator.locate(image.view());
 ///     draw_frame("frame.svg", image.view(), locator.trace());
@@ -38,15 +37,15 @@ struct Sweep;
 
 /// Options for the caption of `draw_frame`.
 struct DrawOptions {
-    /// Spacing of the printed grid in mm, for the pose in mm. If the spacing is NaN, the pose is in
-    /// spacings.
+    /// Spacing of the printed grid, for converting the pose to mm. If it is NaN, the pose is shown
+    /// in spacings.
     double spacing_mm = kDefaultSpacing_mm;
     /// The fix to show, for example a fix that was corrected by a camera file, or refused after
     /// `locate`. Default: the fix of the trace.
     std::optional<Fix> fix{};
-    std::string title{};  ///< for example the name of the file; default: none
-    /// Place of the fix on a sheet. With a place, the caption shows the pose in the world in large
-    /// numbers. If the pose in the world is not known, it shows the pose on the sheet. Default: the
+    std::string title{};  ///< title of the caption, for example the name of the file; default: none
+    /// Place of the fix on a sheet. If it is given, the caption shows the pose in the world in
+    /// large numbers or, if the pose in the world is not known, the pose on the sheet. Default: the
     /// pose in the pattern.
     std::optional<SheetPlace> place{};
     /// Reason and remedy for the caption if there is no fix. Default: the message of the status.
@@ -64,8 +63,8 @@ struct DrawOptions {
 /// the reason why there is none.
 ///
 /// Everything is drawn at its place in the image, so grid lines are curved if the lens has
-/// distortion. Large images are embedded at a lower resolution. Dots too close together for letters
-/// are drawn as points. The picture of a photo is therefore smaller than 1 MB.
+/// distortion. Large images are embedded at a lower resolution, and dots too close together for
+/// letters are drawn as points, so that the picture of a photo is smaller than 1 MB.
 void draw_frame(std::ostream& out, ImageView image, const Trace& trace,
                 const DrawOptions& draw_options = {});
 void draw_frame(const std::filesystem::path& path, ImageView image, const Trace& trace,
@@ -81,7 +80,7 @@ struct PathPoint {
 };
 
 /// Draws the true path on the page with the measured points. The errors are too small to be visible
-/// on the page. They are also drawn as a scatter plot, and as a function of the frame number.
+/// on the page, so they are also drawn as a scatter plot, and as a function of the frame number.
 void draw_path(std::ostream& out, const Sheet& sheet, std::span<const PathPoint> path,
                const std::string& title = {});
 void draw_path(const std::filesystem::path& file, const Sheet& sheet,
@@ -90,8 +89,8 @@ void draw_path(const std::filesystem::path& file, const Sheet& sheet,
 /// Draws the residual fields before and after calibration, and the coverage of the image by dots.
 void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
 
-/// Residuals of a lens calibration, summed in square parts of the image, as `draw_calibration`
-/// draws them. Used by programs that draw the residuals themselves.
+/// Sums of the residuals of a lens calibration in square parts of the image, as `draw_calibration`
+/// draws them. For programs that draw the residuals themselves.
 struct ResidualField {
     struct Part {
         PixelPoint before;  ///< sum of the residuals before the calibration, in px
@@ -115,8 +114,8 @@ void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibra
 void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
                     const Stitching& stitching);
 
-/// Draws the slow distortion of a mapped page, enlarged, as a deformed grid, and the two components
-/// of the offsets of all dots as images.
+/// Draws the smooth distortion of a mapped page as a deformed grid, enlarged. Draws the x and y
+/// offsets of all dots as two images.
 void draw_print_map(const std::filesystem::path& path, const MapPage& page);
 
 /// Draws the sheets in the world, seen from above with x to the right and y up. Sheets without a

@@ -43,7 +43,8 @@ struct KnownFrame {
     std::string problem;  ///< reason why there is no image; empty if there is one
 };
 
-/// Returns frame `index`. Called from several threads, so it must depend only on the index.
+/// Returns frame `index`. The result must depend only on the index, because the function is called
+/// from several threads.
 using FrameSource = std::function<KnownFrame(int index)>;
 
 /// Returns the images listed in a truth.csv. A file that cannot be read becomes a frame with a
@@ -53,7 +54,7 @@ FrameSource frames_of_folder(const std::filesystem::path& folder, std::vector<Tr
 /// Returns the rendered frames of `draw_shot(setup, index)`.
 FrameSource frames_of_setup(const Setup& setup);
 
-/// Called regularly from the calling thread. Returning false stops the work with an Error.
+/// Called regularly from the calling thread. If it returns false, the work ends with an Error.
 using Progress = std::function<bool(int done, int total)>;
 
 /// The frames to locate, and the options for `locate`.

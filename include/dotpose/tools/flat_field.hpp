@@ -28,7 +28,7 @@ class FlatFieldCorrection {
   private:
     int width_px_;
     int height_px_;
-    std::vector<std::uint16_t> gains_q8_;  ///< one per pixel, row by row, in units of 2^-8
+    std::vector<std::uint16_t> gains_q8_;  ///< gain of each pixel, row by row, in units of 2^-8
 };
 
 }  // namespace dotpose

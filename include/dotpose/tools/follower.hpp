@@ -38,8 +38,8 @@ struct FollowerOptions {
     DeviceOptions locate;
     /// The sheets that may be in view. If empty, poses are in the pattern frame.
     std::vector<SheetEntry> sheets;
-    /// True if only these sheets can be in view. If false, other sheets are also located if enough
-    /// of their dots are in view. See Locator::set_known.
+    /// True if only these sheets can be in view. Otherwise, other sheets are also located, if
+    /// enough of their dots are in view. See Locator::set_known.
     bool has_only_sheets = false;
     /// The code variant, or none to detect it from all images together. Ignored if there are
     /// sheets, because each sheet has its own code variant.
@@ -51,14 +51,14 @@ struct FollowerOptions {
     /// True to flip images left to right before they are located, like `flip` in a camera file. All
     /// pixel coordinates refer to the flipped images.
     bool flip = false;
-    /// The reference pixel of the pose. Replaces the image centre and the reference point of the
-    /// camera file.
+    /// Reference pixel of the pose. Replaces the image centre and the reference point of the camera
+    /// file.
     std::optional<PixelPoint> reference_px;
     /// True to fit the pose of the camera in space, in addition to the pose on the paper. Requires
     /// a camera file with a focal length.
     bool fits_space_pose = false;
     /// Map of the print, by which fixes are corrected (print_mapping.hpp). Requires the sheets of
-    /// the map. A pose in space is not corrected.
+    /// the map. Poses in space are not corrected.
     PrintMap print_map;
     TrackOptions track;
 };
@@ -68,9 +68,9 @@ struct Located {
     /// The pose of the reference point, corrected by the camera file if there is one.
     Fix fix;
     std::optional<SheetPlace> place;  ///< place of the fix; none if the fix is not on any sheet
-    /// The fix and its code variant. If a place in another code variant also explains the image,
-    /// the reading also contains this place. After `locate`, `reading.fix` does not include the
-    /// correction by the camera file.
+    /// The fix with its code variant and, if a place in another code variant also explains the
+    /// image, with this place. In results of `locate`, `reading.fix` does not include the
+    /// correction by the camera file. In results of `follow`, it equals `fix`.
     CodeReading reading;
     /// Spacing of the sheet, or the common spacing of all sheets, in mm. NaN if spacings differ and
     /// the fix is not on any sheet.
@@ -88,13 +88,13 @@ struct Located {
     /// file contains a tip.
     std::optional<TipPose> tip;
     bool is_pen_down = false;  ///< true if `tip` is on the paper; see PenContact
-    /// How the fix was corrected by `FollowerOptions::print_map`.
+    /// Result of applying `FollowerOptions::print_map` to the fix.
     MapUse map_use = MapUse::no_map;
-    bool code_is_given = false;  ///< true if options or sheets determine the code variant
+    bool code_is_given = false;  ///< true if the options or the sheets determine the code variant
     int reduced_by = 1;          ///< factor by which the image was reduced
 };
 
-/// The result for one image of a sequence, given the previous images.
+/// The result for one image of a sequence, which depends on the previous images.
 struct Followed {
     /// Result of the image. If the fix was accepted only because of the predicted place, its
     /// `p_wrong` takes the prior probability of that place into account.
@@ -102,9 +102,9 @@ struct Followed {
     Track track;
 };
 
-/// Converts a fix to a sighting in the world of its sheet. Used by the Tracker of a robot that
-/// drives over several sheets. `place` is the place of the fix. Returns none if the sheet has no
-/// place in the world. The fix must be ok, and its `spacing_nm` must be known.
+/// Converts a fix to a sighting in the world of its sheet, for the Tracker of a robot that drives
+/// over several sheets. `place` is the place of the fix. Returns none if the sheet has no place in
+/// the world. The fix must be ok, and its `spacing_nm` must be known.
 std::optional<Sighting> world_sighting(const Fix& fix, const SheetPlace& place,
                                        std::int64_t time_us);
 
@@ -117,7 +117,7 @@ class Follower {
 
     /// Locates an image without a prediction from other images. Reduces images larger than
     /// `kMaxFrameSide_px`, unless there is a camera file. Only the evidence for the code variant is
-    /// accumulated over all images.
+    /// carried over from image to image.
     Located locate(const GreyImage& image);
 
     /// Locates the next image of a sequence, taken at `time_us`. The previous images predict the
@@ -131,11 +131,11 @@ class Follower {
 
     /// Replaces the sheets, for example after one of them was moved in the world. The next image
     /// starts a new track. Invalidates `SheetPlace::entry` of earlier results. Throws BadArgument
-    /// if there are no sheets, or if a sheet is not in the plane of the code.
+    /// if there are no sheets, or if the region of a sheet is not inside the code plane.
     void set_sheets(std::vector<SheetEntry> sheets);
 
     bool fits_space_pose() const { return options_.fits_space_pose; }
-    /// Returns true if images have the tip of a pen.
+    /// Returns true if the pose of the tip of a pen is computed.
     bool finds_tip() const {
         return options_.fits_space_pose && options_.camera && options_.camera->tip;
     }
@@ -146,7 +146,7 @@ class Follower {
     void set_camera(const Camera& camera);
 
     /// Return results for the latest image: the image that was located (possibly flipped, reduced,
-    /// and corrected by the flat field), the options used, and the trace of the stages.
+    /// or corrected by the flat field), the options that were used, and the trace of the stages.
     ImageView image() const { return image_; }
     const DeviceOptions& used_options() const { return used_; }
     Trace trace() const { return locator_.trace(); }
@@ -199,7 +199,7 @@ class Follower {
 
     FollowerOptions options_;
     /// Code variants in the order in which they are tried, starting with the code variant of the
-    /// last fix. Empty: all code variants.
+    /// last fix. If empty, all code variants are tried.
     std::vector<CodeVariant> codes_;
     CodeEvidence evidence_;       ///< evidence of the previous images
     double unplaced_spacing_mm_;  ///< spacing for a fix that is not on any sheet

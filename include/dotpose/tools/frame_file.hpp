@@ -1,4 +1,4 @@
-/// Reads images for locating.
+/// Reads images for `locate`.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Reads an image as `read_image` does. Throws ImageTooLarge, without decoding, for an image larger
-/// than `locate` accepts.
+/// Reads an image as `read_image` does. Throws ImageTooLarge if the image is larger than `locate`
+/// accepts. Such an image is not decoded.
 inline GreyImage read_frame(const std::filesystem::path& path) {
     return read_image(path, kMaxFrameSide_px * kMaxFrameSide_px);
 }

@@ -7,12 +7,12 @@
 /// end marker is read.
 ///
 /// Every pixel is converted to one grey level, from 0 (black) to 255 (white). Colour is converted
-/// to luma 0.299 R + 0.587 G + 0.114 B (Rec. 601) of the stored values. Palettes are expanded. CMYK
-/// is converted without profiles. Gamma and colour profiles are ignored. Samples of 16 bits, and
-/// samples with a maximum value other than 255, are scaled to 0..255 and rounded. Opaque 16-bit
-/// images without a value above 4095 are interpreted as sensor data with 8 to 12 bits in the lower
-/// bits. Transparent pixels are composited on white. If a TIFF file has several pages, the
-/// requested page is read, by default the first page.
+/// to the luma 0.299 R + 0.587 G + 0.114 B (Rec. 601) of the stored values. Gamma and colour
+/// profiles are ignored. Palettes are expanded, and CMYK is converted without profiles. Samples
+/// with a maximum value other than 255, such as 16-bit samples, are scaled to 0..255 and rounded.
+/// Opaque 16-bit images in which no value exceeds 4095 are interpreted as sensor data with 8 to 12
+/// significant bits. Transparent pixels are composited on white. Of a TIFF file with several pages,
+/// the requested page is read, by default the first page.
 ///
 /// The orientation in EXIF data and in HEIC is ignored, because the calibration and mount of a
 /// camera refer to the pixels of the sensor.
@@ -38,7 +38,7 @@ inline constexpr int kMaxImageSide_px = 100'000;
 inline constexpr int kMaxImagePixels = 1 << 28;
 inline constexpr int kDefaultImagePixels = 100'000'000;
 
-/// Thrown if the header of an image states more pixels than the limit. The pixels are not decoded.
+/// Thrown if an image has more pixels than the limit, according to its header. It is not decoded.
 struct ImageTooLarge : Error {
     ImageTooLarge(const std::string& what, int width, int height)
         : Error(what), width_px(width), height_px(height) {}
@@ -77,8 +77,8 @@ struct ImageOrigin {
     /// exposure time, f-number, sensitivity or focal length.
     bool is_photo = false;
     /// Resolution of a scan: PNG pHYs, JPEG density, TIFF and BMP resolution. None if the image is
-    /// a photo, if the resolution is missing, or if it is 72 or 96 dpi. Programs write these values
-    /// by default if they do not know the resolution.
+    /// a photo or if the resolution is missing. Also none if it is 72 or 96 dpi, because programs
+    /// write these values by default if they do not know the resolution.
     std::optional<Resolution> resolution;
 };
 

@@ -4,8 +4,8 @@
 ///     for (const InkPage& page : pages)
 ///         write_file(page.name + ".svg", ink_svg(page));
 ///
-/// `ink_of` is in the library for following, and the functions that write files are in the library
-/// for drawing. Functions are pure and thread-safe.
+/// `ink_of` is in the library for following robots and pens. The functions that write files are in
+/// the library for drawing. All functions are pure and thread-safe.
 #pragma once
 
 #include <span>
@@ -40,13 +40,14 @@ struct InkPoint {
     double azimuth_rad = 0;
 };
 
-/// Points of the pen between touching and leaving the paper.
+/// Points of the path of the tip, from touching to leaving the paper.
 using InkStroke = std::vector<InkPoint>;
 
 struct InkPage {
     std::string name;  ///< empty if there are no sheets
-    /// Size of the page, and place of its top left corner in the coordinates of the points. Set by
-    /// the caller if the page is known. If the width is 0, the page is the area of the strokes.
+    /// Size of the page, and coordinates of its top left corner in the frame of the points. Set by
+    /// the caller if the page is known. If the width is 0, the bounds of the strokes are used as
+    /// the page.
     double width_mm = 0;
     double height_mm = 0;
     double left_mm = 0;
@@ -60,10 +61,10 @@ inline constexpr double kMaxInkGap_s = 0.1;
 /// Returns the strokes on each page, in the order of the first strokes. `samples` must be in the
 /// order of their times.
 ///
-/// The path is smoothed forwards and backwards (Rauch, Tung and Striebel 1965). The motion is an
-/// acceleration that is changed by white noise, whose strength is that with the maximum likelihood.
-/// PenContact detects whether the pen is on the paper; the smoothed heights then give the first and
-/// the last sample above the paper.
+/// The path is smoothed forwards and backwards (Rauch, Tung and Striebel 1965). The motion model is
+/// an acceleration driven by white noise, whose density maximises the likelihood of the samples.
+/// PenContact detects when the pen is lifted from the paper. Samples before and after this time
+/// also belong to the lift if their smoothed heights are above the paper.
 std::vector<InkPage> ink_of(std::span<const InkSample> samples);
 
 /// Returns the page as SVG, in mm, with the size of the page.

@@ -6,9 +6,9 @@
 ///     file.write(poses, time_ns, ros::to_cdr(pose));
 ///     file.finish();
 ///
-/// Messages are collected in chunks. Each chunk is written together with the index and the end of
-/// the file. The next chunk overwrites this index and end. If the program is killed, the file is
-/// therefore complete except for the messages that were not written yet.
+/// Messages are collected in chunks. After each chunk, the index and the end of the file are also
+/// written. The next chunk overwrites them. The file is therefore complete at any time, and if the
+/// program is killed, only the messages of the last chunk are lost.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +37,9 @@ struct McapQuality {
 
 /// Maximum size of a chunk.
 struct McapOptions {
-    /// A chunk ends with the message that exceeds one of these limits. With longer chunks, a killed
-    /// program loses more messages. Shorter chunks make the index larger.
+    /// Limits of a chunk. A chunk ends with the message that exceeds one of them. With longer
+    /// chunks, more messages are lost if the program is killed. With shorter chunks, the index is
+    /// larger.
     std::int64_t chunk_ns = 1'000'000'000;
     std::size_t chunk_bytes = 4 << 20;
 };

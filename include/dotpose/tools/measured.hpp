@@ -47,7 +47,8 @@ struct MeasuredFrame {
     double spacing_mm = kDefaultSpacing_mm;
 };
 
-/// Map from the found to the true places: true = shift + middle + scale * turned(found - middle).
+/// Map from the found places to the true places: true = shift + middle + scale * turned(found -
+/// middle).
 struct Similarity {
     double middle_x_mm = 0;  ///< mean of the found places
     double middle_y_mm = 0;
@@ -55,8 +56,8 @@ struct Similarity {
     double shift_y_mm = 0;
     double turn_rad = 0;  ///< positive in the direction of positive angles
     double scale = 1;
-    /// Mean of true minus found angles after the rotation by `turn_rad`. This offset is the
-    /// direction, in the image, of the independently measured heading.
+    /// Mean of true minus found angles after the rotation by `turn_rad`. It is the angle from the
+    /// image x axis to the heading that was measured independently.
     double angle_offset_rad = 0;
 };
 

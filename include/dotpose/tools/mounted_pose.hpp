@@ -1,4 +1,5 @@
-/// Mounted pose: the fix of a camera with a constant view of the paper, for example on a robot.
+/// Mounted pose: the fix of a camera with a constant view of the paper, for example a camera on a
+/// robot.
 ///
 ///     use_camera(camera, image.width_px, image.height_px, options);
 ///     locator.set_options(options);
@@ -21,15 +22,16 @@ DOTPOSE_BEGIN_EXPORT
 namespace dotpose {
 
 /// Refines a fix, given the camera file and the trace of the frame. The perspective and the scale
-/// of a mounted camera are constant, and the camera file contains them. Fits only these parameters:
+/// of a mounted camera are constant and known from the camera file. Only these parameters are
+/// fitted:
 /// - the place and the angle,
 /// - a scale factor, because the scale of a print differs from its nominal scale,
 /// - the displacement of the dots, because ink and blur change it,
 /// - the velocity, if the file contains the readout time of a rolling shutter.
 ///
-/// The result is more accurate than `fix`, especially far from the image centre. Theta becomes the
-/// heading of the robot. `print` is the print scale of the sheet of the fix, if it is known. The
-/// fix remains in nominal units of the pattern.
+/// The result is more accurate than `fix`, especially far from the image centre. Its theta is the
+/// heading of the robot. `print` is the print scale of the sheet, if it is known. The position of
+/// the result is in nominal units of the pattern, like that of `fix`.
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace,
                 const AxisScale& print = {});
 
@@ -45,8 +47,8 @@ struct ReadoutVelocity {
     std::array<std::array<double, 3>, 3> covariance{};
 };
 
-/// A fix refined by `with_camera`, and the velocity during the readout. Pose and velocity are
-/// fitted together to the dots. There is no velocity if there is no fix, or if the camera file has
+/// A fix refined by `with_camera`, and the velocity of the camera during the readout. Pose and
+/// velocity are fitted together. There is no velocity if there is no fix, or if the camera file has
 /// no `readout_ms` or no view.
 struct MovingFix {
     Fix fix;
@@ -61,18 +63,19 @@ struct MappedMovingFix {
     std::optional<ReadoutVelocity> velocity;
     MapUse map_use = MapUse::no_map;
 };
-/// Variant of `with_camera_and_velocity` that fits the dots at their places in a map of the print.
+/// Variant of `with_camera_and_velocity` that uses the places of the dots in a map of the print
+/// instead of their nominal places.
 MappedMovingFix with_camera_and_map(const Fix& fix, const Camera& camera, const Trace& trace,
                                     const AxisScale& print, const PrintMap& map);
 
-/// Returns the spacing of the pattern in nominal mm. This is the spacing computed from the fix and
-/// the view of the camera file, divided by the print scale of the sheet. Returns NaN if there is no
+/// Returns the spacing of the pattern in nominal mm: the spacing computed from the fix and from the
+/// view in the camera file, divided by the print scale of the sheet. Returns NaN if there is no
 /// fix, or if the camera file has no view.
 double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print = {});
 
-/// Maximum relative difference between the nominal and the measured spacing of a sheet. It exceeds
-/// the change of scale within the depth of field of a camera close to the paper. It is less than 3
-/// %, the change of scale if a printer driver shrinks the page to 97 %.
+/// Maximum relative difference between the nominal and the measured spacing of a sheet. It is
+/// larger than the changes of scale within the depth of field of a camera close to the paper. It is
+/// smaller than 3 %, the change of scale if a printer driver shrinks the page to 97 %.
 inline constexpr double kMaxSpacingDifference = 0.025;
 
 /// Returns true if a measured spacing contradicts the spacing of the sheet. Returns false if either

@@ -1,5 +1,5 @@
-/// Optics: computes how a camera with given parts images the pattern, for designing a device (paper
-/// III-A). The model is a thin lens that is focused on the paper.
+/// Optics: computes the image of the pattern in a camera with given parts, for the design of a
+/// device (paper III-A). The model is a thin lens that is focused on the paper.
 ///
 ///     const OpticsReport report = design_optics(paper_optics());
 ///     for (const OpticsAdvice& advice : report.advice) puts(advice.text.c_str());
@@ -34,8 +34,8 @@ struct Optics {
     double turn_rpm = 60;        ///< maximum turn rate about the image centre
     double largest_blur_px = 1;  ///< maximum permitted motion in the image during the exposure
 
-    /// Measured size of a pixel on the paper, and measured field of view after correction of
-    /// distortion. Replace the values of the thin-lens model.
+    /// Measured size of a pixel on the paper, and measured field of view after the correction of
+    /// distortion. If given, they replace the values of the thin-lens model.
     std::optional<double> mm_per_px;
     std::optional<double> field_width_mm;
     std::optional<double> field_height_mm;
@@ -51,7 +51,7 @@ struct OpticsAdvice {
     std::string text;       ///< one sentence: the fault and the remedy
 };
 
-/// Properties of the image of the pattern in the camera of a device.
+/// Properties of the image of the pattern.
 struct OpticsReport {
     double magnification = 0;
     double mm_per_px = 0;
@@ -63,19 +63,19 @@ struct OpticsReport {
     double field_angle_rad = 0;  ///< angle of view along the diagonal of the field
     double dots_in_view = 0;     ///< mean number of dots in the field
 
-    /// Diagonal of 8 x 8 dots in the worst case: sqrt(2) spacing (7 + 3/6). The dots have a
+    /// Maximum diagonal of a block of 8 x 8 dots: sqrt(2) spacing (7 + 3/6). The dots have a
     /// diameter of a sixth of the spacing and a displacement of a sixth in each direction.
     double block_diagonal_mm = 0;
     /// True if the shorter side of the field is at least `block_diagonal_mm` (paper III-A.3).
     bool block_fits = false;
-    /// Side of a square field that contains 8 x 8 dots at any position of the grid. The worst case
-    /// is a grid at 45 degrees: block_diagonal_mm + sqrt(2) spacing.
+    /// Minimum side of a square field of view that contains 8 x 8 dots for any position and angle
+    /// of the grid. The worst case is an angle of 45 degrees: block_diagonal_mm + sqrt(2) spacing.
     double block_anywhere_mm = 0;
     bool block_fits_anywhere = false;
 
-    double fastest_mm_s = 0;  ///< maximum speed at the given exposure, without a turn
-    /// Maximum turn rate on the spot at the given exposure. The blur is evaluated at the middle of
-    /// the image edge that is farthest from the image centre.
+    double fastest_mm_s = 0;  ///< maximum speed at the given exposure, without rotation
+    /// Maximum rate of rotation about the image centre at the given exposure. The blur is evaluated
+    /// at the middle of the image edge that is farthest from the image centre.
     double fastest_turn_rpm = 0;
     double longest_exposure_s = 0;  ///< maximum exposure at the given speed and turn rate
     double blur_px = 0;             ///< blur at the given speed, turn rate and exposure

@@ -11,8 +11,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Deviations above which a fix counts as wrong. Wrong fixes do not count as located, and are
-/// excluded from the error statistics.
+/// Deviations above which a fix is wrong. Wrong fixes do not count as located, and are excluded
+/// from the error statistics.
 inline constexpr double kWrongFrom_grid = 0.5;
 inline constexpr double kWrongFrom_deg = 2;
 

@@ -4,8 +4,9 @@
 ///     options.origin = {.x = 5000, .y = 0};
 ///     const dotpose::OverlayReport report = dotpose::overlay_pdf("in.pdf", "out.pdf", options);
 ///
-/// Pages keep their content and functions: text, links, forms, outlines, boxes, rotation. Each page
-/// with dots has its own region of the code plane, in each copy. Functions share no state.
+/// Pages keep their content and functions, such as text, links, forms, outlines, boxes and
+/// rotation. Each page with dots has its own region of the code plane. Copies of a page also have
+/// different regions. Functions share no state.
 #pragma once
 
 #include <filesystem>
@@ -25,8 +26,8 @@ namespace dotpose {
 /// One page with dots. The coordinate frame of its sheet begins at the top left corner of the
 /// displayed page.
 struct OverlaidPage {
-    /// Number of the page among the pages of all copies, from 1. The pages of the second copy
-    /// follow the pages of the first copy.
+    /// Number of the page among the pages of all copies, from 1. The pages of the second copy are
+    /// numbered after the pages of the first copy.
     int number = 0;
     Sheet sheet;
     int document_page = 0;  ///< number of the page in the document, from 1
@@ -72,7 +73,7 @@ struct OverlayReport {
     std::vector<OverlaidPage> pages;
     /// Messages for the user about content that may hide dots or was not converted.
     std::vector<std::string> warnings;
-    int card_pages = 0;  ///< number of pages of cards; 0 without cards
+    int card_pages = 0;  ///< number of pages with cards; 0 if there are no cards
 };
 
 /// Writes `in` with dots to `out`. `out` appears completely or not at all.

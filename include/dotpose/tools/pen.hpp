@@ -1,5 +1,5 @@
-/// Pen: place and height of the tip of a pen that contains the camera. The camera file must contain
-/// the focal length and the tip (`calibrate_pivot`).
+/// Pen: the place and height of the tip of a pen that contains the camera. The camera file must
+/// contain the focal length and the tip (see `calibrate_pivot`).
 ///
 ///     if (const auto pose = space_pose(fix, camera, image, trace)) {
 ///         const TipPose tip = tip_of(*pose, *camera.tip, camera.sigma);
@@ -24,9 +24,9 @@ namespace dotpose {
 struct TipPose {
     double x_mm = 0;
     double y_mm = 0;
-    double height_mm = 0;  ///< above the paper; 0 while the pen rests on the paper
-    /// Covariance of (x_mm, y_mm, height_mm). Contains the errors of the pose and of the tip in the
-    /// camera file.
+    double height_mm = 0;  ///< height above the paper; 0 while the pen rests on the paper
+    /// Covariance of (x_mm, y_mm, height_mm). Includes the errors of the pose, and of the tip in
+    /// the camera file.
     std::array<std::array<double, 3>, 3> covariance{};
 
     /// Returns the standard deviation of x (0), y (1) or the height (2).
@@ -40,15 +40,15 @@ TipPose tip_of(const SpacePose& pose, const PenTip& tip,
 /// Converts a tip from the pattern frame to the frame of a sheet.
 TipPose on_sheet(const TipPose& tip, const SheetEntry& entry);
 
-/// Detects whether a pen touches the paper, with hysteresis. A pen leaves the paper if its height
-/// exceeds `kLift_mm` by three standard deviations. It touches the paper if its height is below
-/// `kLift_mm`.
+/// Detects with hysteresis whether a pen touches the paper. A pen on the paper leaves it if the
+/// height exceeds `kLift_mm` by three standard deviations. A pen above the paper touches it if the
+/// height is below `kLift_mm`.
 class PenContact {
   public:
-    /// Unevenness of paper on a table.
+    /// Height above the nominal plane that uneven paper on a table may cause.
     static constexpr double kLift_mm = 0.05;
 
-    /// Takes the next pose. Returns true if the pen is on the paper.
+    /// Processes the next pose. Returns true if the pen is on the paper.
     bool take(double height_mm, double sigma_mm);
     bool take(const TipPose& tip) { return take(tip.height_mm, tip.sigma_mm(2)); }
 

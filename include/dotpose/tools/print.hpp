@@ -65,8 +65,8 @@ struct SheetOptions {
 Sheet make_sheet(const SheetOptions& options);
 
 /// Lays out `pages` sheets with adjacent regions that share no cell. Each region begins to the
-/// right of the previous one. At the end of the plane, a new line of regions begins below, at
-/// `options.origin.x`.
+/// right of the previous one. At the right end of the plane, the regions continue below, starting
+/// at `options.origin.x`.
 ///
 /// Throws BadArgument as `make_sheet` does, and if `pages` is not 1 to kMaxPages.
 std::vector<Sheet> make_sheets(const SheetOptions& options, int pages);
@@ -104,9 +104,8 @@ enum class DotDrawing {
 
 /// Options for `write_sheet`.
 struct PrintOptions {
-    /// Resolution in dots per inch of PNG, TIFF and PDF. It should be the resolution of the
-    /// printer. A PDF has no pixels, but its dots are drawn for this resolution. Not used for text
-    /// and SVG.
+    /// Resolution of PNG and TIFF in dots per inch, which should be the resolution of the printer.
+    /// A PDF has no pixels, but its dots are drawn for this resolution. Not used for text and SVG.
     double dpi = 600;
     DotDrawing drawing = DotDrawing::automatic;  ///< PDF only: method of drawing dots
     /// PDF only: true to add labels (name, page, region and spacing) and rulers in the margins
@@ -116,8 +115,8 @@ struct PrintOptions {
     std::string command;  ///< PDF only: label with the command that reprints the sheet
     /// PDF only: separate commands for each page. If not empty, they replace `command`.
     std::vector<std::string> page_commands;
-    int first_page = 1;  ///< PDF only: page number of the first sheet, for the labels
-    /// PDF only: total number of pages, for the labels. If 0, the labels show the number of sheets.
+    int first_page = 1;  ///< PDF only: page number of the first sheet in the labels
+    /// PDF only: total number of pages in the labels. 0 means the number of sheets.
     int page_count = 0;
     /// Called often, so it must be fast. Default: none.
     Progress progress;
@@ -152,8 +151,8 @@ struct InkRectangle {
     double height_mm = 0;
 };
 
-/// A page with several regions of the code and with other marks. Each sheet has the size of the
-/// page.
+/// A page that may contain several regions of the code, and other marks. Each sheet has the size of
+/// the page.
 struct PrintPage {
     double width_mm = 0;
     double height_mm = 0;

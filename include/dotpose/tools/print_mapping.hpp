@@ -1,4 +1,4 @@
-/// Print mapping: makes a map of a printed page from many frames, and corrects fixes by the map.
+/// Print mapping: makes a map of a printed page from many frames, and corrects fixes by a map.
 ///
 ///     PrintMapping mapping({.sheets = read_sheets("sheets.json"), .camera = camera});
 ///     for (const GreyImage& image : images) mapping.add(image.view());
@@ -35,7 +35,8 @@ struct PrintMappingOptions {
     /// Lens and view of the camera. Without a camera file, the lens is assumed to have no
     /// distortion, and the view is taken from the fixes.
     std::optional<Camera> camera;
-    /// Earlier map of the same pages, which the frames update. Pages without frames are kept.
+    /// Earlier map of the same pages, which is updated by the frames. Pages without frames remain
+    /// as they are.
     PrintMap earlier;
 };
 
@@ -49,18 +50,21 @@ struct MappedPage {
     std::size_t outliers = 0;      ///< number of measured dots that were not used
     double noise_mm = 0;           ///< standard deviation of a measured dot, per axis
     double jitter_mm = 0;          ///< standard deviation of the print jitter, per axis
-    double slow_mm = 0;            ///< rms of the slow distortion of the page, per axis
+    double slow_mm = 0;            ///< rms of the smooth, low-frequency distortion of the page, per
+                                   ///< axis
     bool is_rigid = true;          ///< true if height and tilt of the camera were constant
-    int iterations = 0;            ///< iterations of the solver in its last round
+    int iterations = 0;            ///< number of iterations in the last round of the solver
 };
 
 struct PrintMapResult {
     PrintMap map;
-    std::vector<MappedPage> pages;  ///< for the pages of the map with frames, in the same order
+    std::vector<MappedPage> pages;  ///< statistics of the pages that the frames show, in the order
+                                    ///< of the map
     std::size_t frames = 0;         ///< number of frames given
 };
 
-/// Collects the dots of frames, and computes the map. Uses 12 bytes for each dot in each frame.
+/// Collects the dots of frames, and computes the map. Needs 12 bytes of memory for each dot in each
+/// frame.
 class PrintMapping {
   public:
     /// Throws BadArgument if there are no sheets, or if a sheet or the camera is not valid. Throws
@@ -70,14 +74,14 @@ class PrintMapping {
     PrintMapping(PrintMapping&&) noexcept;
     PrintMapping& operator=(PrintMapping&&) noexcept;
 
-    /// Locates a frame. Returns true if it is on one of the sheets, and therefore used. Throws
-    /// BadArgument if the image does not have the size in the camera file.
+    /// Locates a frame. Returns true if the frame is on one of the sheets, so that it is used.
+    /// Throws BadArgument if the image does not have the size in the camera file.
     bool add(const ImageView& image);
 
-    /// Minimum number of frames of a page.
+    /// Minimum number of frames that must show a page.
     static constexpr std::size_t kMinFrames = 10;
 
-    /// Computes the map. `progress` is called with the share of the work that is done. If it
+    /// Computes the map. `progress` is called with the completed fraction of the work. If it
     /// returns false, the work ends with an Error. Throws Error if no page was seen in kMinFrames
     /// frames, or if the frames contradict the earlier map.
     PrintMapResult solve(const std::function<bool(double share)>& progress = {});

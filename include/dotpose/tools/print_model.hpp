@@ -8,9 +8,9 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// A model (not a measurement) of the errors of a printer over a page: a smooth, low-frequency
-/// shift. By default, the maximum errors in the area are those of Table III of the paper, rounded
-/// down to 0.01 mm: 0.15 mm along x, and 0.27 mm along y, the direction of paper feed.
+/// A model of the errors of a printer over a page: a smooth, low-frequency shift. It is not a
+/// measurement. By default, the maximum errors in the area are those of Table III of the paper,
+/// rounded down to 0.01 mm: 0.15 mm along x, and 0.27 mm along y, the direction of paper feed.
 class PrintModel {
   public:
     /// Side of the square area to which the maximum errors apply.

@@ -20,9 +20,10 @@ namespace dotpose {
 /// Options for the simulated experiment.
 struct ProtocolOptions {
     int samples = 20;  ///< number of samples at each position and angle
-    /// Light, blur and noise of the device. Their levels are drawn once for all frames. The device
-    /// is at rest and not tilted, and the page has no dirt or graphics. The experiment determines
-    /// the poses and the errors of the printer over the page.
+    /// Conditions of the experiment. Light, blur and noise are drawn once and are the same for all
+    /// frames. The other conditions are ignored, because the device is at rest and not tilted, and
+    /// the page has no dirt or graphics. The experiment determines the poses and the printing
+    /// errors.
     Setup setup;
     DeviceOptions locate;
     int threads = 0;
@@ -31,9 +32,9 @@ struct ProtocolOptions {
 
 /// Error of one coordinate while the device is at rest.
 struct Spread {
-    double bias = 0;   ///< mean of found minus true values; the paper calls its absolute value
-                       ///< accuracy
-    double sigma = 0;  ///< standard deviation; the paper calls it precision
+    double bias = 0;   ///< mean of found minus true values; the paper calls its magnitude
+                       ///< "accuracy"
+    double sigma = 0;  ///< standard deviation; the paper calls it "precision"
 };
 
 /// The results at one position or angle of the device.

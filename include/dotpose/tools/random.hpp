@@ -1,5 +1,5 @@
-/// Random numbers that are the same on every machine. The distributions of `<random>` depend on the
-/// standard library. For simulation only, not for secrets.
+/// Random numbers that are the same on every machine. The distributions of `<random>` are not used,
+/// because their numbers depend on the standard library. For simulation only, not for secrets.
 #pragma once
 
 #include <cstdint>
@@ -23,10 +23,10 @@ constexpr std::uint64_t scramble(std::uint64_t bits) noexcept {
 /// generator.
 class Rng {
   public:
-    /// Starts the stream of numbers that belongs to a seed.
+    /// Starts the sequence of numbers of a seed.
     explicit constexpr Rng(std::uint64_t seed) noexcept : state_(seed) {}
 
-    /// Starts an independent stream for item `index` of a run.
+    /// Starts an independent sequence for item `index` of a run.
     constexpr Rng(std::uint64_t seed, std::uint64_t index) noexcept
         : state_(scramble(scramble(seed + kStep) + kStep * (index + 1))) {}
 
@@ -62,9 +62,8 @@ class Rng {
     }
 
   private:
-    /// Returns the number of set bits among 128 bits. Counts in parallel fields of 2, 4 and 8 bits.
-    /// Does not use std::popcount, which is a slow function call on processors that may lack the
-    /// instruction.
+    /// Returns the number of set bits among 128 bits. Does not use std::popcount, which is a slow
+    /// function call on processors that may lack the instruction.
     static constexpr int ones_in(std::uint64_t a, std::uint64_t b) noexcept {
         constexpr std::uint64_t kOdd2 = 0x3333333333333333u;
         constexpr std::uint64_t kOdd4 = 0x0F0F0F0F0F0F0F0Fu;
@@ -72,7 +71,7 @@ class Rng {
             x -= (x >> 1) & 0x5555555555555555u;
             return (x & kOdd2) + ((x >> 2) & kOdd2);
         };
-        const std::uint64_t fours = in_fours(a) + in_fours(b);  // at most 8 in each field
+        const std::uint64_t fours = in_fours(a) + in_fours(b);  // each field is at most 8
         const std::uint64_t eights = (fours & kOdd4) + ((fours >> 4) & kOdd4);
         return static_cast<int>((eights * 0x0101010101010101u) >> 56);
     }

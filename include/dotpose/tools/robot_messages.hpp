@@ -35,8 +35,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::ros {
 
-/// Variance, in m^2 or rad^2, of unobserved coordinates (height, roll and pitch), and of poses
-/// without a known covariance.
+/// Variance, in m^2 or rad^2, of coordinates that are not observed (height, roll and pitch), and of
+/// poses without a known covariance.
 inline constexpr double kUnobserved = 1e6;
 
 /// A pose in a plane, y up.
@@ -72,7 +72,8 @@ struct RobotUpdate {
     std::optional<PlanarMotion> motion;  ///< none while the robot is lost
     std::uint32_t plane = 0;             ///< ID of the plane; poses in different planes are
                                          ///< unrelated
-    bool is_found_again = false;  ///< true if the motion does not continue the previous motion
+    bool is_found_again = false;  ///< true if the motion is not a continuation of the previous
+                                  ///< motion
     std::string state;            ///< "lost", "moving" or "stationary"
     std::string problem;          ///< reason why there is no fix; empty if there is one
     std::vector<KeyValue> facts;  ///< additional values of the frame, for the diagnostics
@@ -89,10 +90,10 @@ struct RobotFrames {
     std::string camera = "camera_optical";
 };
 
-/// Returns the frames with `prefix` ("anna/") before the names of the frames of the robot: `odom`,
-/// `base` and `camera`. Robots with different prefixes share one tree of transforms, with one
-/// `map`. Throws BadArgument if ROS does not allow the prefix: it begins with a slash, or contains
-/// a space or a control character.
+/// Returns the frames with `prefix`, for example "anna/", before the names of the frames of the
+/// robot: `odom`, `base` and `camera`. Robots with different prefixes share one tree of transforms,
+/// with one `map`. Throws BadArgument if ROS does not allow the prefix, because it begins with a
+/// slash or contains a space or a control character.
 RobotFrames with_prefix(const std::string& prefix, RobotFrames frames = {});
 
 /// Messages of one frame. `odometry` and `tf` are empty while the robot is lost.
@@ -124,10 +125,10 @@ class RobotMessenger {
     std::optional<std::uint32_t> plane_;  ///< none before the first pose
 };
 
-/// Returns the mount of the camera: the pose of the optical frame in `base_link`. The optical frame
-/// is above the point under the image centre, with z towards the paper, and x and y along the axes
-/// of the image. The height is 0 if the camera file has no focal length. Returns none if the camera
-/// file has no view of the paper.
+/// Returns the mount of the camera: the pose of the optical frame in `base_link`. The origin of the
+/// optical frame is above the point under the image centre. z points to the paper, and x and y are
+/// along the axes of the image. The height is 0 if the camera file has no focal length. Returns
+/// none if the camera file has no view of the paper.
 std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFrames& frames = {});
 
 }  // namespace dotpose::ros

@@ -2,7 +2,7 @@
 ///
 /// A frame is rendered from the geometry of the printed page, in this order: paper with texture,
 /// ink, light, blur, motion, integration over the area of each pixel, noise, clipping, rounding.
-/// The centroid of a dot is exact to better than 0.003 px (tests/unit/simulate).
+/// The centroid of a dot is accurate to 0.003 px (tested in tests/unit/simulate).
 ///
 /// Usage: fill a `Setup`, then render frame i:
 ///
@@ -43,7 +43,8 @@ struct Vec2 {
     double y = 0;
 };
 
-/// Size and optics of the simulated camera. The defaults describe the paper's device (III-A).
+/// Size and optics of the simulated camera. The defaults describe the device of the paper (section
+/// III-A).
 struct CameraModel {
     int width_px = 188;   ///< 1 to 16384
     int height_px = 120;  ///< 1 to 16384
@@ -55,14 +56,15 @@ struct CameraModel {
     double k = 0;
     /// Distance of the projection centre from the pose point, relevant only with tilt. Above 0.
     double working_distance_mm = 16;
-    /// Motion of the scene in the undistorted image while a rolling shutter reads the rows. At most
-    /// 75 % of the side of the image along each axis. The pose applies to the time of the middle
-    /// row. (0, 0) for a global shutter.
+    /// Motion of the scene in the undistorted image while a rolling shutter reads the rows. The
+    /// limit is 75 % of the side of the image along each axis. The pose applies to the time of the
+    /// middle row. (0, 0) for a global shutter.
     Vec2 readout_px;
     /// Rotation of the scene about the image centre while a rolling shutter reads the rows, in
     /// addition to the motion. The direction is from the image x axis towards the image y axis.
-    /// Both rates are constant, as for a camera on a robot that drives in a circle. The scene must
-    /// not move down faster than the rows are read: the limit is about 80 degrees in a 4:3 image.
+    /// Both rates are constant, as for a camera on a robot that drives in a circle. No part of the
+    /// scene may move down faster than the rows are read, which limits the rotation to about 80
+    /// degrees in a 4:3 image.
     double readout_turn_rad = 0;
 };
 
@@ -95,7 +97,7 @@ struct Imperfections {
     /// displacement has its own ink. The darkest ink has `ink_reflectance`. The contrasts of the
     /// four inks are evenly spaced.
     double palest_ink = 1;
-    double vignetting = 0;  ///< loss of light in the image corners, growing with r^2
+    double vignetting = 0;  ///< relative loss of light in the image corners; it grows with r^2
     /// Linear change of light from one side to the opposite side, relative to the light at the
     /// centre. 0 to 2.
     double fall = 0;
@@ -116,8 +118,8 @@ struct Imperfections {
     static constexpr double kGrain_px = 3;  ///< size of the texture's grains
     double tilt_x_rad = 0;  ///< tilt that `draw_shot` adds to the pose; `render` ignores it
     double tilt_y_rad = 0;
-    /// Number of sub-pixels per pixel along each axis, at most 8. 0 selects a number for which the
-    /// position error of every dot is at most 0.003 px. Larger numbers take longer.
+    /// Number of sub-pixels per pixel along each axis, at most 8. With 0, the number is chosen so
+    /// that the position error of every dot is at most 0.003 px. Larger numbers take longer.
     int sub_pixels = 0;
 };
 
@@ -134,7 +136,7 @@ inline constexpr std::array kPresets = {Preset::clean, Preset::nominal, Preset::
 /// Returns the identifier, such as "nominal".
 const char* name(Preset preset);
 
-/// Draws each imperfection uniformly from the preset's range.
+/// Draws each imperfection uniformly from its range in the preset.
 Imperfections draw_imperfections(Preset preset, Rng& rng);
 
 /// A rectangle on a page, rotated by any angle.
@@ -152,28 +154,28 @@ struct PageArea {
 /// A printed page: a pattern, its printing errors, and its extent.
 struct Page {
     Pattern pattern;
-    /// Seed of the printing errors and of the texture of the paper. The seed, the section and the
-    /// cell determine the jitter, the ink and the absence of a dot. These properties are therefore
-    /// the same in every frame.
+    /// Seed of the printing errors and of the texture of the paper. The jitter, the ink and the
+    /// absence of a dot depend only on the seed, the section and the cell, so they are the same in
+    /// every frame.
     std::uint64_t seed = 1;
     /// Printed intersections: `columns` x `rows`, starting at `origin`. The whole plane if
     /// `columns` is 0.
     Cell origin;
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
-    /// Printed length over nominal length, above 0. The position of the pose and `displacement_mm`
-    /// are in nominal units. Offsets and theta are measured on the paper.
+    /// Ratio of the printed to the nominal length, above 0. The pose and `displacement_mm` are in
+    /// nominal units. Offsets and theta are measured on the paper.
     AxisScale print_scale;
     /// Areas with printed dots: a dot is printed if its intersection is in one of the areas. If
     /// empty, all dots are printed.
     std::vector<PageArea> areas;
     /// Extent of the paper (none if unlimited), and reflectance of the surrounding table relative
-    /// to paper.
+    /// to the paper.
     std::optional<PageArea> paper;
     double table_reflectance = 0.2;
-    /// Returns the offset in mm of a dot from its intended place, due to printing errors or bent
-    /// paper. The argument is the intersection of the dot, in grid units. Empty if no dots are
-    /// shifted. Called from several threads.
+    /// Optional function that returns the offset in mm of a dot from its intended place, due to
+    /// printing errors or bent paper. The argument is the intersection of the dot, in grid units.
+    /// Called from several threads.
     std::function<Vec2(Vec2 place_grid)> shift_mm;
 };
 
@@ -195,12 +197,12 @@ class Projection {
     void offsets_from_row(Vec2 first_pixel, std::span<Vec2> offsets_mm) const;
 
   private:
-    /// Returns where a scene point is in the undistorted image at `time`. `undistorted` is the
-    /// image point of the same scene point at the time of the middle row. Points are in px from the
-    /// image centre. Time is in readouts, and 0 at the middle row.
+    /// Returns the image point at `time` of the scene point that is at `undistorted` at the time of
+    /// the middle row. Points are in px from the image centre of the undistorted image. `time` is
+    /// in units of the readout time, from the middle row.
     Vec2 moved(Vec2 undistorted, double time) const;
-    /// Returns the motion of the pose point in the undistorted image from time 0 to `time`. The
-    /// path is an arc.
+    /// Returns the motion of the pose point in the undistorted image, along an arc, from the middle
+    /// row to `time`.
     Vec2 way_at(double time) const;
 
     Vec2 centre_px_;
@@ -224,10 +226,11 @@ GreyImage render(const Page& page, const CameraModel& camera, const CameraPose& 
 GreyImage render(const Pattern& pattern, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
-/// A page given as an image, for example a PDF rendered at 1200 dpi. The darkness is interpolated
-/// linearly between pixels.
+/// A page given as an image, for example a PDF rendered at 1200 dpi. Interpolated linearly between
+/// pixels.
 struct PageImage {
-    ImageView image;  ///< 255 is bare paper, 0 is solid ink; surrounded by unlimited paper
+    ImageView image;  ///< 255 is bare paper, and 0 is solid ink; the page is surrounded by
+                      ///< unlimited paper
     double mm_per_px = 25.4 / 1200;
     /// Point under the image centre, relative to the upper left corner of the image: x right, y
     /// down.
@@ -257,8 +260,8 @@ struct Shot {
     std::uint64_t seed = 0;
 };
 
-/// Draws the random parameters of frame `index` of a run: a uniform angle, a random position such
-/// that the whole frame is on the plane, and imperfections from the preset.
+/// Draws the random parameters of frame `index` of a run: an angle, a position at which the whole
+/// frame is on the plane, and imperfections from the preset.
 Shot draw_shot(const Setup& setup, std::uint64_t index);
 
 /// A view that is only partly covered by the pattern.
@@ -284,8 +287,8 @@ void cover_partly(Shot& shot, const PartialView& view);
 /// Renders a shot.
 GreyImage render(const Shot& shot);
 
-/// Frames without a unique valid position, which a locator must refuse. At a seam, however, the
-/// position and section of either side count as correct.
+/// Frames without a unique valid position, which a locator must refuse. At a seam between two
+/// sections, however, the position and section of either side count as correct.
 enum class Scene : std::uint8_t {
     black,
     white,

@@ -18,12 +18,13 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Pose of a pen. The angles are those of `CameraLean`: the camera looks straight at the paper, is
-/// turned about its optical axis, and then leaned over by the tilt in the direction of the azimuth.
+/// Pose of a pen. The angles are those of `CameraLean`: the camera first looks straight at the
+/// paper, is then turned about its optical axis, and is finally leaned over by the tilt in the
+/// direction of the azimuth.
 struct PenPose {
     double x_mm = 0;  ///< place of the tip in the pattern frame
     double y_mm = 0;
-    double height_mm = 0;  ///< of the tip above the paper
+    double height_mm = 0;  ///< height of the tip above the paper
     double tilt_rad = 0;
     double azimuth_rad = 0;
     double turn_rad = 0;
@@ -50,8 +51,8 @@ struct PenSample {
 };
 
 /// Returns a path of random strokes with loops, written from left to right. Between the strokes,
-/// the pen is lifted by 1 to 3 mm. Strokes begin and end at rest along the paper. The pen leaves
-/// and reaches the paper with a velocity. The tilt changes slowly between 20 and 40 degrees.
+/// the pen is lifted by 1 to 3 mm. At both ends of a stroke, the pen does not move along the paper,
+/// but it has a vertical velocity. The tilt changes slowly between 20 and 40 degrees.
 std::vector<PenSample> simulate_handwriting(const Handwriting& options);
 
 }  // namespace dotpose

@@ -49,10 +49,10 @@ struct CameraInSpace {
     Quaternion rotation;  ///< rotates vectors of the camera frame into the frame of the pose
 };
 
-/// A rotation as three angles in the pattern or sheet frame. The camera looks straight at the
-/// paper, is turned about its optical axis, and then leaned over by the tilt in the direction of
-/// the azimuth. These are the angles of a pen in the W3C's Pointer Events. The tilt is 90 degrees
-/// minus the altitude.
+/// A rotation as three angles in the pattern or sheet frame: the camera first looks straight at the
+/// paper, is then turned about its optical axis, and is finally leaned over by the tilt in the
+/// direction of the azimuth. These are the angles of a pen in the W3C's Pointer Events. The tilt is
+/// 90 degrees minus the altitude.
 struct CameraLean {
     /// Angle between the optical axis and the normal of the paper, in [0, pi].
     double tilt_rad = 0;
@@ -68,13 +68,12 @@ CameraLean lean_of(const Quaternion& rotation);
 /// Covariance of a pose: position, then rotation.
 using SpaceCovariance = std::array<std::array<double, 6>, 6>;
 
-/// The second local maximum of the likelihood, if the view of the plane has two. Its tilt is
-/// approximately the first tilt, mirrored about the line of sight.
+/// Second pose that explains the view of a plane: the second local maximum of the likelihood. Its
+/// tilt is approximately the tilt of the first pose, mirrored about the line of sight.
 struct SecondPose {
     CameraInSpace camera;
-    /// log2 of a likelihood ratio: the likelihood of the dots with this pose, divided by their
-    /// likelihood with the first pose. Assumes that the errors of the dots are independent. At most
-    /// 0.
+    /// log2 of the likelihood of the dots with this pose, divided by their likelihood with the
+    /// first pose. Assumes that the errors of the dots are independent. At most 0.
     double odds_log2 = 0;
 };
 
@@ -90,8 +89,8 @@ struct SpacePose {
     /// The second pose that explains the view, if there is one. It may be improbable.
     std::optional<SecondPose> second;
 
-    /// Maximum odds of an excluded second pose, as log2. The limit is low because the errors of
-    /// dots on bent paper are not independent.
+    /// Maximum odds (as log2) of a second pose that the dots exclude. The limit is low because the
+    /// errors of dots on bent paper are not independent.
     static constexpr double kMaxOdds_log2 = -30;
     /// Returns true if the dots do not exclude the second pose.
     bool is_ambiguous() const { return second && second->odds_log2 > kMaxOdds_log2; }
@@ -104,9 +103,9 @@ void require_focal_length(const Camera& camera);
 /// the trace of `fix` give a first pose, which predicts all dots in view. All dots are then
 /// measured again, including dots at the image border and far from a tilted camera.
 ///
-/// The errors of the dots are print errors, which a tilted view foreshortens, and errors of their
-/// centres in the image. Both variances are estimated from the residuals. Dots with residuals above
-/// four standard deviations are not used.
+/// The errors of the dots consist of print errors, which are foreshortened in a tilted view, and of
+/// errors of the dot centres in the image. Both variances are estimated from the residuals. Dots
+/// with residuals above four standard deviations are not used.
 ///
 /// `print` is the print scale of the sheet. Returns none if there is no fix, if the spacing is
 /// unknown (`Fix::spacing_nm` is 0), or if there are fewer than 12 dots. Throws BadArgument as

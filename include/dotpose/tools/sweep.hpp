@@ -24,7 +24,8 @@ enum class SweepKind : std::uint8_t {
     missing,    ///< dots not printed, %
     tilt,       ///< tilt of the camera about a random axis in the image, degrees
     spacing,    ///< grid spacing in the image, px
-    occlusion,  ///< fraction of the image behind a straight dark edge from a random side, %
+    occlusion,  ///< percentage of the image that a dark area with a straight edge covers from a
+                ///< random side
 };
 /// All values of SweepKind, for tables.
 inline constexpr std::array kSweepKinds = {SweepKind::noise,   SweepKind::blur,
@@ -33,16 +34,17 @@ inline constexpr std::array kSweepKinds = {SweepKind::noise,   SweepKind::blur,
 /// Returns the identifier, such as "occlusion".
 const char* name(SweepKind kind);
 
-/// Options for a sweep. The options apply to all values of the condition.
+/// Options for a sweep.
 struct SweepOptions {
     Setup setup;  ///< setup of all frames; only the varied condition is replaced
-    /// Number of frames per value. Frames with the same index differ only in the varied condition.
+    /// Number of frames per value. Frames with the same index differ only in the condition that is
+    /// varied.
     int frames_per_value = 200;
     /// Options for `locate`. Both decoders are run, so `decoder` is ignored.
     DeviceOptions locate;
     int threads = 0;
-    /// Called with the progress. If it returns false, the sweep ends with the values completed so
-    /// far.
+    /// Called with the progress. If it returns false, the sweep ends, and its result contains the
+    /// values completed so far.
     Progress progress;
 };
 

@@ -6,9 +6,9 @@
 ///     x = kTestPageCell + kTestPatchCells * (spacing in 1/1200 inch)
 ///     y = kTestPageCell + kTestPatchCells * (diameter of a dot in 1/1200 inch)
 ///
-/// The position that `locate` reads anywhere in a patch therefore identifies the patch. Cells from
-/// kTestPageCell, on both axes, are reserved for test pages and must not be used for sheets. The
-/// displacement is a sixth of the spacing.
+/// The position that `locate` reads anywhere in a patch therefore identifies the patch. Sheets must
+/// not use cells from kTestPageCell on both axes, because these cells are reserved for test pages.
+/// The displacement is a sixth of the spacing.
 #pragma once
 
 #include <optional>
@@ -36,15 +36,15 @@ struct TestPageOptions {
     CodeVariant code = CodeVariant::anoto;
     Paper paper;
     double margin_mm = 10;
-    /// Spacings of the columns and dot diameters of the rows of the page, in 1/1200 inch. Each is 1
-    /// to 80.
+    /// Spacings of the columns of patches, and dot diameters of the rows of patches, in 1/1200
+    /// inch. Each is 1 to 80.
     std::vector<int> spacings = {18, 24, 30, 36};  ///< 0.381, 0.508, 0.635, 0.762 mm
     std::vector<int> dots = {2, 3, 4, 6, 8};       ///< 0.042, 0.064, 0.085, 0.127, 0.169 mm
 };
 
-/// Lays out the patches, with a label "spacing/dot" in mm above each patch. Combinations in which
-/// dots would touch are omitted. Throws BadArgument as `make_sheet` does, for settings outside 1 to
-/// 80, and if there are no spacings or no dot diameters.
+/// Lays out the patches, with a label "spacing/dot" in mm above each patch. Omits combinations in
+/// which dots would touch. Throws BadArgument as `make_sheet` does, and if a setting is not in 1 to
+/// 80, or if there are no spacings or no dot diameters.
 PrintPage make_test_page(const TestPageOptions& options);
 
 /// Returns the settings of the patch whose first cell is nearest to `cell` on both axes, even if

@@ -51,15 +51,16 @@ struct TruthRow {
 };
 
 /// Reads a truth.csv of `dotpose simulate`, or poses measured on a sheet or in the world. Columns
-/// are identified by name and may be in any order. Required: file, and one of
+/// are identified by name and may be in any order. The column `file` is required, and one of these
+/// groups of columns:
 ///   - x_grid, y_grid or x_mm, y_mm (grid units take precedence), and theta_deg;
 ///   - x_sheet_mm, y_sheet_mm; optional theta_sheet_deg, sheet;
-///   - x_m, y_m (they take precedence over places on sheets); optional yaw_rad or yaw_deg (yaw_rad
-///     takes precedence), sheet.
-/// Optional columns: section_u, section_v, code, spacing_mm. A row with an empty pose is a frame
-/// without a pose. `spacing_mm`, if given, replaces the spacings in the file. Throws Error if the
-/// file cannot be read, contains no frames, or has invalid content. The message contains the name
-/// of the file and, for an invalid line, its number.
+///   - x_m, y_m (they take precedence over places on sheets); optional sheet, and yaw_rad or
+///     yaw_deg (yaw_rad takes precedence).
+/// Other optional columns are section_u, section_v, code and spacing_mm. A row with an empty pose
+/// is a frame without a pose. `spacing_mm`, if given, replaces the spacings in the file. Throws
+/// Error if the file cannot be read, contains no frames, or has invalid content. The message
+/// contains the name of the file and, for an invalid line, its number.
 std::vector<TruthRow> read_truth(const std::filesystem::path& path,
                                  std::optional<double> spacing_mm = std::nullopt);
 

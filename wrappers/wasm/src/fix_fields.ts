@@ -68,7 +68,7 @@ export interface FixFields {
     bit_errors: number;
     /** Root mean square distance of the dots from their fitted places, per axis, in px. */
     residual_px: number;
-    /** Places that counted as possible in p_wrong. */
+    /** Places that were considered possible when p_wrong was computed. */
     prior: Prior;
     /**
      * Number of frames whose bits determined the position; more than 1 only if the motion between the frames was
