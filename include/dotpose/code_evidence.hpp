@@ -74,8 +74,8 @@ class CodeEvidence {
 
 /// Result of locating one frame, with the evidence for each code variant.
 struct CodeReading {
-    /// If the status is ambiguous_code, two places explain the frame, and the pose and the counts
-    /// refer to one of them.
+    /// The fix. If its status is ambiguous_code, two places explain the frame, and the pose and the
+    /// counts refer to one of them.
     Fix fix;
     CodeVariant code = CodeVariant::anoto;  ///< code variant of `fix`
     CodeEvidence evidence;                  ///< evidence including this frame

@@ -236,7 +236,8 @@ class Tracker {
     /// consistent with it.
     ///
     /// Returns Prediction::like(newest) if no prediction is possible:
-    /// - `seen` is not the newest sighting of a motion estimate,
+    /// - `seen` is neither the newest sighting of the track nor the newest of the sightings that
+    ///   contradict the track,
     /// - the robot will count as lost at `time_us`,
     /// - `time_us` is not after the time of `seen`,
     /// - the spacing is not known, or
@@ -267,8 +268,8 @@ class Tracker {
 
     TrackOptions options_;
     Track track_;
-    bool was_seen_ = false;       ///< true if any sighting has been accepted
-    bool has_frame_ = false;      ///< true if there has been a frame
+    bool was_seen_ = false;  ///< true if any sighting has been accepted
+    bool has_frame_ = false;
     bool is_y_up_ = false;        ///< true if y points up in the newest sighting's plane
     std::int64_t newest_us_ = 0;  ///< time of the newest frame
     /// State after the newest accepted sighting or measured motion.

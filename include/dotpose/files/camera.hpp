@@ -81,7 +81,8 @@ struct Camera {
     /// distortion.
     double k_per_px2 = 0;
     PixelPoint centre_px;
-    /// Map to the paper. None if the camera is hand-held, or if the map is not known.
+    /// View of the paper: the map from the undistorted image to the paper. None if the camera is
+    /// hand-held, or if the view is not known.
     std::optional<PaperScale> paper;
     std::optional<double> focal_px;  ///< focal length; none if the calibration did not determine it
     /// Pinhole model, if pixels are not square or `centre_px` is not on the optical axis. The files

@@ -130,7 +130,7 @@ struct SpinStation {
 /// not reliable.
 enum class MountVerdict {
     good,
-    drifted,  ///< the robot drifted while it turned, by more than noise explains
+    drifted,  ///< the robot drifted while it turned, by more than noise can explain
 };
 /// Returns the identifier, such as "drifted".
 const char* name(MountVerdict verdict);
@@ -167,7 +167,7 @@ SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
                                const std::optional<Camera>& camera,
                                const CalibrateOptions& options);
 
-/// Direction of the camera on the robot, computed from the frames of a straight forward drive. The
+/// Direction of the camera on the robot, computed from the frames of a straight drive forwards. The
 /// frames must be in the order in which they were taken.
 struct DriveCalibration {
     Camera camera;  ///< the given camera with `theta_offset_rad` set
@@ -196,8 +196,8 @@ struct PivotCalibration {
     int frames = 0;
     int located = 0;
     int used = 0;  ///< number of frames in which the tip is at rest
-    /// Rms angle of the rotations about the axis with the smallest rotations. A larger angle gives
-    /// a more accurate tip.
+    /// Rms angle of the rotations about the axis about which the pen rotated least. A larger angle
+    /// gives a more accurate tip.
     double pivot_rad = 0;
     double min_tilt_rad = 0;
     double max_tilt_rad = 0;
@@ -269,7 +269,7 @@ struct ScaleReference {
         /// The scale of the camera, in mm per px, is assumed to be true. Requires a camera that was
         /// calibrated with the true spacing.
         camera,
-        width  ///< the true width of a sheet was measured
+        width  ///< the width of one sheet was measured
     };
     By by = By::fixed_sheet;
     std::string sheet;    ///< name of the sheet whose width was measured
@@ -321,7 +321,7 @@ struct Stitching {
     std::vector<StitchedSheet> stitched;
     std::vector<Seam> seams;
     std::vector<SeamSighting> sightings;  ///< sightings of pairs of connected sheets
-    /// Names of sheets that are not connected to the fixed sheet.
+    /// Names of the sheets that no chain of frames connects to the fixed sheet.
     std::vector<std::string> unconnected;
     int frames = 0;
     int used = 0;              ///< number of frames that show two sheets

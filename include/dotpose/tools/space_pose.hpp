@@ -99,9 +99,10 @@ struct SpacePose {
 /// Throws BadArgument unless the camera file contains the focal length.
 void require_focal_length(const Camera& camera);
 
-/// Fits position and rotation of `camera` to all dots of `image` by maximum likelihood. The dots in
-/// the trace of `fix` give a first pose, which predicts all dots in view. All dots are then
-/// measured again, including dots at the image border and far from a tilted camera.
+/// Fits position and rotation of `camera` to all dots of `image` by maximum likelihood. A first
+/// pose is fitted to the dots in the trace of `fix`. It predicts the places of all dots in view,
+/// including dots at the image border and far from a tilted camera. These dots are measured again
+/// for the final pose.
 ///
 /// The errors of the dots consist of print errors, which are foreshortened in a tilted view, and of
 /// errors of the dot centres in the image. Both variances are estimated from the residuals. Dots
@@ -130,7 +131,8 @@ struct CameraInWorld {
 };
 
 /// Converts a pose in the sheet frame, with the covariance of SpacePose, to the world. `page` is
-/// the pose of the page. A page at (0, 0) with yaw 0 gives the sheet frame with y up.
+/// the pose of the page. If it is at (0, 0) with yaw 0, the result is the pose in the sheet frame,
+/// in metres and with y up.
 CameraInWorld in_world(const CameraInSpace& camera, const SpaceCovariance& covariance,
                        const WorldPose& page);
 

@@ -6,9 +6,9 @@
 ///     x = kTestPageCell + kTestPatchCells * (spacing in 1/1200 inch)
 ///     y = kTestPageCell + kTestPatchCells * (diameter of a dot in 1/1200 inch)
 ///
-/// The position that `locate` reads anywhere in a patch therefore identifies the patch. Sheets must
-/// not use cells from kTestPageCell on both axes, because these cells are reserved for test pages.
-/// The displacement is a sixth of the spacing.
+/// The position that `locate` reads anywhere in a patch therefore identifies the patch. Cells with
+/// x and y from kTestPageCell are reserved for test pages and must not be used for sheets. The
+/// displacement of the dots is a sixth of the spacing.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// First cell, on both axes, of the region reserved for test pages.
+/// Minimum x and y of the cells that are reserved for test pages.
 inline constexpr std::uint32_t kTestPageCell = 410'000'000;
 /// Distance in cells between the patches of adjacent settings. A patch has at most half this number
 /// of cells per axis.
