@@ -53,7 +53,7 @@ BitBlock turned(int quarters, const BitBlock& block);
 /// rotated block.
 FloatPlane turned(int quarters, const FloatPlane& grid_from_image);
 
-/// Scores the columns and rows of an upright block. Skips empty lines at the ends. Columns use the
+/// Scores the columns and rows of an upright block, except empty lines at the ends. Columns use the
 /// first half of `storage`, and rows use the second half. If a half is too small, scores only the
 /// lines nearest the middle of the block.
 BlockLines score_block(const Kernels& kernels, const BitBlock& block,

@@ -21,7 +21,7 @@ struct Bits {
 };
 
 /// Returns the bits of a cell, rotated to the upright pattern. A quarter turn maps the displacement
-/// (x, y) to (-y, x). It maps the projections (y - x, y + x) to (x + y, x - y) (paper, eq. 7-8).
+/// (x, y) to (-y, x), so it maps the projections (y - x, y + x) to (x + y, x - y) (paper, eq. 7-8).
 constexpr Bits turned(QuarterTurn pattern_from_grid, const GridCell& cell) {
     const auto minus_x = static_cast<std::int8_t>(-cell.x);
     const auto minus_y = static_cast<std::int8_t>(-cell.y);
@@ -53,7 +53,7 @@ class Upright {
         };
         to_right_ = stride({1, 0});
         downwards_ = stride({0, 1});
-        // The bits and signs must be the same as in `turned`, which rotates single cells.
+        // The bits and signs must be those of `turned`, which rotates single cells.
         x_bit_ = is_sideways() ? &GridCell::y : &GridCell::x;
         y_bit_ = is_sideways() ? &GridCell::x : &GridCell::y;
         x_sign_ = q == 0 || q == 1 ? 1 : -1;
