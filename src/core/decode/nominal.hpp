@@ -23,7 +23,7 @@ class Nominal {
 
   private:
     QuarterTurn turn_;
-    FixedVec first_;  ///< Smallest column and smallest row of the grid in the upright pattern.
+    FixedVec first_;  ///< smallest column and smallest row of the grid in the upright pattern
     /// Index in the main sequence of the first cell of each column. `rows_` is the same for the
     /// rows.
     std::array<std::uint8_t, kMaxGridSide> columns_;

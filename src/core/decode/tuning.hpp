@@ -39,8 +39,8 @@ inline constexpr int kReliabilityCovered_q4 = 10;
 /// A cell counts as near graphics if the shade beside one of its places exceeds this limit. The
 /// limit is in fifths of the shade above which a place counts as graphics.
 inline constexpr int kNearGraphics_5ths = 3;
-/// Reliability of a cell near graphics, in 1/16. With 3, 1,993 frames are located. With 14, 1,994
-/// frames are located.
+/// Reliability of a cell near graphics, in 1/16. The value 3 locates 1,993 frames, and the value
+/// 14 locates 1,994.
 inline constexpr int kReliabilityNearGraphics_q4 = 7;
 /// Darkness above which a cell's darkest place may be dirt, in tenths of the darkness of a typical
 /// dot.
@@ -54,8 +54,8 @@ inline constexpr int kTooDark_10ths = 16;
 inline constexpr int kReliabilityTooDark_q4 = 6;
 /// Bit weight per unit of contrast, before clamping to 127. The contrast of a bit is the difference
 /// in darkness between the places for its two values, relative to a typical dot. A contrast of 0.42
-/// is enough for the maximum weight. With 150, 1,994 frames are located. With 600, 1,992 frames are
-/// located.
+/// is enough for the maximum weight. The value 150 locates 1,994 frames, and the value 600
+/// locates 1,992.
 inline constexpr int kGain = 300;
 /// Maximum light at a cell relative to the image centre, in 1/256. A brighter cell has the same
 /// weights as a cell at this limit.
