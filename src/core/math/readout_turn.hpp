@@ -55,8 +55,9 @@ struct ReadoutTurn {
         return {p.x + axis.x + still_row * drift.x, still_row};
     }
 
-    /// Returns the inverse of `without_turn`, by Newton's method. `row` is the approximate row of
-    /// the result. Valid where the scene moves down more slowly than the rows are read.
+    /// Returns the inverse of `without_turn`, by Newton's method with `steps` steps. `row` is the
+    /// approximate row of the result. Valid where the scene moves down more slowly than the rows
+    /// are read.
     FloatVec seen_from(FloatVec still, float row, int steps) const {
         constexpr float kMinClosing = 0.05F;
         constexpr float kMaxRow = 4096;  // exceeds the rows of every image
@@ -84,9 +85,9 @@ struct ReadoutTurn {
     }
 };
 
-/// Computes the drift from a plane, for a camera that looks straight at the paper. For such a
-/// camera, only the motion of the scene can shear the image of a square grid or stretch it
-/// vertically.
+/// Computes the drift from a plane, for a camera that looks straight at the paper. If the image of
+/// a square grid is sheared or stretched vertically, only the motion of the scene can be the
+/// reason.
 inline FloatVec drift_of(const FloatPlane& plane) {
     const float square = plane.du_x * plane.du_x + plane.du_y * plane.du_y;
     return {-(plane.dv_x * plane.du_x + plane.dv_y * plane.du_y) / square,
