@@ -15,8 +15,8 @@ struct Phase {
     explicit Phase(FloatVec point_px);
 };
 
-/// Sums of dot images, in 4 x 4 stacks. The area of a pixel is divided into 4 x 4 parts. Dots are
-/// in the same stack if their centres are in the same part of their pixels.
+/// Sums of dot images, grouped into 4 x 4 stacks. If the area of a pixel is divided into 4 x 4
+/// parts, the dots of a stack have their centres in the same part of their pixels.
 class StackedDots {
   public:
     /// Sums over one stack.
