@@ -146,7 +146,6 @@ inline constexpr int kManyDots = 1000;
 /// from kMinAlong to kFewAlong for which a block contains kDotsPerBlock dots on average. With only
 /// one or two dots per block, the scatter within blocks would be unknown, and flat sheets would
 /// seem uneven.
-/// uneven.
 inline constexpr int kMinAlong = 2;
 inline constexpr int kFewAlong = 6;
 inline constexpr int kDotsPerBlock = 4;
