@@ -59,8 +59,8 @@ struct AxisPlace {
     std::uint8_t cross;
 };
 
-/// Moves a place by `distance` positions. Inlining the two calls would duplicate code that is
-/// rarely executed.
+/// Moves a place by `distance` positions. Not inlined, because the function is called twice and
+/// most of its code is rarely executed.
 [[gnu::noinline]] AxisPlace moved(CodeVariant code, AxisPlace place, std::int32_t distance) {
     const std::int64_t target = std::int64_t{place.position} + distance;
     const bool is_before = target < 0;

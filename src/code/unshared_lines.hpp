@@ -13,7 +13,8 @@ namespace dotpose::code {
 /// Number of consecutive lines that are compared. The index is the *row* of the tables below.
 inline constexpr std::array<int, 3> kUnsharedOf{10, 13, 16};
 
-/// Index of the first entry of each sequence in `kUnshared`. Order: a1, a2, a3, restored a4.
+/// Index of the first entry of each sequence in `kUnshared`. The sequences are a1, a2, a3 and the
+/// restored a4.
 inline constexpr std::array<std::size_t, 4> kUnsharedFrom{0, 236, 469, 500};
 
 /// Minimum numbers of unshared lines, packed. The index is kUnsharedFrom[sequence] plus the place

@@ -6,7 +6,7 @@
 //     dotpose evaluate --preset hard --frames 2000 --seed 404
 //
 // With the values in this file, 1,994 of the 2,000 frames are located. A difference of one frame is
-// not significant. None of these values led to a wrong fix.
+// not significant. None of the other values led to a wrong fix.
 #pragma once
 
 #include <array>
@@ -36,8 +36,8 @@ inline constexpr int kSolidInk_q8 = 230;
 inline constexpr std::array<int, 5> kReliabilityBySeen_q4{0, 6, 8, 10, 16};
 /// Reliability of a cell with a place under graphics, in 1/16.
 inline constexpr int kReliabilityCovered_q4 = 10;
-/// A cell counts as near graphics if the shade beside one of its places exceeds this limit. The
-/// limit is in fifths of the shade above which a place counts as graphics.
+/// A cell is near graphics if the shade beside one of its places exceeds kNearGraphics_5ths / 5 of
+/// the shade above which a place counts as graphics.
 inline constexpr int kNearGraphics_5ths = 3;
 /// Reliability of a cell near graphics, in 1/16. The value 3 locates 1,993 frames, and the value
 /// 14 locates 1,994.

@@ -13,9 +13,9 @@
 
 namespace dotpose::core {
 
-/// Size of a tile. In each direction, three adjacent tiles must always include part of a dot. If at
-/// least 8 dots are in view along the shorter image side, this requires tiles of height kLowTile_px
-/// for a side of up to kMaxSideWithLowTiles_px, and allows kHighTile_px for a longer side.
+/// Size of a tile. In each direction, three adjacent tiles must always include part of a dot if at
+/// least 8 dots are in view along the shorter image side. Tiles are therefore kLowTile_px high if
+/// this side is at most kMaxSideWithLowTiles_px, and kHighTile_px high otherwise.
 inline constexpr int kTileWidth_px = 16;
 inline constexpr int kLowTile_px = 8;
 inline constexpr int kHighTile_px = 16;

@@ -25,7 +25,8 @@ class PlaneSums {
     /// true.
     FourInts less_points_{};
     std::array<Four, 4> places_{};
-    std::array<Four, 3> residuals_{};  ///< those of FitSums, and the sum of squared residuals
+    std::array<Four, 3> residuals_{};  ///< sums of `FitSums::residuals`, and the sum of squared
+                                       ///< residuals
 };
 
 /// The normal equations for the parameters of `jacobian`.

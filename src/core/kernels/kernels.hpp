@@ -222,7 +222,8 @@ struct StepLosses {
 /// Groups of alternatives. Two alternatives are in the same group if they differ from the reading
 /// in the same sequences.
 struct FarAlternatives {
-    /// Probability that an alternative in each group has the digits of the reading in a step.
+    /// For each group, the probability that an alternative has the same digits as the reading in a
+    /// step.
     std::array<float, 8> equal{1, 1, 1, 1, 1, 1, 1, 1};
     std::array<float, 8> number{};  ///< number of alternatives in each group
 };

@@ -30,7 +30,7 @@ class Buckets {
     }
 
   private:
-    /// Element columns * rows contains the end of the last bucket.
+    /// The `begin` of element columns * rows is the end of the last bucket.
     const std::span<BucketedSeed> memory_;
     const std::size_t count_;
     int shift_ = 0;
@@ -157,8 +157,8 @@ void widen(std::array<std::uint16_t, kDistanceBins>& histogram) {
 
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds) {
-    // Histogram of the distances from the centre. The bins are as narrow as the distance of the
-    // farthest dot allows.
+    // Histogram of the distances from the centre. The bins have the smallest width for which the
+    // histogram includes the farthest dot.
     std::array<std::uint16_t, kDistanceBins> histogram{};
     int shift = 0;
     for (const DetectedDot& dot : dots) {

@@ -43,8 +43,8 @@ namespace periodogram_search {
 /// precise. For kNear_cells, the value 3 locates 1,964 frames, and the value 10 locates 1,993.
 inline constexpr int kNear_cells = 5;
 inline constexpr int kWider_cells = 8;
-/// Raster of the first search: direction step in degrees, spacing divided by its step, and spacing
-/// steps to each side.
+/// Raster of the first search. kTurn_deg is the direction step. kStretchPart is the ratio of the
+/// spacing to the spacing step, and kStretches is the number of spacing steps to each side.
 inline constexpr int kTurn_deg = 2;
 inline constexpr int kStretchPart = 40;
 inline constexpr int kStretches = 4;
@@ -54,8 +54,9 @@ inline constexpr int kStretches = 4;
 inline constexpr int kTiltTurn_deg = 3;
 inline constexpr int kTiltStretchPart = 25;
 inline constexpr int kTiltSteps = 3;
-/// First steps of the ascent to the maximum: direction step in degrees, and spacing divided by its
-/// step. The last steps are 1/kFinest of the first steps.
+/// First steps of the ascent to the maximum. kFirstTurn_deg is the direction step, and
+/// kFirstStretchPart is the ratio of the spacing to the spacing step. The last steps are 1/kFinest
+/// of the first steps.
 inline constexpr int kFirstTurn_deg = 1;
 inline constexpr int kFirstStretchPart = 80;
 inline constexpr int kFinest = 8;

@@ -15,8 +15,8 @@ struct Phase {
     explicit Phase(FloatVec point_px);
 };
 
-/// Sums of dot images, grouped into 4 x 4 stacks. If the area of a pixel is divided into 4 x 4
-/// parts, the dots of a stack have their centres in the same part of their pixels.
+/// Sums of dot images, grouped by the sub-pixel phase of the dot centres. The area of a pixel is
+/// divided into 4 x 4 parts, and all dots with their centres in the same part are in one stack.
 class StackedDots {
   public:
     /// Sums over one stack.
