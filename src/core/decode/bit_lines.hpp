@@ -18,7 +18,6 @@ struct BitBlock {
     BitLines rows;
 };
 
-/// A range of adjacent columns or rows.
 struct LineRange {
     int first = 0;
     int count = 0;

@@ -9,7 +9,6 @@
 
 namespace dotpose::core {
 
-/// A roll and its score.
 struct Match {
     std::int32_t score = 0;
     std::uint8_t roll = 0;
@@ -34,7 +33,6 @@ Match next_match(const LineScores& scores, Match last);
 /// Returns the highest score and its margin over the second highest score.
 BestScore best_score(const LineScores& scores);
 
-/// The highest and lowest score of a line.
 struct Extremes {
     std::int32_t max = 0;
     std::int32_t min = 0;

@@ -30,7 +30,6 @@ struct PlaceView {
     int shade_q8 = 0;
 };
 
-/// Measurements of one cell.
 struct CellView {
     FixedVec centre_q8;               ///< image point of the intersection, in 2^-8 px
     FixedVec u_q8;                    ///< step to the next column, in 2^-8 px
@@ -55,7 +54,6 @@ struct CellView {
     }
 };
 
-/// Samples an image at the cells of a grid.
 class CellSampler {
   public:
     CellSampler(const ImageView& image, const PaperMap& paper, const FixedLens& lens,

@@ -94,7 +94,7 @@ inline constexpr std::size_t kChoices = 3;
 
 /// Vote on the quarter turn of the grid (decode/orientation, decode/bit_lines).
 namespace turns {
-/// Number of lines per axis that vote. Must be even.
+/// Number of lines per axis that vote. Must be even, because the lines are scored in pairs.
 inline constexpr int kVoters = 4;
 /// Number of lines per axis that vote if the bits are hard (0, 1 or not read).
 inline constexpr int kVotersOfBits = 5;

@@ -105,7 +105,6 @@ OpenBlob* unused_blob(OpenBlobs& open) {
     return open.blobs_begun < open.blobs.size() ? &open.blobs[open.blobs_begun++] : nullptr;
 }
 
-/// Opens a blob that begins with a run of row `v`. Returns null if all blobs are in use.
 OpenBlob* open_blob(const Run& run, int v, OpenBlobs& open) {
     OpenBlob* const blob = unused_blob(open);
     if (blob == nullptr) return nullptr;

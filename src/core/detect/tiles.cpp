@@ -12,7 +12,6 @@ namespace {
 /// dots.
 constexpr int kRowsEvery = 4;
 
-/// The measured rows of a band.
 struct Rows {
     const std::uint8_t* begin;
     std::ptrdiff_t stride;

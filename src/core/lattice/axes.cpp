@@ -71,7 +71,6 @@ FixedVec turned(FixedVec edge, Side side) {
 }
 using Sides = std::array<Side, kMaxEdges>;
 
-/// Sum and number of the edges in one cluster.
 struct Sum {
     FixedVec total;
     std::int32_t count = 0;
@@ -96,7 +95,6 @@ class Clusters {
         farther_ = half_squares[1] - half_squares[0];
     }
 
-    /// Assigns each edge to its nearest cluster and updates `sums`.
     DOTPOSE_NOINLINE void assign(std::span<const SeedEdge> edges, Side* side, Sums& sums) const {
         for (const SeedEdge& edge : edges) {
             const Side now = nearest(edge.step_q8);

@@ -38,7 +38,7 @@ void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
 /// Agreement of the dots with the grid. Only dots whose cells are at most `reach_cells` from the
 /// origin count.
 struct Judged : Regularity {
-    std::int64_t squared_offsets_q20 = 0;  ///< sum of squared dot offsets
+    std::int64_t squared_offsets_q20 = 0;
 };
 
 Judged judge(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,

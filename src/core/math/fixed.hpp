@@ -32,7 +32,6 @@ constexpr std::int64_t squared(FixedVec a) {
     return dot(a, a);
 }
 
-/// Returns |a| for any signed integer type.
 template <typename T>
 constexpr T magnitude(T a) {
     return a < 0 ? -a : a;

@@ -8,7 +8,6 @@
 
 namespace dotpose::core {
 
-/// Cosine and sine of an angle.
 struct UnitVec {
     float cos = 1;
     float sin = 0;

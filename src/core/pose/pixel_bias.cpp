@@ -62,7 +62,6 @@ float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide
     return sum;
 }
 
-/// Centroid error of a model dot.
 struct CentroidError {
     float px;                  ///< centroid minus true centre
     DotShape::Terms by_shape;  ///< derivatives of `px` with respect to the shape terms

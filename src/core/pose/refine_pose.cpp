@@ -76,7 +76,6 @@ class Round {
         limit_ = static_cast<float>(tuned::kOutlier_medians * typical_q30 + 64) / kPower30;
     }
 
-    /// Returns the normal equations of all inliers.
     PlaneNormal normal(bool know_noise) const {
         const Scatter scatter = know_noise ? scatter_of_dots() : Scatter();
         PlaneSums sums;
