@@ -12,8 +12,8 @@ namespace dotpose::core {
 /// because strings of fewer than 7 digits repeat in its misprinted secondary sequence.
 int run_length(CodeVariant code);
 
-/// Converts the position and roll of line `line` to those of the first line. Sets `rolls` to the
-/// rolls of all lines relative to the first line, modulo 63.
+/// Computes the position and roll of the first line from the position and roll of line `line`. Sets
+/// `rolls` to the rolls of all lines relative to the first line, modulo 63.
 AxisReading reading_of_first(CodeVariant code, std::uint32_t position, int roll, int line,
                              std::span<std::uint8_t> rolls);
 

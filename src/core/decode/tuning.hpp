@@ -19,8 +19,9 @@ namespace sample_cells {
 /// Maximum number of cells in the sample for the median darkness and the median shade of a dot. The
 /// medians hardly change if graphics cover a quarter of the cells.
 inline constexpr std::size_t kMedianSample = 256;
-/// Ratio of the spacing to half the side of the square whose mean darkness is the shade of a place.
-/// The square is wider than a dot, but does not reach the dots of neighbouring cells.
+/// Ratio of the spacing to half the side of the square around a place. The mean darkness of this
+/// square is the *shade* of the place. The square is wider than a dot, but does not reach the dots
+/// of neighbouring cells.
 inline constexpr int kShadePart = 5;
 /// Offsets from a place to the squares that are tested for graphics, in 1/60 spacing. Four squares
 /// are offset along one axis, and four squares diagonally. Together, the squares detect every

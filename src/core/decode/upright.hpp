@@ -53,7 +53,7 @@ class Upright {
         };
         to_right_ = stride({1, 0});
         downwards_ = stride({0, 1});
-        // The bits and signs must be those of `turned`, which rotates single cells.
+        // The bits and signs must be the same as in `turned`, which rotates single cells.
         x_bit_ = is_sideways() ? &GridCell::y : &GridCell::x;
         y_bit_ = is_sideways() ? &GridCell::x : &GridCell::y;
         x_sign_ = q == 0 || q == 1 ? 1 : -1;

@@ -110,8 +110,8 @@ class AffineFit {
 
     /// Returns the summed squared residuals of all coherent dots, after subtracting the map.
     float squares() const { return squares_; }
-    /// Returns by how much a displacement of the part `beyond` reduces the summed squared
-    /// residuals.
+    /// Returns the reduction of the summed squared residuals by a displacement of the part
+    /// `beyond`.
     float explained_by_displacement(const PartSums& beyond) const {
         const Triple step{beyond.dots(), beyond.places[0], beyond.places[1]};
         const float spread = step[0] - inner_product(step, inverse_ * step);
@@ -120,8 +120,8 @@ class AffineFit {
         const float y = beyond.places[3] - inner_product(step, y_);
         return (x * x + y * y) / spread;
     }
-    /// Returns by how much a displacement and rotation of the part `beyond` reduce the summed
-    /// squared residuals.
+    /// Returns the reduction of the summed squared residuals by a displacement and rotation of the
+    /// part `beyond`.
     float explained_by_step(const PartSums& beyond) const {
         const float xx = beyond.moments[0];
         const float xy = beyond.moments[1];
