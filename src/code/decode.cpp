@@ -1,5 +1,5 @@
-// Decoding: finds a window of symbols in the code. All symbols must be correct (paper, sections
-// II-A and II-B.7).
+// Decoding: finds the position of a window of symbols in the code (paper, sections II-A and
+// II-B.7). Misread symbols are not corrected.
 #include <array>
 #include <cstddef>
 

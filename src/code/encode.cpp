@@ -13,14 +13,16 @@ int delta(CodeVariant code, std::uint32_t p) noexcept {
 }
 
 int roll(CodeVariant code, std::uint32_t p) noexcept {
-    // The roll is the sum of all differences before p, modulo 63:
+    // The roll is the sum of all roll differences before p, modulo 63. The difference of each line
+    // is 5 plus the weighted digits of a1 to a4. A sequence adds the sum of a whole period for each
+    // period before p, and the sum of the digits before `place` in the current period:
     //
     //     roll = 5 p + sum over a1 to a4 of (periods * rolls[length] + rolls[place])
     //     periods = (p - place) / length
     //
-    // To avoid the division, (p - place) is multiplied by `period_roll`, which is rolls[length]
-    // times the inverse of `length` modulo 63. `lines` is congruent to p modulo 63. Its term 4 * 63
-    // keeps `lines - place` positive.
+    // Modulo 63, the division by `length` is a multiplication by its inverse. This inverse times
+    // rolls[length] is `period_roll`. `lines` replaces p because it is small and congruent to p
+    // modulo 63. The term 4 * 63 keeps `lines - place` positive.
     const std::uint32_t lines = code::modulo_sections(p) + 4 * kSections;
     std::uint32_t sum = code::kMinDelta * lines;
     for (const code::Secondary& a : code::basis(code)) {
@@ -49,16 +51,16 @@ int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
 
 namespace {
 
-/// A place along one axis. `own` is the section of this axis, and `cross` is the section of the
-/// other axis.
+/// A place on one axis. `own` is the section of this axis, and `cross` is the section of the other
+/// axis.
 struct AxisPlace {
     std::uint32_t position;
     std::uint8_t own;
     std::uint8_t cross;
 };
 
-/// Moves a place by `distance` positions. Inlining the two calls would duplicate code that is
-/// rarely executed.
+/// Moves a place by `distance` positions. Not inlined, because the function is called twice and
+/// most of its code is rarely executed.
 [[gnu::noinline]] AxisPlace moved(CodeVariant code, AxisPlace place, std::int32_t distance) {
     const std::int64_t target = std::int64_t{place.position} + distance;
     const bool is_before = target < 0;

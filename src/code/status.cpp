@@ -71,8 +71,8 @@ constexpr std::size_t row_of(Status status) {
     return std::min<std::size_t>(static_cast<std::size_t>(status), kStatusCount);
 }
 
-/// Names, stored separately from the messages. Device programs that print only names therefore do
-/// not link the messages.
+/// The names are stored separately from the messages, so that device programs that print only names
+/// do not link the messages.
 constexpr auto kNames = [] {
     std::array<std::array<char, 16>, kTexts.size()> names{};
     for (std::size_t i = 0; i < names.size(); ++i) {

@@ -1,5 +1,5 @@
-// Tables: lookup tables that are computed from the sequences at compile time. Encoding uses roll
-// tables, and decoding uses place tables.
+// Tables: lookup tables that are computed from the sequences at compile time. Encoding uses the
+// tables of rolls, and decoding uses the tables of places.
 #pragma once
 
 #include <array>
@@ -18,10 +18,10 @@ inline constexpr std::uint8_t kAbsent = 255;
 /// length occur twice (see `Secondary::has_twins`).
 inline constexpr int kOrder = 5;
 
-/// Numbers of table entries beyond the end of a sequence. With these entries, loops over adjacent
-/// lines do not have to wrap around. A view whose first line is at the last place uses kLinesAhead
-/// entries. A vector load that starts at the last line of the view uses kVectorAhead further
-/// entries.
+/// Number of entries beyond the end of a sequence, so that loops over adjacent lines do not have to
+/// wrap around. kLinesAhead entries are enough for a view of 64 lines that begins at the last
+/// place. A vector load that begins at the last line of such a view reads up to kVectorAhead
+/// entries more.
 inline constexpr std::size_t kLinesAhead = 64;
 inline constexpr std::size_t kVectorAhead = 32;
 
@@ -47,8 +47,9 @@ struct Secondary {
     /// First place of each 5-digit string, or kAbsent if the string does not occur. The index is
     /// the `key` of the string.
     const std::uint8_t* first_place_of;
-    /// One bit set per digit: bit i is 1 if place i contains the digit. Place 0 is the lowest bit
-    /// of the first word. The sets repeat cyclically up to 256 + kLinesAhead bits.
+    /// For each digit, the set of places that contain the digit: bit i is 1 if place i contains it.
+    /// Place 0 is the lowest bit of the first word. The sequence is repeated to fill 256 +
+    /// kLinesAhead bits.
     const std::uint32_t* const* places_of;
     std::uint32_t reciprocal;     ///< 2^20 / length
     std::uint16_t rest_of_65536;  ///< 65536 modulo length
@@ -67,9 +68,9 @@ struct Secondary {
             rest -= length;
         return rest;
     }
-    /// Returns a bit set for the places 32 * word to 32 * word + 31. A bit is 1 if the next `count`
-    /// digits at its place equal the digits at `place`. Indices wrap around. Bits beyond the end of
-    /// the sequence are 0.
+    /// Compares the `count` digits from `place` on with the `count` digits from each of the 32
+    /// places that begin at 32 * word. Bit i of the result is 1 if the digits from place 32 * word
+    /// + i on are equal. Indices wrap around. Bits beyond the end of the sequence are 0.
     constexpr std::uint32_t equal_places(std::uint32_t place, int count, std::uint32_t word) const {
         const std::uint32_t rest = length - 32 * word;
         std::uint32_t places = rest < 32 ? ~(~std::uint32_t{0} << rest) : ~std::uint32_t{0};
@@ -94,8 +95,7 @@ consteval Digits<Length + kLinesAhead + kVectorAhead> rolls(const Digits<Length>
     return result;
 }
 
-/// Returns the element of `Secondary::places_of` for a digit: bit i is 1 if place i contains the
-/// digit.
+/// Returns the set of places that contain a digit (see `Secondary::places_of`).
 template <std::size_t Length>
 consteval auto places_of(const Digits<Length>& sequence, int digit) {
     std::array<std::uint32_t, (256 + kLinesAhead) / 32> words{};
@@ -188,7 +188,7 @@ inline constexpr auto kMainRepeated = [] {
     return bits;
 }();
 
-/// The 32 bits of the main sequence that start at each index. The first bit is the lowest bit.
+/// The 32 bits of the main sequence from each index on. The first bit is the lowest bit.
 inline constexpr auto kMainWords = [] {
     std::array<std::uint32_t, kSections> words{};
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -198,7 +198,7 @@ inline constexpr auto kMainWords = [] {
     return words;
 }();
 
-/// Returns the 64 bits of the main sequence that start at `index`. The first bit is the lowest bit.
+/// Returns the 64 bits of the main sequence from `index` on. The first bit is the lowest bit.
 constexpr std::uint64_t main_bits(std::size_t index) {
     const std::size_t next = index + 32;
     return kMainWords[index] | std::uint64_t{kMainWords[next < kSections ? next : next - kSections]}

@@ -1,6 +1,7 @@
-// Unshared lines between codes: minimum numbers of lines that a position in one code does not share
-// with any position in another code. unshared_lines.hpp defines shared lines. The table was
-// generated, and tests/unit/code/unshared_codes_test.cpp recomputes it.
+// Unshared lines between codes: how well a position in one code can be distinguished from all
+// positions in another code. The tables contain the minimum number of lines that differ, as defined
+// in unshared_lines.hpp. They were generated, and tests/unit/code/unshared_codes_test.cpp
+// recomputes them.
 #pragma once
 
 #include <array>
@@ -12,10 +13,10 @@
 
 namespace dotpose::code {
 
-/// Minimum numbers of unshared lines. Indices: code that was read, other code, row of
-/// `kUnsharedOf`. Digit p of a string applies to lines that begin at place p in a4. The minimum is
-/// over all places in the a4 of the other code, at all shifts. Between anoto and libdots, the
-/// minimum excludes place p at shift 0, because most of a4 is equal in these codes.
+/// Minimum numbers of unshared lines between a position in the code that was read and any position
+/// in another code. Indices: code that was read, other code, row of `kUnsharedOf`. Each string has
+/// one digit for each place of the first line in a4. Because most of a4 is equal in anoto and
+/// libdots, the minimum between these codes excludes the same place at shift 0.
 inline constexpr std::array<std::array<std::array<std::string_view, 3>, kCodeVariantCount>,
                             kCodeVariantCount>
     kUnsharedInOther{{

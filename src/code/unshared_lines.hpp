@@ -1,7 +1,7 @@
-// Unshared lines: numbers of lines that two positions do not share if their places differ in a
-// single sequence. Two positions share a line at shift s if their rolls in this line differ by s.
-// The shift s is the same for all lines. The test tests/unit/code/unshared_lines_test.cpp computes
-// the tables again.
+// Unshared lines: how many lines distinguish two positions whose places differ in only one of the
+// four sequences. If the rolls of two positions differ by the same shift in several lines, the
+// positions *share* these lines, because the lines have the same bits if the sections differ by
+// this shift. tests/unit/code/unshared_lines_test.cpp recomputes the tables.
 #pragma once
 
 #include <array>
@@ -10,10 +10,11 @@
 
 namespace dotpose::code {
 
-/// Number of consecutive lines that are compared, for each row of the tables.
+/// Number of consecutive lines that are compared. The index is the *row* of the tables below.
 inline constexpr std::array<int, 3> kUnsharedOf{10, 13, 16};
 
-/// Index of the first entry of each sequence in `kUnshared`. Order: a1, a2, a3, restored a4.
+/// Index of the first entry of each sequence in `kUnshared`. The sequences are a1, a2, a3 and the
+/// restored a4.
 inline constexpr std::array<std::size_t, 4> kUnsharedFrom{0, 236, 469, 500};
 
 /// Minimum numbers of unshared lines, packed. The index is kUnsharedFrom[sequence] plus the place
@@ -86,10 +87,10 @@ inline constexpr std::array<std::uint16_t, 741> kUnshared{
 /// Maximum number of unshared lines that `kMaxPositionsWith` covers.
 inline constexpr std::size_t kMaxCounted = 7;
 
-/// Upper bounds on the number of positions with exactly n unshared lines, at the index
-/// [row][sequence][n - 1]. The positions differ from the decoded position only in this sequence. A
-/// position counts once for each shift where it shares a line. The bounds hold for all decoded
-/// positions and all codes.
+/// Upper bounds on the number of positions with exactly n unshared lines. Indices: row, sequence, n
+/// - 1. The bounds count the positions that differ from the decoded position only in this sequence,
+/// once for each shift at which they share a line. They are valid for all decoded positions and all
+/// codes.
 inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>, 3>
     kMaxPositionsWith{{
         {{{1, 4, 15, 34, 64, 120, 227},
@@ -107,15 +108,15 @@ inline constexpr std::array<std::array<std::array<std::uint8_t, kMaxCounted>, 4>
     }};
 
 /// Returns the minimum number of unshared lines among kUnsharedOf[row] lines, over all shifts and
-/// all other places in the sequence. The minimum is at least row + 1. The entry stores the excess
-/// over row + 1 in three bits.
+/// all other places in the sequence. The minimum is at least row + 1, so the entry stores only the
+/// excess, in three bits.
 constexpr std::size_t unshared_at_one_shift(std::size_t entry, std::size_t row) {
     return row + 1 + (kUnshared[entry] >> 3 * row & 7U);
 }
 
 /// Returns the minimum number of unshared lines among kUnsharedOf[row] lines if the shift may
-/// change once, between two lines. The minimum is at least `row`. The entry stores the excess over
-/// `row` in two bits.
+/// change once, at a border between two lines. The minimum is at least `row`, so the entry stores
+/// only the excess, in two bits.
 constexpr std::size_t unshared_on_two_sides(std::size_t entry, std::size_t row) {
     return row + (kUnshared[entry] >> (9 + 2 * row) & 3U);
 }

@@ -56,9 +56,9 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
     return {std::clamp(BitBlock::kMiddle - max_count / 2, first, last + 1 - max_count), max_count};
 }
 
-/// Returns the score of a line that is read backwards, minus its score if it is read forwards. If
-/// all n bits agree with the main sequence in only one direction, the magnitude of the result is
-/// 127 (n - 6). The first six bits are no evidence, because the main sequence contains almost every
+/// Returns the score of a line that is read backwards minus its score if it is read forwards. If
+/// all n bits agree with the main sequence in only one direction, the result is 127 (n - 6) or its
+/// negative. The first six bits do not count, because the main sequence contains almost every
 /// string of six bits.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);
@@ -84,8 +84,7 @@ int backwardness(const Kernels& kernels, const BitLines& lines) {
     const LineRange range = lines_with_bits(lines, BitBlock::kSide);
     int sum = 0;
     for (int voter = 0; voter < kVoters; ++voter) {
-        // Chooses the voters from the middle half of the range, because these lines are the
-        // longest.
+        // The voters are in the middle half of the range, because these lines are the longest.
         const auto i = static_cast<std::size_t>(range.first + range.count / 4 +
                                                 range.count * voter / (2 * kVoters));
         if (i >= lines.bits.size()) break;

@@ -18,7 +18,6 @@ struct BitBlock {
     BitLines rows;
 };
 
-/// A range of adjacent columns or rows.
 struct LineRange {
     int first = 0;
     int count = 0;
@@ -53,7 +52,7 @@ BitBlock turned(int quarters, const BitBlock& block);
 /// rotated block.
 FloatPlane turned(int quarters, const FloatPlane& grid_from_image);
 
-/// Scores the columns and rows of an upright block. Skips empty lines at the ends. Columns use the
+/// Scores the columns and rows of an upright block, except empty lines at the ends. Columns use the
 /// first half of `storage`, and rows use the second half. If a half is too small, scores only the
 /// lines nearest the middle of the block.
 BlockLines score_block(const Kernels& kernels, const BitBlock& block,

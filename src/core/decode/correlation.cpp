@@ -7,14 +7,14 @@
 namespace dotpose::core {
 namespace {
 
-/// The correlation processes weights in groups of kGroup. A table contains the signed sum of a
-/// group for every combination of signs. Each pass over the rolls adds the sums of up to kGroups
-/// groups.
+/// The weights of a line are processed in groups of kGroup. A table contains the sum of a group for
+/// every combination of signs, so the score of a roll needs one addition per group instead of one
+/// per weight. Up to kGroups groups are added in one pass over the rolls.
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;
-/// Weights of two lines, packed as a + 65536 b. The sums of each line fit in 16 bits, so one
-/// addition adds the weights of both lines.
+/// Weights of two lines a and b, packed as a + 65536 b. The sums of each line fit in 16 bits, so
+/// one addition is enough for both lines.
 using Weights = std::array<std::int32_t, kAtOnce>;
 using Sums = std::array<std::int32_t, 1 << kGroup>;
 
@@ -40,8 +40,8 @@ std::int32_t sum_at(const Sums& sums, std::uint8_t bytes) {
 
 using Line = std::span<const std::int8_t>;
 
-/// Packs the next kAtOnce weights of both lines, starting at index `first`. Pads with 0 beyond the
-/// end of a line.
+/// Packs kAtOnce weights of both lines, from index `first` on. Weights beyond the end of a line are
+/// 0.
 void gather(Line a, Line b, std::size_t first, Weights& weights) {
     const auto rest = [&](Line line) {
         line = line.subspan(std::min(first, line.size()));
@@ -61,8 +61,8 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
     ((sums[sizeof...(I) + I] = sums[I] + 2 * weight), ...);
 }
 
-/// Tabulates the signed sum of a group for each string of bits. A 0 bit negates its weight. The
-/// loop is unrolled, which halves the time. The unrolled code is too long to inline.
+/// Computes the sum of a group for each string of bits. A 0 bit negates its weight. Unrolling the
+/// loop halves the time, but the unrolled code is too long to inline.
 [[gnu::noinline]] void sum_signed(const std::int32_t* weights, Sums& sums) {
     static_assert(kGroup == 5);
     sums[0] = -(weights[0] + weights[1] + weights[2] + weights[3] + weights[4]);
@@ -85,8 +85,8 @@ void take_sums(const std::array<Sums, kGroups>& sums, std::size_t phase, LineSco
         std::int32_t sum = sum_at(sums[0], string[0]);
         for (std::size_t group = 1; group < Groups; ++group)
             sum += sum_at(sums[group], string[group * kGroup]);
-        // Unpacks the sum of line b. Equivalent to (sum + 0x8000) >> 16, but without the constant,
-        // which would occupy a register.
+        // Unpacks the sum of line b. The result is (sum + 0x8000) >> 16, but the constant would
+        // occupy a register.
         const std::int32_t of_b = ((sum >> 15) + 1) >> 1;
         *a = static_cast<std::int16_t>(Adds ? *a + sum : sum);
         *b = static_cast<std::int16_t>(Adds ? *b + of_b : of_b);

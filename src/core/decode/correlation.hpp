@@ -9,15 +9,14 @@
 
 namespace dotpose::core {
 
-/// A roll and its score.
 struct Match {
     std::int32_t score = 0;
     std::uint8_t roll = 0;
 };
 
-/// Computes the score at each roll. Adds each weight where the main sequence has a 1, and subtracts
-/// it where the sequence has a 0. At roll o, the first weight belongs to bit o. Doubtful bits have
-/// small weights. `weights` contains at most 256 values in [-127, 127].
+/// Computes the score of a line at each roll: the sum of its weights, negated where the main
+/// sequence has a 0. At roll o, the first weight is compared with bit o of the main sequence.
+/// `weights` contains at most 256 values in [-127, 127]. Doubtful bits have small weights.
 void correlate(std::span<const std::int8_t> weights, LineScores& scores);
 
 /// Correlates two lines. Takes little more time than `correlate` takes for one line.
@@ -34,7 +33,6 @@ Match next_match(const LineScores& scores, Match last);
 /// Returns the highest score and its margin over the second highest score.
 BestScore best_score(const LineScores& scores);
 
-/// The highest and lowest score of a line.
 struct Extremes {
     std::int32_t max = 0;
     std::int32_t min = 0;

@@ -37,7 +37,7 @@ bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange&
     };
     const auto length = static_cast<std::size_t>(run_length(code));
     std::array<std::uint8_t, BitBlock::kSide> rolls;
-    // Skips the first quarter of the lines, because lines near the middle are longer and more
+    // Skips the first quarter of the lines, because the lines near the middle are longer and more
     // reliable.
     std::size_t end = count / 4;
     for (std::size_t run = 0; run < length; ++end) {
@@ -57,8 +57,8 @@ bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange&
     int wrong = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const int here = below_sections(reading.roll + rolls[i]);
-        // Counts wrong bits one by one. Most lines have no wrong bits, and many processors have no
-        // popcount instruction.
+        // Counts the wrong bits one by one, because most lines have none and many processors have
+        // no popcount instruction.
         std::uint64_t differ =
             (bits(i) ^ code::main_bits(static_cast<std::size_t>(here))) & valid(i);
         for (; differ != 0; differ &= differ - 1)

@@ -58,8 +58,8 @@ Status assign(std::span<const DetectedDot> dots, int min_side, PointOf point_of,
     }
     lay_out(min, max, grid);
 
-    // A local copy keeps the grid members in registers. Otherwise, the loop would reload them for
-    // each dot, which is slow on small processors.
+    // A local copy keeps the members of the grid in registers. Otherwise, the compiler would reload
+    // them for each dot, which is slow on small processors.
     const Grid here = grid;
     const auto columns = static_cast<unsigned>(here.columns);
     const auto rows = static_cast<unsigned>(here.rows);

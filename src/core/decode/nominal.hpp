@@ -14,17 +14,18 @@ class Nominal {
   public:
     Nominal(const Grid& grid, CodeVariant code, const Decoding& decoding);
 
-    /// Returns the pattern step of a grid cell: its column and row in the upright pattern, relative
-    /// to `Decoding::place`.
+    /// Returns the column and row of a grid cell in the upright pattern, relative to
+    /// `Decoding::place`.
     FixedVec pattern_step(FixedVec grid_cell) const { return turn_(grid_cell); }
-    /// Returns the symbol at a pattern step, which must belong to a cell of the grid.
+    /// Returns the symbol in a column and row of the upright pattern, which must belong to a cell
+    /// of the grid.
     Symbol symbol(FixedVec pattern_step) const;
 
   private:
     QuarterTurn turn_;
-    FixedVec first_;  ///< smallest pattern step in the grid, per axis
-    /// For each column, the index of its first cell in the main sequence. `rows_` contains the same
-    /// index for each row.
+    FixedVec first_;  ///< smallest column and smallest row of the grid in the upright pattern
+    /// Index in the main sequence of the first cell of each column. `rows_` is the same for the
+    /// rows.
     std::array<std::uint8_t, kMaxGridSide> columns_;
     std::array<std::uint8_t, kMaxGridSide> rows_;
 };

@@ -75,7 +75,7 @@ BothWays agreement(const Voters& voters) {
     return {agreement_by_pairs(voters, false), agreement_by_pairs(voters, true)};
 }
 
-/// Returns the maximum agreement of any sequence with the voting lines, which is the sum of the
+/// Returns the maximum agreement that the voting lines could have, which is the sum of their
 /// absolute weights.
 std::int32_t max_possible(const Voters& voters) {
     std::int32_t sum = 0;
@@ -97,8 +97,8 @@ std::int32_t best_agreement(const Voters& voters) {
 }  // namespace
 
 Orientation rank_turns(const Grid& grid, const GridRegion& region) {
-    // Adds up the best scores of the lines. Unlike the paper, which counts the lines that occur
-    // exactly in the main sequence, this sum includes lines with misread bits.
+    // Sums the best scores of the lines. Unlike the paper's number of lines that occur exactly in
+    // the main sequence, this sum includes lines with misread bits.
     const Voters x_columns(grid, region, true, &GridCell::x);
     const Voters y_rows(grid, region, false, &GridCell::y);
     const BothWays of_columns = agreement(x_columns);
@@ -115,8 +115,8 @@ Orientation rank_turns(const Grid& grid, const GridRegion& region) {
     std::array<QuarterTurn, 4> turns{QuarterTurn{0}, QuarterTurn{1}, QuarterTurn{2},
                                      QuarterTurn{3}};
     const auto score = [&](QuarterTurn t) { return scores[static_cast<std::size_t>(t.quarters)]; };
-    // Stable insertion sort by decreasing score. For four elements, a library sort would need much
-    // more code.
+    // Stable insertion sort by decreasing score. A library sort would need much more code for four
+    // elements.
     for (std::size_t n = 1; n < turns.size(); ++n) {
         for (std::size_t i = n; i > 0 && score(turns[i]) > score(turns[i - 1]); --i)
             std::swap(turns[i], turns[i - 1]);

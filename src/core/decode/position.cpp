@@ -25,7 +25,6 @@ Status read_axis(CodeVariant code, const Lines& lines, AxisReading& reading) {
     return position_from_rolls(code, used, reading.position);
 }
 
-/// Sets the turn and place of a decoding from both axis readings.
 void set_place(CodeVariant code, const Upright& upright, QuarterTurn turn, const AxisReading& x,
                const AxisReading& y, Decoding& decoding) {
     const auto section = [&](const AxisReading& own, const AxisReading& other) {

@@ -24,13 +24,12 @@ FixedVec place_60th(Symbol symbol) {
 /// Measurements at one of the four places of a cell.
 struct PlaceView {
     bool is_seen = false;
-    int darkness_q8 = 0;  ///< relative to the paper level, in 1/256
+    int darkness_q8 = 0;  ///< Darkness relative to the paper level, in 1/256.
     /// Mean darkness of a square around the place, relative to the paper level, in 1/256. The
     /// square is 2/5 of a spacing wide.
     int shade_q8 = 0;
 };
 
-/// Measurements of one cell.
 struct CellView {
     FixedVec centre_q8;               ///< image point of the intersection, in 2^-8 px
     FixedVec u_q8;                    ///< step to the next column, in 2^-8 px
@@ -55,7 +54,6 @@ struct CellView {
     }
 };
 
-/// Samples an image at the cells of a grid.
 class CellSampler {
   public:
     CellSampler(const ImageView& image, const PaperMap& paper, const FixedLens& lens,
@@ -66,13 +64,13 @@ class CellSampler {
     /// sampled yet.
     template <typename Use>
     void visit(const Grid& grid, Use use) const;
-    /// Sets `half_px`. Also sets the darkness and shade of each place in the image.
+    /// Sets `half_px`, and the darkness and shade of each place in the image.
     void sample(CellView& view) const;
     /// Returns the paper level at the cell divided by the paper level at the image centre, in
     /// 1/256.
     int light_q8(const CellView& view) const;
-    /// Returns the largest shade of the eight squares around each place. The square centres are
-    /// about 2/15 of a spacing from the place. The result is 0 for places outside the image.
+    /// Returns the maximum shade of eight squares around each place. Their centres are about 2/15
+    /// of a spacing from the place. The result is 0 for places outside the image.
     std::array<int, 4> darkest_around_q8(const CellView& view) const;
 
   private:
@@ -83,8 +81,8 @@ class CellSampler {
     /// Returns the mean darkness of a square, relative to the paper level, in 1/256. Subsamples
     /// large squares.
     int shade_q8(FixedVec centre_q8, int half_px) const;
-    /// Converts the grey level sum of a square to its mean darkness, relative to the paper level,
-    /// in 1/256. Returns 0 if `pixels` is 0.
+    /// Converts the sum of the grey levels in a square to the mean darkness, relative to the paper
+    /// level, in 1/256. Returns 0 if `pixels` is 0.
     int darkness_q8(FixedVec centre_q8, int sum, int pixels) const;
     template <typename Shade>
     static std::array<int, 4> darkest_around_q8(const CellView& view, Shade shade_q8);
@@ -175,9 +173,9 @@ std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view, Shade sh
 }
 
 std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view) const {
-    // Maximum distance between the cell centre and a pixel of a square, along each image axis. The
-    // distance from the cell centre to a square centre is at most a third of the largest component
-    // of `u_q8` and `v_q8`.
+    // Maximum distance between the cell centre and a pixel of a square, along an image axis. The
+    // centre of a square is at most a third of a spacing from the cell centre, so a third of the
+    // largest component of `u_q8` and `v_q8` is enough.
     const int reach_px =
         std::max(larger_component(view.u_q8), larger_component(view.v_q8)) / (3 * 256) + 1 +
         view.half_px;
@@ -285,16 +283,16 @@ class Ink {
                4 * sorted[2] > tuned::kSecondDot_4ths * sorted[3];
     }
 
-    /// Returns the weight of a bit, in [-127, 127]. `one_q8` is the darkness of the darker of the
-    /// two places at which the bit is 1. `zero_q8` is the same for the two places at which the bit
-    /// is 0.
+    /// Returns the weight of a bit, in [-127, 127]. The bit is 1 at two of the four places, and 0
+    /// at the other two. `one_q8` and `zero_q8` are the darkness of the darker place of each pair.
     std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
         // The weight is proportional to the log-likelihood ratio of the bit. With constant sensor
         // noise, the ratio is proportional to the level difference times the contrast. Both factors
         // are proportional to the light, so the weight is proportional to the squared light.
         const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = sample.light_q8 * sample.light_q8;
-        // Clamps the weight, because most bit errors at high contrast are not caused by noise.
+        // High contrast does not make a bit more reliable, because its errors are mostly not caused
+        // by noise. The weight is therefore clamped.
         const int weight = static_cast<int>(
             std::clamp<std::int64_t>(std::int64_t{difference} * light_q16 >> 16, -127, 127));
         return static_cast<std::int8_t>(weight * sample.reliability_q4 / 16);

@@ -53,8 +53,8 @@ class Choices {
     std::array<std::uint8_t, kChoices> rolls_;
 };
 
-/// Returns the reading of the first line, given that line `line` is at `position` with roll `roll`.
-/// The score of the reading is the total over all lines.
+/// Returns the reading of all lines, given the position and roll of line `line`. Its score is the
+/// total over all lines.
 AxisReading evaluate(CodeVariant code, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
     std::array<std::uint8_t, kMaxLines> storage;
@@ -135,9 +135,9 @@ void try_run(CodeVariant code, const Lines& lines, int first, int length, int ma
     }
 }
 
-/// Returns the first line of the clearest run, or -1 if there is no run. Skips runs whose first
-/// line is marked in `taken`. Runs have `length` lines. The clearest run has the largest sum of
-/// line margins (`BestScore::margin`).
+/// Returns the first line of the clearest run of `length` lines, or -1 if there is no run. The
+/// clearest run has the largest sum of margins (`BestScore::margin`). Skips runs whose first line
+/// is marked in `taken`.
 int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLines>& taken) {
     int clearest = -1;
     int largest = INT32_MIN;
@@ -155,10 +155,9 @@ int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLine
     return clearest;
 }
 
-/// Maximum numbers of runs and readings.
 struct Limits {
     int runs;
-    int readings;  ///< per run
+    int readings;  ///< maximum number of readings per run
 };
 
 /// Reads up to `limits.runs` runs of lines, clearest run first. Stops when a reading is clear.

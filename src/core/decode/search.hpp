@@ -12,15 +12,15 @@ namespace dotpose::core {
 /// because strings of fewer than 7 digits repeat in its misprinted secondary sequence.
 int run_length(CodeVariant code);
 
-/// Returns the reading of the first line, given that line `line` is at `position` with roll `roll`.
-/// Sets `rolls` to the rolls of all lines relative to the first line, modulo 63.
+/// Computes the position and roll of the first line from the position and roll of line `line`. Sets
+/// `rolls` to the rolls of all lines relative to the first line, modulo 63.
 AxisReading reading_of_first(CodeVariant code, std::uint32_t position, int roll, int line,
                              std::span<std::uint8_t> rolls);
 
 /// Finds the position on an axis from runs of consecutive lines, clearest run first. Tries the most
-/// likely rolls of each line, and keeps the position with the highest total score. Also calls
-/// `search_by_steps` if the score is below `AxisReading::max_possible` and there are at least
-/// `run_length(code)` lines. Error: not_in_code if the code contains none of the readings.
+/// likely rolls of each line, and keeps the position with the highest total score. If a line has a
+/// higher score at another roll, `search_by_steps` follows. Error: not_in_code if the code contains
+/// none of the readings.
 Status find_axis(CodeVariant code, const Lines& lines, AxisReading& best);
 
 /// Variant of `find_axis` for first attempts and devices. Tries only a few runs with a few readings

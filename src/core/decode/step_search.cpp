@@ -14,8 +14,9 @@ constexpr std::size_t kSequences = 4;
 constexpr std::size_t kDigits = 3;
 constexpr std::size_t kStepSizes = code::kMaxDelta - code::kMinDelta + 1;
 
-/// Losses of one step, by secondary sequence and digit. The loss of a digit is the maximum of
-/// `best_agreement` over all step sizes, minus its maximum over the step sizes with this digit.
+/// The score that is lost if a step contains a certain digit, by secondary sequence and digit. The
+/// loss is the highest score of any step size minus the highest score of a step size with this
+/// digit.
 using StepLosses = std::array<std::array<std::int32_t, kDigits>, kSequences>;
 
 /// Returns the highest total score of two adjacent lines whose rolls differ by `step`.
@@ -45,8 +46,6 @@ StepLosses losses_of(const LineScores& line, const LineScores& next) {
     return losses;
 }
 
-/// Number of places kept for each secondary sequence. These are the places with the smallest
-/// losses.
 constexpr std::size_t kChoices = tuning::step_search::kChoices;
 using Choices = std::array<std::uint32_t, kChoices>;
 
@@ -74,8 +73,7 @@ Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
     return places;
 }
 
-/// Returns the reading whose first line is at `position`. Its roll is the roll with the highest
-/// total score.
+/// Returns the reading at a position, with the roll that has the highest total score.
 AxisReading evaluate(CodeVariant code, const Lines& lines, std::uint32_t position) {
     std::array<std::uint8_t, kMaxLines> rolls;
     code::follow_rolls(code, position, 0, std::span(rolls).first(lines.all.size()));

@@ -7,11 +7,10 @@
 
 namespace dotpose::core {
 
-/// Searches by steps, and replaces `best` if a position has a higher score. First computes the loss
-/// of score for each possible digit of each step. Then finds the places with the smallest total
-/// loss in each secondary sequence, and evaluates all their combinations. Unlike a search by runs
-/// of lines (decode/search), this search also finds positions in frames where every sixth line is
-/// hidden, or where no line has a clear roll.
+/// Searches by steps, and replaces `best` if a position has a higher score. For each secondary
+/// sequence, finds the places whose digits agree best with all steps, and then evaluates all
+/// combinations of these places. Unlike a search by runs of lines (decode/search), this search also
+/// finds positions in frames where every sixth line is hidden, or where no line has a clear roll.
 void search_by_steps(CodeVariant code, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

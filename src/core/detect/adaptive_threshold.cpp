@@ -12,8 +12,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Half of a threshold above all grey levels. A sentinel with this value after the last column ends
-/// the search for dark pixels.
+/// Half of the threshold 256, which is above all grey levels. With this sentinel after the last
+/// column, the search for dark pixels always ends.
 constexpr std::uint8_t kAlwaysDark = 128;
 
 constexpr int kBandsKept = 4;  // three bands suffice, but indexing is faster with a power of two
@@ -24,7 +24,7 @@ std::span<Tile> tiles_of(const AdaptiveThreshold& threshold, int band) {
     return threshold.tiles.subspan(static_cast<std::size_t>(band & (kBandsKept - 1)) * n, n);
 }
 
-/// Copies blocks of kBlock bytes while a whole block remains. Advances both pointers.
+/// Copies all whole blocks of kBlock bytes. Advances both pointers to the end of the last block.
 template <std::size_t kBlock>
 void copy_blocks(const std::uint8_t*& from, const std::uint8_t* end, std::uint8_t*& to) {
     for (; end - from >= static_cast<std::ptrdiff_t>(kBlock); from += kBlock, to += kBlock)
@@ -36,8 +36,8 @@ void keep_row(const std::uint8_t* pixels, const AdaptiveThreshold& threshold, st
     const std::uint8_t* const end = pixels + threshold.width_px;
     std::uint8_t* const whole = row + whole_width(threshold);
     if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {
-        // Copies blocks of constant size, because compilers inline such copies. The `memcpy`
-        // functions of small devices copy single bytes.
+        // Compilers inline copies of constant size. The `memcpy` functions of small devices copy
+        // single bytes, which is slower.
         copy_blocks<28>(pixels, end, row);
         copy_blocks<12>(pixels, end, row);
         copy_blocks<4>(pixels, end, row);
@@ -91,7 +91,7 @@ void join_neighbours(std::uint8_t* number, std::size_t count) {
     *last = static_cast<std::uint8_t>(of_two);
 }
 
-/// Sets all columns of a tile to a level. Returns the first column of the next tile.
+/// Sets all columns of a tile to a level. Returns a pointer to the first column of the next tile.
 inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     const Word word = in_all_bytes(1) * level;
     for (std::size_t k = 0; k < kTileWidth_px; k += sizeof word)
@@ -99,12 +99,11 @@ inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     return column + kTileWidth_px;
 }
 
-/// Histogram of the tiles by their contrast, relative to the paper level. The bins are
-/// 1/kContrastBins wide.
+/// Number of tiles by contrast relative to the paper level, in bins of 1/kContrastBins.
 using Histogram = std::array<std::uint16_t, kContrastBins>;
 
-/// Adds the tiles with at least `min_contrast` to the histogram. Marks all other tiles as blank by
-/// setting their mean to 0. Updates `max_contrast`. Returns the number of tiles in the histogram.
+/// Adds the tiles with at least `min_contrast` to the histogram, and returns their number. All
+/// other tiles are blank, so their mean is set to 0. Updates `max_contrast`.
 int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                    int min_contrast, int& max_contrast, Histogram& histogram) {
     int blank = 0;
@@ -127,10 +126,10 @@ int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::siz
     return static_cast<int>(tiles) - blank;
 }
 
-/// Returns the contrast of dots in a band, relative to the paper level, in 1/256. Returns 0 if no
-/// tile has contrast. Ink reflects the same fraction of the light everywhere, so all dots have the
-/// same relative contrast. Strokes of graphics have more contrast than dots. The 30 % quantile over
-/// the tiles is typical of dots even if strokes cross the band.
+/// Returns the typical contrast of dots in a band relative to the paper level, in 1/256, or 0 if no
+/// tile has contrast. The relative contrast does not depend on the light, because ink reflects the
+/// same fraction of it everywhere. The 30 % quantile over the tiles is typical of dots even if
+/// strokes of graphics, which have more contrast, cross the band.
 unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                              int min_contrast, int& max_contrast) {
     Histogram histogram{};
@@ -154,8 +153,8 @@ void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q
     std::uint8_t* high_levels = threshold.high_levels.data();
     for (const std::uint8_t* const end = papers + tiles; papers != end; ++papers) {
         const unsigned paper = *papers;
-        // Makes the low threshold even. The search for runs compares only the seven upper bits of
-        // each level.
+        // Makes the low threshold even, because the search for runs compares only the seven upper
+        // bits of each level.
         const unsigned half_low = (paper - (paper * to_low_q16 >> 16)) >> 1;
         const unsigned high = std::min(paper - (paper * to_high_q16 >> 16), 2 * half_low);
         half_low_levels = fill(half_low_levels, half_low);
@@ -166,8 +165,8 @@ void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q
 }  // namespace
 
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold) {
-    // The minimum contrast is the largest contrast so far divided by this number. A smaller divisor
-    // would reject more noise, but it would also reject pale dots in uneven light.
+    // Divisor from the largest contrast so far to the minimum contrast. A smaller divisor would
+    // reject more noise, but it would also reject pale dots in uneven light.
     constexpr int kContrastPart = 6;
     return std::clamp(threshold.max_contrast / kContrastPart, options.min_contrast,
                       2 * options.min_contrast);
@@ -200,8 +199,8 @@ int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold) {
 
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold) {
     const auto tiles = static_cast<std::size_t>(threshold.tiles_per_band);
-    // Uses the memory for thresholds as temporary storage for one value per tile. The paper levels
-    // are at the end of `half_low_levels`, because `set_levels` overwrites the end last.
+    // The memory for thresholds temporarily stores one value per tile. The paper levels are at the
+    // end of `half_low_levels`, because `set_levels` overwrites the end last.
     std::uint8_t* const papers = threshold.half_low_levels.data() + whole_width(threshold) - tiles;
     std::uint8_t* const darknesses = threshold.high_levels.data();
     join_bands(three_bands(threshold, band), tiles, papers, darknesses);

@@ -13,10 +13,9 @@
 
 namespace dotpose::core {
 
-/// Size of a tile. Tiles are kLowTile_px high if the shorter image side is at most
-/// kMaxSideWithLowTiles_px, and kHighTile_px high otherwise. In each direction, three adjacent
-/// tiles must always include part of a dot. The sizes assume at least 8 dots along the shorter
-/// image side.
+/// Size of a tile. In each direction, three adjacent tiles must always include part of a dot if at
+/// least 8 dots are in view along the shorter image side. Tiles are therefore kLowTile_px high if
+/// this side is at most kMaxSideWithLowTiles_px, and kHighTile_px high otherwise.
 inline constexpr int kTileWidth_px = 16;
 inline constexpr int kLowTile_px = 8;
 inline constexpr int kHighTile_px = 16;
@@ -54,7 +53,6 @@ struct AdaptiveThreshold {
     std::span<std::uint8_t> high_levels;
 };
 
-/// Starts a new frame.
 void begin_threshold(int width_px, int height_px, AdaptiveThreshold& threshold);
 
 /// Stores the next row, and measures the tiles of a band after its last row. Returns the number of
@@ -66,8 +64,8 @@ int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold);
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold);
 
 /// Returns the contrast below which a tile in the next band is blank, in grey levels. The limit
-/// grows from `options.min_contrast` to 2 * `options.min_contrast` as the largest contrast so far
-/// grows. After the first tiles with dots, the larger limit rejects noise in blank tiles.
+/// grows with the largest contrast so far, from `options.min_contrast` to twice this value, so that
+/// noise in blank tiles is rejected once tiles with dots have been measured.
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold);
 
 inline int band_count(const AdaptiveThreshold& threshold) {
@@ -80,7 +78,7 @@ inline int band_begin(const AdaptiveThreshold& threshold, int band) {
 inline int band_end(const AdaptiveThreshold& threshold, int band) {
     return std::min((band + 1) * threshold.band_px, threshold.height_px);
 }
-/// Returns the total tile width, which is also the stride of the stored rows.
+/// Returns the width of all tiles in a band together, which is also the stride of the stored rows.
 inline int whole_width(const AdaptiveThreshold& threshold) {
     return threshold.tiles_per_band * kTileWidth_px;
 }

@@ -50,9 +50,9 @@ void keep_dots(DotList list, Predicate is_to_keep) {
     list.count = static_cast<int>(kept - list.dots.data());
 }
 
-/// Makes room for dots near the image centre. Reduces `kept_within_px`, and removes the dots beyond
-/// this distance. Returns false if `kept_within_px` is already 0. Not inlined, because this rare
-/// path would use registers that the frequent path of the caller needs.
+/// Makes room for dots near the image centre: reduces `kept_within_px`, and removes the dots beyond
+/// this distance. Returns false if `kept_within_px` is already 0. Inlining this rare path would
+/// occupy registers that the frequent path of the caller needs.
 [[gnu::noinline]] bool make_room(const AdaptiveThreshold& threshold, DotList list) {
     if (list.kept_within_px == 0) return false;
     list.kept_within_px -= list.kept_within_px / 8 + 1;
@@ -78,13 +78,14 @@ bool may_be_dot(const OpenBlob& blob, const AdaptiveThreshold& threshold) {
 
 void close_blob(const OpenBlob& blob, const AdaptiveThreshold& threshold, DotList list) {
     if (!may_be_dot(blob, threshold)) return;
-    // The sums wrap modulo 2^32. The differences from the blob's corner are exact.
+    // The sums wrap modulo 2^32, but the differences are exact, because they are small (see
+    // OpenBlob).
     const DetectedDot dot{
         {blob.left * 256 + mean_q8(blob.sum_x - blob.mass * blob.left, blob.mass),
          blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)},
         static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
         static_cast<std::uint16_t>(blob.area_px)};
-    // Until the list is full for the first time, keeps every dot without comparing distances.
+    // Keeps every dot without comparing distances until the list is full for the first time.
     while (list.kept_within_px == all_within_px(threshold) || IsKept(threshold, list)(dot)) {
         if (list.count < static_cast<int>(list.dots.size())) {
             list.dots[static_cast<std::size_t>(list.count++)] = dot;
@@ -104,7 +105,6 @@ OpenBlob* unused_blob(OpenBlobs& open) {
     return open.blobs_begun < open.blobs.size() ? &open.blobs[open.blobs_begun++] : nullptr;
 }
 
-/// Opens a blob that begins with a run of row `v`. Returns null if all blobs are in use.
 OpenBlob* open_blob(const Run& run, int v, OpenBlobs& open) {
     OpenBlob* const blob = unused_blob(open);
     if (blob == nullptr) return nullptr;
@@ -131,7 +131,6 @@ void add_run(const Run& run, int v, OpenBlob& blob) {
     blob.passes_high |= run.passes_high;
 }
 
-/// Merges `other` into `blob`.
 void unite(OpenBlob& blob, OpenBlob& other) {
     blob.sum_x += other.sum_x;
     blob.sum_y += other.sum_y;
@@ -199,7 +198,7 @@ void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& thr
         OpenBlob* const blob = run.blob;
         if (blob == nullptr || blob->last_v == v) continue;
         if (blob->part_of == nullptr) close_blob(*blob, threshold, list);
-        blob->last_v = static_cast<std::uint16_t>(v);  // skips the other runs of this blob
+        blob->last_v = static_cast<std::uint16_t>(v);  // excludes the other runs of this blob
         blob->part_of = open.first_unused;
         open.first_unused = blob;
     }

@@ -26,7 +26,8 @@ struct OpenBlob {
     std::uint16_t right = 0;  ///< exclusive
     std::uint16_t first_v = 0;
     std::uint16_t last_v = 0;
-    /// The blob into which this blob was merged, or null. For an unused blob, the next unused blob.
+    /// The blob into which this blob was merged, or null. In an unused blob, this is the next
+    /// unused blob.
     OpenBlob* part_of = nullptr;
     bool passes_high = false;  ///< true if a pixel is darker than the high threshold
 };
@@ -60,7 +61,8 @@ void begin_blobs(const AdaptiveThreshold& threshold, OpenBlobs& open, DotList li
 void grow_blobs(int v, const AdaptiveThreshold& threshold, OpenBlobs& open, DotList list);
 
 /// Removes blobs with too few pixels, a mass far below the upper quartile, or an area far above the
-/// upper quartile (paper, section II-B.1). Limits relative to quartiles apply to any spacing.
+/// upper quartile (paper, section II-B.1). Because the limits are relative to quartiles, they apply
+/// to any spacing.
 void sift_dots(const BlobOptions& options, DotList list);
 
 }  // namespace dotpose::core

@@ -7,7 +7,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of adjacent pixels whose source points are interpolated by one quadratic. The error of
+/// Number of adjacent pixels for which one quadratic interpolates the source points. The error of
 /// the interpolation is at most 0.003 px at a rotation of 60 degrees in 120 rows.
 constexpr int kStep_px = 16;
 /// Factor that converts px to the unit of source points, 2^-8 px.
@@ -48,8 +48,8 @@ ImageView derotated(const ImageView& image, const ReadoutTurn& turn,
     std::uint8_t* out = memory.data();
     for (int v = 0; v < image.height_px; ++v) {
         const float y = static_cast<float>(v) - centre_v;
-        // Computes the first source point of a row with six Newton steps. For the other points, one
-        // step from an extrapolated row coordinate suffices.
+        // The first source point of a row is computed with six Newton steps. For each other point,
+        // the row coordinate is extrapolated, and one step suffices.
         FloatVec first = turn.seen_from({-centre_u, y}, y, 6);
         float down = 0;
         for (int u = 0; u < image.width_px; u += kStep_px) {
@@ -65,7 +65,7 @@ ImageView derotated(const ImageView& image, const ReadoutTurn& turn,
             const Quadratic v_q8(to_q8(first.y, centre_v), to_q8(middle.y, centre_v),
                                  to_q8(last.y, centre_v));
             const int count = std::min(kStep_px, image.width_px - u);
-            // Uses separate loops, because compilers vectorise the first loop but not the second.
+            // These are two loops, because compilers vectorise the first loop but not the second.
             std::array<int, kStep_px> us;
             std::array<int, kStep_px> vs;
             for (int i = 0; i < kStep_px; ++i) {

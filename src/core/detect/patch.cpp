@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::patch;
 
-/// Returns 2^24 / (n + 1), rounded up. Called through tabled(), because the divisions for all tiles
-/// would take a microsecond.
+/// Returns 2^24 / (n + 1), rounded up. The results are tabulated, because the divisions for all
+/// tiles would take a microsecond.
 constexpr std::uint32_t reciprocal_q24(std::uint32_t n) {
     return ((1U << 24) + n) / (n + 1);
 }
@@ -50,8 +50,8 @@ bool measure_contrast(Patch& patch) {
     const auto tile = [](int column, int row) {
         return static_cast<std::size_t>(row * Patch::kTilesPerRow + column);
     };
-    // Bin of tiles without contrast. The other bins count tiles by darkness relative to the paper
-    // level, in units of 1/64.
+    // The last bin counts the tiles without contrast. The other bins count tiles by darkness
+    // relative to the paper level, in units of 1/64.
     constexpr std::size_t kFlat = 65;
     std::array<int, kFlat + 1> counts{};
     for (int row = 0; row < rows; ++row) {
@@ -77,8 +77,8 @@ bool measure_contrast(Patch& patch) {
         std::array<std::uint8_t, Patch::kTilesPerRow> thresholds;
         for (std::size_t i = 0; i < thresholds.size(); ++i)
             thresholds[i] = static_cast<std::uint8_t>(paper[i] - (paper[i] * contrast_q16 >> 16));
-        // A strip is two tiles wide. If the last strip has only one tile, the threshold 0 excludes
-        // all pixels of the missing tile.
+        // A strip is two tiles wide. If the last strip has only one tile, the missing tile gets the
+        // threshold 0, which excludes all its pixels.
         if (columns % 2 != 0) thresholds[static_cast<std::size_t>(columns)] = 0;
         std::copy(thresholds.begin(), thresholds.end(),
                   patch.thresholds.begin() + static_cast<std::ptrdiff_t>(tile(0, row)));
@@ -105,8 +105,8 @@ void keep_isolated(Patch& patch) {
     };
     std::size_t kept = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
-        // Skips minima on plateaus. There, the fitted parabola has no vertex, and the coordinates
-        // are not finite.
+        // Skips minima on plateaus, where the fitted parabola has no vertex and the coordinates are
+        // not finite.
         if (!(std::abs(dots.x[i]) < kNoDot_px && std::abs(dots.y[i]) < kNoDot_px)) continue;
         const int u = pixel_of(dots.x[i], patch.width_px);
         const int v = pixel_of(dots.y[i], patch.height_px);

@@ -7,9 +7,9 @@
 
 namespace dotpose::core {
 
-/// Places a patch around an image point. The requested size is in image pixels. A patch pixel
-/// covers `scale` x `scale` image pixels. `scale` must be 1, 2 or 4. The patch is shifted into the
-/// image and clipped to the capacity of `Patch`. Returns false if a side has fewer than
+/// Places a patch around an image point. The requested size is in image pixels. Each pixel of the
+/// patch covers `scale` x `scale` image pixels, and `scale` is 1, 2 or 4. The patch is shifted into
+/// the image and clipped to the capacity of `Patch`. Returns false if a side has fewer than
 /// `Patch::min_side_px` patch pixels.
 bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int width_px,
                  int height_px, int scale, Patch& patch);

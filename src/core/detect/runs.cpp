@@ -26,8 +26,8 @@ bool is_group_light(const std::uint8_t* pixels, const std::uint8_t* half_low_lev
     return tops == kTops;
 }
 
-/// Returns the first dark pixel of a row at or after `begin`, or the row end. The search always
-/// stops at the row end, because the sentinel after the thresholds makes every pixel dark.
+/// Returns the first dark pixel of a row at or after `begin`, or the row end. The search never
+/// passes the row end, because the sentinel after the thresholds makes every pixel dark.
 const std::uint8_t* find_dark(const std::uint8_t* begin, const std::uint8_t* row,
                               const std::uint8_t* half_low_levels) {
     const auto before = static_cast<std::size_t>(begin - row) % kWord_px;
@@ -59,7 +59,8 @@ const std::uint8_t* write_run(const std::uint8_t* pixel, const std::uint8_t* row
     run.begin = static_cast<std::uint16_t>(pixel - row);
     bool passes_high = false;
     std::uint32_t mass = 0;
-    // Sum of depth * (last column - column). Each pixel adds the mass of all pixels before it.
+    // Sum of weight * (last column - column). Adding the mass so far at each pixel avoids a
+    // multiplication.
     std::uint32_t moment = 0;
     const std::uint8_t* tile_end = nullptr;
     do {

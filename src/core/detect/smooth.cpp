@@ -70,9 +70,9 @@ void weight_down(const std::array<const std::uint16_t*, kRows>& rows, int width_
     }
 }
 
-/// Returns half the side of the averaging window for the local light, along one axis. The window
-/// shrinks near the image border to remain centred, because only a centred window cancels light
-/// gradients. The result is at least kMinHalf_px.
+/// Returns half the side of the averaging window for the local light, along one axis. Near the
+/// image border, the window is smaller so that it remains centred, because only a centred window
+/// cancels light gradients. The result is at least kMinHalf_px.
 int half_side(int at, int length, int max_half) {
     return std::max(std::min({max_half, at, length - 1 - at}), tuned::kMinHalf_px);
 }

@@ -27,13 +27,12 @@ struct Smoothing {
 /// Grey level to which the local mean is scaled.
 inline constexpr int kNormalLevel = 192;
 
-/// Starts a new image.
 void begin_smoothing(const ImageView& image, Smoothing& smoothing);
 
-/// Returns the next row of the filtered image, from top to bottom. First, clamps each pixel to the
-/// range of its eight neighbours, except at the image border. Then applies a 5 x 5 binomial filter
-/// (sigma 1 px). Finally, divides each pixel by the mean of a rectangle around the pixel. The row
-/// is valid until the next call.
+/// Returns the next row of the filtered image, from top to bottom. The filter clamps each pixel to
+/// the range of its eight neighbours, except at the image border, applies a 5 x 5 binomial filter
+/// (sigma 1 px), and divides by the mean of a rectangle around the pixel. The row is valid until
+/// the next call.
 const std::uint8_t* next_smooth_row(const ImageView& image, Smoothing& smoothing);
 
 }  // namespace dotpose::core

@@ -26,9 +26,9 @@ inline LevelRange range_around(const ImageView& image, int u, int v) {
     return range;
 }
 
-/// Returns a pixel's level, or the mean of its neighbours if the pixel is defective. A defective
-/// pixel is outside the range of its eight neighbours by more than a quarter of their maximum. The
-/// pixel must not be on the border.
+/// Returns a pixel's level, or the mean of its neighbours if the pixel is defective. A pixel is
+/// defective if its level is outside the range of its eight neighbours by more than a quarter of
+/// their maximum. The pixel must not be on the border.
 inline int without_defect(const ImageView& image, int u, int v) {
     const auto [low, high] = range_around(image, u, v);
     const int level = image.row(v)[u];

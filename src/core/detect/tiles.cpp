@@ -8,11 +8,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Only every kRowsEvery-th row of a band is measured. In each tile, these rows cross some of the
+/// Step between the measured rows of a band. In each tile, the measured rows cross some of the
 /// dots.
 constexpr int kRowsEvery = 4;
 
-/// The measured rows of a band.
 struct Rows {
     const std::uint8_t* begin;
     std::ptrdiff_t stride;

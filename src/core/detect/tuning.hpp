@@ -1,10 +1,10 @@
 // Tuning: empirical constants of dot detection. The constants of the second attempt were determined
-// on the hard frames listed in decode/tuning.hpp. Some comments compare a constant with other
-// values, by the number of frames located by
+// on the hard frames listed in decode/tuning.hpp. Some comments state how many frames are located
+// with other values of a constant. The command is
 //
 //     dotpose evaluate --preset hard --frames 2000 --seed 404
 //
-// The values in this file locate 1,994 frames.
+// With the values in this file, 1,994 of the 2,000 frames are located.
 #pragma once
 
 namespace dotpose::core::tuning {
@@ -32,22 +32,21 @@ namespace smooth {
 inline constexpr int kMinHalf_px = 4;
 /// Maximum level of a stroke, in tenths of the brightest paper level nearby. Darker pixels count as
 /// paper in the local mean, because a stroke of graphics does not mean that there is less light.
-/// With 4 or 9, the second attempt locates 1,995 frames.
+/// The values 4 and 9 locate 1,995 frames.
 inline constexpr int kStroke_10ths = 7;
-/// Minimum level of the normalised image, in fifths of kNormalLevel. Clamping makes graphics no
-/// darker than a weak dot. Otherwise, the required contrast near dark graphics would exceed the
-/// contrast of dots. With 2, only 1,937 frames are located.
+/// Minimum level of the normalised image, in fifths of kNormalLevel. Graphics are clamped to this
+/// level, so they are not darker than a weak dot. Otherwise, the required contrast near dark
+/// graphics would exceed the contrast of dots. The value 2 locates only 1,937 frames.
 inline constexpr int kMinLevel_5ths = 4;
 }  // namespace smooth
 
 /// Dot detection in a patch (detect/patch).
 namespace patch {
-/// A patch is small if its shorter side is below this limit, in patch pixels. Small patches have
-/// too few tiles for `kMinTiles`.
+/// A patch is small if its shorter side is below this limit, in patch pixels.
 inline constexpr int kSmall_px = 48;
-/// Minimum darkness of a tile's darkest smoothed pixel, in grey levels below the paper level. Other
-/// tiles are blank. A patch must have at least kMinTiles tiles that are not blank. In a small
-/// patch, half the tiles are enough.
+/// A tile has contrast if its darkest smoothed pixel is at least kMinDarkness grey levels darker
+/// than the paper. At least kMinTiles tiles of a patch must have contrast. In a small patch, which
+/// has fewer tiles, half of them are enough.
 inline constexpr int kMinDarkness = 12;
 inline constexpr int kMinTiles = 12;
 /// Minimum darkness of a dot relative to a typical dot, in 1/256. Lighter minima count as noise.

@@ -6,7 +6,6 @@
 
 namespace dotpose::core {
 
-/// Removes the distortion from an image point.
 FixedVec undistorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec point_q8);
 
 /// Removes the distortion from the dot centres, in place.

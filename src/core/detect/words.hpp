@@ -11,13 +11,12 @@ namespace dotpose::core {
 
 using Word = std::size_t;
 
-/// Returns a word with the value `byte` in every byte.
 constexpr Word in_all_bytes(std::uint8_t byte) {
     return static_cast<Word>(0x0101010101010101) * byte;
 }
 
-/// Mask of the top bit in every byte. Comparisons use half of each grey level, which has only seven
-/// bits. They store the result in the top bit.
+/// Mask of the top bit in every byte. Comparisons use only the seven upper bits of each grey level,
+/// so the top bit is free for the result.
 inline constexpr Word kTops = in_all_bytes(0x80);
 
 /// Loads a word. `pixels` must be word-aligned.

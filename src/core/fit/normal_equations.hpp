@@ -10,7 +10,7 @@
 namespace dotpose::core {
 
 /// The normal equations M p = right for N parameters p. `decompose` replaces M with its Cholesky
-/// factor L, where M = L L^T. Rows are computed four at a time.
+/// factor L, where M = L L^T.
 template <std::size_t N>
 class NormalEquations {
   public:
@@ -38,16 +38,17 @@ class NormalEquations {
             columns_[i].set(i, columns_[i].at(i) * by);
     }
 
-    /// Replaces M with L. Excludes a parameter if the preceding eliminations reduce its diagonal
-    /// element to `min_determined` times the original value or less. Returns false if one of the
-    /// first `required` parameters is excluded.
+    /// Replaces M with L. A parameter is excluded if the equations hardly determine it: the
+    /// preceding eliminations reduce its diagonal element to `min_determined` times the original
+    /// value or less. Returns false if one of the first `required` parameters is excluded.
     bool decompose(float min_determined, std::size_t required) {
         Vector minima;
         for (std::size_t i = 0; i < N; ++i)
             minima[i] = min_determined * columns_[i].at(i);
         for (std::size_t i = 0; i < N; ++i) {
             Column& column = columns_[i];
-            // Also excludes a parameter that is in no equation. Its diagonal element is 0.
+            // The comparison also excludes a parameter that is in no equation, because its diagonal
+            // element is 0.
             if (!(column.at(i) > minima[i])) {
                 if (i < required) return false;
                 leave_out(i);
@@ -82,8 +83,8 @@ class NormalEquations {
     }
     /// Returns L^-T `vector`.
     Vector unwhitened(const Vector& vector) const {
-        // The last subtraction uses the element that was computed last. The other products do not
-        // depend on this element, so the processor can compute them earlier.
+        // The element that was computed last is used in the last subtraction, so that the processor
+        // can compute the other products while it waits for this element.
         Vector result{};
         for (std::size_t i = N; i-- > 0;) {
             float rest = vector[i];

@@ -21,11 +21,12 @@ class PlaneSums {
     FitSums all() const;
 
   private:
-    /// Negated number of points with a positive weight. The number is negated because a vector
-    /// comparison yields -1 for true.
+    /// Negated number of points with a positive weight, because a vector comparison yields -1 for
+    /// true.
     FourInts less_points_{};
     std::array<Four, 4> places_{};
-    std::array<Four, 3> residuals_{};  ///< includes the sum of squared residuals
+    std::array<Four, 3> residuals_{};  ///< sums of `FitSums::residuals`, and the sum of squared
+                                       ///< residuals
 };
 
 /// The normal equations for the parameters of `jacobian`.

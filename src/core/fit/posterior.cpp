@@ -14,7 +14,7 @@ using Pair = std::array<float, 2>;
 
 using Symmetric = Symmetric2<float>;
 
-/// Returns the covariance that terms with a variance of 1 have after whitening, in units of the
+/// Returns the covariance of the whitened terms if the terms have a variance of 1, in units of the
 /// noise variance.
 Symmetric spread_of(const DistortionPrior& terms, const PlaneNormal& normal, float variance) {
     const std::size_t i = terms.first;

@@ -20,7 +20,6 @@ constexpr std::size_t kShear = 6;
 constexpr std::size_t kBend = 8;
 using Parameters = std::array<float, kPoseParameters>;
 
-/// Coordinates of four points.
 struct FourVecs {
     Four x;
     Four y;

@@ -23,8 +23,8 @@ struct PoseFit {
     std::array<std::array<float, 3>, 3> uneven{};
 };
 
-/// Returns the plane from which a step is computed. The pattern point at its centre is 0, because a
-/// large position does not fit in the mantissa of a float.
+/// Returns the plane from which a step is computed, in single precision. The pattern point at its
+/// centre is 0, because the mantissa of a float cannot represent a large position accurately.
 ScaledPlane scaled_from_centre(const PlaneFromImage& plane, int reach_px);
 /// Returns the plane after a step. `scaled` is the result of `scaled_from_centre` for the plane.
 PlaneFromImage stepped(const PlaneFromImage& plane, const ScaledPlane& scaled,

@@ -52,7 +52,7 @@ struct CellPass {
 /// perspective, `i` and `j` contain only the first three sums, and `square` is 0.
 struct CellSums {
     float seen = 0;  ///< number of dots within `CellPass::reach_px`
-    float used = 0;  ///< number of `seen` dots closer than `CellPass::max_off` to a place
+    float used = 0;  ///< number of these dots within `CellPass::max_off` of a place
     /// Sum of squared distances from the used dots to their places, in spacings^2.
     float squares = 0;
     std::array<float, 6> one{};     ///< sums of 1, x, y, xx, xy and yy over the used dots
@@ -83,8 +83,7 @@ struct CellsInView {
     float reach_px = 0;
     float displacement = 0;  ///< distance from an intersection to its dot, in spacings
     Windows windows = Windows::on_intersections;
-    int step = 1;  ///< Subsampling step along rows. `list_cells` lists every `step`-th cell of a
-                   ///< row.
+    int step = 1;  ///< `list_cells` lists every `step`-th cell of a row
     /// Roll of each column: the main-sequence index of its cell in row `first_row`.
     const std::uint8_t* column_rolls = nullptr;
     /// Roll of each row: the main-sequence index of its cell in column `first_column`.
@@ -184,17 +183,18 @@ struct BitsRead {
     float squares = 0;
 };
 
-/// Minimum loss of an alternative that does not share `line`, in a unit that the caller chooses.
-/// The *reading* is the position that was read, and an *alternative* is any other position. The
-/// *loss* of an alternative in a line is the score of the reading minus the score of the
-/// alternative. An alternative *shares* a line if its roll in this line is the roll of the reading.
+/// A line, and the minimum loss of an alternative that does not share it, in a unit that the caller
+/// chooses. The *reading* is the position that was read, and an *alternative* is any other
+/// position. The *loss* of an alternative in a line is the score of the reading minus the score of
+/// the alternative. An alternative *shares* a line if its roll in this line is the roll of the
+/// reading.
 struct LineLoss {
     std::uint8_t line = 0;
     std::uint8_t loss = 0;
 };
 
-/// Places in the secondary sequences where the bits of an alternative may be similar to the bits of
-/// the reading. Each entry contains a line that the alternative shares with the reading.
+/// Places in the secondary sequences at which the bits of an alternative may be similar to those of
+/// the reading. Each entry also contains a line that this alternative shares with the reading.
 struct SimilarPlaceList {
     static constexpr int kMax = 512;
     struct Entry {
@@ -209,28 +209,28 @@ struct SimilarPlaceList {
 /// Set of places in a sequence, one bit per place. Bit 0 of the first word is the first place.
 using PlaceBits = std::array<std::uint32_t, 8>;
 
-/// Lower bounds on the loss of an alternative, one per step. A step leads from one line to the
-/// next. The bound applies if the digit of the alternative in this step differs from the digit of
-/// the reading. Such an alternative shares at most one of the two lines. The unit is 1/kLimitParts
-/// of the loss limit.
+/// Lower bounds on the loss of an alternative in each step, which is a pair of adjacent lines. If
+/// the digit of the alternative differs from the digit of the reading in a step, the alternative
+/// shares at most one of the two lines and therefore loses at least this bound. The unit is
+/// 1/kLimitParts of the loss limit.
 struct StepLosses {
     static constexpr int kLimitParts = 8;
     int count = 0;
-    std::array<std::uint8_t, 64> parts;  ///< loss of each step; at most kLimitParts
+    std::array<std::uint8_t, 64> parts;  ///< bound for each step; at most kLimitParts
 };
 
-/// Groups of alternatives. All alternatives in a group differ from the reading in the same
-/// sequences.
+/// Groups of alternatives. Two alternatives are in the same group if they differ from the reading
+/// in the same sequences.
 struct FarAlternatives {
-    /// For each group, the probability that the digits of an alternative equal the digits of the
-    /// reading in one step.
+    /// For each group, the probability that an alternative has the same digits as the reading in a
+    /// step.
     std::array<float, 8> equal{1, 1, 1, 1, 1, 1, 1, 1};
     std::array<float, 8> number{};  ///< number of alternatives in each group
 };
 
-/// Contributions of 32 combinations to the roll offset, indexed by line. A combination is one place
-/// in each of some sequences. The roll offset is the roll of the alternative minus the roll of the
-/// reading.
+/// Roll offsets of 32 combinations, indexed by line. A *combination* consists of one place in each
+/// of several sequences. Its roll offset is the roll that these places contribute to an
+/// alternative, minus the roll that the places of the reading contribute.
 struct OffsetBatch {
     std::array<std::array<std::uint8_t, 32>, kMaxLines> offsets;
 };
@@ -238,8 +238,8 @@ struct OffsetBatch {
 /// Odds by roll offset. The last element is padding.
 using OddsByOffset = std::array<float, kRollEntries>;
 
-/// Expected odds by the number of shared anchors, from 0 to 6. *Anchors* are lines with high
-/// information (docs/integrity.md, "Alternatives: odds").
+/// Expected odds by the number of shared anchors, from 0 to 6. *Anchors* are the lines with the
+/// most information (docs/integrity.md, "Alternatives: odds").
 using OddsByShared = std::array<float, 7>;
 
 /// Sums of the n smallest losses, indexed by n from 0 to 8.
@@ -259,13 +259,13 @@ struct Kernels {
     /// white margin.
     void (*fill_patch)(const ImageView& image, Patch& patch);
     /// Smooths the patch with a 1-2-1 filter along both axes. Stores the brightest and the darkest
-    /// level in each tile. The brightest level excludes the outermost patch pixels, because the
-    /// white margin brightens them.
+    /// level in each tile. The brightest level excludes the pixels at the patch border, which the
+    /// white margin brightens.
     void (*smooth_patch)(Patch& patch);
     /// Lists the dots. A dot is a minimum of the smoothed patch that is at most as bright as the
-    /// threshold of its tile. Parabolas through a minimum and its neighbours give its sub-pixel
-    /// coordinates, in image px relative to the patch centre. Ignores minima in the two outermost
-    /// rows and columns on each side.
+    /// threshold of its tile. Minima in the two outermost rows and columns are ignored. The
+    /// coordinates are in image px relative to the patch centre, with sub-pixel accuracy from
+    /// parabolas through the minimum and its neighbours.
     void (*find_minima)(Patch& patch);
     /// Returns the strongest pair of perpendicular waves with frequency `per_px`, in cycles per px.
     /// Tries 12 directions in steps of 7.5 degrees.
@@ -278,8 +278,8 @@ struct Kernels {
     /// Assigns each dot to a cell. Returns the sums over the dots near a place of their cell.
     CellSums (*sum_cells)(const PatchDots& dots, const FloatPlane& plane, const CellPass& pass);
     /// Sets the bits of cells whose dots are clearly at one of the four places. The first column
-    /// and row belong to cell (-32, -32). If a cell has two such dots with different values of a
-    /// bit, the bit is invalid. If a cell has three or more such dots, its bits may be wrong.
+    /// and row belong to cell (-32, -32). A bit is invalid if two dots in a cell disagree. The bits
+    /// of a cell with three or more dots may be wrong.
     void (*read_cells)(const PatchDots& dots, const FloatPlane& plane, float displacement,
                        BitLines& columns, BitLines& rows);
     /// Scores a line of 64 cells at each roll. Each valid cell adds 127 if its bit agrees with the
@@ -292,11 +292,11 @@ struct Kernels {
     /// Lists the cells in view, with their window centres and coded symbols. Sets `x` and `y` to
     /// the expected image points of the dots, including lens distortion. Stops when `dots` is full.
     void (*list_cells)(const CellsInView& view, MeasuredDots& dots);
-    /// Finds the shift from the window centres to the dots. Adds up the image areas around the
-    /// first 16 dots that are far enough from the image border, and finds the darkest point of this
-    /// sum. Searches shifts up to `max_px` along each axis, in steps of `step_px`, with at most 6
-    /// steps per direction. Sets `cut_q8` to the contrast at the darkest point, in 1/256 of the
-    /// paper level. Returns false if there are fewer than 8 such dots, or if the sum is black.
+    /// Finds the shift from the window centres to the dots: sums the image areas around the first
+    /// 16 dots that are far enough from the image border, and finds the darkest point of the sum.
+    /// Searches shifts up to `max_px` along each axis, in steps of `step_px`, with at most 6 steps
+    /// per direction. Sets `cut_q8` to the contrast at the darkest point, in 1/256 of the paper
+    /// level. Returns false if there are fewer than 8 such dots, or if the sum is black.
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int max_px, int step_px,
                        FixedVec& shift_px, int& cut_q8);
     /// Sets `x` and `y` to the centroids of the dark pixels in the windows of the dots. Drops dots
@@ -304,24 +304,24 @@ struct Kernels {
     /// relative to the paper level.
     float (*measure_windows)(const ImageView& image, const CellsInView& view,
                              const WindowOptions& options, MeasuredDots& dots);
-    /// Replaces the centres with weighted centroids from centroid windows. Uses no threshold,
-    /// because a threshold would bias the centres. `radius_px` is at most kMaxCentroidRadius_px.
-    /// Windows near the image border are smaller. Ignores corrections of 1 px or more. Does nothing
-    /// if the image is too small for a window.
+    /// Replaces the centres with weighted centroids from centroid windows, without a threshold,
+    /// because a threshold would bias the centres. `radius_px` is at most kMaxCentroidRadius_px,
+    /// and is reduced near the image border. Ignores corrections of 1 px or more. Does nothing if
+    /// the image is too small for a window.
     void (*refine_centres)(const ImageView& image, const CellsInView& view, float radius_px,
                            MeasuredDots& dots);
     /// Reads cell bits from the grey levels at the four places. The darkest place counts as the
-    /// dot. Each dot must be predicted to within a fraction of its displacement. `depth_q8` is the
-    /// contrast of a typical dot, in 1/256 of the paper level. Compares the bits with the code, and
-    /// adds them to lines, as `read_bits` does. Drops dots that are not read or have a wrong bit.
-    /// Sets `projected` and `squares` to 0. Reads nothing if stride_bytes * height_px of the image
-    /// may exceed INT32_MAX.
+    /// dot, so the places must be predicted to within a fraction of the displacement. `depth_q8` is
+    /// the contrast of a typical dot, in 1/256 of the paper level. Compares the bits with the code,
+    /// and adds them to lines, as `read_bits` does. Drops dots that are not read or have a wrong
+    /// bit. Sets `projected` and `squares` to 0. Reads nothing if stride_bytes * height_px of the
+    /// image may exceed INT32_MAX.
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int depth_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Measures predicted dots as `refine_centres` does, with radius kPredictedCentroidRadius_px.
-    /// Drops dots whose offset exceeds `max_off_px`. `weight_px` is the factor from moment / weight
-    /// to an offset in px. If `weight_px` is 0, estimates the factor from dots in the middle of the
-    /// list. Returns the sums over the remaining dots.
+    /// Drops dots whose offset exceeds `max_off_px`. The offset of a dot is `weight_px` times the
+    /// ratio of the moment to the weight in its window. If `weight_px` is 0, it is estimated from
+    /// dots in the middle of the list. Returns the sums over the remaining dots.
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
                                float weight_px, MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with the code. Adds the bits to `columns`
@@ -338,14 +338,14 @@ struct Kernels {
     /// outside the blocks count in the nearest block.
     void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float limit, float reach_px, int side, BlockSums& sums);
-    /// Returns the places in a sequence where an alternative may lose less than the loss limit.
-    /// `steps` contains a lower bound on the loss in each step. Excludes `own`, the place of the
-    /// reading.
+    /// Returns the places in a sequence where an alternative may lose less than the loss limit,
+    /// except `own`, the place of the reading. `steps` contains a lower bound on the loss in each
+    /// step.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);
-    /// Returns an upper bound on the expected total odds of the far alternatives in `sets`.
-    /// `best[i]` is the maximum odds in line i over all rolls except the roll of the reading. A far
-    /// alternative shares at most `max_shared` adjacent lines with the reading.
+    /// Returns an upper bound on the expected total odds of the far alternatives in `sets`. A far
+    /// alternative shares at most `max_shared` adjacent lines with the reading. `best[i]` is the
+    /// maximum odds in line i over all rolls except the roll of the reading.
     float (*sum_far_alternatives)(std::span<const float> best, int max_shared,
                                   const FarAlternatives& sets);
     /// Lists the places where an alternative may lose less than `loss_limit` in the given lines.
@@ -361,10 +361,11 @@ struct Kernels {
     /// Sets `sums[n]` to the sum of the n smallest losses, for n = 0 to 8. `losses` must have 8 to
     /// 16 elements. Negative losses count as 0.
     void (*sum_smallest_losses)(std::span<const std::int16_t> losses, SmallestSums& sums);
-    /// Compares the 32 combinations of a batch with one combination of places in the other
-    /// sequences. Returns one bit per combination, which is 1 if the alternative may lose less than
-    /// `limit` (at most 255). `losses[i]` is the loss if line i is not shared. A line is shared if
-    /// the offset in the batch equals `opposite`, the negated offset of the other combination.
+    /// Joins each of the 32 combinations of a batch with one combination of places in the other
+    /// sequences. Returns one bit per resulting alternative, which is 1 if the alternative may lose
+    /// less than `limit` (at most 255). `losses[i]` is the loss if line i is not shared. A line is
+    /// shared if the two roll offsets cancel, so `opposite` contains the negated offset of the
+    /// other combination in each line.
     std::uint32_t (*similar_in_batch)(const OffsetBatch& batch, const std::uint8_t* opposite,
                                       std::span<const std::uint8_t> losses, int limit);
     /// Returns the expected odds of the alternatives that differ from the reading in the sequences

@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// Maximum number of decoded columns. The same limit applies to rows. If more lines are in view,
-/// the decoder uses the lines with the clearest bits.
+/// Maximum number of columns, and of rows, that are decoded. If more lines are in view, the decoder
+/// uses the lines with the clearest bits.
 inline constexpr int kMaxLines = 64;
 
 /// Agreement of one column or row with the main sequence, indexed by roll.

@@ -4,7 +4,8 @@ namespace dotpose::core {
 
 const Kernels& kernels() {
 #if defined(__wasm__) && !defined(__wasm_simd128__)
-    // Uses scalars, because without SIMD instructions, compilers would split the vectors.
+    // Without SIMD instructions, compilers would split each vector into scalars, so scalar code is
+    // better.
     return portable_kernels();
 #else
     const Kernels* avx2 = avx2_kernels();

@@ -5,8 +5,7 @@
 
 namespace dotpose::core {
 
-/// Returns scalar kernels for any processor. Tests compare all other kernels with the scalar
-/// kernels.
+/// Returns scalar kernels for any processor. Tests compare the other kernels with them.
 const Kernels& portable_kernels();
 /// Returns kernels with 16-byte vectors, for x86-64, 64-bit ARM, and WebAssembly with SIMD.
 const Kernels& wide_kernels();

@@ -21,7 +21,7 @@ using Values = std::span<std::int32_t>;
 std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
     std::size_t n = 0;
     for (const SeedEdge& edge : edges) {
-        // Ignores long edges. For all other edges, half the squared length fits in 32 bits.
+        // Without long edges, half the squared length fits in 32 bits.
         if (!is_within(edge.step_q8, (1 << 15) - 1)) continue;
         const auto x = static_cast<std::uint32_t>(edge.step_q8.x * edge.step_q8.x);
         const auto y = static_cast<std::uint32_t>(edge.step_q8.y * edge.step_q8.y);
@@ -31,9 +31,10 @@ std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
     return static_cast<std::int32_t>(square_root(half_square * 2));
 }
 
-/// Returns the grid direction modulo a quarter turn, as a binary angle (2^32 units per turn). As
-/// complex numbers, the steps in all four grid directions have the same fourth power. `length_q8`
-/// is the median edge length.
+/// Returns the grid direction modulo a quarter turn, as a binary angle (2^32 units per turn). If
+/// the steps are written as complex numbers, the fourth power is the same for steps in all four
+/// grid directions, so the fourth powers of all edges can be added. `length_q8` is the median edge
+/// length.
 std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t length_q8) {
     const std::int32_t inverse_q16 = 1024 * 65536 / length_q8;
     std::int32_t sum_re = 0;
@@ -53,7 +54,7 @@ std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t 
         sum_re += (re * re - im * im) >> 10;
         sum_im += (2 * re * im) >> 10;
     }
-    // Each sum is at most 2^9 edges times (5/4)^4 * 2^10. It fits in 32 bits.
+    // Each sum fits in 32 bits, because it is at most 2^9 edges times (5/4)^4 * 2^10.
     return angle_bam({sum_re, sum_im}) / 4;
 }
 
@@ -70,7 +71,6 @@ FixedVec turned(FixedVec edge, Side side) {
 }
 using Sides = std::array<Side, kMaxEdges>;
 
-/// Sum and number of the edges in one cluster.
 struct Sum {
     FixedVec total;
     std::int32_t count = 0;
@@ -95,7 +95,6 @@ class Clusters {
         farther_ = half_squares[1] - half_squares[0];
     }
 
-    /// Assigns each edge to its nearest cluster and updates `sums`.
     DOTPOSE_NOINLINE void assign(std::span<const SeedEdge> edges, Side* side, Sums& sums) const {
         for (const SeedEdge& edge : edges) {
             const Side now = nearest(edge.step_q8);
@@ -120,8 +119,9 @@ class Clusters {
         const FixedVec e{edge_q8.x >> 2, edge_q8.y >> 2};
         const std::int32_t along_0 = e.x * means_q6_[0].x + e.y * means_q6_[0].y;
         const std::int32_t along_1 = e.x * means_q6_[1].x + e.y * means_q6_[1].y;
-        // Compares |mean|^2 / 2 - |edge . mean| for both means. Adding |edge|^2 / 2 to this term
-        // gives half the squared distance from the edge to the nearer of mean and -mean.
+        // Assigns the edge to the mean with the smaller |mean|^2 / 2 - |edge . mean|. This is half
+        // the squared distance from the edge to the nearer of mean and -mean, without the term
+        // |edge|^2 / 2, which is the same for both means.
         if (magnitude(along_1) - magnitude(along_0) > farther_)
             return along_1 < 0 ? Side::opposite_second : Side::second;
         return along_0 < 0 ? Side::opposite_first : Side::first;
@@ -189,8 +189,8 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;
     // Unlike the paper, which uses both medians as axes, this estimate averages them into a square
-    // grid. The medians deviate from a square mostly because of random errors, not because of tilt.
-    // Averaging halves the variance.
+    // grid, because they deviate from a square mostly by random errors, not by tilt. Averaging
+    // halves the variance.
     const FixedVec twice_u{u.x + v.y, u.y - v.x};
     lattice.u_q16 = {twice_u.x * kLengthening_q8 / 2, twice_u.y * kLengthening_q8 / 2};
     lattice.v_q16 = {-lattice.u_q16.y, lattice.u_q16.x};
@@ -198,7 +198,7 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
 }
 
 bool is_nearly_square(FixedVec u, FixedVec v) {
-    // Keeps only the fourteen most significant bits. Products of four components then fit in 64
+    // Keeps only the fourteen most significant bits, so that products of four components fit in 64
     // bits.
     const auto longest =
         static_cast<std::uint32_t>(std::max(larger_component(u), larger_component(v)));

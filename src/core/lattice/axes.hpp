@@ -14,12 +14,12 @@ namespace dotpose::core {
 Status estimate_axes(std::span<const SeedEdge> edges, std::span<std::int32_t> memory,
                      Lattice& lattice);
 
-/// Returns true if u and v may be the axes of a square grid seen by a tilted camera. The lengths
-/// may differ by a factor of up to 1.5. The sine of the angle from u to v must be at least 0.9.
-/// Angles increase from +x towards +y.
+/// Returns true if u and v may be the axes of a square grid seen by a tilted camera: their lengths
+/// differ by a factor of at most 1.5, and the sine of the angle from u to v is at least 0.9. Angles
+/// increase from +x towards +y.
 bool is_nearly_square(FixedVec u, FixedVec v);
-/// Returns true if the grid axes at the centre of a plane are nearly square. The spacing along u
-/// must also be at least 4 px.
+/// Returns true if the grid axes at the centre of a plane are nearly square and the spacing along u
+/// is at least 4 px.
 bool is_nearly_square(const PlaneFromImage& plane);
 
 }  // namespace dotpose::core

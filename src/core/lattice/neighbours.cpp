@@ -23,14 +23,14 @@ class Buckets {
     int column(FixedVec at_q8) const { return at_q8.x >> shift_; }
     int row(FixedVec at_q8) const { return at_q8.y >> shift_; }
     std::span<const BucketedSeed> all() const { return memory_.first(count_); }
-    /// Returns the first seed in the bucket at this row and column. If the bucket is empty, returns
-    /// the next seed in the array.
+    /// Returns the first seed in the bucket at this row and column, or the next seed in the array
+    /// if the bucket is empty.
     const BucketedSeed* in_row(int row, int column) const {
         return &memory_[memory_[static_cast<std::size_t>(row * columns_ + column)].begin];
     }
 
   private:
-    /// Element columns * rows contains the end of the last bucket.
+    /// The `begin` of element columns * rows is the end of the last bucket.
     const std::span<BucketedSeed> memory_;
     const std::size_t count_;
     int shift_ = 0;
@@ -76,7 +76,7 @@ Buckets::Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_
     }
 }
 
-/// Limit for the distance of a neighbour along each axis: 128 px, in 2^-8 px. No grid has a larger
+/// Maximum distance of a neighbour along each axis: 128 px, in 2^-8 px. No grid has a larger
 /// spacing.
 constexpr std::int32_t kFarthest_q8 = 1 << 15;
 
@@ -157,8 +157,8 @@ void widen(std::array<std::uint16_t, kDistanceBins>& histogram) {
 
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds) {
-    // Histogram of the distances from the centre. The bins are as narrow as possible, but the last
-    // bin must include the farthest dot.
+    // Histogram of the distances from the centre. The bins have the smallest width for which the
+    // histogram includes the farthest dot.
     std::array<std::uint16_t, kDistanceBins> histogram{};
     int shift = 0;
     for (const DetectedDot& dot : dots) {

@@ -1,7 +1,7 @@
 // Neighbours: the nearest neighbours of each seed, and the symmetric edges between seeds (paper,
-// section II-B.2). *Seeds* are the dots nearest the image centre, at most kMaxSeeds. Unlike the
-// paper, which connects all dots, dotpose fits the first grid only to seeds. Later stages extend
-// the grid outwards (device/grow.hpp, lattice/refine_grid.hpp). This bounds the time for any image.
+// section II-B.2). *Seeds* are the dots nearest the image centre, at most kMaxSeeds. The paper
+// connects all dots. To bound the time for any image, dotpose fits the first grid only to seeds,
+// and later stages extend it outwards (device/grow.hpp, lattice/refine_grid.hpp).
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,10 @@
 
 namespace dotpose::core {
 
-/// Maximum number of seeds.
 inline constexpr int kMaxSeeds = 256;
 
 /// Element of two independent arrays that share memory. `at_q8` and `seed` belong to the array of
-/// seeds, sorted by bucket in row-major order. `begin` belongs to the array of buckets.
+/// seeds, which is sorted by bucket in row-major order. `begin` belongs to the array of buckets.
 struct BucketedSeed {
     FixedVec at_q8;           ///< position relative to the corner of the first bucket
     std::uint16_t seed = 0;   ///< index of the seed

@@ -75,8 +75,8 @@ FloatPlane plane_from_waves(const Waves& waves) {
     return plane;
 }
 
-/// Inverse of the 3 x 3 normal matrix. Each element of the normal matrix is the sum, over the used
-/// dots, of the product of two of x, y and 1.
+/// Inverse of the normal matrix for three unknowns. The elements of the normal matrix are the sums
+/// of 1, x, y, xx, xy and yy over the used dots.
 struct Inverse {
     std::array<std::array<float, 3>, 3> m;
     bool is_regular = false;
@@ -117,8 +117,8 @@ bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane)
     const auto right_of = [](const std::array<float, 6>& s) {
         return std::array{s[1], s[2], s[0]};
     };
-    // Select the sums of i x (x, y, 1) and of i y (x, y, 1) from `sums.i`. In `sums.j`, j replaces
-    // i.
+    // Return the sums of i x times (x, y, 1), and of i y times (x, y, 1), for the argument
+    // `sums.i`. For the argument `sums.j`, j replaces i.
     const auto with_x = [](const std::array<float, 6>& s) { return std::array{s[3], s[4], s[1]}; };
     const auto with_y = [](const std::array<float, 6>& s) { return std::array{s[4], s[5], s[2]}; };
     std::array<float, 3> i = inverse(right_of(sums.i));
@@ -169,8 +169,8 @@ float growth(float fraction) {
     return fraction > tuned::kFairFraction ? tuned::kFairGrowth : tuned::kPoorGrowth;
 }
 
-/// Rank of the neighbour whose distance measures the density of the dots around a dot. The first
-/// estimate of the grid spacing follows from the largest density.
+/// The distance of a dot to its kNearest-th nearest neighbour measures the density of the dots
+/// around it. The largest density gives the first estimate of the grid spacing.
 constexpr std::size_t kNearest = 20;
 
 /// Returns the squared distance from the dot at `of` to its kNearest-th nearest neighbour, in px^2.
@@ -201,8 +201,8 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
     PatchDots& dots = patch.dots;
     const int count = dots.count;
     if (count < tuned::kMinDots) return false;
-    // Limits for the number of dots tested as origins, and for the number of computed distances. If
-    // noise adds many dots, the search tests fewer dots as origins.
+    // Limits for the number of dots that are tested as origins, and for the number of computed
+    // distances. If noise adds many dots, fewer of them are tested as origins.
     constexpr int kMaxCandidates = 64;
     constexpr int kMinCandidates = 16;
     constexpr int kMaxDistances = 32768;
@@ -238,7 +238,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     plane = plane_from_waves(*waves);
     const float spacing = spacing_px(plane);
     const float full = view.full_reach_px;
-    // The first rounds fit the plane as if all dots were on their intersections. Displacements
+    // The first rounds fit the plane as if all dots were on their intersections, so displacements
     // count as noise.
     CellPass pass{tuned::kFirstReach * spacing, tuned::kFirstMaxOffset, 0};
     CellSums sums;

@@ -11,16 +11,17 @@ namespace dotpose::core {
 
 /// The grid of a patch, and its fit to the dots.
 struct PatchGrid {
-    FloatPlane grid_from_image;  ///< relative to the origin of the dot coordinates
-    /// Root mean square displacement of the dots, in spacings, clamped to the range of a first
-    /// grid.
+    FloatPlane grid_from_image;  ///< maps image points that are relative to the origin of the dot
+                                 ///< coordinates
+    /// Root mean square displacement of the dots, in spacings. It is clamped to the range from
+    /// kMinDisplacement to kMaxDisplacement (lattice/tuning.hpp).
     float displacement = 0;
     /// Variance of the offset between a dot and the nearest of the four places of its cell, per
     /// axis, in spacings^2.
     float variance = 0;
-    /// Agreement of the dots with the grid, in spacings^2. This is the sum of m^2 - offset^2 over
-    /// the dots whose offset is at most m, where m is `CellPass::max_off`. The offset is the
-    /// distance to the nearest place of the dot's cell. Comparable between grids of the same dots.
+    /// Agreement of the dots with the grid, in spacings^2, to compare grids of the same dots. If m
+    /// is `CellPass::max_off`, each dot at a distance d <= m from the nearest place of its cell
+    /// contributes m^2 - d^2.
     float agreement = 0;
 };
 
@@ -30,7 +31,7 @@ struct PatchView {
     float spacing_px = 0;  ///< approximate spacing, in px of the image
     /// Maximum distance of a dot from the origin, per axis, in image pixels.
     float full_reach_px = 0;
-    /// Approximate number of central dots, from which the waves are computed. At most 64.
+    /// Approximate number of central dots, from which the waves are computed; at most 64
     float central_dots = 30;
     int min_dots = 40;  ///< minimum number of dots in the patch
     /// True if the cells may be arbitrary parallelograms, because a rolling shutter shears and
@@ -42,14 +43,13 @@ struct PatchView {
 PatchView whole_view(const Patch& patch);
 
 /// Moves the origin of the dots to the densest part of the patch, for patches that the pattern
-/// covers only partly. Compares a sample of the dots by the distance to their 20th nearest
-/// neighbour. The new origin is the dot with the smallest distance, rounded down to whole px. Sets
-/// `view`, and sets `from_middle_px` to the new origin relative to the patch middle. Returns false
-/// if there are fewer than kMinDots dots.
+/// covers only partly. A part is dense if the distance of a dot to its 20th nearest neighbour is
+/// small. Sets `view`, and sets `from_middle_px` to the new origin relative to the patch middle, in
+/// whole px. Returns false if there are fewer than kMinDots dots.
 bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
-/// Finds the grid. Returns false if there are fewer than `view.min_dots` dots, or if the dots do
-/// not form a grid. Also returns false if the dots are not displaced from the intersections.
+/// Finds the grid. Returns false if there are fewer than `view.min_dots` dots, if the dots do not
+/// form a grid, or if they are not displaced from the intersections.
 bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view, PatchGrid& grid);
 
 }  // namespace dotpose::core

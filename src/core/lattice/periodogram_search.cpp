@@ -43,7 +43,7 @@ class Periodogram {
         }
     }
 
-    /// Returns the summed cosine and sine of the wave's phase over the seeds.
+    /// Returns the sums of the cosine and of the sine of the wave's phase at the seeds.
     FixedVec sum(const Wave& wave) const {
         const FixedVec wave_q30 = wave.vector_q30();
         FixedVec total;
@@ -116,8 +116,8 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
     const FixedVec a = first.vector_q30();
     const FixedVec b = second.vector_q30();
     const std::int64_t area_q44 = std::max<std::int64_t>(cross(a, b) >> 16, 1);
-    // Limit for the axis components, in 2^-16 px. The components must not overflow if both waves
-    // have the same direction. The caller rejects such a lattice later.
+    // Limit for the axis components, in 2^-16 px, to prevent an overflow if both waves have the
+    // same direction. The caller rejects such a lattice later.
     constexpr std::int32_t kLongest_q16 = 4096 << 16;
     const auto entry = [&](std::int32_t part_q30) {
         return limited((std::int64_t{part_q30} << 30) / area_q44, kLongest_q16);
@@ -144,8 +144,8 @@ void search_periodogram(std::span<const DetectedDot> dots, std::span<const std::
     Wave wave{angle_bam({lattice.u_q16.x / 2 + lattice.v_q16.y / 2,
                          lattice.u_q16.y / 2 - lattice.v_q16.x / 2}),
               static_cast<std::int32_t>(length_q16)};
-    // Uses the dots within kNear_cells of the centre. Their periodogram has a peak that is wide
-    // enough for a coarse raster.
+    // Uses only the dots within kNear_cells of the centre, because their periodogram has a peak
+    // that is wide enough for a coarse raster.
     const Periodogram near(dots, seeds, centre_q8, wave.spacing_q16 / 256 * tuned::kNear_cells);
     wave = best_around(wave,
                        {tuned::kTurn_deg * kDegree_bam, wave.spacing_q16 / tuned::kStretchPart,

@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::refine_grid;
 
-/// Maximum distance of a cell from cell (0, 0) along either axis, in cells. The fit ignores dots in
-/// farther cells.
+/// Maximum distance of a cell from cell (0, 0) along either axis, in cells. Dots in farther cells
+/// are ignored.
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
@@ -35,9 +35,10 @@ void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
                           FixedVec{median(std::span(x).first(n)), median(std::span(y).first(n))};
 }
 
-/// Agreement with the grid, for the dots whose cells are at most `reach_cells` from the origin.
+/// Agreement of the dots with the grid. Only dots whose cells are at most `reach_cells` from the
+/// origin count.
 struct Judged : Regularity {
-    std::int64_t squared_offsets_q20 = 0;  ///< sum of squared dot offsets
+    std::int64_t squared_offsets_q20 = 0;
 };
 
 Judged judge(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
@@ -56,7 +57,7 @@ Judged judge(std::span<const DetectedDot> dots, int reach_cells, const LatticeOp
     return found;
 }
 
-/// Place in the grid to which a dot is fitted.
+/// Point of the grid to which a dot is fitted.
 struct Target {
     bool is_used = false;
     FixedVec place_q16;

@@ -1,10 +1,10 @@
 // Tuning: empirical constants of grid detection. The constants of the second attempt were
-// determined on the hard frames listed in decode/tuning.hpp. Some comments compare a constant with
-// other values, by the number of frames located by
+// determined on the hard frames listed in decode/tuning.hpp. Some comments state how many frames
+// are located with other values of a constant. The command is
 //
 //     dotpose evaluate --preset hard --frames 2000 --seed 404
 //
-// The values in this file locate 1,994 frames.
+// With the values in this file, 1,994 of the 2,000 frames are located.
 #pragma once
 
 namespace dotpose::core::tuning {
@@ -12,7 +12,7 @@ namespace dotpose::core::tuning {
 /// Growth of a grid fit (lattice/regularity).
 namespace regularity {
 /// Minimum fraction of dots near an intersection before the fit extends to farther dots, in 1/20.
-/// The remaining dots may be dirt.
+/// The other dots may be dirt.
 inline constexpr int kSettled_20th = 19;
 /// Minimum fraction of dots near an intersection in a grid, in 1/10. At random places, half the
 /// dots are near an intersection.
@@ -28,7 +28,7 @@ inline constexpr int kMedianSample = 256;
 inline constexpr int kMaxRounds = 4;
 /// Maximum distance between a dot and the nearest of the four places of its cell, in 2^-16
 /// spacings. Dots at a larger distance count as false dots. The limit is slightly less than the
-/// displacement. With half or twice this value, 1,994 frames are also located.
+/// displacement. Half and twice this value also locate 1,994 frames.
 inline constexpr int kFar_q16 = 65536 / 8;
 /// Number of fits to the nearest places. The second fit starts from a more precise plane, and
 /// assigns more dots to their correct places.
@@ -40,12 +40,11 @@ namespace periodogram_search {
 /// Half side of the central square whose dots are in the periodogram, in spacings. Raster searches
 /// use kNear_cells, because the periodogram of a small square has a wide peak, which a coarse
 /// raster cannot miss. The ascent uses kWider_cells, because the peak of a larger square is more
-/// precise. With kNear_cells = 3, 1,964 frames are located. With kNear_cells = 10, 1,993 frames are
-/// located.
+/// precise. For kNear_cells, the value 3 locates 1,964 frames, and the value 10 locates 1,993.
 inline constexpr int kNear_cells = 5;
 inline constexpr int kWider_cells = 8;
-/// Raster of the first search: direction step in degrees, spacing divided by its step, and spacing
-/// steps to each side.
+/// Raster of the first search. kTurn_deg is the direction step. kStretchPart is the ratio of the
+/// spacing to the spacing step, and kStretches is the number of spacing steps to each side.
 inline constexpr int kTurn_deg = 2;
 inline constexpr int kStretchPart = 40;
 inline constexpr int kStretches = 4;
@@ -55,8 +54,9 @@ inline constexpr int kStretches = 4;
 inline constexpr int kTiltTurn_deg = 3;
 inline constexpr int kTiltStretchPart = 25;
 inline constexpr int kTiltSteps = 3;
-/// First steps of the ascent to the maximum: direction step in degrees, and spacing divided by its
-/// step. The last steps are 1/kFinest of the first steps.
+/// First steps of the ascent to the maximum. kFirstTurn_deg is the direction step, and
+/// kFirstStretchPart is the ratio of the spacing to the spacing step. The last steps are 1/kFinest
+/// of the first steps.
 inline constexpr int kFirstTurn_deg = 1;
 inline constexpr int kFirstStretchPart = 80;
 inline constexpr int kFinest = 8;
@@ -77,12 +77,12 @@ inline constexpr int kMaxCentralDots = 64;
 /// and rejects waves below kFaintWaves.
 inline constexpr float kClearWaves = 0.2F;
 inline constexpr float kFaintWaves = 0.12F;
-/// Range of spacings in the smoothed patch, in patch pixels. Dots of a finer grid merge. Dots of a
-/// coarser grid have more than one minimum.
+/// Range of spacings in the smoothed patch, in patch pixels. In a finer grid, the dots merge. In a
+/// coarser grid, a dot has more than one minimum.
 inline constexpr float kFinest_px = 5.2F;
 inline constexpr float kCoarsest_px = 40;
 /// Limits of a plausible fit: minimum and maximum spacing relative to the first spacing, and
-/// maximum difference between the perspective divisor and 1 within the reach. These limits reject
+/// maximum difference between the perspective divisor and 1 within the reach. The limits reject
 /// fits with half or twice the true spacing.
 inline constexpr float kMinSpacing = 0.7F;
 inline constexpr float kMaxSpacing = 1.4F;
@@ -100,16 +100,16 @@ inline constexpr float kMaxDisplacement = 0.32F;
 /// the places would nearly touch.
 inline constexpr float kMaxOffsetPart = 0.75F;
 inline constexpr float kMaxOffset = 0.18F;
-/// Limits below which the search ends without a grid: minimum number of dots that a fit uses, and
-/// minimum fraction of the dots within `CellPass::reach_px` that are near one of the four places of
-/// their cell. kMaxRounds is the maximum number of fits.
+/// A search ends without a grid if a fit uses fewer than kMinUsed dots, or if less than
+/// kMinFraction of the dots within `CellPass::reach_px` are near one of the four places of their
+/// cell. kMaxRounds is the maximum number of fits.
 inline constexpr float kMinUsed = 12;
 inline constexpr float kMinFraction = 0.4F;
 inline constexpr int kMaxRounds = 16;
-/// Growth factors of `CellPass::reach_px` from round to round. The factor depends on the fraction
-/// of dots near one of the four places of their cell: above kGoodFraction, above kFairFraction, or
-/// less. If the plane is poor, the reach shrinks, because the plane must first improve near the
-/// middle.
+/// Factors by which `CellPass::reach_px` changes from round to round. The factor depends on the
+/// fraction of dots near one of the four places of their cell: above kGoodFraction, above
+/// kFairFraction, or less. With few such dots, the reach shrinks, because the plane must first
+/// improve near the middle.
 inline constexpr float kGoodFraction = 0.9F;
 inline constexpr float kGoodGrowth = 1.8F;
 inline constexpr float kFairFraction = 0.8F;

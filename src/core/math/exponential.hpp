@@ -1,5 +1,5 @@
-/// Exponential function and logarithm in single precision. The results are bit-identical on every
-/// platform. Results of different C libraries may differ in the last bit.
+/// Exponential function and logarithm in single precision. Unlike the results of C libraries, which
+/// may differ in the last bit, the results are bit-identical on every platform.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ inline float natural_log(float x) {
         mantissa *= 2;
         --exponent;
     }
-    // ln m = 2 artanh t. Uses the series of artanh up to the ninth power.
+    // Computes ln m = 2 artanh t from the series of artanh up to the ninth power.
     const float t = (mantissa - 1) / (mantissa + 1);
     const float square = t * t;
     constexpr float kSeries[] = {1.0F / 7, 1.0F / 5, 1.0F / 3, 1};

@@ -68,7 +68,7 @@ std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
 
 std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift) {
     if (shift > 0) {
-        // Shifts the numerator left by up to `shift` bits, while it fits in 62 bits. Shifts the
+        // Shifts the numerator left by as many of the `shift` bits as fit in 62 bits, and the
         // denominator right by the remaining bits.
         const auto bits = std::bit_width(static_cast<std::uint64_t>(magnitude(numerator)));
         const int up = std::clamp(62 - static_cast<int>(bits), 0, shift);
@@ -84,7 +84,8 @@ std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, i
 }
 
 std::int64_t log2_q16(std::uint32_t n) {
-    // Computes the logarithm bit by bit. Squaring a number doubles its logarithm.
+    // Computes the logarithm bit by bit: squaring the mantissa doubles its logarithm, so the
+    // integer part gives the next bit.
     int whole = 0;
     while (n >> whole > 1)
         ++whole;
@@ -136,8 +137,8 @@ std::int32_t angle_bam(FixedVec direction) {
         }
     };
     // First step in which |y| fits in 32 bits. The rotations lengthen the vector to at most 1.65 *
-    // 2^41. Before step i, |y| is at most 2^(1 - i) times this length. From step 12 on, |y| and the
-    // terms subtracted from y fit in 32 bits.
+    // 2^41, and before step i, |y| is at most 2^(1 - i) times this length. From step 12 on, |y| and
+    // the terms subtracted from it therefore fit in 32 bits.
     constexpr std::size_t kNarrow = 12;
     for (std::size_t i = 0; i < kNarrow; ++i)
         turn(x, y, x >> i, i);

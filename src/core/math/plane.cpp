@@ -90,7 +90,7 @@ PlaneFromImage tangent(const PlaneFromImage& plane, FixedVec image_point_q8) {
     const FixedVec p = image_point_q8 - plane.centre_q8;
     const std::int64_t divisor = divisor_q30(plane, p);
     const FixedVec from_centre_q16 = result.at_centre_q16 - plane.at_centre_q16;
-    // Quotient rule. The derivative of the divisor is perspective + 2 lens (x, y).
+    // Uses the quotient rule. The derivative of the divisor is perspective + 2 lens (x, y).
     const auto slope = [&](FixedVec linear_q24, std::int32_t perspective_q30,
                            std::int32_t along_q8) {
         const std::int64_t bend_q30 = (std::int64_t{plane.lens_q40} * along_q8) >> 17;

@@ -16,9 +16,9 @@ struct GridPoint {
 /// fitted to false dots exceed it. Four times the limit fits in 32 bits.
 inline constexpr std::int32_t kBeyondReason = 1 << 28;
 
-/// Returns k |r|^2 in units of 2^-48, for an offset r from the distortion centre. Clamps |r| to
-/// 4096 px, so the result fits in 64 bits for any k. Projected points on steeply tilted planes may
-/// be farther away than 4096 px.
+/// Returns k |r|^2 in units of 2^-48, for an offset r from the distortion centre. On steeply tilted
+/// planes, projected points may be far away, so |r| is clamped to 4096 px. The result then fits in
+/// 64 bits for any k.
 inline std::int64_t bend_q48(std::int32_t k_q40, FixedVec r_q8) {
     constexpr std::int64_t kFarthest_q8 = 0xFFFFFFFF;
     return k_q40 * std::min(squared(r_q8) >> 8, kFarthest_q8);

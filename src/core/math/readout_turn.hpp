@@ -8,7 +8,6 @@
 
 namespace dotpose::core {
 
-/// Cosine and sine of an angle.
 struct UnitVec {
     float cos = 1;
     float sin = 0;
@@ -55,8 +54,9 @@ struct ReadoutTurn {
         return {p.x + axis.x + still_row * drift.x, still_row};
     }
 
-    /// Returns the inverse of `without_turn`, by Newton's method. `row` is the approximate row of
-    /// the result. Valid where the scene moves down more slowly than the rows are read.
+    /// Returns the inverse of `without_turn`, by Newton's method with `steps` steps. `row` is the
+    /// approximate row of the result. Valid where the scene moves down more slowly than the rows
+    /// are read.
     FloatVec seen_from(FloatVec still, float row, int steps) const {
         constexpr float kMinClosing = 0.05F;
         constexpr float kMaxRow = 4096;  // exceeds the rows of every image

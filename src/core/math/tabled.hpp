@@ -8,9 +8,9 @@
 
 namespace dotpose::core {
 
-/// Returns kFunction(n) for n < kCount, from a table built at compile time. On targets with a
-/// divide instruction and little flash memory, calls the function instead. On WebAssembly, also
-/// calls the function, to keep downloads small.
+/// Returns kFunction(n) for n < kCount, from a table built at compile time. Targets with a divide
+/// instruction and little flash memory call the function instead, and so does WebAssembly, to keep
+/// downloads small.
 template <std::uint32_t (*kFunction)(std::uint32_t), std::uint32_t kCount>
 std::uint32_t tabled(std::uint32_t n) {
 #if defined(__wasm__) || defined(__mips__) || defined(__riscv_div) || \

@@ -6,8 +6,8 @@
 
 namespace dotpose::core {
 
-/// Sets `covariance` of the fix to the covariance of the pose at the reference point. Also sets
-/// `residual_px`, `dots_seen`, `dots_used` and `surface`. The fix must already contain the spacing.
+/// Sets the `covariance` of the fix at the reference point, and its `residual_px`, `dots_seen`,
+/// `dots_used` and `surface`. The fix must already contain the spacing.
 void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_image,
                          FixedVec reference_q8, Fix& fix);
 

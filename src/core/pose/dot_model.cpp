@@ -9,10 +9,10 @@ namespace {
 
 constexpr auto kSide = DotPixels::kSide;
 
-/// Chords of a half ellipse, from the outermost to the innermost. Each element is cos(a), where a
-/// is the parametric angle of the chord. The chord is at v = radius.y cos(a), and its ends are at u
-/// = +-radius.x sin(a). The other half of the ellipse is symmetric. Adjacent chords are less than a
-/// pixel apart. kChordsOfSmall is for small ellipses.
+/// Chords of half an ellipse at equal steps of the parametric angle a, from the outermost to the
+/// innermost. Each element is cos(a): the chord is at v = radius.y cos(a), and its ends are at u =
+/// +-radius.x sin(a). The other half of the ellipse is symmetric. Adjacent chords must be less than
+/// a pixel apart, so kChordsOfSmall is enough for small ellipses.
 constexpr float kChordsOfSmall[] = {0.99144486F, 0.92387953F, 0.79335334F,
                                     0.60876143F, 0.38268343F, 0.13052619F};
 constexpr float kChords[] = {0.99691733F, 0.97236992F, 0.92387953F, 0.85264016F, 0.76040597F,
@@ -54,7 +54,7 @@ struct Normal {
     }
 };
 
-/// Responses of the pixels along one axis to a blurred step at `place` and to a blurred point at
+/// Responses of the pixels along one axis to a blurred step and to a blurred point, both at
 /// `place`.
 struct PixelLine {
     /// Response to a step. The darkness is 1 beyond `place` and 0 before it.

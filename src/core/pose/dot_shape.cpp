@@ -61,8 +61,8 @@ DotShape::Normal DotShape::equations(const StackedDots& stacks, const Terms& ter
     by_width[radius_v] = -by_width[radius_u];
     normal.add(by_width, (terms[radius_v] - terms[radius_u]) / first[radius_u],
                1 / (tuned::kSigmaOfWidth * tuned::kSigmaOfWidth));
-    // Prior: the ink contrast is about kContrast. Without this prior, the image of a small dot
-    // determines only the product of area and contrast.
+    // Prior: the ink contrast is about kContrast. This prior is necessary, because the image of a
+    // small dot determines only the product of area and contrast.
     const float area = kPi * std::sqrt(terms[radius_u] * terms[radius_v]);
     const float contrast = terms[mass] / area;
     Terms by_contrast{};
@@ -78,8 +78,8 @@ DotShape::Terms DotShape::changed(const Terms& terms, const Terms& step) {
     Terms result = terms;
     for (std::size_t i = 0; i < Term::count; ++i)
         result[i] += step[i];
-    // Half axes and blur must remain positive. A step reduces each of these terms to no less than a
-    // quarter of its value, and to no less than kMin_px2.
+    // Half axes and blur must remain positive, so no step reduces one of these terms to less than a
+    // quarter of its value or to less than kMin_px2.
     for (const std::size_t i : {radius_u, radius_v, blur_u, blur_v})
         result[i] = std::max({result[i], terms[i] / 4, tuned::kMin_px2});
     return result;

@@ -9,9 +9,9 @@ namespace dotpose::core {
 /// A model dot fitted to a frame, with its uncertainty.
 class DotShape {
   public:
-    /// Terms of the fit. The offsets from the expected places are common to all dots. The radii are
-    /// squared half axes, and the blurs are variances. `mass` is the total darkness of a dot, and
-    /// `paper` is the darkness of the paper.
+    /// Terms of the fit. `offset_u` and `offset_v` are the mean offset of the dots from their
+    /// expected places. The radii are squared half axes, and the blurs are variances. `mass` is the
+    /// total darkness of a dot, and `paper` is the darkness of the paper.
     enum Term : std::size_t {
         offset_u,
         offset_v,
@@ -38,7 +38,7 @@ class DotShape {
     /// Returns the mean offset of the dots from their expected places, in px.
     FloatVec offset() const { return {terms_[offset_u], terms_[offset_v]}; }
     /// Returns the variance of a quantity that depends on the terms, given its derivatives with
-    /// respect to the terms. The variance is scaled by the misfit.
+    /// respect to the terms. The variance from the normal equations is multiplied by the misfit.
     float variance(const Terms& derivatives) const;
     /// Returns the reduced chi-squared of the fit, but at least 1. The misfit is about 1 if the
     /// residuals contain only noise.
@@ -53,7 +53,6 @@ class DotShape {
         float cost = 0;
 
         void add(const Terms& derivatives, float rest, float weight);
-        /// Returns false if the equations do not determine all terms.
         bool decompose();
         void expect(Term term, float value, float sigma, const Terms& now);
     };

@@ -1,6 +1,6 @@
 // Facing dots: corrects the bias of adjacent dots that are displaced towards each other. If such
-// dots are large or blurred, each dot shifts the centroid of the other dot towards itself. The two
-// shifts cancel in the pose, but increase the residuals and therefore the estimated covariance. The
+// dots are large or blurred, each shifts the centroid of the other towards itself. The two shifts
+// cancel in the pose, but they increase the residuals and therefore the estimated covariance. The
 // paper estimates no covariance and does not need this correction.
 #pragma once
 

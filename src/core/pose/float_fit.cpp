@@ -10,9 +10,9 @@ namespace {
 
 namespace tuned = tuning::fit;
 
-/// Returns the limit of `moved` (see `solve`) below which the fit has converged. The limit is
-/// larger for planes with little perspective and lens distortion. The fit of such a plane is nearly
-/// linear, so a single step ends close to the solution.
+/// Returns the limit of `moved` (see `solve`) below which the fit has converged. For planes with
+/// little perspective and lens distortion, the limit is larger, because their fit is nearly linear
+/// and a single step ends close to the solution.
 float settled(const FloatPlane& p, float reach) {
     const float nonlinear =
         (std::abs(p.tilt_x) + std::abs(p.tilt_y)) * reach + std::abs(p.bend) * reach * reach;

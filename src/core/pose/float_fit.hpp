@@ -1,6 +1,6 @@
 // Float fit: fits the pose, in single precision, to dots that were measured near their predicted
-// places. Variant of `refine_pose` with vector kernels. The paper computes the pose from the grid
-// (eq. 10-12), but this fit uses the printed places of the displaced dots.
+// places. It is a variant of `refine_pose` with vector kernels. The paper computes the pose from
+// the grid (eq. 10-12). This fit uses the printed places of the displaced dots instead.
 #pragma once
 
 #include "core/math/float_plane.hpp"

@@ -1,4 +1,4 @@
-// Group scatter: estimates how strongly the residuals of neighbouring dots are correlated. Uses a
+// Group scatter: estimates how strongly the residuals of neighbouring dots are correlated, by a
 // one-way analysis of variance over both coordinates.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace dotpose::core {
 /// squares are in spacings^2.
 struct GroupScatter {
     float squares = 0;  ///< summed squared residuals of all dots
-    /// Sum of n |m|^2 over all groups, where n is the number of dots in a group and m their mean
+    /// Sum of n |m|^2 over all groups, where n is the number of dots in a group and m is their mean
     /// residual.
     float between = 0;
     float dots = 0;
@@ -28,13 +28,13 @@ struct GroupScatter {
         constexpr float kExact = 1e-12F;
         return std::max(squares - between, 0.0F) / std::max(2 * (dots - groups), 1.0F) + kExact;
     }
-    /// Returns by how many standard deviations the scatter between groups exceeds the value that is
-    /// expected for uncorrelated residuals.
+    /// Returns the excess of the scatter between groups over the expected scatter of uncorrelated
+    /// residuals, in standard deviations.
     float excess() const {
         return (between / (freedom() * variance_within()) - 1) * std::sqrt(freedom() / 2);
     }
-    /// Returns the variance of the displacement that all dots of a group have in common, along one
-    /// axis.
+    /// Returns the variance, along one axis, of the displacement that is common to all dots of a
+    /// group.
     float variance_between() const {
         return std::max(between - freedom() * variance_within(), 0.0F) / std::max(2 * dots, 1.0F);
     }

@@ -49,8 +49,9 @@ struct Window {
                                           tuned::kMinSigma_q8)) {}
 
     /// Crops a window to the pixels whose neighbours are all in the image. Returns nullopt if a
-    /// neighbour of the central pixel is outside the image. Windows of dots near the border are
-    /// cropped instead of rejected, because these dots determine angle and tilt most precisely.
+    /// neighbour of the central pixel is outside the image. Windows at the border are cropped
+    /// instead of rejected, because the dots near the border determine angle and tilt most
+    /// precisely.
     std::optional<Box> box_around(const ImageView& image, int u, int v) const {
         const int last_u = image.width_px - 2;
         const int last_v = image.height_px - 2;
@@ -96,8 +97,8 @@ struct BorderBackground {
     float slope_v = 0;
 };
 
-/// Computes the paper level from the window sides that are in the image. At least two sides are in
-/// the image, because no image is smaller than a window. If one of two opposite sides is missing,
+/// Computes the paper level from the window sides that are in the image. There are at least two
+/// such sides, because no image is smaller than a window. If one of two opposite sides is missing,
 /// the slope between them is 0.
 BorderBackground border_background(const Patch& patch, FixedVec pixel, int half) {
     const auto side = [](bool is_inside, int first, int last, auto level) -> std::optional<float> {
@@ -176,8 +177,8 @@ class DotFit {
     }
 
   private:
-    // Sums of 1, x, y, x^2, xy and y^2, weighted by the squared profile. Sums of the darkness, and
-    // of the darkness times x and y, weighted by the profile.
+    // Weighted by the squared profile: sums of 1, x, y, x^2, xy and y^2. Weighted by the profile:
+    // sums of the darkness, and of the darkness times x and y.
     Four one_x_y_xx_{};
     Four xy_yy_dark_{};
     Four dark_y_{};

@@ -1,7 +1,7 @@
 // Measure: measures the precise centres of all dots, near their predicted places. The second
-// attempt needs this stage, because it detects dots in a filtered image, where the dots are
-// blurred, and the threshold misses some dots. Unlike the paper, this stage uses windowed
-// centroids, up to the image border. See docs/differs-from-paper.md.
+// attempt needs this stage, because it detects dots in a filtered image, in which dots are blurred
+// and some are missed. Unlike the paper, this stage uses windowed centroids, up to the image
+// border. See docs/differs-from-paper.md.
 #pragma once
 
 #include "core/decode/grid.hpp"
@@ -12,8 +12,8 @@
 namespace dotpose::core {
 
 /// Measures the predicted dot of each cell. Overwrites `dots`, and sets `GridCell::dot` of every
-/// cell. The value is kNoDot if the predicted dot was not measured: if it is hidden by graphics, if
-/// there is no dot near the predicted place, or if `dots` is full.
+/// cell. The value is kNoDot if graphics hide the predicted dot, if there is no dot near the
+/// predicted place, or if `dots` is full.
 ///
 /// Centres are Gaussian-windowed centroids (Bertin, SExtractor: XWIN), iterated from the predicted
 /// places. Windows are cropped at the image border. The mass of a dot is its peak darkness relative

@@ -33,8 +33,8 @@ struct ObservationBatch {
         dy[count] = dotpose::dy(symbol);
         noise[count++] = its_noise;
     }
-    /// Pads the batch to a multiple of four dots. `count` excludes the padding. The padding
-    /// consists of dots that are too far away to be inliers.
+    /// Pads the batch to a multiple of four with dots that are too far away to be inliers. `count`
+    /// excludes the padding.
     void fill_up();
 };
 

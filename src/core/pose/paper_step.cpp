@@ -92,9 +92,9 @@ struct Symmetric3 {
     }
 };
 
-/// Least-squares affine map from the places of all coherent dots to their residuals. If a step is
-/// in the middle of the view, the plane fitted to all dots is distorted and explains most of the
-/// step. Gains are therefore computed relative to this map.
+/// Least-squares affine map from the places of all coherent dots to their residuals. Gains are
+/// relative to this map, because the plane fitted to all dots is distorted by a step: if the step
+/// is in the middle of the view, the plane explains most of it.
 class AffineFit {
   public:
     AffineFit() = default;
@@ -110,8 +110,8 @@ class AffineFit {
 
     /// Returns the summed squared residuals of all coherent dots, after subtracting the map.
     float squares() const { return squares_; }
-    /// Returns by how much a displacement of the part `beyond` reduces the summed squared
-    /// residuals.
+    /// Returns the reduction of the summed squared residuals by a displacement of the part
+    /// `beyond`.
     float explained_by_displacement(const PartSums& beyond) const {
         const Triple step{beyond.dots(), beyond.places[0], beyond.places[1]};
         const float spread = step[0] - inner_product(step, inverse_ * step);
@@ -120,8 +120,8 @@ class AffineFit {
         const float y = beyond.places[3] - inner_product(step, y_);
         return (x * x + y * y) / spread;
     }
-    /// Returns by how much a displacement and rotation of the part `beyond` reduce the summed
-    /// squared residuals.
+    /// Returns the reduction of the summed squared residuals by a displacement and rotation of the
+    /// part `beyond`.
     float explained_by_step(const PartSums& beyond) const {
         const float xx = beyond.moments[0];
         const float xy = beyond.moments[1];
@@ -148,9 +148,9 @@ class AffineFit {
     }
 
   private:
-    /// Minimum spread at which the dots determine a step. The indicator function of the part is 1
-    /// for dots beyond the line, and 0 for all other dots. The spread is the squared norm of this
-    /// function after subtracting an affine fit.
+    /// Minimum spread at which the dots determine a step. If an affine map is fitted to the value 1
+    /// for dots beyond the line and 0 for all other dots, the spread is the sum of the squared
+    /// residuals.
     static constexpr float kMinSpread = 1;
 
     Symmetric3 inverse_{};
@@ -169,7 +169,7 @@ class Search {
         const std::size_t every = count / kMaxDots + 1;
         weight_ = static_cast<float>(every);
         float outliers = 0;
-        float reach = 0;  // squared distance of the farthest dot
+        float reach = 0;  // squared distance of the farthest dot, in spacings^2
         for (std::size_t k = 0; k < count; k += every) {
             if (all.x[k] >= kNoDot_px) continue;
             DotOffset dot = dot_offset(all, k, plane, fit.displacement);
@@ -183,8 +183,9 @@ class Search {
         const auto wanted = static_cast<std::size_t>(kLinesPerSpacing * length);
         lines_ = std::clamp(wanted, std::size_t{4}, kLines);
         per_spacing_ = static_cast<float>(lines_) / length;
-        // Estimates the log odds from the number of outliers. If outliers are frequent, for example
-        // because of printed text, an outlier is only weak evidence of a displacement of the paper.
+        // The log odds of an outlier depend on the number of outliers. If they are frequent, for
+        // example because of printed text, an outlier is only weak evidence of a displacement of
+        // the paper.
         off_plane_ = natural_log((outliers + 1) / static_cast<float>(count_ + 1));
         for (std::size_t k = 0; k < count_; ++k)
             sums_[k] = sums_of(dots_[k]);
@@ -212,7 +213,8 @@ class Search {
         }
         if (likeliest == 0) return;
         // At line `likeliest`, a displacement without rotation reduces the squared residuals the
-        // most. Tests displacements with rotation only within kNear lines of this line.
+        // most. To save time, displacements with rotation are tested only within kNear lines of
+        // this line.
         constexpr std::size_t kNear = 2;
         const std::size_t last = std::min(likeliest + kNear, lines_ - 1);
         for (std::size_t line = std::max(likeliest, kNear + 1) - kNear; line <= last; ++line) {
@@ -279,8 +281,8 @@ class Search {
                off_plane_ * (part.seen() - part.dots());
     }
 
-    /// Returns an upper bound on `gain_of`. Assumes that the separate planes explain all coherent
-    /// dots exactly.
+    /// Returns an upper bound on `gain_of`, which is the gain if the separate planes explain all
+    /// coherent dots exactly.
     float max_gain_of(const PartSums& beyond, const PartSums& here) const {
         const auto max_of = [this](const PartSums& part) {
             return kOnPlane * part.dots() + off_plane_ * (part.seen() - part.dots());
@@ -290,9 +292,8 @@ class Search {
     }
 
     /// Returns the log likelihood ratio between separate planes and one plane for the whole sheet.
-    /// The part with the reference point also has a separate plane, because the plane of the whole
-    /// sheet may fit neither part. If the dots beyond the line have no common plane, their log odds
-    /// are 0.
+    /// Both parts have a separate plane, because the plane of the whole sheet may fit neither of
+    /// them. If the dots beyond the line have no common plane, their log odds are 0.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));

@@ -1,6 +1,5 @@
 // Paper step: finds a line across which the print is displaced, because a printer fed the sheet
-// badly or because two sheets meet. Unlike the paper, dotpose does not assume that all dots are in
-// one plane.
+// badly or because two sheets meet. The paper assumes instead that all dots are in one plane.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -23,8 +22,8 @@ struct PaperStep {
     float gain = 0;  ///< natural log of the likelihood ratio, relative to a single plane
 };
 
-/// Returns the line with the largest gain. If no line has a positive gain, the returned gain is 0.
-/// `fit` is the result of fitting `plane`.
+/// Returns the line with the largest gain, or a gain of 0 if no line has a positive gain. `fit` is
+/// the result of fitting `plane`.
 PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, const PoseFit& fit,
                           FloatVec reference_px);
 

@@ -62,11 +62,11 @@ float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide
     return sum;
 }
 
-/// Centroid error of a model dot.
 struct CentroidError {
     float px;                  ///< centroid minus true centre
     DotShape::Terms by_shape;  ///< derivatives of `px` with respect to the shape terms
-    float slopes;              ///< slope of the moment along the axis, divided by its slope along u
+    float slopes;              ///< slope of the moment along this axis, divided by the slope along
+                               ///< u
 };
 
 enum class Along : std::uint8_t { u, v };
@@ -139,10 +139,10 @@ class AxisBias {
     float dots_ = 0;
 };
 
-/// Returns the centroid error, in px, of a dot at offset `d` from its window centre. The moment is
-/// proportional to d - bend d^3. The kernels take a single Newton step, which assumes that the
-/// moment is linear in d. They also divide the moments of both axes by the slope along u at the
-/// window centre. `slopes` is the slope along v divided by the slope along u.
+/// Returns the centroid error, in px, of a dot at offset `d` from its window centre. The kernels
+/// take a single Newton step as if the moment were linear in d, but it is proportional to d - bend
+/// d^3. They also divide the moments of both axes by the slope along u at the window centre.
+/// `slopes` is the slope along v divided by the slope along u.
 FloatVec error_off_centre(float bend, float slopes, FloatVec d) {
     return {2 * bend * d.x * d.x * d.x,
             d.y * (slopes * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1)};

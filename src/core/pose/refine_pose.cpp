@@ -15,8 +15,8 @@ constexpr float kPower30 = 1073741824.0F;
 
 /// Linear model of the squared residual of a dot as a function of its pixel noise
 /// (`Observations::noise`). The constant term is due to print errors, which do not depend on the
-/// illumination. The linear term is due to pixel noise, which is larger relative to the contrast in
-/// dim light.
+/// illumination. The linear term is due to pixel noise: in dim light, the contrast is lower, so the
+/// same noise has a larger effect.
 class Scatter {
   public:
     void add(float noise, float squared_residual) {
@@ -36,7 +36,8 @@ class Scatter {
         by_noise_ = std::clamp(slope / mean_square, 0.0F, tuned::kMaxByNoise / mean_noise);
         always_ = 1 - by_noise_ * mean_noise;
     }
-    /// Returns the mean variance of all dots, divided by the variance at this noise.
+    /// Returns the weight of a dot: the mean variance of all dots divided by the variance at this
+    /// noise.
     Four weight(Four noise) const { return 1.0F / (always_ + by_noise_ * noise); }
 
   private:
@@ -75,7 +76,6 @@ class Round {
         limit_ = static_cast<float>(tuned::kOutlier_medians * typical_q30 + 64) / kPower30;
     }
 
-    /// Returns the normal equations of all inliers.
     PlaneNormal normal(bool know_noise) const {
         const Scatter scatter = know_noise ? scatter_of_dots() : Scatter();
         PlaneSums sums;

@@ -13,8 +13,8 @@ namespace {
 
 namespace tuned = tuning::paper_step;
 
-/// Sets `common` to the residual, in spacings, with which the largest number of dots near a point
-/// agree. Returns false if fewer than kMinAgreeing dots agree.
+/// Sets `common` to the residual, in spacings, that the largest number of dots near a point have in
+/// common. Returns false if fewer than kMinAgreeing dots have it in common.
 bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                         FloatVec near, FloatVec& common) {
     constexpr std::size_t kMaxDots = 256;
@@ -76,8 +76,8 @@ bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
                        split.fit))
             return false;
         if (round + 1 == tuned::kRounds) break;
-        // Searches for the line again, relative to the plane of one side. This search is more
-        // precise than the search relative to the plane of all dots. Ignores its gain, because the
+        // Searches for the line again, relative to the plane of one side, which is more precise
+        // than relative to the plane of all dots. The gain of this search is ignored, because the
         // dots beyond the line did not contribute to the plane.
         const PaperStep step = find_paper_step(dots, split.plane, split.fit, reference_px);
         if (step.gain > 0) split.step = step;

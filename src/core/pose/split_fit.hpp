@@ -5,8 +5,8 @@
 
 namespace dotpose::core {
 
-/// Restricts fits to one side of a line during the lifetime of the object. Moves the cells of all
-/// other dots far away. These dots are therefore outliers. Dots near the line belong to neither
+/// Restricts fits to one side of a line during the lifetime of the object. The cells of all other
+/// dots are moved far away, so that these dots are outliers. Dots near the line belong to neither
 /// side.
 class HalfPlane {
   public:

@@ -15,11 +15,10 @@ struct Phase {
     explicit Phase(FloatVec point_px);
 };
 
-/// Sums of dot images, in 4 x 4 stacks. The area of a pixel is divided into 4 x 4 parts. Dots are
-/// in the same stack if their centres are in the same part of their pixels.
+/// Sums of dot images, grouped by the sub-pixel phase of the dot centres. The area of a pixel is
+/// divided into 4 x 4 parts, and all dots with their centres in the same part are in one stack.
 class StackedDots {
   public:
-    /// Sums over one stack.
     struct Stack {
         float dots = 0;
         FloatVec rest;  ///< sum of `Phase::rest`
@@ -65,7 +64,7 @@ class StackedDots {
 
     std::array<Stack, kAlong * kAlong> stacks_{};
     float squares_ = 0;  ///< summed squared darkness of all used pixels
-    float dots_ = 0;     ///< number of dots in all stacks
+    float dots_ = 0;
     int half_px_;
     int reach_2_;
 };

@@ -16,8 +16,8 @@ namespace {
 
 /// Sets the pose at the centre of a plane that has neither perspective nor lens terms.
 void write_pose(const PlaneFromImage& there, CodeVariant code, const Place& place, Fix& fix) {
-    // Computes the decoded position plus the vector to the reference point, in grid units (paper,
-    // eq. 10-12).
+    // The pose is the decoded position plus the vector to the reference point, in grid units
+    // (paper, eq. 10-12).
     const FixedVec t = there.at_centre_q16;
     const Place at = moved(code, place, t.x >> 16, t.y >> 16);
     fix.cell = at.cell;
@@ -26,8 +26,8 @@ void write_pose(const PlaneFromImage& there, CodeVariant code, const Place& plac
     fix.fraction_y_q16 = static_cast<std::uint16_t>(t.y & 0xFFFF);
     const FixedVec du = there.du_q24;
     fix.theta_bam = angle_bam(du);
-    // The spacing in px is 1 / |du|. Far outside the image, the map may fold, and |du| may be
-    // almost 0.
+    // The spacing in px is 1 / |du|. The divisor is clamped, because the map may fold far outside
+    // the image, where |du| may be almost 0.
     const auto du_length_q24 = square_root(static_cast<std::uint64_t>(squared(du)));
     const std::int64_t spacing_q16 =
         (std::int64_t{1} << 40) / std::max<std::uint32_t>(du_length_q24, 1U);

@@ -1,18 +1,18 @@
 // Tuning: empirical constants of the pose fit. The constants of the second attempt were determined
-// on the hard frames listed in decode/tuning.hpp. Some comments compare a constant with other
-// values, by the number of located frames, and the median and 95 % quantile of their errors. The
-// command is
+// on the hard frames listed in decode/tuning.hpp. Some comments state the results with other values
+// of a constant: the number of located frames, and the median and 95 % quantile of their errors.
+// The command is
 //
 //     dotpose evaluate --preset hard --frames 2000 --seed 404
 //
-// The values in this file give 1,994 frames, 2.21 µm and 5.42 µm.
+// With the values in this file, the results are 1,994 frames, 2.21 µm and 5.42 µm.
 #pragma once
 
 namespace dotpose::core::tuning {
 
 /// Measurement of dots in a window (pose/measure).
 namespace measure {
-/// Half the window side, in 1/32 of the spacing, and its minimum, in 1/256 px. With this size, the
+/// Half the window side, in 1/32 of the spacing, and its minimum, in 1/256 px. At this size, the
 /// window border is on paper even if the dot is off centre, and the window contains no other dot.
 inline constexpr int kHalf_32nds = 9;
 inline constexpr int kMinHalf_q8 = 768;
@@ -23,7 +23,8 @@ inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
 /// Maximum squared distance between a dot and its predicted place, in units of sigma^2. The limit
 /// is large, because the pose fit rejects dirt as outliers. A smaller limit would also reject badly
-/// printed dots. The pose would be less accurate, and print errors would be hidden.
+/// printed dots, so the pose would be less accurate and the residuals would not show the print
+/// errors.
 inline constexpr int kFarthest_2 = 9;
 /// Maximum number of Gauss-Newton iterations. The fit ends early after a step shorter than
 /// kSettled_q8, in 1/256 px.
@@ -42,8 +43,8 @@ namespace fit {
 /// (kMaxRoundsOfFloats).
 inline constexpr int kMaxRounds = 4;
 inline constexpr int kMaxRoundsOfFloats = 5;
-/// Limit of `moved` (see `solve` in fit/solve_plane.hpp) below which `refine_pose` stops. The next
-/// step would be much smaller.
+/// Limit of `moved` (see `solve` in fit/solve_plane.hpp) below which `refine_pose` stops, because
+/// the next step would be much smaller.
 inline constexpr float kSettled = 0.01F;
 /// Outlier limit for squared residuals, in units of their median. The median is 1.39 sigma^2, so
 /// the limit is 4.1 sigma. By chance, 1 dot in 4,000 exceeds this limit.
@@ -57,10 +58,9 @@ inline constexpr float kSameLimit = 0.04F;
 inline constexpr float kMaxByNoise = 0.9F;
 /// Minimum number of dots for `fit_plane`.
 inline constexpr int kMinDots = 20;
-/// Limit of `moved` below which `fit_plane` has converged. The limit is kNonlinearSettled / n^2,
-/// clamped to [kMinSettled, kMaxSettled], where n is the nonlinearity of the plane (`settled` in
-/// float_fit.cpp). After the last step, the remaining error is about a fifth of a standard
-/// deviation.
+/// Limit of `moved` below which `fit_plane` has converged. If n is the nonlinearity of the plane
+/// (`settled` in float_fit.cpp), the limit is kNonlinearSettled / n^2, clamped to [kMinSettled,
+/// kMaxSettled]. After the last step, the remaining error is about a fifth of a standard deviation.
 inline constexpr float kMinSettled = 0.2F;
 inline constexpr float kMaxSettled = 30;
 inline constexpr float kNonlinearSettled = 0.04F;
@@ -99,7 +99,7 @@ inline constexpr float kSure = 4;
 namespace bias {
 /// Maximum number of stacked dots. The dot shape does not become more accurate with more dots.
 inline constexpr int kDots = 256;
-/// Width of the border around a dot that is included in the stacked images. The border contains the
+/// Width of the border around a dot that is included in the stacked images, because it contains the
 /// blurred edge.
 inline constexpr float kBeyondEdge_px = 1.5F;
 /// Blur variance above which the bias is negligible.
@@ -110,8 +110,8 @@ inline constexpr float kBlurred_px2 = 0.7F * 0.7F;
 inline constexpr float kOfModel = 0.01F;
 inline constexpr float kMisfit = 2.5F;
 inline constexpr float kOfMisfit = 0.025F;
-/// Relative difference between the moment slopes along u and v (see `AxisBias::slopes`) that is due
-/// to noise if the dots are round.
+/// Scale of the shrinkage in `AxisBias::slopes`: the relative difference between the moment slopes
+/// along u and v that noise causes if the dots are round.
 inline constexpr float kSlopes = 0.03F;
 }  // namespace bias
 
@@ -139,13 +139,13 @@ inline constexpr float kUneven = 5;
 /// dots.
 inline constexpr float kFewOutliers = 3;
 inline constexpr float kOutlierFraction = 0.02F;
-/// Number of dots above which each image side is divided into nine blocks. With fewer dots, the
-/// maximum is kFewAlong blocks.
+/// Number of dots above which each image side is divided into nine blocks instead of at most
+/// kFewAlong.
 inline constexpr int kManyDots = 1000;
-/// Number of blocks along each side of the image, for at most kManyDots dots. This is the largest
-/// number from kMinAlong to kFewAlong for which a block contains kDotsPerBlock dots on average.
-/// With only one or two dots per block, the scatter within blocks is unknown, and flat sheets seem
-/// uneven.
+/// Number of blocks along each side of the image, for at most kManyDots dots: the largest number
+/// from kMinAlong to kFewAlong for which a block contains kDotsPerBlock dots on average. With only
+/// one or two dots per block, the scatter within blocks would be unknown, and flat sheets would
+/// seem uneven.
 inline constexpr int kMinAlong = 2;
 inline constexpr int kFewAlong = 6;
 inline constexpr int kDotsPerBlock = 4;
@@ -156,8 +156,8 @@ inline constexpr int kDotsPerBlock = 4;
 inline constexpr float kOfPlace = 2;
 inline constexpr float kOfTurn = 8;
 /// Standard deviation of the mean block residuals due to pixel bias. If the sub-pixel phase of the
-/// dots changes slowly across the view, the bias differs between blocks, but averages out over the
-/// view. Such a bias is not evidence of an uneven sheet.
+/// dots changes slowly across the view, the bias differs between blocks, but it averages out over
+/// the view and is therefore not evidence of an uneven sheet.
 inline constexpr float kPixelBias_px = 0.004F;
 /// The reference point may be on either side of the dividing line if its distance from the line is
 /// below this limit, in spacings.
@@ -176,28 +176,28 @@ inline constexpr float kTogether = 36;
 inline constexpr float kBehind = 0.5F;
 /// Minimum number of dots beyond the line.
 inline constexpr float kMinBeyond = 12;
-/// Outlier limit in the first iteration of a fit to one side, in spacings^2. This iteration starts
-/// from a plane fitted to both sides.
+/// Outlier limit in the first iteration of a fit to one side, in spacings^2. The limit is large,
+/// because this iteration starts from a plane fitted to both sides.
 inline constexpr float kFarOff = 0.04F;
 /// Dots belong to neither side of the line if their distance from the line is below this limit, in
 /// spacings. The position of the line is uncertain by about this distance.
 inline constexpr float kMargin = 0.8F;
-/// Parameters of the search for a common residual of the dots beyond the line. kReach is the
-/// maximum distance of the dots from the reference point along each axis, in spacings. kMinAgreeing
-/// is the minimum number of dots that agree with the common residual. A dot agrees if the squared
-/// difference between its residual and the common residual is less than kAgreement, in spacings^2.
+/// Parameters of the search for a residual that the dots beyond the line have in common. kReach is
+/// the maximum distance of these dots from the reference point along each axis, in spacings. At
+/// least kMinAgreeing dots must agree with the common residual: the squared difference from it must
+/// be less than kAgreement, in spacings^2.
 inline constexpr float kReach = 10;
 inline constexpr int kMinAgreeing = 8;
 inline constexpr float kAgreement = 0.08F * 0.08F;
 /// Number of iterations. Each iteration fits a plane to the dots on the side of the reference
-/// point. All iterations except the last then search for the line again.
+/// point, and all except the last then search for the line again.
 inline constexpr int kRounds = 3;
 }  // namespace paper_step
 
 /// Rotation during the readout of a rolling shutter (pose/turn_fit).
 namespace turn {
-/// Steps for numerical derivatives. The step of the rotation moves dots in the image corners by
-/// kStep_px. The step of the drift is kDriftStep, in px per row.
+/// Steps for numerical derivatives: the change of the rotation moves dots in the image corners by
+/// kStep_px, and the change of the drift is kDriftStep, in px per row.
 inline constexpr float kStep_px = 0.3F;
 inline constexpr float kDriftStep = 0.02F;
 /// Standard deviation of the drift that is computed from the plane, in px per row. For example, a

@@ -18,8 +18,8 @@ float limit_of(const PoseFit& fit) {
     return tuning::fit::kOutlier * fit.variance;
 }
 
-/// Converts a dot from the image from which the rotation `from` was removed to the image from which
-/// the rotation `to` was removed.
+/// Converts a dot centre between two images without rotation: the rotation `from` was removed from
+/// the first image, and the rotation `to` from the second.
 FloatVec transferred(const ReadoutTurn& from, const ReadoutTurn& to, FloatVec dot) {
     constexpr int kSteps = 4;
     return to.without_turn(from.seen_from(dot, dot.y, kSteps));
@@ -42,8 +42,8 @@ Vec3 change_of_pose(const FloatPlane& from, const FloatPlane& to, FloatVec refer
             (a.du_x * b.du_y - a.du_y * b.du_x) / (a.du_x * a.du_x + a.du_y * a.du_y)};
 }
 
-/// A rotation with a small change of one parameter, and the plane fitted to the dots after this
-/// change.
+/// A rotation in which one parameter is changed slightly, and the plane fitted to the dots after
+/// this change.
 struct Trial {
     ReadoutTurn turn;
     float step = 0;
@@ -103,8 +103,9 @@ bool fit_turn(const Kernels& kernels, const ReadoutTurn& turn, FloatVec referenc
         transfer(trial.turn, turn, dots);
         if (!is_fitted) return false;
     }
-    // Regression of the residuals on their changes. Each trial fits the plane again, so the changes
-    // exclude the part that the plane can explain. All steps are in units of Trial::step.
+    // Linear regression: the residuals are expressed by their changes in the trials. Each trial
+    // fits the plane again, so the changes exclude the part that the plane can explain. All steps
+    // are in units of Trial::step.
     Matrix3 normal{};
     Vec3 right{};
     for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
@@ -122,8 +123,8 @@ bool fit_turn(const Kernels& kernels, const ReadoutTurn& turn, FloatVec referenc
                 normal[i][j] += changes[i].x * changes[j].x + changes[i].y * changes[j].y;
         }
     }
-    // Uses the drift computed from the plane as an additional observation. Its standard deviation
-    // is kDrift, because a tilt of the camera makes this drift inaccurate.
+    // The drift computed from the plane is an additional observation. Its standard deviation is
+    // kDrift, because a tilt of the camera makes it inaccurate.
     const FloatVec expected = drift_of(plane);
     const float weight =
         fit.variance * tuned::kDriftStep * tuned::kDriftStep / (tuned::kDrift * tuned::kDrift);

@@ -21,9 +21,8 @@ struct TurnFit {
 
 /// Fits rotation and drift by least squares, corrects the dots for the fitted rotation, and fits
 /// the plane to the corrected dots. `turn` is the rotation that was removed from the image in which
-/// the dots were measured. Two observations determine the drift: the drift of the plane
-/// (`drift_of`), and the curvature that drift and rotation cause together. Returns false if the
-/// dots do not determine the rotation.
+/// the dots were measured. The drift is determined by the plane (`drift_of`), and by the curvature
+/// that drift and rotation cause together. Returns false if the dots do not determine the rotation.
 bool fit_turn(const Kernels& kernels, const ReadoutTurn& turn, FloatVec reference_px,
               MeasuredDots& dots, FloatPlane& plane, PoseFit& fit, TurnFit& result);
 

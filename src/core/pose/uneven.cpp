@@ -13,7 +13,6 @@ namespace {
 
 namespace tuned = tuning::uneven;
 
-/// Returns the number of blocks along each side of the image.
 int blocks_along(int dots) {
     if (dots > tuned::kManyDots) return static_cast<int>(BlockSums::kMaxAlong);
     int along = tuned::kMinAlong;
@@ -114,9 +113,9 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
     FloatPlane beyond;
     if (fit_far_side(kernels, dots, reference_px, split, beyond))
         return add_difference(split.plane, beyond, reference_px, 1, fit);
-    // The plane beyond the line is unknown. Assumes a displacement that is uniformly distributed
-    // between -1/2 and 1/2 cell, with a variance of 1/12. Assumes a standard deviation of 0.02 rad
-    // for the rotation.
+    // The plane beyond the line is unknown. Its displacement is assumed to be uniformly distributed
+    // between -1/2 and 1/2 cell, which has a variance of 1/12, and its rotation to have a standard
+    // deviation of 0.02 rad.
     add(1.0F / 12, 0, fit);
     add(1.0F / 12, 1, fit);
     add(0.02F * 0.02F, 2, fit);
@@ -154,9 +153,9 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     if (is_divided) widen_near_line(kernels, dots, reference_px, split, fit);
 }
 
-/// Searches for a line if there are many outliers, or if the scatter between blocks is high.
-/// Otherwise, widens the covariance if the scatter is significant. `min_excess` is the limit of
-/// `GroupScatter::excess`, in standard deviations, above which the scatter is high.
+/// Searches for a line if there are many outliers, or if the scatter between blocks exceeds
+/// `min_excess`, a limit of `GroupScatter::excess`. Otherwise, widens the covariance if the scatter
+/// is significant.
 void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dots,
                      const Blocks& blocks, FloatVec reference_px, FloatPlane& plane, PoseFit& fit) {
     const float excess = blocks.scatter().excess();
@@ -167,9 +166,9 @@ void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dot
 }
 
 /// Returns the value of `GroupScatter::excess` above which the second attempt searches for a line.
-/// The limit increases with the number of dots, because small block residuals, for example due to
-/// pixel bias, become more significant on any sheet. The residuals at a line also become more
-/// significant, and still exceed the limit.
+/// The limit increases with the number of dots, because with more dots, even the small block
+/// residuals of a flat sheet are significant, for example those due to pixel bias. The residuals at
+/// a line become more significant, too, and still exceed the limit.
 float patient_excess(const Blocks& blocks) {
     return tuned::kMaybeLine *
            std::sqrt(std::max(blocks.scatter().dots / tuned::kMaybeLineDots, 1.0F));

@@ -1,6 +1,6 @@
 // Uneven: tests the residuals of neighbouring dots for correlation. If they are correlated, the
-// sheet is not flat, and the covariance of the fit is too small. Unlike the paper, dotpose does not
-// assume that all dots are in one plane.
+// sheet is not flat, and the covariance of the fit is too small. The paper assumes instead that all
+// dots are in one plane.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -14,7 +14,7 @@ namespace dotpose::core {
 void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                 FloatPlane& plane, PoseFit& fit);
 
-/// Overload for a plane that was fitted to observations. Takes longer, because it searches for a
+/// Overload for a plane that was fitted to observations. It takes longer, because it searches for a
 /// line at a much lower correlation. `dots` provides memory for the observations. If this memory is
 /// too small, the surface counts as even.
 void fit_uneven(const Kernels& kernels, const Observations& observations, FixedVec reference_q8,

@@ -16,14 +16,14 @@ struct DarkSums {
     std::int32_t y = 0;     ///< sum of y * darkness, with y = 0 in the middle row
 };
 
-/// Half side of the squares in which `dark_sums` skips the corners and sums only a diamond. At
-/// trackable dot sizes, the corners contribute little, because no corner pixel is more than half as
-/// dark as the centre of the dot.
+/// Half side of the squares in which `dark_sums` sums only a diamond, without the corners. At all
+/// dot sizes that can be tracked, no corner pixel is more than half as dark as the centre of the
+/// dot, so the corners contribute little.
 inline constexpr int kHalfOfDiamond = 2;
 
-/// Returns the sums of a square with 2 Half + 1 pixels per side. `row` is its upper left pixel.
-/// Skips the corners if Half is kHalfOfDiamond. Half is a compile-time constant, so compilers
-/// unroll the loop over a row. Inlined code would need more registers than small processors have.
+/// Returns the sums of a square with 2 Half + 1 pixels per side, or of a diamond if Half is
+/// kHalfOfDiamond. `row` is its upper left pixel. The size is a template argument so that compilers
+/// unroll the loops. Inlined code would need more registers than small processors have.
 template <int Half>
 DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t stride,
                                            std::int32_t level) {
@@ -33,8 +33,8 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
     const auto add_row = [&](int reach) {
 #pragma GCC unroll 16
         for (int x = -reach; x <= reach; ++x) {
-            // Skips paper, which covers most of the pixels. The sign of the difference identifies
-            // paper without a second comparison.
+            // Skips paper, which covers most of the pixels. The sign of the difference shows that a
+            // pixel is paper, so a second comparison is not necessary.
             const std::int32_t darkness = level - row[Half + x];
             if (darkness < 0) continue;
             mass += darkness;
@@ -53,8 +53,8 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
         for (int y = -Half; y <= Half; ++y)
             add_row(Half);
     }
-    // Let m(y) be the mass of row y, with y from -Half to Half. Then `cumulative` is the sum of
-    // (Half + 1 - y) m(y), and the last element of the result is the sum of y m(y).
+    // If m(y) is the mass of row y, with y from -Half to Half, then `cumulative` is the sum of
+    // (Half + 1 - y) m(y). The last element of the result is therefore the sum of y m(y).
     return {mass, sum_x, (Half + 1) * mass - cumulative};
 }
 

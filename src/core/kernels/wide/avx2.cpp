@@ -1,6 +1,6 @@
 // AVX2 implementation of the kernels, with 32-byte vectors. Only the code between the pragmas is
-// compiled for AVX2. The headers precede the pragmas. The linker keeps only one copy of each inline
-// function of the headers, and this copy must run on every processor.
+// compiled for AVX2. The headers are included before the pragmas, because the linker keeps only one
+// copy of each inline function in them, and this copy must run on every processor.
 #include "core/kernels/loops/headers.hpp"
 
 #if defined(__x86_64__)
