@@ -1,5 +1,5 @@
 // Tests `locate` with frames that are designed to deceive it. Every fix must be the true pose.
-// `dotpose_tables adversarial` tests any number of such frames.
+// `dotpose_tables adversarial` tests a larger number of such frames.
 #include <memory>
 #include <string>
 
@@ -47,8 +47,9 @@ TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
     }
 }
 
-// A seam between two sections changes one step of one sequence. The resulting digits occur
-// elsewhere in this sequence. Regression: each of these frames was located at that other place.
+// In these frames, a seam between two sections changes the digits that are read, and the changed
+// digits also occur elsewhere in the code. Regression: each of these frames was located at that
+// other place.
 TEST(Adversarial, WhatASeamExplainsBetterIsNoFix) {
     const auto memory = std::make_unique<LargeMemory>();
     struct Seam {

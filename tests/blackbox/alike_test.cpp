@@ -71,8 +71,9 @@ INSTANTIATE_TEST_SUITE_P(
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.3, .angle_deg = 0}, 0.0035},
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.3, .angle_deg = 90}, 0.0035}));
 
-// Pale dots with only one or two pixels beyond the threshold. A method that uses only centres near
-// these pixels has an error of 0.030 px, and a mean squared error of more than twice the variance.
+// Pale dots, in which only one or two pixels are darker than the threshold. If centres are measured
+// only near these pixels, the error is 0.030 px, and the mean squared error is more than twice the
+// variance.
 INSTANTIATE_TEST_SUITE_P(
     Pale, DotsAlike,
     testing::Values(AlikeCase{{.spacing_px = 8, .dot = 0.1, .blur_px = 1, .angle_deg = 0}, 0.024},

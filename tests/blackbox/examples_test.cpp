@@ -59,8 +59,8 @@ TEST_F(Examples, FollowGoesWithTheRobot) {
         ASSERT_EQ(std::sscanf(lines[i].c_str(), "x %*f mm, y %*f mm, %lf and %lf mm/s", &vx, &vy),
                   2)
             << lines[i];
-        // Estimating a velocity takes two fixes. Without a velocity, the robot moves too far
-        // between frames to be tracked.
+        // Frames are tracked from the third frame on, because the velocity is estimated from two
+        // fixes. Without the velocity, the robot moves too far between frames.
         EXPECT_EQ(lines[i].ends_with("tracked"), i >= 2) << lines[i];
         const DriveState truth = drive.at(first + static_cast<int>(i));
         if (i >= 4) {

@@ -23,8 +23,6 @@ constexpr const char* kRed = "\033[31m";
 
 class Feedback : public ToolCommand {
   protected:
-    /// Runs `dotpose ARGUMENTS` with stdout and stderr connected to a terminal, and captures the
-    /// terminal output in `output_`.
     int on_terminal(const std::string& arguments, const std::string& environment) {
         return shell("export T; env -u NO_COLOR " + environment + " script -qec '\"$T\" " +
                      arguments + "' /dev/null </dev/null");

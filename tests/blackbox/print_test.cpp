@@ -143,7 +143,7 @@ TEST_F(PrintCommand, a_file_that_cannot_be_written_is_status_1) {
 }
 
 TEST_F(PrintCommand, a_signal_leaves_no_litter) {
-    // Printing this page would take minutes.
+    // Printing this page takes minutes, so the signal arrives before the page is complete.
     run("print -o huge.png --paper 20000x20000 --dpi 1200 & tool=$!; "
         "until ls -A | grep -c huge || ! kill -0 $tool; do sleep 0.02; done > count; "
         "tail -n 1 count; rm count; kill $tool; wait $tool");

@@ -26,7 +26,6 @@ std::vector<std::string> split(const std::string& text, char separator) {
     return parts;
 }
 
-/// Runs `dotpose simulate ARGUMENTS`.
 class SimulateCommand : public ToolCommand {
   protected:
     int run(const std::string& arguments) { return ToolCommand::run("simulate " + arguments); }
@@ -160,7 +159,8 @@ TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
     }
     EXPECT_LE(between_sheets, 2);
     EXPECT_THAT(sheets, testing::ElementsAre("a", "b"));
-    // Consecutive frames are 20 mm apart along a curve.
+    // Consecutive frames are 20 mm apart along the path, so in curves the distance between them is
+    // shorter.
     for (const double step_mm : steps_mm) {
         EXPECT_LT(step_mm, 20.1);
         EXPECT_GT(step_mm, 12);

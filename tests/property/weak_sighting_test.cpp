@@ -1,5 +1,6 @@
-// Tests weak sightings. Enumerates all other places inside the tracker's gate, sums their odds
-// relative to the true place, and compares the sum with the tracker's bound (docs/tracking.md).
+// Tests the bound that the tracker uses to accept weak measurements (docs/tracking.md). Enumerates
+// all other places inside the tracker's gate, sums their odds relative to the true place, and
+// compares the sum with the bound.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -32,7 +33,7 @@ struct View {
     Place place;
     int columns = 0;
     int rows = 0;
-    double odds_log2 = 0;  ///< log2 odds that a bit of full weight is correct
+    double odds_log2 = 0;  ///< log2 of the odds that a bit of full weight is correct
     std::array<GridCell, kMaxSide * kMaxSide> cells{};
 
     core::Grid grid() {
@@ -88,8 +89,8 @@ int claim(View& view) {
                : 1;
 }
 
-/// Returns, for each line that may be in view, the index in the main sequence at the first cell of
-/// the view.
+/// Returns the index in the main sequence of the first cell in view, for each line that may be in
+/// view.
 std::vector<int> starts(CodeVariant code, std::uint32_t first, int section, std::uint32_t cross) {
     std::vector<int> result;
     for (int i = -kReach; i < kReach + kMaxSide; ++i) {
@@ -99,8 +100,9 @@ std::vector<int> starts(CodeVariant code, std::uint32_t first, int section, std:
     return result;
 }
 
-/// Returns the odds of all other places within reach relative to the true place, as products over
-/// all bits. sums[k] is the sum over the places at most k cells away along both axes.
+/// Computes the odds of each other place relative to the true place, as a product over all bits.
+/// Element k of the result is the sum of the odds of the places that are at most k cells away along
+/// both axes.
 std::array<double, kReach + 1> odds_by_distance(View& view) {
     const auto& [cell, section] = view.place;
     const auto columns = starts(view.code, cell.x, section.u, cell.y);
@@ -156,8 +158,8 @@ double margin_of_weak_view(CodeVariant code, const Place& place, Rng& rng) {
     const auto sums = odds_by_distance(view);
     double least = 1e9;
     for (unsigned k = 1; k <= kReach; ++k) {
-        // The smallest gate that contains two places at this distance has k + 2 cells, as the
-        // tracker counts.
+        // According to the tracker's count, the smallest gate that contains two places at this
+        // distance has k + 2 cells.
         const int cells_log2 = std::bit_width(k + 1);
         least = std::min(least, p_wrong_log2 + cells_log2 - 36 - std::log2(sums[k]));
     }
@@ -177,7 +179,8 @@ TEST(WeakSighting, NoPlaceInTheGateIsLikelierThanTheBound) {
     }
 }
 
-/// Five consecutive lines that are repeated a few lines later, all rolled by the same amount.
+/// Five consecutive lines that occur again a few lines later, all shifted in the main sequence by
+/// the same roll.
 struct Repetition {
     std::uint32_t position = 0;
     int distance = 0;  ///< in lines
@@ -217,15 +220,15 @@ std::vector<Repetition> repetitions(CodeVariant code) {
     return found;
 }
 
-/// A place, and the step (dx, dy), at most kReach cells along each axis, to another place with the
-/// same 5 x 5 symbols.
+/// A place, and the offset (dx, dy) of another place with the same 5 x 5 symbols. The offset is at
+/// most kReach cells along each axis.
 struct Twin {
     Place place;
     int dx = 0;
     int dy = 0;
 };
 
-/// Returns all twins. The step along each axis compensates for the roll along the other axis.
+/// Returns all twins. The offset along each axis must compensate for the roll along the other axis.
 std::vector<Twin> twins(CodeVariant code) {
     const auto found = repetitions(code);
     std::vector<Twin> twins;

@@ -26,8 +26,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// A program that produces the document in.pdf, from two pages of text (page.roff) or a picture
-/// (page.ps) in its directory, or from an existing document.
+/// A command that writes the document in.pdf from page.roff (two pages of text), from page.ps (a
+/// picture), or from an existing document.
 struct Producer {
     const char* name;
     const char* command;
@@ -62,7 +62,7 @@ class Documents : public testing::Test {
     std::string text(const std::string& name) const {
         return in_directory("pdftotext -layout " + name + " - 2>&1");
     }
-    /// Writes a page of the same size as page `number` of in.pdf with the same dots and no other
+    /// Writes dots.pdf: a page with the size and the dots of `report.pages[page]`, and no other
     /// content.
     void write_blank(const OverlayReport& report, std::size_t page) const {
         const Sheet& sheet = report.pages[page].sheet;

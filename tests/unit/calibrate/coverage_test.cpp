@@ -52,7 +52,7 @@ CalibrationView view_at(double x_grid, double y_grid, double theta_deg,
     return view;
 }
 
-/// Returns a lens whose standard deviation in the corner is `sigma_px`. It is caused by k alone.
+/// Returns a lens with a standard deviation of `sigma_px` in the corner. Only k is uncertain.
 Camera lens_known_to(double sigma_px) {
     Camera camera;
     camera.width_px = kWidth_px;

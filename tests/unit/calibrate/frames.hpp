@@ -122,8 +122,8 @@ inline RobotError robot_error(const Camera& camera, const CameraModel& model, st
 
 // ---- A table with four sheets ----
 
-/// Number of dots per side of a sheet. A narrow margin is between the pattern and the edge of the
-/// sheet.
+/// Number of dots per side of a sheet. Between the pattern and the edge of the sheet is a narrow
+/// margin.
 inline constexpr int kSide_cells = 120;
 inline constexpr double kMargin_mm = 0.3;
 inline constexpr double kPage_mm = (kSide_cells - 1) * kDefaultSpacing_mm + 2 * kMargin_mm;
@@ -165,8 +165,8 @@ inline CameraModel wide_camera() {
     return camera;
 }
 
-/// Returns the camera's frame at a place of the table. The dots of all sheets are dark on the same
-/// paper.
+/// Returns the camera's frame at a place of the table. Each pixel is the darkest of the frames of
+/// all sheets.
 inline GreyImage table_frame(const Table& table, const CameraModel& camera, std::uint64_t seed,
                              int index, double x_mm, double y_mm, double theta_rad) {
     Setup setup;
@@ -194,7 +194,7 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         shot.page = page_of(sheet, seed + i + 1);
         shot.page.print_scale = lying.print;
         const GreyImage image = render(shot);
-        // All sheets are rendered with equal light and noise.
+        // All sheets are rendered with equal light and noise, so the darkest pixel shows a dot.
         if (result.pixels.empty()) result = image;
         for (std::size_t k = 0; k < image.pixels.size(); ++k)
             result.pixels[k] = std::min(result.pixels[k], image.pixels[k]);

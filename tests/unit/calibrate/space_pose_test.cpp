@@ -97,14 +97,15 @@ struct View {
     Matrix3 rotation{};  // camera to paper
     Vector3 position_mm{};
 
-    /// Returns the undistorted pixel relative to the optical axis.
+    /// Returns the undistorted pixel of a point on the paper, relative to the optical axis.
     std::array<double, 2> straight(double x_mm, double y_mm) const {
         const Vector3 seen =
             product(transposed(rotation),
                     Vector3{x_mm - position_mm[0], y_mm - position_mm[1], -position_mm[2]});
         return {focal_px * seen[0] / seen[2], focal_px * seen[1] / seen[2]};
     }
-    /// Returns the pixel of a camera with the distortion k, relative to the optical axis.
+    /// Returns the pixel of a point on the paper with the distortion k, relative to the optical
+    /// axis.
     std::array<double, 2> distorted(double x_mm, double y_mm, double k) const {
         const auto [a, b] = straight(x_mm, y_mm);
         // Solves eq. 2, r_u = r_d / (1 + k r_d^2), by bisection.
@@ -129,7 +130,8 @@ View view_of(const CameraLean& lean, double distance_mm, double focal_px) {
     return view;
 }
 
-/// Returns a square of dots around the origin, with Gaussian errors on the paper and in the image.
+/// Returns a square of dots around the origin, with Gaussian errors on the paper (`print_mm`) and
+/// in the image (`centre_px`).
 std::vector<calibrate::SpaceDot> dots_of(const View& view, int per_side, double spacing_mm,
                                          double print_mm, double centre_px, Rng& rng) {
     constexpr std::array<std::array<int, 2>, 4> kSteps = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};

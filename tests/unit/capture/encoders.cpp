@@ -246,7 +246,7 @@ Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette) {
     const auto channels = number(raster.channels);
     const auto bits = number(raster.bits);
     const std::uint64_t colour_space = !palette.empty() ? 3 : channels >= 3 ? 2 : 1;
-    TiffEntry last{296, 1, 2};  // a unit of length, which has no effect
+    TiffEntry last{296, 1, 2};  // unit of the resolution, which has no effect
     if (channels % 2 == 0) last = {338, 1, 2};
     if (!palette.empty()) last = {320, 768, kPaletteAt};
 
