@@ -211,7 +211,8 @@ TEST(JpegKinds, AreProgressive) {
     EXPECT_EQ(pixels_of(file).size(), 64U * 64U);
 }
 
-// If a scan that refines the pixels is missing, the file contains no trace of the missing scan.
+// Every cut must be refused, also between two scans, where the file contains no trace of the
+// missing scans.
 TEST(JpegKinds, AreRefusedWhereAScanIsMissing) {
     const Bytes file = progressive_jpeg();
     int refused = 0;

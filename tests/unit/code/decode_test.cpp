@@ -22,7 +22,8 @@ constexpr std::uint32_t kSeed = 7998798;
 /// Initial value of `place`. A refused window must not change this value.
 constexpr Place kUntouched{{1, 2}, {3, 4}};
 
-/// Places modulo 241 at which 5 digits begin that also occur elsewhere in the a4 of libdots.
+/// Places in the a4 of libdots (modulo 241) at which the next 5 digits also occur elsewhere in this
+/// sequence.
 const std::set<std::uint32_t> kTwinPlaces{82,  238, 170, 236, 177, 237,
                                           195, 217, 198, 218, 199, 219};
 

@@ -68,8 +68,8 @@ std::vector<GreyImage> frames_of(int width_px, int height_px) {
     return frames;
 }
 
-/// Returns the number of allocations while locating all frames in all ways. Adds the number of
-/// fixes to `fixes`.
+/// Locates all frames with all combinations of options. Returns the number of allocations, and adds
+/// the number of fixes to `fixes`.
 int allocations_of(const std::vector<GreyImage>& frames, Locator& locator, int& fixes) {
     int counted = 0;
     for (const GreyImage& frame : frames) {

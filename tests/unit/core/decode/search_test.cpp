@@ -84,11 +84,10 @@ TEST(ScoreLines, TellsByHowMuchTheBestOfEachLineLeads) {
 }
 
 TEST(FindAxis, FindsThePositionAmongWrongBits) {
-    // The search succeeds in two cases. In the first case, some run has the correct roll among the
-    // best rolls of each line. In the second case, the steps have the correct place among the best
-    // places of each sequence. Longer lines tolerate more wrong bits. With 12 rows and every fifth
-    // bit wrong, only half of the windows are found. In principle, 240 bits with 0.28 bits of
-    // information each would suffice to distinguish all 4e8 * 63 hypotheses.
+    // The search finds the position if some run of lines has the correct roll among the best rolls
+    // of each of its lines, or if the correct place is among the best places of each sequence.
+    // Longer lines tolerate more wrong bits. For example, with 12 rows and every fifth bit wrong,
+    // only half of the windows are found.
     for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::microdots}) {
         EXPECT_GE(found_of_200(code, 12, 0.08), 198) << "seed " << kSeed;
         EXPECT_GE(found_of_200(code, 20, 0.12), 198) << "seed " << kSeed;
@@ -97,7 +96,7 @@ TEST(FindAxis, FindsThePositionAmongWrongBits) {
 }
 
 TEST(FindAxis, HoldsForThePublishedCode) {
-    // Runs of this code have eight lines.
+    // In this code, eight consecutive lines are necessary to determine a position.
     EXPECT_EQ(found_of_200(CodeVariant::libdots, 12, 0), 200) << "seed " << kSeed;
     EXPECT_GE(found_of_200(CodeVariant::libdots, 12, 0.05), 198) << "seed " << kSeed;
     EXPECT_GE(found_of_200(CodeVariant::libdots, 30, 0.2), 198) << "seed " << kSeed;

@@ -11,8 +11,8 @@ namespace {
 
 using namespace core;
 
-/// Returns paper of one level with dark squares of 2 x 2 px every 8 px, in the rows that tiles
-/// measure.
+/// Returns an image of uniform paper with dark squares of 2 x 2 px every 8 px. The squares are in
+/// rows in which the tiles are measured.
 GreyImage dotted(int width_px, int height_px, int paper, int ink) {
     GreyImage image = blank(width_px, height_px, paper);
     for (int v = 2; v + 2 <= height_px; v += 8) {

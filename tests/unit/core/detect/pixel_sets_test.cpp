@@ -21,7 +21,7 @@ struct Set {
     bool passes_high = false;
 };
 
-/// Compares pixels with the thresholds of their tiles.
+/// Results of comparing each pixel with the thresholds of its tile.
 struct Marked {
     std::vector<char> is_dark;
     std::vector<char> is_below_high;

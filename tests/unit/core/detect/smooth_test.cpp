@@ -101,9 +101,9 @@ TEST(Smooth, AGradientOfTheLightBecomesEven) {
                 ASSERT_NEAR(found.view().row(v)[u], kNormalLevel, 2) << u << ", " << v;
             }
         }
-        // Less than 4 px from the border, the border cuts off a part of the surroundings. The
-        // middle of the remaining part is up to 2 px from the pixel. The slope therefore changes
-        // the mean.
+        // At less than 4 px from the border, a part of the surroundings is outside the image, and
+        // the middle of the remaining part is up to 2 px from the pixel. The mean of this part
+        // differs from the level at the pixel, because of the slope.
         expect_even(found, 5);
     }
 }

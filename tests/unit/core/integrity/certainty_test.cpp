@@ -125,7 +125,7 @@ TEST(IsCertain, RefusesWhatAnAlternativeExplainsAsWell) {
         }
         ASSERT_FALSE(worst.empty());
         IntegrityOptions options;
-        // The number of errors alone must not cause a refusal.
+        // Disables the limit of bit errors, so that only the alternatives can cause a refusal.
         options.max_bit_error_q8 = 256;
         without_errors += judge(block, block.place, options).is_certain;
         EXPECT_FALSE(judge(between(block, own, worst), block.place, options).is_certain);

@@ -1,4 +1,5 @@
-// Tests seam alternatives against a sum over all places, borders and shifts in double precision.
+// Tests the odds of seam alternatives, which have different shifts on the two sides of a border,
+// against a sum over all places, borders and shifts in double precision.
 #include "core/integrity/seam_alternatives.hpp"
 
 #include <algorithm>

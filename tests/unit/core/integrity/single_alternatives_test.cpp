@@ -1,4 +1,5 @@
-// Tests the odds of single alternatives against a sum over all of them in double precision.
+// Tests the odds of single alternatives (positions that differ in one sequence) against a sum over
+// all of them in double precision.
 #include "core/integrity/single_alternatives.hpp"
 
 #include <gtest/gtest.h>

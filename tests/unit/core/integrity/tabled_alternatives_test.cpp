@@ -28,7 +28,8 @@ double exact_sum(const LikelihoodRatios& ratios, std::size_t sequence) {
         set_roll_offsets(ratios, sequence, place, offsets);
         const auto end = offsets.begin() + ratios.count();
         for (auto shared = offsets.begin(); shared != end; ++shared) {
-            // Shared lines at the same shift belong to the same alternative.
+            // All lines that are shared at one shift belong to the same alternative, which is
+            // counted once.
             if (std::find(offsets.begin(), shared, *shared) != shared) continue;
             int lost = 0;
             for (int line = 0; line < ratios.count(); ++line)

@@ -60,12 +60,12 @@ TEST(Verify, CountsEveryBitThatContradicts) {
             ++flipped;
             const Verdict now = judge(reading);
             ASSERT_EQ(now.fix.bit_errors, flipped);
-            // Additional contradictions never make a position more certain, unless they cause the
-            // exact sums to be computed.
+            // Additional contradictions must not make a position more certain, unless they cause
+            // the exact sums to be computed.
             const Verdict quick = judge(reading, any, verify_quickly);
             ASSERT_EQ(quick.fix.bit_errors, flipped);
             // Below 2^-36 on either axis, the quick estimate is coarse, and both values are
-            // rounded.
+            // rounded. Values below 2^-34 are therefore not compared.
             constexpr int kCoarse = -34;
             ASSERT_GE(std::max(quick.fix.p_wrong_log2, kCoarse),
                       std::max(quick_before.fix.p_wrong_log2, kCoarse) - 1);

@@ -111,8 +111,8 @@ TEST(KernelsWindows, CentresAreFoundWhereDotsAre) {
     repeat_with_each_form(200, [](const Kernels& kernels, Rng& rng) {
         constexpr double kMargin_px = 2;
         const double sigma_px = rng.uniform(0.7, 4);
-        // A smaller window would contain little more than the top of the dot. After rounding to
-        // whole grey levels, the top is flat.
+        // A smaller window would contain little more than the top of the dot, which is flat after
+        // rounding to whole grey levels.
         const auto reach_px = static_cast<float>(rng.uniform(std::max(3.3, 2.5 * sigma_px), 12));
         const auto anywhere = [&] { return rng.uniform(20, OneDot::kSide_px - 21); };
         const auto at_border = [&] { return rng.uniform(kMargin_px, kMargin_px + 1); };
@@ -276,7 +276,8 @@ TEST(KernelsWindows, AShadowThatEndsMovesNoCentresBesideItsEdge) {
 
 TEST(KernelsWindows, PredictedDotsAreReadByTheDarkestPlace) {
     repeat_with_each_form(40, [](const Kernels& kernels, Rng& rng) {
-        // The dot is below the intersection at (40, 40), which is symbol 3. The grid is upright.
+        // The dot is displaced downwards from the intersection at (40, 40), which is symbol 3. The
+        // grid is upright.
         const OneDot dot(40, 41.8, 1, 0);
         CellsInView view = dot.cells;
         view.plane = {0, 0, 1 / 11.0F, 0, 0, 1 / 11.0F, 0, 0, 0};
