@@ -334,8 +334,8 @@ TEST_F(CameraFile, AMissingFileIsToldWithTheReason) {
     EXPECT_EQ(error, "cannot read nothere.yaml: No such file or directory");
 }
 
-// Some drivers state this model for every camera. If its additional terms are zero, the model
-// equals plumb_bob.
+// Some drivers state the model rational_polynomial for every camera. If its additional terms are
+// zero, it equals plumb_bob.
 TEST_F(CameraFile, ARationalPolynomialWithoutItsOwnTermsIsPlumbBob) {
     const auto rational = [](const std::string& coefficients) {
         std::string text = kRos;

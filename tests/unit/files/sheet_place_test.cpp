@@ -184,7 +184,7 @@ TEST(world_place, half_a_turn_is_positive) {
     EXPECT_EQ(world_place({&entry, 0, 0, 0})->yaw_rad, kPi);
 }
 
-/// Returns a fix with a covariance in which every element has an effect.
+/// Returns a fix with a covariance in which no element is zero.
 Fix uncertain_fix() {
     Fix fix = fix_at({1010, 2003}, 0.5, 0.25, 0.7);
     constexpr float kCovariance[3][3] = {

@@ -11,7 +11,7 @@ namespace dotpose {
 namespace {
 
 constexpr Cell kPlace{1000, 2000};
-/// Maximum amount by which the evidence of a place is rounded down, in 2^-8 of log2.
+/// Maximum amount by which the evidence of a place is rounded down, as log2 with 8 fractional bits.
 constexpr int kRounding = 24;
 /// Returns the log odds of a frame that makes `code` less likely by `log2` bits.
 CodeEvidence::LogOdds against(CodeVariant code, int log2) {

@@ -170,7 +170,8 @@ TEST_F(FramesReadTogether, AWrongMotionGivesNoWrongFix) {
     EXPECT_EQ(located, 0);
 }
 
-// Frames without a pattern between the views of a series increase only the distance.
+// Frames without a pattern between the views of a series must have no effect except that the motion
+// adds up.
 TEST_F(FramesReadTogether, FramesWithoutAPatternAreSkipped) {
     constexpr ShotSize kSize{.width_px = 80, .height_px = 80};
     int located = 0;

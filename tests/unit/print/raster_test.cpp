@@ -66,7 +66,8 @@ void expect_exact_dots(const Bitmap& page, const Sheet& sheet, int scale) {
             }
         }
     }
-    // All expected pixels are different. If the numbers are equal, the page has no other pixels.
+    // The expected pixels are all different, so equal numbers mean that the page contains no other
+    // ink.
     EXPECT_EQ(page.count_ink(), sheet.columns * sheet.rows * static_cast<int>(shape.size()));
 }
 

@@ -101,7 +101,8 @@ double relative_error(const TrackedPose& pose, bool is_y_up) {
 
 class TrackMotion : public testing::TestWithParam<bool> {};
 
-// The robot drives for a second over the pattern and for three seconds over a table.
+// The robot drives for a second over the pattern, and for three seconds over a table without a
+// pattern.
 TEST_P(TrackMotion, OdometryCarriesThePoseAcrossAGap) {
     const bool is_y_up = GetParam();
     constexpr int kDrives = 200;

@@ -1,5 +1,6 @@
-// Tests the correction of the bias of facing dots. The measured centres of two facing dots are
-// shifted towards each other. The centres of other neighbours are not.
+// Tests the correction of the bias of facing dots, which are two neighbours displaced towards each
+// other. Their measured centres are shifted towards each other. The centres of other neighbours are
+// not shifted.
 #include "core/pose/facing_dots.hpp"
 
 #include <map>

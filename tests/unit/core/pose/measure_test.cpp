@@ -36,9 +36,9 @@ bool is_inside(const View& view, Vec2 point_px, double margin_px) {
            point_px.y < far.y;
 }
 
-/// Expects every measured dot to be the dot of its cell, within the tolerance, or within a third of
-/// a pixel where the border cuts the window. No dot that is at least `margin_px` inside the image
-/// may be missing.
+/// Expects the centre of every measured dot to be within the tolerance of the dot of its cell, or
+/// within a third of a pixel where the border of the image cuts the window. No dot that is at least
+/// `margin_px` inside the image may be missing.
 void expect_measured(const View& view, const std::vector<PlacedDot>& placed, int quarters,
                      double margin_px, double tolerance_px, Rng& rng) {
     const GreyImage image = drawn(view, placed, rng.uniform(0, 6.3));
