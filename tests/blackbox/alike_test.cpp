@@ -45,8 +45,8 @@ TEST_P(DotsAlike, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     const Score score = score_of(outcomes);
     EXPECT_EQ(score.wrong, 0);
     EXPECT_GE(score.located, kFramesOfCase * 9 / 10);
-    // The mean of kFramesOfCase squared standard normal variables exceeds 1.85 once in 20,000
-    // cases.
+    // If the reported variances are correct, a mean of kFramesOfCase squared errors in units of the
+    // variance exceeds 1.85 once in 20,000 cases.
     for (const double normalised : score.normalised)
         EXPECT_LT(normalised, 1.85);
     const double px = kDefaultSpacing_mm / GetParam().dots.spacing_px;

@@ -182,8 +182,8 @@ TEST_F(EvaluateCommand, TheProtocolWritesItsTableAndFigures) {
     }
 }
 
-/// Frames on a sheet. A motion stage measured their poses in a frame of reference with another
-/// origin, direction and unit.
+/// Frames on a sheet, whose poses were measured by a motion stage. The coordinate system of the
+/// stage has another origin, direction and unit.
 class EvaluateMeasured : public EvaluateCommand {
   protected:
     void SetUp() override {

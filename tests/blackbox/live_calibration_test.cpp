@@ -112,7 +112,7 @@ TEST_F(LiveCalibration, SaysWhyNoFrameIsLocated) {
 }
 
 TEST_F(LiveCalibration, NamesTheCornerThatShowsNoDots) {
-    // The dots end at a border inside each frame.
+    // The dots cover only 60 to 70 % of each frame.
     simulate("--frames 12 --covered 0.6,0.7");
     calibrate("frames");
     const std::regex advice("next: show dots in the [a-z ]*(corner|edge|middle) of the image");

@@ -131,7 +131,8 @@ TEST_F(SheetFiles, agree_with_a_ruler_on_the_printed_page) {
     ASSERT_EQ(print("-o other.svg --paper 40x40 --sheets sheets.json --name other"), 0);
     ASSERT_EQ(print("-o page.png --dpi 1200 --paper 50x40 --sheets sheets.json --name page"), 0);
     const GreyImage page = read_image((directory_ / "page.png").string());
-    // The last two places are on the margins, to the left of and above the first intersection.
+    // The last two places are on the margins: one to the left of the first intersection, and one
+    // above it.
     for (const auto& [u, v] :
          {std::pair(500, 500), {1111, 700}, {1800, 1333}, {200, 900}, {1200, 190}}) {
         const json record = locate_with_sheets(cut_out(page, u, v, 280, 260));
@@ -142,8 +143,8 @@ TEST_F(SheetFiles, agree_with_a_ruler_on_the_printed_page) {
     }
 }
 
-/// Returns the column with the most dark pixels, searching columns [u_begin, u_end) and rows
-/// [v_begin, v_end).
+/// Returns the column with the most dark pixels in the rectangle [u_begin, u_end) x [v_begin,
+/// v_end).
 int darkest_column(const GreyImage& page, int u_begin, int u_end, int v_begin, int v_end) {
     int best = u_begin;
     int most = 0;

@@ -146,8 +146,8 @@ TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
             continue;
         }
         sheets.insert(record["sheet"]);
-        // The figure eight fits into 120 x 40 mm, minus the view of the camera and 5 mm on each
-        // side.
+        // The sheets span 120 x 40 mm. The figure eight keeps a distance of 5 mm plus half a view
+        // of the camera from their edges.
         EXPECT_GT(record["x_m"], 0.0095);
         EXPECT_LT(record["x_m"], 0.1105);
         if (last) {

@@ -15,7 +15,6 @@ using testing::Not;
 
 using WatchSources = WatchCommand;
 
-/// Returns the number of occurrences of a text in another text.
 int count(const std::string& text, const std::string& part) {
     int found = 0;
     for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))

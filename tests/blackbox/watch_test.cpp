@@ -41,7 +41,6 @@ DriveReading reading_of(const json& line) {
     return reading;
 }
 
-/// Returns the errors of the lines relative to the true drive.
 DriveErrors errors_of(const std::vector<json>& lines, const Drive& drive, int first = 0) {
     DriveErrors errors;
     for (const json& line : lines) {

@@ -27,7 +27,7 @@ constexpr std::uint64_t kSeed = 20;
 constexpr std::array kCodeVariants{CodeVariant::anoto, CodeVariant::libdots,
                                    CodeVariant::microdots};
 
-/// Bits read upright from a part of the pattern.
+/// Bits that were read from an upright part of the pattern.
 struct View {
     CodeVariant code = CodeVariant::anoto;
     Place place;
@@ -46,7 +46,7 @@ struct View {
     }
 };
 
-/// Draws size and noise, and reads the bits at the place.
+/// Chooses a random size and noise of the view, and reads its bits from the code.
 void read(View& view, Rng& rng) {
     view.columns = 8 + static_cast<int>(rng.below(5));
     view.rows = 8 + static_cast<int>(rng.below(5));
@@ -110,8 +110,9 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
     const auto main = [](int index) {
         return main_bit(static_cast<std::uint32_t>(index + kSections));
     };
-    // Returns the sum of the weights of the bits of a line. A weight counts as positive if its bit
-    // agrees with the main sequence, which begins at index `start` in the first cell of the line.
+    // Returns the sum of the weights of the bits of a line. Weights of bits that contradict the
+    // main sequence are subtracted. The first cell of the line is at index `start` of the main
+    // sequence.
     const core::Grid grid = view.grid();
     const auto score = [&](bool is_x, int line, int start) {
         int sum = 0;
@@ -144,8 +145,8 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
     return sums;
 }
 
-/// Draws views of a place until one is weak. Returns the minimum margin of the tracker's bound, in
-/// bits.
+/// Draws views of a place until p_wrong of a view is between 2^-30 and 2^-10. Returns the minimum
+/// margin of the tracker's bound for this view, in bits.
 double margin_of_weak_view(CodeVariant code, const Place& place, Rng& rng) {
     View view;
     view.code = code;
@@ -187,8 +188,8 @@ struct Repetition {
     int roll = 0;      ///< roll of the later lines relative to the earlier lines, 0 to 62
 };
 
-/// Returns all repetitions within reach. A repetition occurs where the same four digits are
-/// repeated in all four sequences.
+/// Returns all repetitions at a distance of at most kReach lines. A repetition occurs where the
+/// same four digits are repeated in all four sequences.
 std::vector<Repetition> repetitions(CodeVariant code) {
     const code::Basis& basis = code::basis(code);
     std::vector<Repetition> found;

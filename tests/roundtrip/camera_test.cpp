@@ -36,7 +36,6 @@ constexpr int kPrinter_dpi = 1200;
 // about 0.002 mm.
 constexpr double kTolerance_mm = 0.03;
 
-/// The pose of a frame on its page.
 struct TakenFrame {
     int page = 1;
     Vec2 at_mm;

@@ -33,7 +33,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Saves the scan as JPEG, reads it again, and returns the result.
 GreyImage through_jpeg(const GreyImage& scan, int quality) {
     const test::TemporaryDirectory directory;
     const auto path = directory.path() / "scan.jpg";

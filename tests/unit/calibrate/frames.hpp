@@ -26,7 +26,6 @@ inline CameraModel paper_camera() {
     return camera;
 }
 
-/// Returns frame `index` of a run with the preset nominal and a tilt.
 inline GreyImage nominal_frame(const CameraModel& camera, std::uint64_t seed, int index,
                                double tilt_x_deg = 0, double tilt_y_deg = 0) {
     Setup setup;

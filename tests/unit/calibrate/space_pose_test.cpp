@@ -91,7 +91,6 @@ double angle_between(const Matrix3& a, const Matrix3& b) {
     return std::atan2(sine, (turn[0][0] + turn[1][1] + turn[2][2] - 1) / 2);
 }
 
-/// A camera and its pose.
 struct View {
     double focal_px = 800;
     Matrix3 rotation{};  // camera to paper
@@ -221,8 +220,8 @@ TEST(SpaceFit, HasTrueCovariancesForErrorsOfPrintAndImage) {
 }
 
 TEST(SpaceFit, ReportsTheMirroredTiltOfANarrowView) {
-    // The view contains 15 x 15 dots and has an angle of 1 degree. The effect of perspective within
-    // this view is smaller than the noise.
+    // The view contains 15 x 15 dots and covers an angle of 1 degree. The effect of perspective
+    // within this view is smaller than the noise.
     const CameraLean lean{10 * kDegree_rad, 0.5, 1};
     const CameraLean mirrored{10 * kDegree_rad, 0.5 - pi, 1};
     int ambiguous = 0;
@@ -308,7 +307,6 @@ TEST(CameraLean, IsTurnThenLean) {
     }
 }
 
-/// Returns the camera file of a simulated camera.
 Camera camera_of(const CameraModel& model) {
     Camera camera;
     camera.width_px = model.width_px;

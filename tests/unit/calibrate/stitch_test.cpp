@@ -216,8 +216,8 @@ TEST(StitchSheets, SaysWhichScalesTheFramesDoNotTell) {
     }
     EXPECT_NEAR(stitching.sheets[0].print_scale_x, 1, 1e-5);
     EXPECT_NEAR(stitching.sheets[0].print_scale_y, 1, 1e-5);
-    // The scale of the second sheet relative to the first is determined along the seam, and less
-    // accurately across the seam.
+    // The frames determine the scale of the second sheet relative to the first more accurately
+    // along the seam than across it.
     EXPECT_NEAR(stitching.sheets[1].print_scale_y, 1, 5e-4);
     EXPECT_NEAR(stitching.sheets[1].print_scale_x, 1, 2e-3);
     EXPECT_LT(off_mm(*stitching.sheets[1].world, kTable[1]), 0.05);

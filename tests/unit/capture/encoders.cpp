@@ -12,7 +12,6 @@ std::uint64_t number(int value) {
     return static_cast<std::uint64_t>(value);
 }
 
-/// Returns the samples of one row, packed into bytes.
 Bytes packed_row(const Raster& raster, int v, bool big_endian = true) {
     Writer row(big_endian);
     const int length = raster.width_px * raster.channels;
@@ -236,7 +235,7 @@ Bytes encode_bmp(const Raster& raster, const Bytes& palette) {
 Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette) {
     constexpr std::uint64_t kDirectoryAt = 8;
     constexpr std::uint64_t kEntries = 10;
-    // The directory is followed by the bits of each channel, the palette and the pixels.
+    // The directory is followed by the number of bits of each channel, the palette and the pixels.
     constexpr std::uint64_t kBitsAt = kDirectoryAt + 2 + kEntries * 12 + 4;
     constexpr std::uint64_t kPaletteAt = kBitsAt + 8;
     const Bytes colours = tiff_palette(palette, big_endian);

@@ -182,7 +182,7 @@ TEST_F(TiffKinds, HaveColoursThatAreMultipliedByTheirOpacity) {
 }
 
 TEST_F(TiffKinds, HaveFewBits) {
-    // The rows consist of bits. In fax encodings, 1 is black.
+    // Each sample is one bit. In fax encodings, 1 is black.
     const std::vector<std::uint16_t> bits(kHeight * kWidth / 16, 0xFF00);
     const auto fax = [](TIFF* tiff) {
         TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 1);
@@ -195,7 +195,6 @@ TEST_F(TiffKinds, HaveFewBits) {
     EXPECT_EQ(pixels[8], 0);
 }
 
-/// Returns a progressive JPEG of 64 x 64 px with varying grey levels.
 Bytes progressive_jpeg() {
     GreyImage image{{}, 64, 64};
     for (int v = 0; v < 64; ++v) {

@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::uint32_t kSeed = 50;
 
-/// Returns the rolls of `count` lines. The first roll is `first_roll`.
 std::vector<std::uint8_t> followed(CodeVariant code, std::uint32_t position, int first_roll,
                                    std::size_t count) {
     std::vector<std::uint8_t> rolls(count, 99);

@@ -58,7 +58,7 @@ inline void darken(GreyImage& image, Vec2 centre, double sigma, double depth) {
     }
 }
 
-/// Thresholds in a column of the last measured band: low and high.
+/// The low and the high threshold in a column of the last measured band.
 struct Levels {
     int low = 0;
     int high = 0;

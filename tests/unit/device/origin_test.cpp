@@ -15,7 +15,6 @@ constexpr std::uint64_t kSeed = 26;
 constexpr Vec2 kImage_px{188, 120};
 constexpr Vec2 kCentre_px{93.5, 59.5};
 
-/// Returns the origin found from all dots.
 Vec2 origin_of(const std::vector<DetectedDot>& dots, const Mesh& mesh, Vec2 near_px) {
     std::vector<std::uint16_t> seeds(dots.size());
     std::iota(seeds.begin(), seeds.end(), std::uint16_t{0});

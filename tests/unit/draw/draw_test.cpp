@@ -193,7 +193,7 @@ TEST_P(DrawTurned, letters_are_those_of_the_pattern) {
         const char expected = letter(symbol_at(pattern.code, place.cell, place.section));
         if (std::tolower(mark.letter) != expected) ++errors;
     }
-    // Misread dots, usually with one or two wrong bits each, are marked.
+    // The drawing marks misread dots. Most of them have one or two wrong bits.
     EXPECT_LE(errors, static_cast<std::size_t>(located.fix.bit_errors));
     EXPECT_LE(errors, 1U);
     EXPECT_EQ(count(symbols, "stroke=\"#d500f9\""), errors);

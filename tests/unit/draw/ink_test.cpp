@@ -39,7 +39,7 @@ TEST(InkSvg, WithoutAPageContainsAllStrokes) {
             point.x_mm += 1e8;
     }
     const std::string svg = ink_svg(page);
-    // The strokes are 6 mm x 6 mm, and the margin is 5 mm.
+    // The strokes span 6 mm x 6 mm, and the margin is 5 mm.
     EXPECT_THAT(svg, HasSubstr(R"(width="16mm" height="16mm")"));
     EXPECT_THAT(svg, HasSubstr(R"(d="M5.0000 5.0000 L7.0000 8.0000")"));
 }

@@ -69,12 +69,13 @@ TEST(sheet_map, shows_every_sheet_where_it_lies_with_y_up) {
     const auto& [straight, turned] = std::array{found[0], found[1]};
     const double per_m = (straight[1][0] - straight[0][0]) / 0.1;
     EXPECT_GT(per_m, 1000);
-    // Clockwise from the top left corner: right, down, left.
+    // The corners are in clockwise order, starting at the top left, so the steps are right, down
+    // and left.
     expect_step(straight[0], straight[1], 0.1 * per_m, 0);
     expect_step(straight[1], straight[2], 0, 0.05 * per_m);
     expect_step(straight[2], straight[3], -0.1 * per_m, 0);
-    // Rotated by 90 degrees counter-clockwise, the upper edge points up, and the page is to its
-    // right.
+    // This page is rotated by 90 degrees counter-clockwise, so its upper edge points up, and the
+    // page is to the right of this edge.
     expect_step(straight[0], turned[0], 0.2 * per_m, -0.1 * per_m);
     expect_step(turned[0], turned[1], 0, -0.1 * per_m);
     expect_step(turned[1], turned[2], 0.05 * per_m, 0);

@@ -38,7 +38,7 @@ Shot moved_shot(const Shot& shot, const MeasuredMotion& motion) {
     return next;
 }
 
-/// Draws the motion of about half a view of `view_mm`, in any direction.
+/// Draws a motion by half of `view_mm` in any direction.
 MeasuredMotion draw_motion(double view_mm, Rng& rng) {
     const double direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
     MeasuredMotion motion;

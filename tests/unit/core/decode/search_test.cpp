@@ -159,9 +159,9 @@ TEST(FindAxis, RandomBitsAreNotInTheCodeOrScoreLow) {
         ScoredWindow lines = window(CodeVariant::anoto, random_place(rng), 20, 12, 0.5, rng);
         AxisReading reading;
         if (lines.find(CodeVariant::anoto, reading) == Status::not_in_code) continue;
-        // A line of random bits agrees with its best roll in 9 or 10 of 12 bits. The 6 lines of the
-        // selected run reach this score. The other 14 lines score 0 on average. Selecting the best
-        // of 15 runs increases the score slightly.
+        // A line of 12 random bits agrees with its best roll in 9 or 10 bits. Only the 6 lines of
+        // the selected run reach this score, because the other 14 lines score 0 on average. The
+        // best of 15 runs scores slightly more than an average run.
         EXPECT_FALSE(reading.is_clear()) << i << ", seed " << kSeed;
         EXPECT_LT(reading.score, reading.max_possible * 7 / 10) << i << ", seed " << kSeed;
     }

@@ -332,7 +332,7 @@ TEST(Blobs, RandomPixelsFormTheSetsThatFloodingFinds) {
     }
 }
 
-/// Dots of one size with some blobs of other sizes, and the dots that the filter keeps.
+/// The list after the size filter, and the number of dots that the filter keeps.
 struct Sifted {
     std::vector<DetectedDot> dots;
     int count = 0;

@@ -111,7 +111,8 @@ void expect_sets(const GreyImage& image) {
 }
 
 TEST(PixelSets, AreThoseDarkerThanTheirTilesLevel) {
-    // Random grey levels, including levels one step from the threshold, in uneven light.
+    // The grey levels are random, and include levels one step from the threshold. The light is
+    // uneven.
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         const int width = 64 + static_cast<int>(rng.below(260));

@@ -50,8 +50,9 @@ TEST(Smooth, SinglePixelsVanish) {
         const GreyImage found = smoothed(image);
         for (int v = 0; v < 120; ++v) {
             for (int u = 0; u < 188; ++u) {
-                // A bright pixel is 55 levels above the paper. It raises the mean of the
-                // surroundings, at least 5 x 5 pixels, by up to 55 / 25 levels.
+                // A bright pixel is 55 levels above the paper. It raises the mean of its
+                // surroundings by up to 55 / 25 levels, because the surroundings contain at least 5
+                // x 5 pixels.
                 ASSERT_NEAR(found.view().row(v)[u], kNormalLevel, 3) << u << ", " << v;
             }
         }

@@ -185,7 +185,7 @@ double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
 }
 
 /// The estimate is an upper bound for any certainty of the reading and any limit. With this small
-/// number of lines, the other sets have about the odds of the first set.
+/// number of lines, all sets have about equal odds, so the test would detect a missing set.
 TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSetsOfFarAlternatives) {
     Rng rng(11);
     int doubtful = 0;

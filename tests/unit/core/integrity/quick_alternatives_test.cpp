@@ -54,7 +54,7 @@ double sum_of_singles(const RatiosCase& c) {
                     lost += c.storage[line].scores[static_cast<std::size_t>(c.rolls[line])] -
                             c.storage[line].scores[static_cast<std::size_t>(other)];
                 }
-                // A lost score is twice the weight of the bits that change sign.
+                // The loss of score is twice the weight of the bits that change sign.
                 if (shares) sum += std::exp2(-lost / 2 / 127 * c.odds_q8 / 256);
             }
         }
@@ -155,8 +155,7 @@ TEST(QuickAlternatives, FewLinesOrWeakOddsDoNotTell) {
         c.storage.push_back(scored_line(own, 12, 0, 127, rng));
     c.odds_q8 = 8;
     EXPECT_EQ(quick_alternatives_log2_q8(c.ratios()), 0);
-    // With odds of 2^8 for a bit of full weight, the alternatives in the same lines have almost no
-    // odds.
+    // With odds of 2^8 for a bit of full weight, the odds of the alternatives are negligible.
     c.odds_q8 = 8 * 256;
     EXPECT_LT(quick_alternatives_log2_q8(c.ratios()), -30 * 256);
 }

@@ -179,7 +179,7 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
     }
 }
 
-/// Returns a difficult view: it is small, and dots are missing, displaced, or have another symbol.
+/// Returns a difficult view: it is small, and dots are missing, displaced, or have a wrong symbol.
 Reading troubled(Rng& rng, int turn) {
     View view = random_view(rng);
     view.code = kCodeVariants[static_cast<std::size_t>(rng.below(3))];

@@ -116,7 +116,8 @@ TEST(KernelsWindows, CentresAreFoundWhereDotsAre) {
         const auto reach_px = static_cast<float>(rng.uniform(std::max(3.3, 2.5 * sigma_px), 12));
         const auto anywhere = [&] { return rng.uniform(20, OneDot::kSide_px - 21); };
         const auto at_border = [&] { return rng.uniform(kMargin_px, kMargin_px + 1); };
-        // A large dot at the border would be only partly in view.
+        // Only small dots are drawn at the border, because a large dot would be only partly in
+        // view.
         const bool is_inside = sigma_px > 0.8 || rng.below(2) == 0;
         const double u = is_inside ? anywhere() : at_border();
         const double v = anywhere();

@@ -163,7 +163,7 @@ TEST(Pose, PastTheEndOfTheCodeItContinuesInAnotherSection) {
     EXPECT_EQ(fix.fraction_x_q16, 0.75 * 65536);
 }
 
-/// Sums over many fixes: products of the errors of (x, y, theta), and covariances of the fixes.
+/// Sums over many fixes: the products of the errors of (x, y, theta), and the reported covariances.
 struct Scatter {
     double squares[3][3] = {};
     double claimed[3][3] = {};
