@@ -28,8 +28,8 @@ TEST_P(AdversarialClass, FramesGiveNoWrongFix) {
     }
 }
 
-// Two patterns with the same orientation, about a fifth of the spacing apart. Regression: in each
-// of these frames, the columns of one pattern and the rows of the other pattern were decoded as a
+// Each of these frames shows two patterns with the same orientation, about a fifth of the spacing
+// apart. Regression: the columns of one pattern and the rows of the other pattern were decoded as a
 // position.
 TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
     const auto memory = std::make_unique<LargeMemory>();

@@ -338,15 +338,15 @@ TEST_F(CheckPrintCommand, wrong_usage_is_status_2) {
     const GreyImage blank{std::vector<std::uint8_t>(100 * 100, 230), 100, 100};
     write_pgm(directory_ / "blank.pgm", blank.view());
     const char* const wrong[] = {
-        "check-print",                                  // no scan
-        "check-print blank.pgm --dpi 0",                //
-        "check-print blank.pgm --dpi x",                //
-        "check-print blank.pgm --format csv",           //
-        "check-print blank.pgm --draw map.jpg",         //
-        "check-print blank.pgm --spacing 0",            //
-        "check-print blank.pgm --displacement 0.4",     //
-        "check-print blank.pgm --section 1,1",          // the section is detected
-        "check-print blank.pgm --sheets s --dot 0.1",   // the file contains the diameter
+        "check-print",                               // no scan
+        "check-print blank.pgm --dpi 0",             //
+        "check-print blank.pgm --dpi x",             //
+        "check-print blank.pgm --format csv",        //
+        "check-print blank.pgm --draw map.jpg",      //
+        "check-print blank.pgm --spacing 0",         //
+        "check-print blank.pgm --displacement 0.4",  //
+        "check-print blank.pgm --section 1,1",  // not an option, because the section is detected
+        "check-print blank.pgm --sheets s --dot 0.1",   // the diameter is in the sheet file
         "check-print blank.pgm stray",                  //
         "print --test-page -o test.txt",                //
         "print --test-page -o test.png --spacing 0.5",  // a test page has several spacings

@@ -405,7 +405,7 @@ TEST_F(LocateCommand, draws_a_picture_for_each_image) {
     EXPECT_THAT(pictures, testing::UnorderedElementsAre("a.svg", "a-2.svg", "flat<&>.svg"));
 
     fs::create_directory(directory_ /
-                         "new/folder/b.svg");  // a directory with the name of a picture
+                         "new/folder/b.svg");  // this directory has the name of a picture
     write_frame("b.pgm", 2);
     run("--draw new/folder b.pgm a.pgm");
     EXPECT_EQ(exit_code_, 1);

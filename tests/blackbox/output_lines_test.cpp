@@ -200,7 +200,8 @@ TEST_F(OutputLines, HaveTheCovarianceOfEachPose) {
     // The sheet is printed at its nominal scale, so its covariance is that of the pattern.
     expect_equal(matrix_of(line["covariance_sheet_mm_deg"]), pattern);
     EXPECT_EQ(line["theta_sheet_deg"], line["theta_deg"]);
-    // docs/sheet-files.md: x_m = world.x_m + (x cos(yaw) + y sin(yaw)) / 1000, and so on.
+    // docs/sheet-files.md defines the pose in the world, for example x_m = world.x_m + (x cos(yaw)
+    // + y sin(yaw)) / 1000.
     const double c = std::cos(kYaw_rad) / 1000;
     const double s = std::sin(kYaw_rad) / 1000;
     expect_equal(matrix_of(line["covariance_m_rad"]),

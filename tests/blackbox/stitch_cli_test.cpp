@@ -19,7 +19,7 @@ using testing::Not;
 
 constexpr double kSpacing_mm = kDefaultSpacing_mm;
 constexpr int kSide_cells = 60;
-/// The second sheet is to the right of the first, lower and rotated clockwise.
+/// The second sheet is to the right of the first sheet and lower. It is rotated clockwise.
 constexpr double kRight_mm = 31.5;
 constexpr double kDown_mm = 0.7;
 constexpr double kTurn_rad = 0.012;

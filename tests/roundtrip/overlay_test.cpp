@@ -134,7 +134,7 @@ TEST_P(OverlaidDocument, leaves_black_ink_to_the_dots_when_asked) {
     EXPECT_THAT(report.warnings, IsEmpty());
     EXPECT_EQ(text("out.pdf"), text("in.pdf"));
     write_blank(report, 0);
-    // Mean amounts of cyan, magenta, yellow and black on the first page, in percent.
+    // Returns the mean amounts of cyan, magenta, yellow and black on the first page, in percent.
     const auto inks = [&](const char* name) {
         std::array<double, 4> ink{};
         const std::string output = in_directory(

@@ -127,7 +127,7 @@ inline constexpr int kSide_cells = 120;
 inline constexpr double kMargin_mm = 0.3;
 inline constexpr double kPage_mm = (kSide_cells - 1) * kDefaultSpacing_mm + 2 * kMargin_mm;
 
-/// Pose of a sheet on the table: mm, x right, y down, clockwise angles.
+/// Pose of a sheet on the table, in mm, with x to the right, y down, and clockwise angles.
 struct Lying {
     double x_mm;
     double y_mm;
@@ -179,8 +179,8 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         const double dy = y_mm - lying.y_mm;
         const double c = std::cos(lying.turn_rad);
         const double s = std::sin(lying.turn_rad);
-        // Distance of the camera from the middle of the sheet, along an axis, beyond which no dot
-        // is in view.
+        // If the camera is farther than this from the middle of the sheet along an axis, no dot of
+        // the sheet is in view.
         constexpr double kTooFar_mm = kPage_mm / 2 + 12;
         if (std::abs(dx - kPage_mm / 2) > kTooFar_mm) continue;
         if (std::abs(dy - kPage_mm / 2) > kTooFar_mm) continue;

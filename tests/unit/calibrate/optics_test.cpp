@@ -99,7 +99,7 @@ TEST(Optics, SaysWhatToChange) {
     Optics optics;
     optics.width_px = 188;
     optics.pixel_um = 24;
-    optics.distance_mm = 50;  // a spacing of 3 px
+    optics.distance_mm = 50;  // the spacing is 3 px in the image
     optics.speed_mm_s = 5000;
     const auto faults = design_optics(optics).advice;
     const auto says = [](const char* words) {

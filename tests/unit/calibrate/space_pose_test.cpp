@@ -200,7 +200,8 @@ TEST(SpaceFit, HasTrueCovariancesForErrorsOfPrintAndImage) {
             const auto fit = calibrate::fit_space(
                 dots_of(view, 30, 0.5, noise.print_mm, noise.centre_px, rng), {600, 600});
             ASSERT_TRUE(fit);
-            // Rotation vector of the error in the camera frame, for small angles.
+            // The rotation vector of the error is in the camera frame, and is valid for small
+            // angles.
             const Matrix3 turn = product(transposed(rotation_of(fit->state)), view.rotation);
             const std::array error = {view.position_mm[0] - fit->state.position_mm.x(),
                                       view.position_mm[1] - fit->state.position_mm.y(),

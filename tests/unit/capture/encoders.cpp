@@ -117,7 +117,7 @@ Bytes jpeg_scan(const Raster& raster) {
     return scan.finish();
 }
 
-/// An entry of a TIFF directory: shorts, or a single long.
+/// An entry of a TIFF directory. Its value consists of short integers, or is a single long integer.
 struct TiffEntry {
     std::uint64_t tag;
     std::uint64_t count;

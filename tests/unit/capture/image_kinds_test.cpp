@@ -47,12 +47,12 @@ Bytes bmp_with_masks(std::uint64_t bits, std::uint64_t compression,
 }
 
 TEST(BmpKinds, HaveFieldsOfBits) {
-    // Pictures with transparency as written by GIMP and ImageMagick: opaque red, and
+    // These pixels have transparency, as written by GIMP and ImageMagick: opaque red, and
     // half-transparent black.
     EXPECT_THAT(pixels_of(bmp_with_masks(32, 3, {0xFF0000, 0xFF00, 0xFF, 0xFF000000},
                                          {0xFFFF0000, 0x80000000})),
                 ElementsAre(76, 127));
-    // Pixels of five, six and five bits: white, and pure green.
+    // These pixels consist of five, six and five bits: white, and pure green.
     EXPECT_THAT(pixels_of(bmp_with_masks(16, 3, {0xF800, 0x07E0, 0x001F, 0}, {0xFFFF, 0x07E0})),
                 ElementsAre(255, 150));
     // Without masks, the fourth byte has no meaning.
@@ -66,7 +66,7 @@ TEST(BmpKinds, StartAtTheTopWhenTheHeightIsNegative) {
 }
 
 TEST(BmpKinds, HaveFewBitsAndTheHeaderOfOs2) {
-    // An image of 3 x 1 px with two colours of three bytes each: blue, and white.
+    // This image has 3 x 1 px, and two colours of three bytes each: blue and white.
     const Bytes file = Writer(false)
                            .text("BM")
                            .integers(4, {0, 0, 14 + 12 + 6, 12})

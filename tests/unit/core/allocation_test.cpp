@@ -18,7 +18,7 @@ thread_local int allocations = 0;
 
 void* counted(std::size_t size, std::size_t alignment) {
     ++allocations;
-    // aligned_alloc needs a multiple of the alignment.
+    // aligned_alloc requires a size that is a multiple of the alignment.
     const std::size_t whole = (size + alignment - 1) / alignment * alignment;
     void* memory = std::aligned_alloc(alignment, whole == 0 ? alignment : whole);
     if (memory == nullptr) throw std::bad_alloc();

@@ -32,8 +32,8 @@ inline void fill(GreyImage& image, int u0, int v0, int u1, int v1, int level) {
     }
 }
 
-/// Returns the fraction of a Gaussian with deviation `sigma` about `centre` that is on the pixel at
-/// `u`.
+/// Returns the fraction of a Gaussian with standard deviation `sigma` about `centre` that is on the
+/// pixel at `u`.
 inline double gaussian_share(int u, double centre, double sigma) {
     const double scale = sigma * std::numbers::sqrt2;
     return 0.5 * (std::erf((u + 0.5 - centre) / scale) - std::erf((u - 0.5 - centre) / scale));

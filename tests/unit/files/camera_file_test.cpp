@@ -205,8 +205,9 @@ TEST(CameraGeometry, TheScaleIsThatOfATiltedCamera) {
     const double f = model.working_distance_mm / model.mm_per_px;
     Camera camera;
     camera.centre_px = {93.5, 59.5};
-    // The axes of the paper's plane are (cy, sx sy, -cx sy) and (0, cx, sx). The divisor is 0 for
-    // rays perpendicular to the normal of the plane.
+    // With the sines and cosines sx, cx, sy and cy of the two tilts, the axes of the paper's plane
+    // are (cy, sx sy, -cx sy) and (0, cx, sx). The divisor is 0 for rays perpendicular to the
+    // normal of the plane.
     const double nx = std::sin(-0.2);
     const double ny = -std::sin(0.3) * std::cos(-0.2);
     const double nz = std::cos(0.3) * std::cos(-0.2);

@@ -90,7 +90,7 @@ TEST(Follower, SinglyAndInASequenceImagesGiveThePlaceOnTheSheet) {
         EXPECT_EQ(alone.place->entry->name, "floor");
         EXPECT_TRUE(alone.code_is_given);
         EXPECT_DOUBLE_EQ(alone.spacing_mm, kDefaultSpacing_mm);
-        // The position of the camera, relative to the first intersection of the sheet.
+        // This is the position of the camera relative to the first intersection of the sheet.
         const double x_mm = kPivot_x_mm + std::cos(1.0) * kCameraOnRobot_mm.x -
                             std::sin(1.0) * kCameraOnRobot_mm.y -
                             options.sheets[0].sheet.origin.x * kDefaultSpacing_mm;

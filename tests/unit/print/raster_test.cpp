@@ -87,8 +87,8 @@ TEST(write_raster, fills_whole_printer_pixels_with_the_default_spacing) {
 }
 
 TEST(write_raster, first_letters_are_those_of_the_code) {
-    // The symbols "dddurddl" of the test vector at (217, 1134). The vector is independent of
-    // `symbol_at`.
+    // The page contains the symbols "dddurddl" of the test vector at (217, 1134). The vector is
+    // independent of `symbol_at`.
     const Bitmap page = print_and_read(small_sheet(), "page.png", 300);
     const Pixels expected = {{0, 1}, {0, 1}, {0, 1}, {0, -1}, {1, 0}, {0, 1}, {0, 1}, {-1, 0}};
     for (std::size_t i = 0; i < expected.size(); ++i) {

@@ -22,7 +22,7 @@ constexpr std::int64_t kFrame_us = 5000;
 constexpr double kFrame_s = 0.005;
 constexpr double kPi = std::numbers::pi;
 
-using Pose = std::array<double, 3>;  ///< position in mm, mm, and angle in rad
+using Pose = std::array<double, 3>;  ///< x and y in mm, and the angle in rad
 
 std::int32_t bam(double angle_rad) {
     return static_cast<std::int32_t>(

@@ -190,7 +190,7 @@ TEST(TrackerPredict, ExpectsNothingWhereTheFilterDoesNot) {
     robot.sighting = sighting_of(robot.fix, 0);
     expect_as_seen(robot.predict(kFrame_us), robot.fix);  // the tracker has no sighting yet
     robot = drive(200'000, driving);
-    expect_as_seen(robot.predict(200'000), robot.fix);  // the time of the newest frame
+    expect_as_seen(robot.predict(200'000), robot.fix);  // at the time of the newest frame
     expect_as_seen(robot.predict(100'000), robot.fix);
     // 70 ms after the last sighting, the robot counts as lost.
     expect_as_seen(robot.predict(270'000), robot.fix);

@@ -16,8 +16,8 @@ using namespace core;
 constexpr std::uint64_t kSeed = 71;
 
 /// Returns the mean over every fourth row of the tile, and the minimum mean of two adjacent pixels
-/// in these rows, where the first pixel is in an even column. Rows extend past the last column of
-/// the image.
+/// in these rows, where the first pixel is in an even column. The rows extend past the last column
+/// of the image, to the end of the last tile.
 Tile expected_tile(const AdaptiveThreshold& threshold, int band, int tile) {
     const int begin = band_begin(threshold, band);
     const int end = band_end(threshold, band);

@@ -85,7 +85,8 @@ TEST(OddsPerBit, FallWithTheWrongWeight) {
     const auto odds_of = [](int wrong) { return odds_per_bit_q8(confidence(400, 127, wrong)); };
     for (int wrong = 0; wrong < 400; ++wrong) {
         ASSERT_LE(odds_of(wrong + 1), odds_of(wrong)) << wrong;
-        // Odds are computed to 2^-5, and decrease by at least 2^-6 per bit in this range.
+        // log2 of the odds is accurate to 2^-5, and decreases by at least 2^-6 per wrong bit in
+        // this range.
         if (wrong < 150) {
             ASSERT_LT(odds_of(wrong + 3), odds_of(wrong)) << wrong;
         }

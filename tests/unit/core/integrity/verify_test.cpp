@@ -291,7 +291,7 @@ TEST(Verify, ACloserLookCertifiesWhatAQuickOneCannot) {
         EXPECT_LE(close.fix.p_wrong_log2, quick.fix.p_wrong_log2);
         more += quick.status != Status::ok && close.status == Status::ok;
         if (close.status != Status::ok) continue;
-        // The smaller of two upper bounds is an upper bound.
+        // `verify` reports the smaller of two upper bounds: the exact sums, and the quick estimate.
         const double exact = exact_p_wrong(reading);
         EXPECT_GE(close.fix.p_wrong_log2, std::min<double>(exact, quick.fix.p_wrong_log2) - 0.1);
     }

@@ -268,8 +268,8 @@ TEST(KernelsWindows, LightThatFallsOffMovesNoCentres) {
 
 TEST(KernelsWindows, AShadowThatEndsMovesNoCentresBesideItsEdge) {
     repeat_with_each_form(20, [](const Kernels& kernels, Rng& rng) {
-        // The edge is between the second and the third column of dots, outside all centroid
-        // windows.
+        // The edge between dark and light paper is between the second and the third column of dots,
+        // outside all centroid windows.
         expect_no_common_error(kernels, rng, 3.3F,
                                [&](double u, double /*v*/) { return u < 40 ? 90 : 200; });
     });

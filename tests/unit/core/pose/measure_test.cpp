@@ -14,7 +14,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 45;
 
-/// Draws paper with dots, and with light that decreases from one side to the other.
+/// Draws paper with dots. The light decreases from one side of the image to the other.
 GreyImage drawn(const View& view, const std::vector<PlacedDot>& dots, double angle) {
     GreyImage image = blank(static_cast<int>(view.image_px.x), static_cast<int>(view.image_px.y));
     const Vec2 way{std::cos(angle), std::sin(angle)};
@@ -102,8 +102,8 @@ TEST(MeasureDots, FindsBadlyPrintedOnesWhereTheyAre) {
             Vec2& at = placed[d].centre_px;
             at = at + 0.15 * view.spacing_px * Vec2{std::cos(direction), std::sin(direction)};
         }
-        // A dot may be half a spacing away from a neighbour. In this case, the rim of the neighbour
-        // is in the window.
+        // A dot may be half a spacing away from a neighbour, so that the rim of the neighbour is in
+        // the window.
         expect_measured(view, placed, i % 4, 7, 0.14, rng);
     }
 }
