@@ -1,5 +1,5 @@
-// Tests the rolls of consecutive lines against rolls computed one by one and against a second
-// implementation.
+// Tests the rolls of consecutive lines against rolls that are computed individually, and against a
+// second implementation.
 #include "code/rolls.hpp"
 
 #include <gtest/gtest.h>

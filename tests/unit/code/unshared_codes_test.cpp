@@ -1,5 +1,6 @@
-// Tests the table of the minimum number of lines that a place in another code variant does not
-// share, against the rolls of the reference implementation.
+// Two places share a line if the line has equal bits at both. Tests the table of the minimum number
+// of lines that a place in another code variant does not share, against the rolls of the reference
+// implementation.
 #include "code/unshared_codes.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Tests the tables of the minimum number of lines that another place does not share, against
-// numbers obtained by counting lines.
+// Two places share a line if the line has equal bits at both. Tests the tables of the minimum
+// number of lines that another place does not share, against numbers obtained by counting lines.
 #include "code/unshared_lines.hpp"
 
 #include <algorithm>

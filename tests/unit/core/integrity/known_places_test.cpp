@@ -1,5 +1,4 @@
-// Tests the search for places on known sheets against a search over all places one by one, in
-// double precision.
+// Tests the search for places on known sheets against an exhaustive search in double precision.
 #include "core/integrity/known_places.hpp"
 
 #include <cmath>

@@ -83,8 +83,9 @@ TEST(QuickAlternatives, CountAllThatDifferInOneSequence) {
 }
 
 TEST(QuickAlternatives, CountWhatSharesTheOnlyLinesThatSayMuch) {
-    // An alternative may share five consecutive lines, or seven lines in `libdots`. Here, only four
-    // to nine consecutive lines are certain, so an alternative may share nearly all certain lines.
+    // An alternative may share five consecutive lines with the reading, or seven lines in
+    // `libdots`. Here, only four to nine consecutive lines are certain, so an alternative may share
+    // nearly all certain lines.
     Rng rng(kSeed);
     int told = 0;
     for (int i = 0; i < 400; ++i) {

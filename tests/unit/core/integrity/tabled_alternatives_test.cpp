@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 83;
 
-/// Returns the odds of all alternatives that differ in one sequence and share a line, one by one.
+/// Returns the sum of the odds of all alternatives that differ in one sequence and share a line
+/// with the reading.
 double exact_sum(const LikelihoodRatios& ratios, std::size_t sequence) {
     double sum = 0;
     for (std::uint32_t place = 0; place < ratios.basis[sequence].length; ++place) {
