@@ -1,6 +1,6 @@
-// Two places share a line if the line has equal bits at both. Tests the table of the minimum number
-// of lines that a place in another code variant does not share, against the rolls of the reference
-// implementation.
+// Two positions share a line at shift s if their rolls in this line differ by s. Tests the table of
+// the minimum number of lines that a place in another code variant does not share, against the
+// rolls of the reference implementation.
 #include "code/unshared_codes.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-// Two places share a line if the line has equal bits at both. Tests the tables of the minimum
-// number of lines that another place does not share, against numbers obtained by counting lines.
+// Two positions share a line at shift s if their rolls in this line differ by s. Tests the tables
+// of the minimum number of lines that another place does not share, against numbers obtained by
+// counting lines.
 #include "code/unshared_lines.hpp"
 
 #include <algorithm>
