@@ -1,5 +1,5 @@
 // Tests `locate` with frames that are designed to deceive it. Every fix must be the true pose.
-// `dotpose_tables adversarial` tests any number of such frames.
+// `dotpose_tables adversarial` tests a larger number of such frames.
 #include <memory>
 #include <string>
 
@@ -28,8 +28,8 @@ TEST_P(AdversarialClass, FramesGiveNoWrongFix) {
     }
 }
 
-// Two patterns with the same orientation, about a fifth of the spacing apart. Regression: in each
-// of these frames, the columns of one pattern and the rows of the other pattern were decoded as a
+// Each of these frames shows two patterns with the same orientation, about a fifth of the spacing
+// apart. Regression: the columns of one pattern and the rows of the other pattern were decoded as a
 // position.
 TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
     const auto memory = std::make_unique<LargeMemory>();
@@ -47,8 +47,9 @@ TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
     }
 }
 
-// A seam between two sections changes one step of one sequence. The resulting digits occur
-// elsewhere in this sequence. Regression: each of these frames was located at that other place.
+// In these frames, a seam between two sections changes the digits that are read, and the changed
+// digits also occur elsewhere in the code. Regression: each of these frames was located at that
+// other place.
 TEST(Adversarial, WhatASeamExplainsBetterIsNoFix) {
     const auto memory = std::make_unique<LargeMemory>();
     struct Seam {

@@ -16,7 +16,6 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// Returns a phone photo of a part of the page.
 Shot phone_shot(const json& sheet) {
     Setup setup;
     setup.seed = 3;

@@ -45,8 +45,8 @@ TEST_P(DotsAlike, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     const Score score = score_of(outcomes);
     EXPECT_EQ(score.wrong, 0);
     EXPECT_GE(score.located, kFramesOfCase * 9 / 10);
-    // The mean of kFramesOfCase squared standard normal variables exceeds 1.85 once in 20,000
-    // cases.
+    // If the reported variances are correct, a mean of kFramesOfCase squared errors in units of the
+    // variance exceeds 1.85 once in 20,000 cases.
     for (const double normalised : score.normalised)
         EXPECT_LT(normalised, 1.85);
     const double px = kDefaultSpacing_mm / GetParam().dots.spacing_px;
@@ -71,8 +71,9 @@ INSTANTIATE_TEST_SUITE_P(
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.3, .angle_deg = 0}, 0.0035},
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.3, .angle_deg = 90}, 0.0035}));
 
-// Pale dots with only one or two pixels beyond the threshold. A method that uses only centres near
-// these pixels has an error of 0.030 px, and a mean squared error of more than twice the variance.
+// Pale dots, in which only one or two pixels are darker than the threshold. If centres are measured
+// only near these pixels, the error is 0.030 px, and the mean squared error is more than twice the
+// variance.
 INSTANTIATE_TEST_SUITE_P(
     Pale, DotsAlike,
     testing::Values(AlikeCase{{.spacing_px = 8, .dot = 0.1, .blur_px = 1, .angle_deg = 0}, 0.024},

@@ -19,9 +19,9 @@ namespace {
 using testing::AnyOf;
 using testing::HasSubstr;
 
-/// Positions modulo 241, the period of the sequence a4. In the codes anoto and libdots, a4 differs
-/// at the positions 222 to 238 (docs/position-code.md). Starting at 222, the digits of one code are
-/// shifted by one position in the other code.
+/// Positions modulo 241, the period of the sequence a4. At the positions 222 to 238, a4 differs
+/// between the codes anoto and libdots (docs/position-code.md): from 222 on, the digits of one code
+/// are those of the other code, shifted by one position.
 constexpr std::uint32_t kPeriod = 241;
 constexpr std::uint32_t kShifted = 231;
 constexpr std::uint32_t kBorder = 221;
@@ -92,8 +92,8 @@ TEST_F(AnyCode, two_places_are_told_where_both_explain_the_frame) {
 
 TEST_F(AnyCode, other_frames_of_the_call_decide) {
     for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::libdots}) {
-        // The first two frames occur in only one code. The third frame also occurs in the other
-        // code.
+        // The dots of the first two frames occur in only one code. The dots of the third frame
+        // occur in both codes.
         write_at("1.pgm", code, kCommon, kBorder);
         write_at("2.pgm", code, kBorder + kPeriod, kCommon);
         const Shot truth = write_at("3.pgm", code, kCommon, kShifted);
@@ -122,8 +122,7 @@ TEST_F(AnyCode, given_decides_and_another_that_explains_the_frame_is_a_warning) 
     EXPECT_EQ(wrong["other_code"], "libdots");
     EXPECT_TRUE(is_at(wrong, "other_x_mm", "other_y_mm", truth)) << wrong;
 
-    // If the frame has no position in the given code, the warning names a code in which the frame
-    // has a position.
+    // If a frame has no position in the given code, the warning names a code in which it has one.
     run("--code microdots a.pgm");
     const json none = records().at(0);
     EXPECT_NE(none["status"], "ok");

@@ -72,8 +72,8 @@ TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
 
 TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
     simulate("turn", 1);
-    // The camera is at the robot's centre. If the robot turns, the frames show one place in four
-    // directions.
+    // The camera is at the robot's centre. The robot turns on the spot, so the frames show one
+    // place at four angles.
     std::string turn;
     for (const int angle : {0, 90, 180, 270}) {
         const std::string folder = "turn" + std::to_string(angle);
@@ -103,7 +103,8 @@ TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
         2);
     EXPECT_NEAR(u, 93.5, 0.3);
     EXPECT_NEAR(v, 59.5, 0.3);
-    // The heading is 0 (along x), and the image x axis is at -90 degrees.
+    // The robot drives along x, so its heading is 0. The image x axis points to -90 degrees, so the
+    // offset is 90 degrees.
     double offset_rad = 0;
     ASSERT_EQ(std::sscanf(yaml.c_str() + yaml.find("theta_offset_rad: "), "theta_offset_rad: %lf",
                           &offset_rad),
@@ -256,7 +257,8 @@ TEST_F(CalibrateCommand, KeepsTheMountOfTheFileThatItReplaces) {
     EXPECT_THAT(file("camera.yaml"), HasSubstr("k_per_px2: -8.7e-06"));
     EXPECT_THAT(file("camera.yaml"), HasSubstr("reference_px: [500, 59.5]"));
 
-    // If the mount in a camera file cannot be kept, the file is not overwritten.
+    // A file of another camera, or of another format, is not overwritten, because its mount would
+    // be lost.
     for (const char* other : {kLargeCamera, "{format: another}"}) {
         std::ofstream(directory_ / "camera.yaml") << other;
         EXPECT_EQ(run("calibrate frames/*.pgm -o camera.yaml"), 1);

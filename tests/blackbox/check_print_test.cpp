@@ -135,7 +135,7 @@ TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
     EXPECT_EQ(exit_code_, 0) << output_;
     EXPECT_THAT(output_, HasSubstr("note:  scale was not checked, because this is a photo"));
 
-    // The first scan has no resolution, and the second scan has a wrong one.
+    // The first scan states no resolution, and the second scan states a wrong one.
     const GreyImage scan = test::scan_page(sheet, {});
     write_jpeg("scan.jpg", scan, 0);
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json"), 1);
@@ -149,8 +149,8 @@ TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json --dpi 600"), 0) << errors_;
 }
 
-// Without its EXIF data, a photo taken straight from above would be mistaken for a scan. The phone
-// writes a resolution into the file, which the check would then use.
+// A photo taken straight from above looks like a scan, and the phone writes an arbitrary resolution
+// into the file. Only the EXIF data show that it is a photo.
 TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
     ASSERT_EQ(run("print --paper 60x50 -o a.svg --sheets sheets.json --name a"), 0);
     const std::string before = file("sheets.json");
@@ -338,15 +338,15 @@ TEST_F(CheckPrintCommand, wrong_usage_is_status_2) {
     const GreyImage blank{std::vector<std::uint8_t>(100 * 100, 230), 100, 100};
     write_pgm(directory_ / "blank.pgm", blank.view());
     const char* const wrong[] = {
-        "check-print",                                  // no scan
-        "check-print blank.pgm --dpi 0",                //
-        "check-print blank.pgm --dpi x",                //
-        "check-print blank.pgm --format csv",           //
-        "check-print blank.pgm --draw map.jpg",         //
-        "check-print blank.pgm --spacing 0",            //
-        "check-print blank.pgm --displacement 0.4",     //
-        "check-print blank.pgm --section 1,1",          // the section is detected
-        "check-print blank.pgm --sheets s --dot 0.1",   // the file contains the diameter
+        "check-print",                               // no scan
+        "check-print blank.pgm --dpi 0",             //
+        "check-print blank.pgm --dpi x",             //
+        "check-print blank.pgm --format csv",        //
+        "check-print blank.pgm --draw map.jpg",      //
+        "check-print blank.pgm --spacing 0",         //
+        "check-print blank.pgm --displacement 0.4",  //
+        "check-print blank.pgm --section 1,1",  // not an option, because the section is detected
+        "check-print blank.pgm --sheets s --dot 0.1",   // the diameter is in the sheet file
         "check-print blank.pgm stray",                  //
         "print --test-page -o test.txt",                //
         "print --test-page -o test.png --spacing 0.5",  // a test page has several spacings

@@ -78,8 +78,8 @@ TEST_F(EvaluateCommand, AFolderGivesTheNumbersOfTheSameFramesInMemory) {
     ASSERT_EQ(run("evaluate --preset nominal --frames 10 --seed 7 --format json"), 0) << errors_;
     const json memory = result();
     EXPECT_EQ(memory["located"], folder["located"]);
-    // truth.csv contains positions with 8 decimals, in grid spacings. The difference is due to
-    // rounding.
+    // The results differ because the positions in truth.csv are rounded to 8 decimals, in grid
+    // spacings.
     EXPECT_NEAR(memory["position_um"]["median"], folder["position_um"]["median"], 1e-4);
     EXPECT_NEAR(memory["angle_deg"]["max"], folder["angle_deg"]["max"], 1e-6);
 }
@@ -115,8 +115,8 @@ TEST_F(EvaluateCommand, ProfileAndSpacingAreTakenFromTheTruthUnlessGiven) {
 
 TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     ASSERT_EQ(run("simulate -o frames --frames 5 --k -8.7e-6 --angle 30 --at 5000,6000"), 0);
-    // The robot's centre is 5 mm ahead of the camera, and its heading is a quarter turn from the x
-    // axis.
+    // The robot's centre is 5 mm from the camera along the image x axis. The heading of the robot
+    // is a quarter turn from this axis.
     std::ofstream(directory_ / "robot.yaml")
         << "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, k_per_px2: "
            "-8.7e-06, centre_px: [93.5, 59.5], mm_per_px: [0.046, 0.046], reference_px: "
@@ -182,8 +182,8 @@ TEST_F(EvaluateCommand, TheProtocolWritesItsTableAndFigures) {
     }
 }
 
-/// Frames on a sheet. A motion stage measured their poses in a frame of reference with another
-/// origin, direction and unit.
+/// Frames on a sheet, whose poses were measured by a motion stage. The coordinate system of the
+/// stage has another origin, direction and unit.
 class EvaluateMeasured : public EvaluateCommand {
   protected:
     void SetUp() override {

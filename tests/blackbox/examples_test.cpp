@@ -26,7 +26,7 @@ class Examples : public ToolCommand {
 TEST(Readme, HasTheProgramOfTheExample) {
     const std::string readme = read_file(test::source_dir() + "/README.md");
     const std::string example = read_file(test::source_dir() + "/examples/locate_one.cpp");
-    // README.md omits the first line of the example, a comment.
+    // README.md omits the first line of the example, which is a comment.
     EXPECT_THAT(readme, HasSubstr("```cpp\n" + example.substr(example.find('\n') + 1) + "```\n"));
 }
 
@@ -42,7 +42,8 @@ TEST_F(Examples, LocateOneTellsWhereAnImageLooks) {
 }
 
 TEST_F(Examples, FollowGoesWithTheRobot) {
-    // The robot drives at 300 mm/s with 200 frames per second. Then it is lifted.
+    // The camera takes 200 frames per second of a robot that drives at 300 mm/s. Then the robot is
+    // lifted.
     const Drive drive;
     const DriveCamera camera(188, 120);
     const int first = static_cast<int>(drive.plan().lift * kDriveFps) - 12;
@@ -59,8 +60,8 @@ TEST_F(Examples, FollowGoesWithTheRobot) {
         ASSERT_EQ(std::sscanf(lines[i].c_str(), "x %*f mm, y %*f mm, %lf and %lf mm/s", &vx, &vy),
                   2)
             << lines[i];
-        // Estimating a velocity takes two fixes. Without a velocity, the robot moves too far
-        // between frames to be tracked.
+        // Frames are tracked from the third frame on, because the velocity is estimated from two
+        // fixes. Without the velocity, the robot moves too far between frames.
         EXPECT_EQ(lines[i].ends_with("tracked"), i >= 2) << lines[i];
         const DriveState truth = drive.at(first + static_cast<int>(i));
         if (i >= 4) {

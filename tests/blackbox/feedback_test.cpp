@@ -23,8 +23,6 @@ constexpr const char* kRed = "\033[31m";
 
 class Feedback : public ToolCommand {
   protected:
-    /// Runs `dotpose ARGUMENTS` with stdout and stderr connected to a terminal, and captures the
-    /// terminal output in `output_`.
     int on_terminal(const std::string& arguments, const std::string& environment) {
         return shell("export T; env -u NO_COLOR " + environment + " script -qec '\"$T\" " +
                      arguments + "' /dev/null </dev/null");
@@ -53,7 +51,7 @@ class Feedback : public ToolCommand {
     /// Shell command that writes raw frames and then keeps the pipe open.
     static constexpr const char* kEndless =
         "{ cat frames.raw; touch fed; until [ -e done ]; do sleep 0.02; done; } | ";
-    /// Starts the tool as a process with a known id.
+    /// Shell command that starts the tool and writes its process id to the file pid.
     static constexpr const char* kTool = "sh -c 'echo $$ >pid; exec \"$T\" \"$@\"' sh ";
 };
 

@@ -1,4 +1,4 @@
-// Tests that `locate` locates frames at the limits that docs/limits.md promises.
+// Tests that `locate` reads frames at the limits in docs/limits.md.
 #include <algorithm>
 #include <cctype>
 #include <memory>
@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 70;
 
-/// Returns the number of frames for a camera. The number is smaller for large images, which take
-/// longer.
+/// Returns the number of test frames for a camera. Large images take longer, so there are fewer of
+/// them.
 std::uint64_t frames_of(const CameraModel& camera) {
     constexpr int kSmall_px = 200 * 200;
     constexpr int kMedium_px = 1280 * 960;

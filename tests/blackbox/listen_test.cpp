@@ -109,10 +109,11 @@ TEST_F(Listen, ReadsASerialDeviceUntilItGoes) {
     ASSERT_EQ(unlockpt(device), 0);
     const std::string name = ptsname(device);
     std::string stream;
-    for (std::uint16_t i = 0; i < 50; ++i)  // contains bytes that a terminal interprets
+    for (std::uint16_t i = 0; i < 50; ++i)  // the packets contain bytes that a terminal interprets
         stream += on_the_line(packet_at(i, 0x0D0A0304U));
     std::thread sender([&] {
-        // Waits until the tool has opened the device, because nothing reads the device before that.
+        // Nothing reads the device before the tool has opened it, so the sender waits for the
+        // output file of the tool.
         while (!fs::exists(directory_ / "poses.jsonl"))
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         EXPECT_EQ(write(device, stream.data(), stream.size()), static_cast<ssize_t>(stream.size()));

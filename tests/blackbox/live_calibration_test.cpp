@@ -70,7 +70,7 @@ TEST_F(LiveCalibration, EndsByItselfOnceNothingIsMissing) {
     EXPECT_GE(used(), 5);
     EXPECT_LT(used(), 45);
     EXPECT_EQ(std::distance(fs::directory_iterator(directory_ / "kept"), {}), used());
-    // The video shows the same frames, from a camera that rests at each place.
+    // In a video, the camera rests at each place. The calibration uses the same frames of it.
     const std::string report = output_;
     const std::string file_of_images = file("camera.yaml");
     put_raw("resting.raw");
@@ -112,7 +112,7 @@ TEST_F(LiveCalibration, SaysWhyNoFrameIsLocated) {
 }
 
 TEST_F(LiveCalibration, NamesTheCornerThatShowsNoDots) {
-    // The dots end at a border inside each frame.
+    // The dots cover only 60 to 70 % of each frame.
     simulate("--frames 12 --covered 0.6,0.7");
     calibrate("frames");
     const std::regex advice("next: show dots in the [a-z ]*(corner|edge|middle) of the image");
@@ -131,7 +131,8 @@ TEST_F(LiveCalibration, TakesFramesOfARobotThatDoesNotStop) {
                   static_cast<std::streamsize>(image.pixels.size()));
     }
     raw.close();
-    // There are 60 frames in 6 s. For the first 3 s, the program waits for a frame at rest.
+    // The drive takes 6 s at 10 frames per second. For the first 3 s, the program waits for a frame
+    // at rest.
     EXPECT_EQ(calibrate("--size 188x120 --fps 10 - <drive.raw"), 0) << errors_;
     EXPECT_TRUE(has_file());
     EXPECT_GE(used(), 10);

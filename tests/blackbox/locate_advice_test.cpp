@@ -160,7 +160,7 @@ TEST_F(LocateCommand, a_mirrored_view_says_how_to_go_on_and_is_located_flipped) 
           "centre_px: [93.5, 59.5], flip: true}");
     run("straight.pgm");
     const json straight = records().at(0);
-    // The flag of the camera file and the option have the same effect, individually and together.
+    // Mirroring can be set by the option, by the camera file, or by both.
     for (const char* how : {"--flip ", "--camera camera.yaml ", "--flip --camera camera.yaml "}) {
         run(how + std::string("mirrored.pgm"));
         const json record = records().at(0);
@@ -199,7 +199,8 @@ TEST_F(LocateCommand, a_picture_from_too_near_says_so) {
     }
 }
 
-// There are too few dots for a search in all three codes, but enough for a search in one code.
+// The view contains enough dots for a certain position if the code is known, but too few if all
+// three codes are possible.
 TEST_F(LocateCommand, a_position_that_only_its_code_makes_certain_names_the_option) {
     int found = 0;
     for (int seed = 1; seed <= 12 && found == 0; ++seed) {
@@ -221,7 +222,7 @@ TEST_F(LocateCommand, a_position_that_only_its_code_makes_certain_names_the_opti
     EXPECT_EQ(found, 1) << "no seed shows the case";
 }
 
-// The dots are too small for a lens to resolve, so the spacing cannot be measured.
+// At 0.26 mm per pixel the dots are not resolved, so the spacing cannot be measured.
 TEST_F(LocateCommand, a_picture_of_a_screen_says_that_it_may_be_too_coarse) {
     ASSERT_EQ(ToolCommand::run("simulate -o screen --mm-per-px 0.26 --frames 1 --seed 1"), 0);
     run("screen/frame_000000.pgm");

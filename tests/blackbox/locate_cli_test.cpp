@@ -357,7 +357,7 @@ TEST_F(LocateCommand, white_dots_on_black_are_read_if_told) {
     EXPECT_NEAR(found["y_grid"], y_grid(truth.pose), 0.03);
     EXPECT_NE(records().at(1)["status"], "ok");
 
-    // The picture shows the image that was located, with dark dots.
+    // The picture shows the image after the inversion, with dark dots.
     run("--draw . usual.pgm");
     const auto pixels_in = [this](const std::string& picture) {
         const std::string svg = file(picture);
@@ -368,7 +368,8 @@ TEST_F(LocateCommand, white_dots_on_black_are_read_if_told) {
     EXPECT_EQ(pixels_in("inverted.svg"), pixels_in("usual.svg"));
 }
 
-// Half a millimetre given in micrometres and in metres, and spacings just outside the valid range.
+// 508 is the spacing in micrometres, 0.0005 is half a millimetre in metres, and the other spacings
+// are just outside the valid range.
 TEST_F(LocateCommand, a_spacing_in_another_unit_is_refused) {
     write_frame("a.pgm", 0);
     for (const std::string spacing : {"508", "0.0005", "100.1", "0.0099"}) {
@@ -404,7 +405,7 @@ TEST_F(LocateCommand, draws_a_picture_for_each_image) {
     EXPECT_THAT(pictures, testing::UnorderedElementsAre("a.svg", "a-2.svg", "flat<&>.svg"));
 
     fs::create_directory(directory_ /
-                         "new/folder/b.svg");  // a directory with the name of a picture
+                         "new/folder/b.svg");  // this directory has the name of a picture
     write_frame("b.pgm", 2);
     run("--draw new/folder b.pgm a.pgm");
     EXPECT_EQ(exit_code_, 1);
@@ -435,7 +436,8 @@ TEST_F(LocateCommand, output_can_go_to_a_file) {
 
 TEST_F(LocateCommand, lines_leave_at_once) {
     write_frame("a.pgm", 0);
-    // The list stays open until the first line has been printed, or for 10 seconds.
+    // Writes one name, and keeps the list open until the tool has printed the first line, or for 10
+    // seconds.
     write("names.sh",
           "echo a.pgm\n"
           "for i in $(seq 100); do [ -s out ] && echo yes > came && break; sleep 0.1; done\n");

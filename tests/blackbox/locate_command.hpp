@@ -52,7 +52,6 @@ inline Shot shot(std::uint64_t index) {
     return draw_shot(setup, index);
 }
 
-/// Runs `dotpose locate ARGUMENTS`.
 class LocateCommand : public ToolCommand {
   protected:
     int run(const std::string& arguments, const std::string& input = "/dev/null") {

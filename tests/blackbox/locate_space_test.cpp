@@ -1,4 +1,4 @@
-// Tests `dotpose locate --pose space` as users run it.
+// Tests `dotpose locate --pose space`.
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -22,7 +22,8 @@ constexpr double kTilt_deg = 20;
 
 class LocateSpace : public LocateCommand {
   protected:
-    /// Writes a frame of a camera that leans by 20 degrees towards +x, and its camera file.
+    /// Writes a frame of a camera that is tilted by 20 degrees towards +x, and the file of this
+    /// camera.
     void SetUp() override {
         dotpose::Setup setup;
         setup.camera.width_px = 320;
@@ -47,7 +48,8 @@ class LocateSpace : public LocateCommand {
 TEST_F(LocateSpace, WritesPositionAndAngles) {
     ASSERT_EQ(run("--camera camera.yaml --pose space frame.pgm"), 0) << errors_;
     const json line = json::parse(output_);
-    // The optical axis intersects the paper at the pose, kDistance_mm from the camera.
+    // The pose is the point at which the optical axis intersects the paper. This point is
+    // kDistance_mm from the camera.
     const double aside_mm = kDistance_mm * std::sin(kTilt_deg * kDegree_rad);
     EXPECT_NEAR(line["camera_x_mm"], line["x_mm"].get<double>() + aside_mm, 0.05);
     EXPECT_NEAR(line["camera_y_mm"], line["y_mm"].get<double>(), 0.05);

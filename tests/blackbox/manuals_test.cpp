@@ -102,8 +102,8 @@ TEST_F(Completions, OfFish) {
 
 TEST_F(Completions, OfZsh) {
     if (!has("zsh")) GTEST_SKIP() << "no zsh; scripts/setup packaging installs it";
-    // Types the first argument of each pair and a tab into a terminal, and waits for the second
-    // argument.
+    // For each pair of arguments, types the first one and a tab into a terminal, and waits until
+    // the second one appears.
     std::ofstream(directory_ / "try.zsh") << R"(
         zmodload zsh/zpty
         zpty -b typed zsh -f -i

@@ -96,7 +96,6 @@ constexpr Mistake kMistakes[] = {
     {"NoPackets", "listen notes.txt", 0, "0 packets", "watch --packets"},
 };
 
-/// Prints the command of the mistake in test listings.
 void PrintTo(const Mistake& mistake, std::ostream* out) {
     *out << "dotpose " << mistake.arguments;
 }

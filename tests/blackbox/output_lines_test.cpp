@@ -36,7 +36,7 @@ Matrix matrix_of(const json& covariance) {
     return matrix;
 }
 
-/// Returns the covariance of J p if C is the covariance of p: J C J'.
+/// Returns J C J', the covariance of the vector J p if C is the covariance of p.
 Matrix propagated(const Matrix& j, const Matrix& c) {
     Matrix result{};
     for (std::size_t i = 0; i < 9; ++i) {
@@ -46,7 +46,7 @@ Matrix propagated(const Matrix& j, const Matrix& c) {
     return result;
 }
 
-/// Expects equal matrices. Both matrices were printed with seven digits.
+/// Compares two matrices that were printed with seven digits.
 void expect_equal(const Matrix& actual, const Matrix& expected) {
     for (std::size_t i = 0; i < 9; ++i) {
         const double scale = std::sqrt(expected[i / 3][i / 3] * expected[i % 3][i % 3]);
@@ -107,7 +107,7 @@ class OutputLines : public ToolCommand {
         json::parse(read_file(test::source_dir() + "/docs/schema/lines-1.json"))};
 };
 
-/// All commands that write output lines, with the values of each option that changes the fields.
+/// Commands that write output lines, with each option that adds or removes fields.
 constexpr std::array kRuns = {
     "locate frames/f0.pgm frames/g10.pgm",
     "locate frames/f0.pgm --sheets sheets.json",
@@ -197,10 +197,11 @@ TEST_F(OutputLines, HaveTheCovarianceOfEachPose) {
     EXPECT_NEAR(std::sqrt(pattern[0][0]), line["sigma_x_mm"].get<double>(), 1e-6);
     EXPECT_NEAR(std::sqrt(pattern[1][1]), line["sigma_y_mm"].get<double>(), 1e-6);
     EXPECT_NEAR(std::sqrt(pattern[2][2]), line["sigma_theta_deg"].get<double>(), 1e-6);
-    // The sheet is a part of the pattern, and its printed scale is 1.
+    // The sheet is printed at its nominal scale, so its covariance is that of the pattern.
     expect_equal(matrix_of(line["covariance_sheet_mm_deg"]), pattern);
     EXPECT_EQ(line["theta_sheet_deg"], line["theta_deg"]);
-    // docs/sheet-files.md: x_m = world.x_m + (x cos(yaw) + y sin(yaw)) / 1000, and so on.
+    // docs/sheet-files.md defines the pose in the world, for example x_m = world.x_m + (x cos(yaw)
+    // + y sin(yaw)) / 1000.
     const double c = std::cos(kYaw_rad) / 1000;
     const double s = std::sin(kYaw_rad) / 1000;
     expect_equal(matrix_of(line["covariance_m_rad"]),

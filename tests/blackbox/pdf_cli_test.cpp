@@ -38,7 +38,7 @@ TEST_F(PdfCommands, print_makes_pages_with_text_that_can_be_selected) {
 }
 
 TEST_F(PdfCommands, paper_sizes_and_landscape_are_true) {
-    // Sizes are in points, 72 / 25.4 per mm, rounded by pdfinfo.
+    // pdfinfo prints rounded sizes in points. There are 72 points in 25.4 mm.
     const std::array<std::array<const char*, 2>, 4> sizes = {
         {{"A0", "2383.94 x 3370.39"},
          {"A4 --landscape", "841.89 x 595.276"},

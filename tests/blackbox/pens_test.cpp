@@ -1,5 +1,5 @@
-// Tests pens as users run them: calibrate --pivot, the tip in the lines of locate and watch, and
-// ink.
+// Tests the commands for pens: `calibrate --pivot`, the tip in the lines of `locate` and `watch`,
+// and `ink`.
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -30,7 +30,6 @@ constexpr double kMaxTilt_rad = 40 * std::numbers::pi / 180;
 
 class Pens : public ToolCommand {
   protected:
-    /// Writes the camera file, with a tip or without.
     void put_camera(const std::string& name, bool has_tip) const {
         Camera camera = pen_camera();
         camera.gain = 2;
@@ -129,7 +128,7 @@ TEST_F(Pens, InkIsDrawnFromLogsAndLines) {
     EXPECT_EQ(run("ink locate.json --fps 200 -o d.svg"), 0) << errors_;
 }
 
-/// The columns that ink reads, with a page each.
+/// Header of the columns that `ink` reads. The column `sheet` contains the page.
 constexpr const char* kInkHeader =
     "t_s,sheet,tip_x_sheet_mm,tip_y_sheet_mm,tip_height_mm,sigma_tip_x_mm,sigma_tip_y_mm,"
     "sigma_tip_height_mm\n";

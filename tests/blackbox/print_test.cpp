@@ -70,7 +70,7 @@ TEST_F(PrintCommand, images_carry_the_resolution_asked_for) {
     };
     for (const auto& [option, dpi, per_metre] :
          {Case{"--dpi 300", 300, 11811}, {"", 600, 23622}, {"--dpi 1200", 1200, 47244}}) {
-        // A page of 1 x 2 inches.
+        // The page has 1 x 2 inches, so its width in pixels is the resolution in dpi.
         ASSERT_EQ(run(std::string("print --paper 25.4x50.8 -o a.png ") + option), 0);
         const std::string png = file("a.png");
         EXPECT_EQ(number_at(png, 16), dpi);
@@ -143,7 +143,7 @@ TEST_F(PrintCommand, a_file_that_cannot_be_written_is_status_1) {
 }
 
 TEST_F(PrintCommand, a_signal_leaves_no_litter) {
-    // Printing this page would take minutes.
+    // Printing this page takes minutes, so the signal arrives before the page is complete.
     run("print -o huge.png --paper 20000x20000 --dpi 1200 & tool=$!; "
         "until ls -A | grep -c huge || ! kill -0 $tool; do sleep 0.02; done > count; "
         "tail -n 1 count; rm count; kill $tool; wait $tool");

@@ -25,7 +25,8 @@ Shot shot_of(Preset preset, Size size, std::uint64_t index) {
     return draw_shot(setup, index);
 }
 
-/// Expects a refusal of the frame. A fix is a failure, and so is a status that blames the caller.
+/// Expects that `locate` refuses the frame. A fix is a failure, and so is a status that reports
+/// invalid arguments.
 void expect_refusal(const GreyImage& image, LargeMemory& memory, const std::string& what) {
     const Fix fix = Locator(memory, DeviceOptions{}).locate(image.view());
     switch (fix.status) {

@@ -1,4 +1,4 @@
-// Tests `dotpose replay`. Compares the figures of a log with values computed by hand.
+// Tests `dotpose replay` with a log. The expected figures were computed by hand.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -64,7 +64,7 @@ TEST_F(Replay, CountsARun) {
     EXPECT_EQ(figures["planes"], json{"world"});
 }
 
-// Three lines of a run in which the robot is lost, and an incomplete line.
+// The robot is lost in the third line, and the fourth line is incomplete.
 TEST_F(Replay, ReadsTheJsonLinesOfWatch) {
     put(R"({"schema":1,"frame":0,"t_s":0.0,"status":"ok","dots_seen":150,"p_wrong":1e-20,"state":"moving","events":"fix","verdict":"accepted","plane":"pattern","x_mm":0.0,"y_mm":0.0,"theta_deg":0.0,"covariance_mm_deg":[1e-06,0,0,0,4e-06,0,0,0,9e-06],"track_x_mm":0.0,"track_y_mm":0.0,"track_theta_deg":0.0,"vx_mm_s":0.0,"vy_mm_s":0.0}
 {"schema":1,"frame":1,"t_s":0.1,"status":"ok","dots_seen":150,"p_wrong":1e-12,"state":"moving","verdict":"accepted","plane":"pattern","track_x_mm":30.0,"track_y_mm":40.0,"vx_mm_s":300,"vy_mm_s":400}
@@ -79,7 +79,7 @@ TEST_F(Replay, ReadsTheJsonLinesOfWatch) {
     EXPECT_NEAR(figures["largest_speed_mm_s"], 500, 1e-9);
     EXPECT_DOUBLE_EQ(figures["largest_p_wrong"], 1e-12);
     ASSERT_EQ(run("replay run.csv -o run.mcap"), 0) << errors_;
-    // The covariance of the first fix in m and rad, with y up: 1e-12 and 4e-12 m^2, as doubles.
+    // The recording contains the variances of the first fix as doubles: 1e-12 and 4e-12 m^2.
     const std::string recording = file("run.mcap");
     for (const double variance_m2 : {1e-6 * 1e-3 * 1e-3, 4e-6 * 1e-3 * 1e-3}) {
         const std::string bytes(reinterpret_cast<const char*>(&variance_m2), sizeof variance_m2);

@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Files of all kinds that the commands read, and a check that none of them changed.
+/// Provides files of all kinds that the commands read, and checks that none of them changes.
 class RunFiles : public ToolCommand {
   protected:
     void SetUp() override {
@@ -127,8 +127,8 @@ TEST_F(RunFiles, a_camera_file_may_be_completed_but_not_turned_into_another_form
         "1, cols: 5, data: [0, 0, 0, 0, 0]}}");
     expect_refused({"calibrate --camera ros.yaml --drive g/frame_000000.pgm -o ros.yaml"},
                    " would overwrite the input ");
-    // Three frames at random places are not a drive, but the tool detects this only by locating
-    // them.
+    // The check of the file names accepts this command. It fails later, because three frames at
+    // random places are not a drive.
     EXPECT_EQ(run("calibrate --camera c.yaml --drive g/*.pgm -o c.yaml"), 1);
 }
 

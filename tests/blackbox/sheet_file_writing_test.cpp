@@ -57,7 +57,7 @@ TEST_F(SheetFileWriting, a_refused_or_failed_print_changes_nothing) {
 TEST_F(SheetFileWriting, an_interrupted_print_adds_no_sheet) {
     ASSERT_EQ(print("-o a.svg --paper 40x40 --sheets sheets.json --name a"), 0);
     const std::string before = read_file(directory_ / "sheets.json");
-    // Printing this page would take minutes.
+    // Printing this page takes minutes, so the tool is ended before the page is complete.
     const int status = print(
         "-o huge.png --paper 20000x20000 --dpi 1200 --sheets sheets.json --name b & tool=$!; "
         "until ls -A | grep huge > during || ! kill -0 $tool; do sleep 0.02; done; "
@@ -139,8 +139,7 @@ TEST_F(SheetFileWriting, prints_at_the_same_time_all_get_regions_of_their_own) {
     std::vector<std::uint32_t> origins;
     for (const json& sheet : sheets())
         origins.push_back(sheet["origin_x"]);
-    // All regions are in one row, with 59 columns each and gaps of 1024 columns. With twice this
-    // gap, two rows would be necessary.
+    // Each region has 59 columns, and the gaps have 1024 columns. All regions fit in one row.
     EXPECT_THAT(origins, ElementsAre(1024, 2107, 3190, 4273, 5356, 6439, 7522, 8605));
 }
 

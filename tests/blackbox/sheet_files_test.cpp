@@ -1,6 +1,5 @@
-// Tests poses on the page and in the world end to end. Prints pages with `dotpose print` and a
-// sheet file, and renders frames of the pages. Then locates the frames with `dotpose locate` and
-// the sheet file.
+// Tests poses on the page and in the world: prints pages with `dotpose print` and a sheet file,
+// renders frames of the pages, and locates the frames with `dotpose locate`.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -105,9 +104,9 @@ TEST_F(SheetFiles, only_sheets_excludes_others_and_reads_small_views) {
     EXPECT_NE(records().at(0)["status"], "ok") << records().at(0);
 }
 
-/// Returns the image of a camera above the printed page, cropped from the printed file. Each camera
-/// pixel covers 2 x 2 printer pixels, and the image centre is at the corner (u, v) of the printer
-/// pixels. The table around the page is white.
+/// Returns the image of a camera above the printed page, cropped from the image of the page. Each
+/// camera pixel covers 2 x 2 printer pixels, and the image centre is at the corner (u, v) of the
+/// printer pixels. The table around the page is white.
 GreyImage cut_out(const GreyImage& page, int u, int v, int width_px = 188, int height_px = 120) {
     const auto level_at = [&page](int column, int row) {
         const bool is_inside =
@@ -132,7 +131,8 @@ TEST_F(SheetFiles, agree_with_a_ruler_on_the_printed_page) {
     ASSERT_EQ(print("-o other.svg --paper 40x40 --sheets sheets.json --name other"), 0);
     ASSERT_EQ(print("-o page.png --dpi 1200 --paper 50x40 --sheets sheets.json --name page"), 0);
     const GreyImage page = read_image((directory_ / "page.png").string());
-    // The last two places are on the margins, to the left of and above the first intersection.
+    // The last two places are on the margins: one to the left of the first intersection, and one
+    // above it.
     for (const auto& [u, v] :
          {std::pair(500, 500), {1111, 700}, {1800, 1333}, {200, 900}, {1200, 190}}) {
         const json record = locate_with_sheets(cut_out(page, u, v, 280, 260));
@@ -143,8 +143,8 @@ TEST_F(SheetFiles, agree_with_a_ruler_on_the_printed_page) {
     }
 }
 
-/// Returns the column with the most dark pixels, searching columns [u_begin, u_end) and rows
-/// [v_begin, v_end).
+/// Returns the column with the most dark pixels in the rectangle [u_begin, u_end) x [v_begin,
+/// v_end).
 int darkest_column(const GreyImage& page, int u_begin, int u_end, int v_begin, int v_end) {
     int best = u_begin;
     int most = 0;
@@ -176,7 +176,7 @@ TEST_F(SheetFiles, a_frame_under_the_ruler_s_50_mm_lies_at_50_mm) {
         << output_;
     const GreyImage page = read_image((directory_ / "page.pgm").string());
     const auto px = [](double pt) { return static_cast<int>(pt * 1200 / 72); };
-    // The tick is 1.8 mm long. It is between the number and the dots.
+    // The tick is between the number and the dots, and is 1.8 mm long.
     const int v = px(bottom_pt);
     const int u =
         darkest_column(page, px(left_pt), px(right_pt), v, v + static_cast<int>(1.8 * kPxPerMm));
@@ -235,7 +235,7 @@ TEST_F(SheetFiles, csv_has_the_same_columns_for_every_frame) {
     const std::vector<json> expected = records();
     ASSERT_EQ(expected.size(), 4U);
     EXPECT_EQ(expected[2]["status"], "ok");
-    // All sheets have the same spacing. This spacing therefore also applies outside of the sheets.
+    // All sheets have the same spacing, so it also applies outside of the sheets.
     EXPECT_TRUE(expected[2].contains("x_mm"));
     run("--format csv " + arguments);
     EXPECT_EQ(lines_of(output_).front(),
@@ -319,8 +319,8 @@ TEST_F(SheetFiles, a_frame_of_two_sheets_is_never_on_the_wrong_one) {
         const double x_mm = (is_b ? u - a.width_px : u) * 25.4 / 1200;
         EXPECT_NEAR(record["x_sheet_mm"], x_mm, kTolerance_mm) << u;
     }
-    // Frames extend by 280 printer pixels to each side. The dots of b begin 430 pixels from its
-    // edge.
+    // A frame extends 280 printer pixels from its centre, but the dots of b begin 430 pixels from
+    // its edge. A frame centred near the edge of b therefore shows only dots of a.
     EXPECT_GE(on_a, 8);
     EXPECT_GE(on_b, 12);
 }
@@ -401,8 +401,8 @@ TEST_F(SheetFiles, pictures_show_the_profile_that_was_found) {
     ASSERT_EQ(print("-o b.svg --paper 40x40 --sheets sheets.json --name b --code microdots "
                     "--spacing 0.6"),
               0);
-    // This position is not on any sheet. Although the tool also tries the second code variant, the
-    // picture shows the fix of the first.
+    // Because this position is not on any sheet, the tool also tries the second code variant. The
+    // picture must still show the fix in the first variant.
     write_frame("elsewhere.pgm", 0);
     run("--sheets sheets.json --draw pictures elsewhere.pgm");
     EXPECT_EQ(records().at(0)["status"], "ok");

@@ -69,8 +69,8 @@ TEST_F(SheetsTool, a_new_name_keeps_all_else) {
     expected[0]["name"] = "desk";
     ASSERT_EQ(sheets_tool("rename table desk"), 0) << errors_;
     EXPECT_EQ(sheets(), expected);
-    // The old name is free again, and the next sheet with this name does not inherit any
-    // properties.
+    // A sheet that is renamed to a name used before does not inherit the properties of the earlier
+    // sheet.
     ASSERT_EQ(sheets_tool("rename shelf table"), 0) << errors_;
     EXPECT_FALSE(sheets().at(1).contains("room"));
     ASSERT_EQ(sheets_tool("remove desk"), 0) << errors_;

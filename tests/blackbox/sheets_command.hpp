@@ -9,8 +9,8 @@
 
 namespace dotpose::test {
 
-/// Returns a nominal frame of a position on a page, in mm. The position in the code plane is
-/// computed from the numbers in the sheet file.
+/// Returns a nominal frame centred on a position of the page, in mm from the corner of the page.
+/// The code at this position is computed from the numbers in the sheet file.
 inline GreyImage frame_of(const json& sheet, double x_mm, double y_mm, double theta_rad,
                           std::uint64_t seed) {
     Setup setup;
@@ -43,7 +43,6 @@ class SheetsCommand : public LocateCommand {
     int print(const std::string& arguments) { return ToolCommand::run("print " + arguments); }
     json sheets() const { return json::parse(read_file(directory_ / "sheets.json"))["sheets"]; }
 
-    /// Edits the sheet file, as a user would in an editor.
     template <typename Edit>
     void edit_sheet(std::size_t index, const Edit& edit) const {
         json document = json::parse(read_file(directory_ / "sheets.json"));
@@ -51,7 +50,6 @@ class SheetsCommand : public LocateCommand {
         write("sheets.json", document.dump());
     }
 
-    /// Locates an image with the sheet file, and returns its record.
     json locate_with_sheets(const GreyImage& image) {
         write_pgm(directory_ / "frame.pgm", image.view());
         run("--sheets sheets.json frame.pgm");

@@ -26,7 +26,6 @@ std::vector<std::string> split(const std::string& text, char separator) {
     return parts;
 }
 
-/// Runs `dotpose simulate ARGUMENTS`.
 class SimulateCommand : public ToolCommand {
   protected:
     int run(const std::string& arguments) { return ToolCommand::run("simulate " + arguments); }
@@ -147,8 +146,8 @@ TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
             continue;
         }
         sheets.insert(record["sheet"]);
-        // The figure eight fits into 120 x 40 mm, minus the view of the camera and 5 mm on each
-        // side.
+        // The sheets span 120 x 40 mm. The figure eight keeps a distance of 5 mm plus half a view
+        // of the camera from their edges.
         EXPECT_GT(record["x_m"], 0.0095);
         EXPECT_LT(record["x_m"], 0.1105);
         if (last) {
@@ -160,7 +159,8 @@ TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
     }
     EXPECT_LE(between_sheets, 2);
     EXPECT_THAT(sheets, testing::ElementsAre("a", "b"));
-    // Consecutive frames are 20 mm apart along a curve.
+    // Consecutive frames are 20 mm apart along the path, so in curves the distance between them is
+    // shorter.
     for (const double step_mm : steps_mm) {
         EXPECT_LT(step_mm, 20.1);
         EXPECT_GT(step_mm, 12);

@@ -21,7 +21,6 @@ std::uint64_t frames_of(std::uint64_t usual, std::uint64_t many) {
     return std::getenv("DOTPOSE_LONG_TESTS") != nullptr ? many : usual;
 }
 
-/// Results of a series of frames.
 struct Tally {
     std::uint64_t frames = 0;
     std::uint64_t located = 0;
@@ -39,8 +38,8 @@ struct Tally {
     }
 };
 
-/// Judges a fix. A fix is wrong if its position differs from the true position by more than half a
-/// spacing, its angle differs by more than 0.1 rad, or its section differs.
+/// Adds a fix to the tally. A fix is wrong if its position differs from the true position by more
+/// than half a spacing, its angle differs by more than 0.1 rad, or its section differs.
 void judge(const Fix& fix, const Shot& shot, Tally& tally) {
     ++tally.frames;
     if (fix.status != Status::ok) return;
@@ -103,9 +102,9 @@ TEST(SimulatedFrames, HardFramesAreLocated) {
 }
 
 TEST(SimulatedFrames, FramesInDoubtAreLookedAtOnceMore) {
-    // These frames are dark and noisy, or have graphics along the grid. With the first grid, a
-    // third of their bits contradict the position. In the last frame, words rotate the first
-    // estimate of the grid by 26 degrees.
+    // These frames are dark and noisy, or have graphics along the grid. If their bits are read with
+    // the first estimate of the grid, a third of the bits contradict the position. In the last
+    // frame, words rotate the first estimate by 26 degrees.
     const auto memory = std::make_unique<LargeMemory>();
     Tally tally;
     for (const std::uint64_t index :

@@ -79,18 +79,19 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         divided += outcome.fix.surface == Surface::divided ? 1 : 0;
     }
     EXPECT_GE(fixes, kFrames * 9 / 10);
-    // The number of frames is small. If the true fraction is 1 %, a fraction of more than 3 %
-    // occurs by chance once in 70 runs.
+    // The limit allows for the small number of frames: if the true fraction is 1 %, a fraction of
+    // more than 3 % occurs by chance once in 70 runs.
     EXPECT_LE(claim_too_much, fixes * 3 / 100);
-    // Many slips affect only a corner, or displace dots by less than their scatter.
+    // Many steps are not detected, because they affect only a corner or are smaller than the
+    // scatter of the dots.
     EXPECT_GE(divided, fixes / 2);
 }
 
-/// Errors of the frames of one kind of sheet, in relation to the reported covariances.
+/// Errors of the fixes on one kind of sheet, relative to the reported covariances.
 struct Claims {
     int fixes = 0;
     int within_4_sigmas = 0;
-    /// Mean square of the errors of x, in units of the variance of the fix.
+    /// Mean squared error of x, divided by the variance in the fix.
     double mean_square = 0;
 
     explicit Claims(double wrinkled_by) {
@@ -110,8 +111,7 @@ struct Claims {
     }
 };
 
-// Wrinkles with wavelengths of 8 mm and more cannot be observed in a view of 9 x 6 mm. An earlier
-// version did not count blocks with mean residuals above 1.5 standard deviations. In that version,
+// Wrinkles with wavelengths of 8 mm and more cannot be observed in a view of 9 x 6 mm. Regression:
 // only 62 % (slight wrinkles) and 72 % (stronger wrinkles) of the errors were within 4 sigmas.
 TEST(WrinkledSheet, MostErrorsAreAsLargeAsTheyAreSaidToBe) {
     const Claims slightly(0.02);

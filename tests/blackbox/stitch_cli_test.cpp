@@ -19,7 +19,7 @@ using testing::Not;
 
 constexpr double kSpacing_mm = kDefaultSpacing_mm;
 constexpr int kSide_cells = 60;
-/// The second sheet is to the right of the first, lower and rotated clockwise.
+/// The second sheet is to the right of the first sheet and lower. It is rotated clockwise.
 constexpr double kRight_mm = 31.5;
 constexpr double kDown_mm = 0.7;
 constexpr double kTurn_rad = 0.012;
@@ -34,7 +34,7 @@ SheetEntry sheet(const std::string& name, std::uint32_t origin_x) {
     return entry;
 }
 
-/// Returns a frame of a position on one sheet, given in mm from the corner of the sheet.
+/// Returns a frame centred on a position of one sheet, in mm from the corner of the sheet.
 GreyImage sheet_frame(const Shot& like, const SheetEntry& entry, double x_mm, double y_mm,
                       double theta_rad) {
     Shot shot = like;
@@ -48,8 +48,9 @@ GreyImage sheet_frame(const Shot& like, const SheetEntry& entry, double x_mm, do
     return render(shot);
 }
 
-/// Returns a frame of a position on the table, in the coordinates of the first sheet. Both sheets
-/// are rendered with equal light and noise, so the darker of two pixels belongs to a dot.
+/// Returns a frame centred on a position of the table, in the coordinates of the first sheet.
+/// Combines frames of both sheets by taking the darker pixel, which belongs to a dot because both
+/// frames have equal light and noise.
 GreyImage table_frame(std::uint64_t index, double x_mm, double y_mm, double theta_rad) {
     Setup setup;
     setup.camera.width_px = 376;
@@ -118,8 +119,8 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
         EXPECT_NEAR(entry.print_scale_x, 1, 5e-4) << entry.name;
         EXPECT_NEAR(entry.print_scale_y, 1, 5e-4) << entry.name;
     }
-    // According to the ruler, the right sheet is 0.5 % longer than nominal. The camera's scale
-    // changes by the same factor.
+    // The given width of the right sheet is 0.5 % larger than nominal, so the scales of all sheets
+    // increase by this factor.
     const double width_mm = 1.005 * (kSide_cells - 1) * kSpacing_mm;
     ASSERT_EQ(run(stitch + "--true-scale right=" + std::to_string(width_mm) + " seam*.pgm"), 0)
         << errors_;

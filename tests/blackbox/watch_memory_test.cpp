@@ -18,7 +18,7 @@ class WatchMemory : public ToolCommand {
   protected:
     static constexpr int kCycle = 100;
 
-    /// Writes half a second of the drive, which is then repeated.
+    /// Writes half a second of the drive. The test repeats these frames.
     void put_frames() {
         save_drive_sheets(directory_ / "sheets.json");
         const DriveCamera camera(188, 120);
@@ -40,7 +40,7 @@ TEST_F(WatchMemory, IsTheSameAfterATenthOfTheRunAndAtItsEnd) {
     const int cycles = std::max((wanted != nullptr ? std::atoi(wanted) : 3000) / kCycle, 10);
     const int frames = cycles * kCycle;
     put_frames();
-    // The pipe stays open, to measure the memory after the last frame.
+    // The pipe stays open, so that the memory can be measured after the last frame.
     const std::string script = fmt::format(
         "peak() {{ until [ $(wc -l < run.jsonl) -ge $1 ]; do sleep 0.1; kill -0 $watch; done;"
         "          awk '/VmHWM/ {{ print $2 }}' /proc/$watch/status; }}\n"
@@ -60,7 +60,8 @@ TEST_F(WatchMemory, IsTheSameAfterATenthOfTheRunAndAtItsEnd) {
     RecordProperty("first_kb", first_kb);
     RecordProperty("last_kb", last_kb);
     EXPECT_GT(first_kb, 10'000);
-    // The path grows to 16,384 points of 24 bytes, in a vector that is reallocated.
+    // Only the path may grow. It has up to 16,384 points of 24 bytes, in a vector that is
+    // reallocated.
     EXPECT_LE(last_kb, first_kb + 1500);
     EXPECT_NE(errors_.find(fmt::format("{} frames, ", frames)), std::string::npos) << errors_;
     fmt::print("{} frames: {} kB after a tenth, {} kB at the end\n", frames, first_kb, last_kb);

@@ -1,5 +1,5 @@
-// Tests the frames that `dotpose watch` saves for calibration, and its report of why most frames
-// fail.
+// Tests the frames that `dotpose watch` saves for calibration, and its report of the reason why
+// most frames fail.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>

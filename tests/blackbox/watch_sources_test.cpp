@@ -15,7 +15,6 @@ using testing::Not;
 
 using WatchSources = WatchCommand;
 
-/// Returns the number of occurrences of a text in another text.
 int count(const std::string& text, const std::string& part) {
     int found = 0;
     for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
@@ -25,7 +24,7 @@ int count(const std::string& text, const std::string& part) {
 
 TEST_F(WatchSources, SaysOnceWhyMostFramesFail) {
     const DriveCamera camera(188, 120);
-    // A dark frame with the noise of the camera.
+    // This frame is dark, with the noise of the camera.
     GreyImage dark{{}, 188, 120};
     for (std::uint32_t i = 0; i < 188 * 120; ++i)
         dark.pixels.push_back(static_cast<std::uint8_t>((i * 2654435761U >> 20) % 2 * 2));
@@ -71,7 +70,7 @@ TEST_F(WatchSources, LooksAtAPartOfTheFrame) {
     put_video(2, "drive.avi");
     ASSERT_EQ(run(std::string("watch drive.avi --frames 1 --roi 60,60,200x120 ") + kTrack), 0);
     const json part = parsed(output_).at(0);
-    // The part and the whole frame have the same middle, (159.5, 119.5).
+    // The part and the whole frame have the same centre, (159.5, 119.5).
     const DriveState truth = drive_.at(0);
     EXPECT_NEAR(part["x_m"].get<double>() * 1000, truth.x_mm, 0.02);
     EXPECT_LT(part["dots_seen"], 300);

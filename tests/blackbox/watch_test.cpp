@@ -41,7 +41,6 @@ DriveReading reading_of(const json& line) {
     return reading;
 }
 
-/// Returns the errors of the lines relative to the true drive.
 DriveErrors errors_of(const std::vector<json>& lines, const Drive& drive, int first = 0) {
     DriveErrors errors;
     for (const json& line : lines) {
@@ -56,8 +55,8 @@ int frame_at(double seconds) {
     return static_cast<int>(std::lround(seconds * kDriveFps));
 }
 
-/// Returns the first frame after `from` at which the robot is more than 0.1 mm away, along x or y,
-/// from its position at frame `place`. With step -1, searches backwards.
+/// Returns the first frame after `from` at which x or y differs by more than 0.1 mm from the
+/// position at frame `place`. With step -1, searches backwards.
 int first_away(const Drive& drive, int from, int step, int place) {
     const DriveState rest = drive.at(place);
     int frame = from;
@@ -82,7 +81,8 @@ void expect_events(const std::vector<json>& lines, const Drive& drive) {
     EXPECT_EQ(events[0].first, 0);
     EXPECT_EQ(events[1].first, frame_at(0.5));
     EXPECT_NEAR(events[2].first, first_away(drive, frame_at(plan.start), 1, 0), 1);
-    // The robot is lost 70 ms, or 14 frames, after the last frame before it was lifted.
+    // The tracker reports the loss 70 ms, or 14 frames, after the last frame in which the robot was
+    // on a sheet.
     EXPECT_EQ(events[3].first, frame_at(plan.lift) - 1 + 14);
     // The tracker reports the event in the third frame in which the robot is too far away to have
     // driven there at 400 mm/s.
@@ -98,8 +98,8 @@ void expect_accurate(const std::vector<json>& lines, const Drive& drive) {
     const int lifted = frame_at(0.3) + frame_at(0.15);
     EXPECT_EQ(errors.wrong(), 0);
     EXPECT_GE(errors.fixes(), drive.frames() - lifted - 2);
-    // Nearly all errors are printing errors, which the filter cannot remove. The filter must not
-    // add errors.
+    // Nearly all errors are printing errors. The filter cannot remove them, but it must not add
+    // errors.
     EXPECT_LT(errors.filtered_um(), 1.01 * errors.raw_um());
     EXPECT_LT(errors.velocity_mm_s(), 0.3);
     EXPECT_LT(errors.turn_deg_s(), 1);
@@ -251,7 +251,8 @@ TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
         EXPECT_NE(line["verdict"], "with_prior");
 }
 
-// At 250 mm/s, a frame with the time of its neighbour would have an error of 1 mm.
+// At 250 mm/s, the position would be wrong by more than 1 mm if a frame had the time of its
+// neighbour.
 TEST_F(Watch, KeepsTimesWhateverTheContainer) {
     constexpr int kFirst = 200;
     constexpr int kLength = 60;
@@ -283,8 +284,8 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
         EXPECT_LT(watch(name), std::size_t{kLength});
         EXPECT_GT(parsed(output_).size(), std::size_t{kLength} * 8 / 10) << name;
         EXPECT_GT(parsed(output_).back()["t_s"], 0.29) << name;
-        // Matroska files do not contain the number of frames. Missing frames may never have been
-        // recorded.
+        // A Matroska file does not contain the number of frames, so missing frames may be damage or
+        // may never have been recorded.
         const bool is_counted = name != "hole.mkv";
         EXPECT_EQ(exit_code_, is_counted ? 1 : 0);
         EXPECT_THAT(errors_,

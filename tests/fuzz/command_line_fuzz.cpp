@@ -14,7 +14,7 @@ namespace {
 
 using namespace dotpose;
 
-/// Values of the options. Each option has its own bounds.
+/// Values that the options set.
 struct Values {
     CodeVariant code = CodeVariant::anoto;
     Section section;

@@ -24,13 +24,13 @@ struct LocateHeader {
         one_attempt = 4,
         drawn = 8,  ///< the input contains the symbols of dots instead of pixels
         rows_pushed = 16,
-        own_prediction = 32,  ///< the prediction is the fix of the frame, displaced
+        own_prediction = 32,  ///< the prediction is the fix of the frame plus a displacement
     };
     std::uint16_t width_px = 64;  ///< taken modulo 512
     std::uint16_t height_px = 64;
     std::uint8_t code = 0;  ///< taken modulo 3
     std::uint8_t flags = default_options;
-    std::uint8_t padding_px = 0;  ///< padding between rows, px
+    std::uint8_t padding_px = 0;
     std::int8_t max_p_wrong_log2 = -30;
     std::int16_t max_bit_error_q8 = 46;
     std::int16_t low_q8 = 120;
@@ -46,7 +46,7 @@ struct LocateHeader {
     std::int32_t reference_dy_q8 = 0;
     // Parameters of drawn dots.
     std::uint16_t angle = 0;             ///< 65536 is a full turn
-    std::uint16_t spacing_q8 = 8 * 256;  ///< spacing in px, at least 4
+    std::uint16_t spacing_q8 = 8 * 256;  ///< in px; values below 4 px are taken as 4 px
 };
 static_assert(sizeof(LocateHeader) == 44 && std::is_trivially_copyable_v<LocateHeader>);
 
@@ -111,7 +111,7 @@ struct Pixels {
 /// Number of symbols per row, and number of rows, in drawn images. Cell (0, 0) is in the middle.
 inline constexpr int kDrawnSide = 40;
 
-/// Draws dots that are a third of the spacing wide, with one symbol per byte. Bytes of 240 and
+/// Draws one dot per symbol, with a diameter of a sixth of the spacing plus 1 px. Bytes of 240 and
 /// above draw no dot.
 inline void draw_dots(const LocateHeader& header, std::span<const std::uint8_t> symbols,
                       Pixels& image) {

@@ -1,5 +1,5 @@
-// Fuzzes `parse_print_map`. It must return a valid map, or throw Error. The checksum of the input
-// is replaced by the right one, because random inputs would never get past it.
+// Fuzzes `parse_print_map`. It must return a valid map, or throw Error. Random inputs have a wrong
+// checksum, so the fuzz target replaces it by the right one.
 #include <cstdlib>
 #include <string>
 

@@ -1,5 +1,5 @@
-// Fuzzes requests and commands of clients of the page. A request without the token must never be
-// allowed.
+// Fuzzes the requests and commands of clients of the web page. A request without the token must
+// never be allowed.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -15,7 +15,6 @@ using namespace dotpose::serve;
 
 constexpr const char* kToken = "0123456789abcdef0123456789abcdef";
 
-/// Removes and returns the first line of a text.
 std::string take_line(std::string_view& text) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string line(text.substr(0, end));

@@ -34,7 +34,8 @@ std::string describe(const Draw& draw) {
            " x " + std::to_string(draw.rows) + " turned " + std::to_string(draw.quarter_turns);
 }
 
-/// Returns a position. One in 16 is within 40 positions of the end of the axis, where windows wrap.
+/// Returns a random position. One position in 16 is within 40 positions of the end of the axis,
+/// where windows wrap.
 template <typename Rng>
 std::uint32_t random_position(Rng& rng) {
     if (random_int(rng, 0, 15) != 0) return random_place(rng).cell.x;
@@ -161,7 +162,7 @@ TEST(CodeProperty, EverySectionAtAndAcrossTheWrap) {
                 ASSERT_EQ(check(draw), "") << describe(draw);
                 ++n;
             }
-            ++n;  // draws another code variant for the same x
+            ++n;  // so that the next draw of each x has another code variant
         }
     }
 }

@@ -1,5 +1,6 @@
-// Tests weak sightings. Enumerates all other places inside the tracker's gate, sums their odds
-// relative to the true place, and compares the sum with the tracker's bound (docs/tracking.md).
+// Tests the bound that the tracker uses to accept weak measurements (docs/tracking.md). Enumerates
+// all other places inside the tracker's gate, sums their odds relative to the true place, and
+// compares the sum with the bound.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -26,13 +27,13 @@ constexpr std::uint64_t kSeed = 20;
 constexpr std::array kCodeVariants{CodeVariant::anoto, CodeVariant::libdots,
                                    CodeVariant::microdots};
 
-/// Bits read upright from a part of the pattern.
+/// Bits that were read from an upright part of the pattern.
 struct View {
     CodeVariant code = CodeVariant::anoto;
     Place place;
     int columns = 0;
     int rows = 0;
-    double odds_log2 = 0;  ///< log2 odds that a bit of full weight is correct
+    double odds_log2 = 0;  ///< log2 of the odds that a bit of full weight is correct
     std::array<GridCell, kMaxSide * kMaxSide> cells{};
 
     core::Grid grid() {
@@ -45,7 +46,7 @@ struct View {
     }
 };
 
-/// Draws size and noise, and reads the bits at the place.
+/// Chooses a random size and noise of the view, and reads its bits from the code.
 void read(View& view, Rng& rng) {
     view.columns = 8 + static_cast<int>(rng.below(5));
     view.rows = 8 + static_cast<int>(rng.below(5));
@@ -88,8 +89,8 @@ int claim(View& view) {
                : 1;
 }
 
-/// Returns, for each line that may be in view, the index in the main sequence at the first cell of
-/// the view.
+/// Returns the index in the main sequence of the first cell in view, for each line that may be in
+/// view.
 std::vector<int> starts(CodeVariant code, std::uint32_t first, int section, std::uint32_t cross) {
     std::vector<int> result;
     for (int i = -kReach; i < kReach + kMaxSide; ++i) {
@@ -99,8 +100,9 @@ std::vector<int> starts(CodeVariant code, std::uint32_t first, int section, std:
     return result;
 }
 
-/// Returns the odds of all other places within reach relative to the true place, as products over
-/// all bits. sums[k] is the sum over the places at most k cells away along both axes.
+/// Computes the odds of each other place relative to the true place, as a product over all bits.
+/// Element k of the result is the sum of the odds of the places that are at most k cells away along
+/// both axes.
 std::array<double, kReach + 1> odds_by_distance(View& view) {
     const auto& [cell, section] = view.place;
     const auto columns = starts(view.code, cell.x, section.u, cell.y);
@@ -108,8 +110,9 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
     const auto main = [](int index) {
         return main_bit(static_cast<std::uint32_t>(index + kSections));
     };
-    // Returns the sum of the weights of the bits of a line. A weight counts as positive if its bit
-    // agrees with the main sequence, which begins at index `start` in the first cell of the line.
+    // Returns the sum of the weights of the bits of a line. Weights of bits that contradict the
+    // main sequence are subtracted. The first cell of the line is at index `start` of the main
+    // sequence.
     const core::Grid grid = view.grid();
     const auto score = [&](bool is_x, int line, int start) {
         int sum = 0;
@@ -142,8 +145,8 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
     return sums;
 }
 
-/// Draws views of a place until one is weak. Returns the minimum margin of the tracker's bound, in
-/// bits.
+/// Draws views of a place until p_wrong of a view is between 2^-30 and 2^-10. Returns the minimum
+/// margin of the tracker's bound for this view, in bits.
 double margin_of_weak_view(CodeVariant code, const Place& place, Rng& rng) {
     View view;
     view.code = code;
@@ -156,8 +159,8 @@ double margin_of_weak_view(CodeVariant code, const Place& place, Rng& rng) {
     const auto sums = odds_by_distance(view);
     double least = 1e9;
     for (unsigned k = 1; k <= kReach; ++k) {
-        // The smallest gate that contains two places at this distance has k + 2 cells, as the
-        // tracker counts.
+        // According to the tracker's count, the smallest gate that contains two places at this
+        // distance has k + 2 cells.
         const int cells_log2 = std::bit_width(k + 1);
         least = std::min(least, p_wrong_log2 + cells_log2 - 36 - std::log2(sums[k]));
     }
@@ -177,15 +180,16 @@ TEST(WeakSighting, NoPlaceInTheGateIsLikelierThanTheBound) {
     }
 }
 
-/// Five consecutive lines that are repeated a few lines later, all rolled by the same amount.
+/// Five consecutive lines that occur again a few lines later, all shifted in the main sequence by
+/// the same roll.
 struct Repetition {
     std::uint32_t position = 0;
     int distance = 0;  ///< in lines
     int roll = 0;      ///< roll of the later lines relative to the earlier lines, 0 to 62
 };
 
-/// Returns all repetitions within reach. A repetition occurs where the same four digits are
-/// repeated in all four sequences.
+/// Returns all repetitions at a distance of at most kReach lines. A repetition occurs where the
+/// same four digits are repeated in all four sequences.
 std::vector<Repetition> repetitions(CodeVariant code) {
     const code::Basis& basis = code::basis(code);
     std::vector<Repetition> found;
@@ -217,15 +221,15 @@ std::vector<Repetition> repetitions(CodeVariant code) {
     return found;
 }
 
-/// A place, and the step (dx, dy), at most kReach cells along each axis, to another place with the
-/// same 5 x 5 symbols.
+/// A place, and the offset (dx, dy) of another place with the same 5 x 5 symbols. The offset is at
+/// most kReach cells along each axis.
 struct Twin {
     Place place;
     int dx = 0;
     int dy = 0;
 };
 
-/// Returns all twins. The step along each axis compensates for the roll along the other axis.
+/// Returns all twins. The offset along each axis must compensate for the roll along the other axis.
 std::vector<Twin> twins(CodeVariant code) {
     const auto found = repetitions(code);
     std::vector<Twin> twins;

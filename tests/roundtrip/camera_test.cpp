@@ -1,5 +1,5 @@
-// Locates frames of the pages of a document, with `dotpose overlay`, a renderer in place of a
-// printer, the simulated camera, and `dotpose locate`.
+// Tests pages of `dotpose overlay` as a camera sees them: a renderer replaces the printer, the
+// simulated camera takes frames, and `dotpose locate` locates them.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -28,14 +28,14 @@ using nlohmann::json;
 constexpr int kPages = 5;
 constexpr double kPageWidth_mm = 60;
 constexpr double kPageHeight_mm = 80;
-// Minimum distance of a frame from the edge of the page, which contains only the margin of the
-// document. A frame extends up to 5.2 mm from its centre.
+// Minimum distance of the centre of a frame from the edge of the page. A frame extends up to 5.2 mm
+// from its centre.
 constexpr double kEdge_mm = 8;
 constexpr int kPrinter_dpi = 1200;
-// A renderer may shift all dots by one of its pixels (0.021 mm). A fix adds 0.002 mm.
+// A renderer may shift all dots by one of its pixels, which is 0.021 mm. The error of a fix is
+// about 0.002 mm.
 constexpr double kTolerance_mm = 0.03;
 
-/// The pose of a frame on its page.
 struct TakenFrame {
     int page = 1;
     Vec2 at_mm;

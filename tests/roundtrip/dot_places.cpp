@@ -32,7 +32,6 @@ std::optional<Point> centroid_px(const GreyPage& page, Point centre, double half
     return Point{sum.x / ink, sum.y / ink};
 }
 
-/// Returns the symbol whose displacement has the direction closest to `from_intersection`.
 Symbol nearest_symbol(Point from_intersection) {
     Symbol best = Symbol::up;
     double best_dot = -1e9;

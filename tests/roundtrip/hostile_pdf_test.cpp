@@ -102,7 +102,7 @@ TEST_F(HostileDocument, depth_is_bounded_and_named) {
     const char* const kDraws = "/Resources << /XObject << /A 5 0 R >> >>";
     expect_refused(page_with(kDraws, stream("/A Do"), forms("/A Do")),
                    "in.pdf, page 1: its forms are nested deeper than 100 levels");
-    // Forms that are not drawn are converted too.
+    // If colours are changed, forms that are not drawn are also converted.
     expect_refused(page_with(kDraws, stream(""), forms("")),
                    "in.pdf, page 1: its resources are nested deeper than 100 levels",
                    change_colours_);
@@ -204,7 +204,7 @@ TEST_F(HostileDocument, lists_of_objects_are_bounded) {
         with_cross_reference_stream("/Filter [/FlateDecode /FlateDecode]", packed(zeros, 2));
     write("junk in front\n" + twice);
     expect(too_much);
-    // An older cross-reference stream, to which a table refers.
+    // Writes an older cross-reference stream, to which a table refers.
     for (const char* key : {"Prev", "XRefStm"}) {
         const std::size_t place = twice.find("2 0 obj");
         write(twice + fmt::format("xref\n0 1\n0000000000 65535 f \ntrailer\n<< /Size 3 /Root 1 0 R "
@@ -214,12 +214,12 @@ TEST_F(HostileDocument, lists_of_objects_are_bounded) {
     }
     write(with_cross_reference_stream("/Filter /FlateDecode", packed(std::string(12, '\0'))));
     expect("in.pdf");
-    // Incomplete cross-reference tables and streams.
+    // These cross-reference tables and streams are incomplete.
     for (const char* cut : {"xref\n0 1\n", "2 0 obj\n", "2 0 obj\n<< /Type (", "trailer <<"}) {
         write(std::string("%PDF-1.5\n") + cut + "\nstartxref\n9\n%%EOF\n");
         expect("in.pdf: damaged PDF");
     }
-    // An offset that does not fit into an integer.
+    // This offset does not fit into an integer.
     write("%PDF-1.5\nxref\n0 1\nstartxref\n" + std::string(60, '7') + "\n%%EOF\n");
     expect("in.pdf: damaged PDF");
 }

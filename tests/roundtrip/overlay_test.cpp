@@ -26,8 +26,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// A program that produces the document in.pdf, from two pages of text (page.roff) or a picture
-/// (page.ps) in its directory, or from an existing document.
+/// A command that writes the document in.pdf from page.roff (two pages of text), from page.ps (a
+/// picture), or from an existing document.
 struct Producer {
     const char* name;
     const char* command;
@@ -62,7 +62,7 @@ class Documents : public testing::Test {
     std::string text(const std::string& name) const {
         return in_directory("pdftotext -layout " + name + " - 2>&1");
     }
-    /// Writes a page of the same size as page `number` of in.pdf with the same dots and no other
+    /// Writes dots.pdf: a page with the size and the dots of `report.pages[page]`, and no other
     /// content.
     void write_blank(const OverlayReport& report, std::size_t page) const {
         const Sheet& sheet = report.pages[page].sheet;
@@ -79,8 +79,8 @@ class Documents : public testing::Test {
     test::TemporaryDirectory directory_;
 };
 
-/// Returns the renderers that draw a document unchanged. mutool of Debian 13 refuses documents that
-/// it has converted, because it loses a resource.
+/// Returns the renderers that draw a document unchanged. mutool of Debian 13 refuses the documents
+/// that it has converted itself, because it loses a resource.
 std::vector<const char*> renderers_of(const fs::path& pdf) {
     try {
         render("mutool", pdf, 72);
@@ -134,7 +134,7 @@ TEST_P(OverlaidDocument, leaves_black_ink_to_the_dots_when_asked) {
     EXPECT_THAT(report.warnings, IsEmpty());
     EXPECT_EQ(text("out.pdf"), text("in.pdf"));
     write_blank(report, 0);
-    // Mean amounts of cyan, magenta, yellow and black on the first page, in percent.
+    // Returns the mean amounts of cyan, magenta, yellow and black on the first page, in percent.
     const auto inks = [&](const char* name) {
         std::array<double, 4> ink{};
         const std::string output = in_directory(

@@ -20,18 +20,19 @@ struct Limits {
     double mean_um;
     double largest_um;
 };
-// The maximum is a seventh of the displacement, which is 85 µm at a spacing of 0.508 mm.
+// Usual limits. The maximum is a seventh of the displacement of a symbol, which is 85 µm at a
+// spacing of 0.508 mm.
 constexpr Limits kUsual = {4, 12};
-// At 300 dpi, 0.3 mm are 3.5 pixels. No rendering can be more accurate, because neighbouring dots
-// may ink the same pixel. The displacement of a symbol is 50 µm.
+// Limits for a spacing of 0.3 mm at 300 dpi, which is 3.5 pixels. Neighbouring dots may ink the
+// same pixel, so no rendering can be more accurate. The displacement of a symbol is 50 µm.
 constexpr Limits kFineOnCoarse = {6, 30};
 
-// Minimum diameter of a dot whose place can be measured exactly. Even a perfect rendering does not
-// show the place of a smaller dot within a pixel. The error is up to 17 µm for a dot of 0.05 mm at
-// 300 dpi. A dot of whole pixels in whole places is exact at any size.
+// Minimum diameter of a dot whose place can be measured exactly. The rendering of a smaller dot
+// does not show where it is within a pixel. For example, the error is up to 17 µm for a dot of 0.05
+// mm at 300 dpi. A dot that consists of whole pixels at its exact place has no error at any size.
 constexpr double kExactDot_px = 2.3;
-// Maximum diameter that leaves a white pixel between any two dots at a spacing of 0.3 mm and 300
-// dpi: 1.6 px.
+// Maximum diameter with which a white pixel remains between any two dots, at a spacing of 0.3 mm
+// and 300 dpi.
 constexpr double kFineDot_px = 1.63;
 
 struct Dots {
@@ -44,7 +45,7 @@ bool is_whole(double px) {
     return std::abs(px - std::round(px)) < 1e-6;
 }
 
-/// Returns the errors of a rendered sheet that was written for 600 dpi.
+/// Writes a PDF for 600 dpi, renders it at `dpi`, and returns the errors of its dots.
 DotErrors rendered_errors(const Sheet& sheet, DotDrawing drawing, const char* renderer, int dpi) {
     PrintOptions print;
     print.drawing = drawing;
@@ -104,8 +105,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 class OddResolution : public testing::TestWithParam<const char*> {};
 
-// Shows why glyphs are used for dots of whole pixels only. A renderer moves each glyph to whole
-// pixels (or parts of pixels), but draws strokes at their exact places.
+// Glyphs are used only for dots of whole pixels, because a renderer moves each glyph to whole
+// pixels or to certain fractions of a pixel. It draws strokes at their exact places.
 TEST_P(OddResolution, moves_letters_and_leaves_strokes) {
     constexpr int kOdd_dpi = 310;  // a spacing of 6.2 pixels
     SheetOptions options;

@@ -14,7 +14,6 @@ namespace dotpose::roundtrip {
 namespace fs = std::filesystem;
 namespace {
 
-/// Reads the samples that follow a header.
 std::vector<std::uint8_t> read_samples(std::ifstream& file, std::size_t count,
                                        const fs::path& path) {
     std::vector<std::uint8_t> samples(count);

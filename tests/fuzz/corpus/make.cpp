@@ -62,7 +62,7 @@ void make_frames(const fs::path& folder) {
         header.width_px = header.height_px = static_cast<std::uint16_t>(seed.side_px);
         header.flags = seed.flags;
         GreyImage image = frame(seed.preset, seed.side_px, seed.spacing_px, n);
-        // Zero bytes at the end of an input leave its prediction unmoved.
+        // An input ends with the displacement of its prediction. Zero bytes mean no displacement.
         image.pixels.insert(image.pixels.end(), sizeof(Prediction), 0);
         write(folder / ("frame-" + std::to_string(n++)), locate_input(header, image.pixels));
     }
@@ -121,7 +121,7 @@ void make_images(const fs::path& folder) {
     }
 }
 
-/// Writes one seed for each option in options_fuzz.cpp, which changes only this option.
+/// Writes one seed for each option in options_fuzz.cpp. Each seed changes only its own option.
 void make_options(const fs::path& folder) {
     constexpr std::uint8_t kFields = 20;
     for (std::uint8_t field = 0; field < kFields; ++field) {

@@ -33,7 +33,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Saves the scan as JPEG, reads it again, and returns the result.
 GreyImage through_jpeg(const GreyImage& scan, int quality) {
     const test::TemporaryDirectory directory;
     const auto path = directory.path() / "scan.jpg";
@@ -125,16 +124,16 @@ TEST(CheckPrint, tells_other_print_from_faults) {
     EXPECT_LT(field.merged_share(), 0.002);
     EXPECT_LT(field.wrong_share(), 0.002);
     // A bar covers the cells whose intersections are at most half a cell from the bar. These cells
-    // are a stripe of 1 mm plus one cell. There is a bar every 5 mm, and a bar is 30 mm long on a
-    // page of 60 mm. Along the edge of the grey area, cells in up to one tile of 24 cells (12 mm)
-    // differ from the paper.
+    // form a stripe with a width of 1 mm plus one cell. There is a bar every 5 mm, and a bar is 30
+    // mm long on a page of 60 mm. Along the edge of the grey area, cells in up to one tile of 24
+    // cells (12 mm) differ from the paper.
     const double bars = (1 + 0.508) / 5 * 30 / 60;
     const double edge = 12.0 * (25 + 30 + 25) / (60 * 80);
     EXPECT_GT(field.covered_share(), 0.9 * bars);
     EXPECT_LT(field.covered_share(), bars + edge);
 }
 
-// The tiles of a card consist mostly of blank paper around the card.
+// Each tile of this scan contains mostly the blank paper around the card.
 TEST(CheckPrint, dots_of_a_small_card_on_a_noisy_scan_are_not_covered) {
     SheetOptions options;
     options.paper = {20, 20};
@@ -170,7 +169,7 @@ TEST(CheckPrint, maps_distortion) {
     for (const DistortionBin& bin : result.fields[0].distortion) {
         EXPECT_NEAR(bin.du_mm, 0, 0.005);
         const double along_mm = bin.v_px * 25.4 / settings.dpi - height_mm / 2;
-        // The part removed by the fit is a line through the middle.
+        // The fitted scale removes a straight line through the middle.
         const double line_mm = (result.fields[0].scale->scale_y - 1) * along_mm;
         const double wave_mm = settings.wave_mm * std::sin(2 * std::numbers::pi * along_mm / 100);
         EXPECT_NEAR(bin.dv_mm, wave_mm - line_mm, 0.03);
@@ -245,7 +244,7 @@ GreyImage phone_photo(double tilt_rad, double mm_per_px = 0.06, double missing =
 
 TEST(CheckPrint, photos_of_a_flawless_print_have_no_faults_and_no_scale) {
     for (const double tilt_degrees : {1.0, 10.0, 25.0}) {
-        // The given resolution applies in the middle of the view.
+        // The given resolution is correct in the middle of the view.
         const PrintCheck result = check(phone_photo(tilt_degrees * kDegree_rad), 25.4 / 0.06);
         ASSERT_EQ(result.fields.size(), 1U) << tilt_degrees;
         const PrintField& field = result.fields[0];

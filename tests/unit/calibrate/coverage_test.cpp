@@ -23,7 +23,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using Kind = CalibrationNeed::Kind;
 
-/// The parts of this image are squares of 10 px.
+/// With this size of the image, its parts are squares of 10 px.
 constexpr int kWidth_px = 120;
 constexpr int kHeight_px = 80;
 
@@ -52,7 +52,7 @@ CalibrationView view_at(double x_grid, double y_grid, double theta_deg,
     return view;
 }
 
-/// Returns a lens whose standard deviation in the corner is `sigma_px`. It is caused by k alone.
+/// Returns a lens with a standard deviation of `sigma_px` in the corner. Only k is uncertain.
 Camera lens_known_to(double sigma_px) {
     Camera camera;
     camera.width_px = kWidth_px;
@@ -153,7 +153,7 @@ TEST(CornerSigma, IsThatOfTheDivisionModel) {
     EXPECT_NEAR(corner_sigma_px(camera), by_k, 1e-5 * by_k);
 
     camera.sigma = {{"k_per_px2", 0}, {"centre_u_px", 0.2}, {"centre_v_px", 0}};
-    // With the centre c, p = c + q / (1 + k q^2), q = r - c.
+    // With the centre c, eq. 2 is p = c + q / (1 + k q^2), where q = r - c.
     const double along = 1 - 1 / d + 2 * camera.k_per_px2 * x * x / (d * d);
     const double across = 2 * camera.k_per_px2 * x * y / (d * d);
     const double by_centre = std::hypot(along, across) * 0.2;

@@ -1,4 +1,5 @@
-// Tests the measurement of expected dots. Expected centres come from the simulator's projection.
+// Tests the measurement of dots at expected places. The true centres come from the simulator's
+// projection.
 #include "calibrate/dot_images.hpp"
 
 #include <cmath>
@@ -13,8 +14,8 @@
 namespace dotpose {
 namespace {
 
-/// The dots of a frame. Contains their true pixels, and expected pixels with errors of a fraction
-/// of a pixel.
+/// A frame, the true positions of its dots, and expected positions with errors of a fraction of a
+/// pixel.
 struct Frame {
     GreyImage image;
     std::vector<Eigen::Vector2d> truth;

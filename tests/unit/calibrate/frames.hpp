@@ -26,7 +26,6 @@ inline CameraModel paper_camera() {
     return camera;
 }
 
-/// Returns frame `index` of a run with the preset nominal and a tilt.
 inline GreyImage nominal_frame(const CameraModel& camera, std::uint64_t seed, int index,
                                double tilt_x_deg = 0, double tilt_y_deg = 0) {
     Setup setup;
@@ -122,13 +121,13 @@ inline RobotError robot_error(const Camera& camera, const CameraModel& model, st
 
 // ---- A table with four sheets ----
 
-/// Number of dots per side of a sheet. A narrow margin is between the pattern and the edge of the
-/// sheet.
+/// Number of dots per side of a sheet. Between the pattern and the edge of the sheet is a narrow
+/// margin.
 inline constexpr int kSide_cells = 120;
 inline constexpr double kMargin_mm = 0.3;
 inline constexpr double kPage_mm = (kSide_cells - 1) * kDefaultSpacing_mm + 2 * kMargin_mm;
 
-/// Pose of a sheet on the table: mm, x right, y down, clockwise angles.
+/// Pose of a sheet on the table, in mm, with x to the right, y down, and clockwise angles.
 struct Lying {
     double x_mm;
     double y_mm;
@@ -165,8 +164,8 @@ inline CameraModel wide_camera() {
     return camera;
 }
 
-/// Returns the camera's frame at a place of the table. The dots of all sheets are dark on the same
-/// paper.
+/// Returns the camera's frame at a place of the table. Each pixel is the darkest of the frames of
+/// all sheets.
 inline GreyImage table_frame(const Table& table, const CameraModel& camera, std::uint64_t seed,
                              int index, double x_mm, double y_mm, double theta_rad) {
     Setup setup;
@@ -180,8 +179,8 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         const double dy = y_mm - lying.y_mm;
         const double c = std::cos(lying.turn_rad);
         const double s = std::sin(lying.turn_rad);
-        // Distance of the camera from the middle of the sheet, along an axis, beyond which no dot
-        // is in view.
+        // If the camera is farther than this from the middle of the sheet along an axis, no dot of
+        // the sheet is in view.
         constexpr double kTooFar_mm = kPage_mm / 2 + 12;
         if (std::abs(dx - kPage_mm / 2) > kTooFar_mm) continue;
         if (std::abs(dy - kPage_mm / 2) > kTooFar_mm) continue;
@@ -194,7 +193,7 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         shot.page = page_of(sheet, seed + i + 1);
         shot.page.print_scale = lying.print;
         const GreyImage image = render(shot);
-        // All sheets are rendered with equal light and noise.
+        // All sheets are rendered with equal light and noise, so the darkest pixel shows a dot.
         if (result.pixels.empty()) result = image;
         for (std::size_t k = 0; k < image.pixels.size(); ++k)
             result.pixels[k] = std::min(result.pixels[k], image.pixels[k]);

@@ -90,9 +90,10 @@ double off_mm(const RobotError& error) {
     return std::hypot(error.place_mm.x, error.place_mm.y);
 }
 
-// The standard deviations of the turn, of the image centre and of the image axis add up in
-// quadrature. At a distance of 15.8 mm from the camera, the two values of the camera file, 4 µm per
-// axis and 3e-4 rad, contribute 5.2 µm per axis.
+// The variance of the reference is the sum of the variances of the turn, of the image centre and of
+// the image axis. The camera file gives a standard deviation of 4 µm per axis for the centre and of
+// 3e-4 rad for the axis. At a distance of 15.8 mm from the camera, these two values contribute 5.2
+// µm per axis.
 TEST(CalibrateSpin, AddsWhatTheLensDoesNotTell) {
     const CameraModel model = paper_camera();
     const auto frame_at = [&](int i) {
@@ -205,8 +206,8 @@ FrameAt turning(const CameraModel& model, double step_deg, double drift_mm) {
     };
 }
 
-// A drive of a slowly turning robot is not a turn on the spot, even if an arc about a distant point
-// fits well.
+// Frames of a robot that drives and turns slowly are not a turn on the spot, even if an arc about a
+// distant point fits them well.
 TEST(CalibrateSpin, RefusesADrive) {
     const CameraModel model;
     EXPECT_THAT(

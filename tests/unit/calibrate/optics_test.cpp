@@ -28,9 +28,9 @@ TEST(Optics, GivesThePapersNumbers) {
         EXPECT_FALSE(advice.is_fault) << advice.text;
 }
 
-/// Returns the side of the smallest square field that contains a block of the given diagonal, for a
-/// grid at 45 degrees. `x` and `y` are the offset of the image centre from a block centre, in the
-/// grid.
+/// Returns the side of the smallest square field of view that contains a block of dots with this
+/// diagonal, if the grid is rotated by 45 degrees. (`x_mm`, `y_mm`) is the offset of the image
+/// centre from the centre of a block, along the axes of the grid.
 double field_for_block(double diagonal_mm, double spacing_mm, double x_mm, double y_mm) {
     double smallest_mm = HUGE_VAL;
     for (int i = -1; i <= 1; ++i) {
@@ -99,15 +99,15 @@ TEST(Optics, SaysWhatToChange) {
     Optics optics;
     optics.width_px = 188;
     optics.pixel_um = 24;
-    optics.distance_mm = 50;  // a spacing of 3 px
+    optics.distance_mm = 50;  // the spacing is 3 px in the image
     optics.speed_mm_s = 5000;
     const auto faults = design_optics(optics).advice;
     const auto says = [](const char* words) {
         return Contains(testing::AllOf(Field(&OpticsAdvice::is_fault, IsTrue()),
                                        Field(&OpticsAdvice::text, HasSubstr(words))));
     };
-    // At 8 px, the magnification is 8 x 0.024 / 0.508 = 0.378, and the distance is 5.5 mm (1 + 1 /
-    // 0.378) = 20.05 mm.
+    // At a spacing of 8 px, the magnification is 8 x 0.024 / 0.508 = 0.378. The distance is
+    // therefore 5.5 mm (1 + 1 / 0.378) = 20.05 mm, where 5.5 mm is the focal length.
     EXPECT_THAT(faults, says("go closer (20.1 mm)"));
     EXPECT_THAT(faults, says("print larger dots"));
 

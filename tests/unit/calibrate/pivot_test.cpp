@@ -24,7 +24,8 @@ constexpr double kMaxTilt_rad = 40 * kDegree_rad;
 constexpr double kX_mm = 3000;
 constexpr double kY_mm = 2000;
 
-/// Returns frames of a pen whose tip rests at one point, except that `place_of` moves it.
+/// Returns frames of a pen whose tip rests at one point. `place_of(i, pose)` can change the pose of
+/// frame i.
 template <typename PlaceOf>
 std::vector<GreyImage> frames_of(int count, std::uint64_t seed, double max_tilt_rad,
                                  PlaceOf place_of) {
@@ -82,7 +83,7 @@ TEST(CalibratePivot, FindsTheTip) {
 }
 
 TEST(CalibratePivot, HasTrueDeviationsThoughAllFramesShowTheSamePrint) {
-    // If frames were taken as independent, the mean would be 3.3.
+    // If the covariance treated the frames as independent, the mean would be 3.3.
     constexpr int kPens = 10;
     double squares = 0;
     for (std::uint64_t pen = 0; pen < kPens; ++pen) {
@@ -98,7 +99,7 @@ TEST(CalibratePivot, HasTrueDeviationsThoughAllFramesShowTheSamePrint) {
         squares += std::pow((camera.tip->x_mm - kTip.x_mm) / camera.sigma.at("tip_x_mm"), 2) +
                    std::pow((camera.tip->y_mm - kTip.y_mm) / camera.sigma.at("tip_y_mm"), 2);
     }
-    // The mean of 20 squares has a standard deviation of 0.32.
+    // The mean of 20 squared standard normal variables has a standard deviation of 0.32.
     EXPECT_NEAR(squares / (2 * kPens), 1, 0.95);
 }
 
@@ -166,7 +167,7 @@ TEST(TipOf, IsTheTipOfTheSimulatedPen) {
     EXPECT_NEAR(tip.y_mm, kY_mm, 4 * tip.sigma_mm(1));
     EXPECT_NEAR(tip.height_mm, 1.5, 4 * tip.sigma_mm(2));
     EXPECT_LT(tip.sigma_mm(2), 0.03);
-    // An error of the tip in the camera file adds to the covariance.
+    // The uncertainty of the tip in the camera file is added to the covariance.
     const TipPose uncertain =
         tip_of(*space, kTip, {{"tip_x_mm", 1}, {"tip_y_mm", 1}, {"tip_z_mm", 1}});
     EXPECT_NEAR(uncertain.sigma_mm(0), 1, 0.001);

@@ -1,5 +1,5 @@
-// Tests prints that contradict their description: places that are not unique, pages on none of the
-// given sheets, and impossible resolutions. Also tests scans of few, large dots.
+// Tests prints that contradict their description: places that are not unique, pages that are on
+// none of the given sheets, and impossible resolutions. Also tests scans with few large dots.
 #include <vector>
 
 #include <gmock/gmock.h>

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kReadout_ms = 20;
 
-/// A frame of a scene that moves during the readout, with the velocity of the camera.
+/// A frame of a scene that moves during the readout, and the velocity of the camera.
 struct RollingFrame {
     Shot shot;
     Vec2 velocity_mm_s;  ///< velocity of the camera, along the axes of the pattern
@@ -135,7 +135,7 @@ GreyImage drive_frame(const CameraModel& camera, int index, double readout_ms) {
     const double t_s = index * kInterval_s;
     const double speed_mm_s = kStart_mm_s + kAcceleration_mm_s2 * t_s;
     const double way_mm = kStart_mm_s * t_s + kAcceleration_mm_s2 * t_s * t_s / 2;
-    const Vec2 along{std::sqrt(0.5), -std::sqrt(0.5)};  // direction of the camera, in the image
+    const Vec2 along{std::sqrt(0.5), -std::sqrt(0.5)};  // direction of motion in the image
     const double c = std::cos(kTheta_rad);
     const double s = std::sin(kTheta_rad);
     Setup setup;

@@ -91,20 +91,20 @@ double angle_between(const Matrix3& a, const Matrix3& b) {
     return std::atan2(sine, (turn[0][0] + turn[1][1] + turn[2][2] - 1) / 2);
 }
 
-/// A camera and its pose.
 struct View {
     double focal_px = 800;
     Matrix3 rotation{};  // camera to paper
     Vector3 position_mm{};
 
-    /// Returns the undistorted pixel relative to the optical axis.
+    /// Returns the undistorted pixel of a point on the paper, relative to the optical axis.
     std::array<double, 2> straight(double x_mm, double y_mm) const {
         const Vector3 seen =
             product(transposed(rotation),
                     Vector3{x_mm - position_mm[0], y_mm - position_mm[1], -position_mm[2]});
         return {focal_px * seen[0] / seen[2], focal_px * seen[1] / seen[2]};
     }
-    /// Returns the pixel of a camera with the distortion k, relative to the optical axis.
+    /// Returns the pixel of a point on the paper with the distortion k, relative to the optical
+    /// axis.
     std::array<double, 2> distorted(double x_mm, double y_mm, double k) const {
         const auto [a, b] = straight(x_mm, y_mm);
         // Solves eq. 2, r_u = r_d / (1 + k r_d^2), by bisection.
@@ -129,7 +129,8 @@ View view_of(const CameraLean& lean, double distance_mm, double focal_px) {
     return view;
 }
 
-/// Returns a square of dots around the origin, with Gaussian errors on the paper and in the image.
+/// Returns a square of dots around the origin, with Gaussian errors on the paper (`print_mm`) and
+/// in the image (`centre_px`).
 std::vector<calibrate::SpaceDot> dots_of(const View& view, int per_side, double spacing_mm,
                                          double print_mm, double centre_px, Rng& rng) {
     constexpr std::array<std::array<int, 2>, 4> kSteps = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
@@ -199,7 +200,8 @@ TEST(SpaceFit, HasTrueCovariancesForErrorsOfPrintAndImage) {
             const auto fit = calibrate::fit_space(
                 dots_of(view, 30, 0.5, noise.print_mm, noise.centre_px, rng), {600, 600});
             ASSERT_TRUE(fit);
-            // Rotation vector of the error in the camera frame, for small angles.
+            // The rotation vector of the error is in the camera frame, and is valid for small
+            // angles.
             const Matrix3 turn = product(transposed(rotation_of(fit->state)), view.rotation);
             const std::array error = {view.position_mm[0] - fit->state.position_mm.x(),
                                       view.position_mm[1] - fit->state.position_mm.y(),
@@ -219,8 +221,8 @@ TEST(SpaceFit, HasTrueCovariancesForErrorsOfPrintAndImage) {
 }
 
 TEST(SpaceFit, ReportsTheMirroredTiltOfANarrowView) {
-    // The view contains 15 x 15 dots and has an angle of 1 degree. The effect of perspective within
-    // this view is smaller than the noise.
+    // The view contains 15 x 15 dots and covers an angle of 1 degree. The effect of perspective
+    // within this view is smaller than the noise.
     const CameraLean lean{10 * kDegree_rad, 0.5, 1};
     const CameraLean mirrored{10 * kDegree_rad, 0.5 - pi, 1};
     int ambiguous = 0;
@@ -306,7 +308,6 @@ TEST(CameraLean, IsTurnThenLean) {
     }
 }
 
-/// Returns the camera file of a simulated camera.
 Camera camera_of(const CameraModel& model) {
     Camera camera;
     camera.width_px = model.width_px;

@@ -98,7 +98,8 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
     }
 }
 
-// Only one sheet is located in the whole image, and its fix contains only the dots of that sheet.
+// In the whole image, `locate` finds only one of the two sheets, and its fix uses only the dots of
+// this sheet.
 TEST(StitchSheets, FindsBothSheetsOfAPhotoWithWideMargins) {
     CameraModel model = wide_camera();
     model.width_px = 1000;
@@ -114,7 +115,7 @@ TEST(StitchSheets, FindsBothSheetsOfAPhotoWithWideMargins) {
     EXPECT_LT(off_mm(stitching.sheets[1].world.value(), table[1]), 0.05);
 }
 
-/// Returns frames over the upper seam only. They show the sheets a and b.
+/// Returns frames along the upper seam, which show the sheets a and b.
 FrameAt upper_seam(const Table& table, const CameraModel& model) {
     return [&](int i) {
         return table_frame(table, model, 65, i, kPage_mm + 0.5, 8 + 2.0 * i, 0.7 * i);
@@ -155,7 +156,8 @@ TEST(StitchSheets, OnlyAReferenceMakesPrintScalesTrue) {
     EXPECT_LT(off_mm(*by_width.sheets[1].world, table[1]), 0.02);
 }
 
-// Dots have the same printing error in all frames. Repeated frames therefore add no information.
+// All frames show the same dots, with the same printing errors. Repeated frames therefore add no
+// information.
 TEST(StitchSheets, FramesThatRepeatDotsDoNotMakeItMoreCertain) {
     const CameraModel model = wide_camera();
     const FrameAt seam = upper_seam(kTable, model);
@@ -189,7 +191,8 @@ TEST(DrawStitching, ShowsSheetsBeforeAndAfter) {
         return text.str();
     };
     EXPECT_THAT(picture(), HasSubstr("not all of these sheets had a world pose"));
-    // In the sheet file, the sheet is 1 mm to the right of its true place, or 0.71 mm rms per axis.
+    // In the sheet file, the sheet is 1 mm to the right of its true place. The error is 0.71 mm rms
+    // per axis.
     before[1].world =
         WorldPose{(kTable[1].x_mm + 1) / 1000, -kTable[1].y_mm / 1000, -kTable[1].turn_rad};
     EXPECT_THAT(picture(), testing::AllOf(HasSubstr(">Before<"), HasSubstr(">After<"),
@@ -205,15 +208,16 @@ TEST(StitchSheets, SaysWhichScalesTheFramesDoNotTell) {
     entries[1].print_scale_x = 1.002;
     const auto stitching = stitch_sheets(12, upper_seam(kTable, model), entries, camera, {});
     ASSERT_EQ(stitching.stitched.size(), 2U);
-    // The frames do not determine the ratio of the scales of the first sheet along its axes.
+    // The frames do not determine the ratio of the scales of the first sheet along its axes, so the
+    // scales are unknown.
     for (const StitchedSheet& sheet : stitching.stitched) {
         EXPECT_FALSE(is_scale_known(sheet.sigma_scale_x)) << sheet.name;
         EXPECT_FALSE(is_scale_known(sheet.sigma_scale_y)) << sheet.name;
     }
     EXPECT_NEAR(stitching.sheets[0].print_scale_x, 1, 1e-5);
     EXPECT_NEAR(stitching.sheets[0].print_scale_y, 1, 1e-5);
-    // The scale of the second sheet relative to the first is determined along the seam, and less
-    // accurately across the seam.
+    // The frames determine the scale of the second sheet relative to the first more accurately
+    // along the seam than across it.
     EXPECT_NEAR(stitching.sheets[1].print_scale_y, 1, 5e-4);
     EXPECT_NEAR(stitching.sheets[1].print_scale_x, 1, 2e-3);
     EXPECT_LT(off_mm(*stitching.sheets[1].world, kTable[1]), 0.05);

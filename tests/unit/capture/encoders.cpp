@@ -12,7 +12,6 @@ std::uint64_t number(int value) {
     return static_cast<std::uint64_t>(value);
 }
 
-/// Returns the samples of one row, packed into bytes.
 Bytes packed_row(const Raster& raster, int v, bool big_endian = true) {
     Writer row(big_endian);
     const int length = raster.width_px * raster.channels;
@@ -118,7 +117,7 @@ Bytes jpeg_scan(const Raster& raster) {
     return scan.finish();
 }
 
-/// An entry of a TIFF directory: shorts, or a single long.
+/// An entry of a TIFF directory. Its value consists of short integers, or is a single long integer.
 struct TiffEntry {
     std::uint64_t tag;
     std::uint64_t count;
@@ -236,7 +235,7 @@ Bytes encode_bmp(const Raster& raster, const Bytes& palette) {
 Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette) {
     constexpr std::uint64_t kDirectoryAt = 8;
     constexpr std::uint64_t kEntries = 10;
-    // The directory is followed by the bits of each channel, the palette and the pixels.
+    // The directory is followed by the number of bits of each channel, the palette and the pixels.
     constexpr std::uint64_t kBitsAt = kDirectoryAt + 2 + kEntries * 12 + 4;
     constexpr std::uint64_t kPaletteAt = kBitsAt + 8;
     const Bytes colours = tiff_palette(palette, big_endian);
@@ -246,7 +245,7 @@ Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette) {
     const auto channels = number(raster.channels);
     const auto bits = number(raster.bits);
     const std::uint64_t colour_space = !palette.empty() ? 3 : channels >= 3 ? 2 : 1;
-    TiffEntry last{296, 1, 2};  // a unit of length, which has no effect
+    TiffEntry last{296, 1, 2};  // unit of the resolution, which has no effect
     if (channels % 2 == 0) last = {338, 1, 2};
     if (!palette.empty()) last = {320, 768, kPaletteAt};
 

@@ -1,5 +1,5 @@
-/// Encoders of image files, written for the tests. The tests of the reader are therefore
-/// independent of the libraries that the reader uses.
+/// Encoders of image files. They are written for the tests, so that the tests of the reader do not
+/// depend on the libraries that the reader uses.
 #pragma once
 
 #include <cstdint>

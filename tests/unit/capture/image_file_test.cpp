@@ -34,8 +34,8 @@ class ImageFileTest : public testing::Test {
 
     std::filesystem::path write(const Bytes& bytes) const {
         auto path = directory / "image";  // no extension, because the reader must not depend on it
-        // Removes the file instead of truncating it. Some file systems flush truncated files, which
-        // made the test 10 times slower.
+        // Removes the file instead of truncating it, because some file systems flush a truncated
+        // file. The test would then be 10 times slower.
         std::filesystem::remove(path);
         std::ofstream(path, std::ios::binary)
             .write(reinterpret_cast<const char*>(bytes.data()),
@@ -344,7 +344,8 @@ TEST_F(ImageFileTest, scales_few_bits_in_16_by_the_bits_in_use) {
 }
 
 TEST_F(ImageFileTest, refuses_tiff_with_the_directory_cut) {
-    // Many writers put the directory at the end. Its last word refers to the next page.
+    // Moves the directory to the end of the file, as many writers do. Its last word refers to the
+    // next page.
     Bytes tiff = encode_tiff(kGrey, false);
     const std::size_t directory_bytes = 2 + 10 * 12 + 4;
     tiff.insert(tiff.end(), tiff.begin() + 8, tiff.begin() + 8 + directory_bytes);

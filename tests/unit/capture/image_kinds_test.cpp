@@ -47,12 +47,12 @@ Bytes bmp_with_masks(std::uint64_t bits, std::uint64_t compression,
 }
 
 TEST(BmpKinds, HaveFieldsOfBits) {
-    // Pictures with transparency as written by GIMP and ImageMagick: opaque red, and
+    // These pixels have transparency, as written by GIMP and ImageMagick: opaque red, and
     // half-transparent black.
     EXPECT_THAT(pixels_of(bmp_with_masks(32, 3, {0xFF0000, 0xFF00, 0xFF, 0xFF000000},
                                          {0xFFFF0000, 0x80000000})),
                 ElementsAre(76, 127));
-    // Pixels of five, six and five bits: white, and pure green.
+    // These pixels consist of five, six and five bits: white, and pure green.
     EXPECT_THAT(pixels_of(bmp_with_masks(16, 3, {0xF800, 0x07E0, 0x001F, 0}, {0xFFFF, 0x07E0})),
                 ElementsAre(255, 150));
     // Without masks, the fourth byte has no meaning.
@@ -66,7 +66,7 @@ TEST(BmpKinds, StartAtTheTopWhenTheHeightIsNegative) {
 }
 
 TEST(BmpKinds, HaveFewBitsAndTheHeaderOfOs2) {
-    // An image of 3 x 1 px with two colours of three bytes each: blue, and white.
+    // This image has 3 x 1 px, and two colours of three bytes each: blue and white.
     const Bytes file = Writer(false)
                            .text("BM")
                            .integers(4, {0, 0, 14 + 12 + 6, 12})
@@ -182,7 +182,7 @@ TEST_F(TiffKinds, HaveColoursThatAreMultipliedByTheirOpacity) {
 }
 
 TEST_F(TiffKinds, HaveFewBits) {
-    // The rows consist of bits. In fax encodings, 1 is black.
+    // Each sample is one bit. In fax encodings, 1 is black.
     const std::vector<std::uint16_t> bits(kHeight * kWidth / 16, 0xFF00);
     const auto fax = [](TIFF* tiff) {
         TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 1);
@@ -195,7 +195,6 @@ TEST_F(TiffKinds, HaveFewBits) {
     EXPECT_EQ(pixels[8], 0);
 }
 
-/// Returns a progressive JPEG of 64 x 64 px with varying grey levels.
 Bytes progressive_jpeg() {
     GreyImage image{{}, 64, 64};
     for (int v = 0; v < 64; ++v) {
@@ -211,7 +210,8 @@ TEST(JpegKinds, AreProgressive) {
     EXPECT_EQ(pixels_of(file).size(), 64U * 64U);
 }
 
-// If a scan that refines the pixels is missing, the file contains no trace of the missing scan.
+// Every cut must be refused, also between two scans, where the file contains no trace of the
+// missing scans.
 TEST(JpegKinds, AreRefusedWhereAScanIsMissing) {
     const Bytes file = progressive_jpeg();
     int refused = 0;

@@ -84,7 +84,6 @@ class PhoneFormatTest : public testing::TestWithParam<PhoneFormat> {
         return "";
     }
 
-    /// Returns an image of noise.
     static Raster noise() {
         std::mt19937 random(7);
         Raster raster{kWidth_px, kHeight_px, 1, 8, {}};

@@ -18,7 +18,6 @@ struct Options {
         app.add_flag("--json", is_json);
     }
 
-    /// Returns the message of the error, or "" if there was none.
     std::string parse_code(const std::string& value) {
         try {
             app.parse({value, "--code"});

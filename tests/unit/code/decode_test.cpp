@@ -22,7 +22,8 @@ constexpr std::uint32_t kSeed = 7998798;
 /// Initial value of `place`. A refused window must not change this value.
 constexpr Place kUntouched{{1, 2}, {3, 4}};
 
-/// Places modulo 241 at which 5 digits begin that also occur elsewhere in the a4 of libdots.
+/// Places in the a4 of libdots (modulo 241) at which the next 5 digits also occur elsewhere in this
+/// sequence.
 const std::set<std::uint32_t> kTwinPlaces{82,  238, 170, 236, 177, 237,
                                           195, 217, 198, 218, 199, 219};
 
@@ -97,7 +98,7 @@ TEST(Decode, RefusesRollsThatAreTooFewTooManyOrTooClose) {
                   Status::bad_window);
         EXPECT_EQ(position, 77U);
     }
-    for (const int outside : {0, 1, 4, 59, 62}) {  // differences run from 5 to 58
+    for (const int outside : {0, 1, 4, 59, 62}) {  // valid differences are 5 to 58
         auto spoilt = rolls;
         spoilt[4] = static_cast<std::uint8_t>((spoilt[3] + outside) % 63);
         EXPECT_EQ(position_from_rolls(CodeVariant::anoto, std::span(spoilt).first(6), position),
@@ -197,7 +198,7 @@ TEST(Decode, RefusesEveryChangedSymbolIn8x8) {
         const Place truth = random_place(rng);
         const Grid grid = reference_window(code, truth, 8, 8);
         for (std::size_t i = 0; i < grid.symbols.size(); ++i) {
-            for (int change = 1; change < 4; ++change) {  // x bit, y bit, both
+            for (int change = 1; change < 4; ++change) {  // flips the x bit, the y bit, or both
                 Grid spoilt = grid;
                 spoilt.symbols[i] = static_cast<Symbol>(static_cast<int>(grid.symbols[i]) ^ change);
                 Place place = kUntouched;

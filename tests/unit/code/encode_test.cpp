@@ -121,7 +121,7 @@ TEST(Encode, RollAtRandomPositionsIsTheCountedSum) {
     std::mt19937 rng(kSeed);
     for (const CodeVariant code : kCodeVariants) {
         for (int i = 0; i < 20'000; ++i) {
-            // A tenth of the positions are below L, the number of positions.
+            // A tenth of the random numbers are below L, the number of positions.
             const auto p = static_cast<std::uint32_t>(rng());
             const int expected = roll_by_counting(code, p);
             ASSERT_EQ(roll(code, p), expected) << "p " << p << " seed " << kSeed;
@@ -141,9 +141,10 @@ TEST(Encode, RollStepsByDeltaAcrossTheWrap) {
     }
 }
 
-// One full period adds 5 L plus the sum of w_i (L / length_i) (digit sum of a_i). Modulo 63, this
-// is 52 for the sequences of the patent, and 25 for the a4 of py-microdots. With or without the
-// misprint, the sum is 52, because the misprint drops a 1 and the published a4 has an additional 1.
+// Over one period of L positions, the roll increases by 5 L plus the sum of w_i (L / length_i)
+// (digit sum of a_i), where w_i is the weight of the sequence a_i. Modulo 63, this is 52 for the
+// sequences of the patent, and 25 for the a4 of py-microdots. The misprint does not change the sum,
+// because it drops a 1, and the published a4 has an additional 1.
 TEST(Encode, ThePatternContinuesPastTheLastPosition) {
     EXPECT_EQ(kPositionsPerAxis, kL);
     EXPECT_EQ(kL, 410'815'348U);

@@ -187,7 +187,7 @@ inline Grid turned(const Grid& grid) {
     return result;
 }
 
-/// Returns true if the window is at `place`, as the status ok promises.
+/// Returns true if `place` is valid, and the pattern shows the window there.
 inline bool shows(CodeVariant code, const Place& place, const Grid& grid) {
     return place.cell.x < kL && place.cell.y < kL && place.section.u < 63 && place.section.v < 63 &&
            reference_window(code, place, grid.columns, grid.rows) == grid;

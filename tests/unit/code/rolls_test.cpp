@@ -1,5 +1,5 @@
-// Tests the rolls of consecutive lines against rolls computed one by one and against a second
-// implementation.
+// Tests the rolls of consecutive lines against rolls that are computed individually, and against a
+// second implementation.
 #include "code/rolls.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::uint32_t kSeed = 50;
 
-/// Returns the rolls of `count` lines. The first roll is `first_roll`.
 std::vector<std::uint8_t> followed(CodeVariant code, std::uint32_t position, int first_roll,
                                    std::size_t count) {
     std::vector<std::uint8_t> rolls(count, 99);

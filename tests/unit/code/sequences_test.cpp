@@ -34,7 +34,8 @@ std::vector<std::string> main_strings(std::size_t length) {
     return strings_of(cycle, length);
 }
 
-/// Returns a4, the most significant digit of a difference: d = 5 + a1 + 3 a2 + 9 a3 + 18 a4.
+/// Returns the sequence a4. Its digits are the most significant digits of the differences d = 5 +
+/// a1 + 3 a2 + 9 a3 + 18 a4.
 std::string a4_of(CodeVariant code) {
     std::string cycle;
     for (std::uint32_t p = 0; p < 241; ++p) {
@@ -148,8 +149,9 @@ TEST(MainSequence, LongerStringsDifferInMorePlaces) {
     EXPECT_EQ(smallest_distance_to_turned(17), 2);
 }
 
-// The paper (II-B.7) states 36 %. Enumeration gives 8/21. One bit of a string of 8 bits is flipped,
-// and the nearest string of the main sequence is chosen, with ties broken at random.
+// Flips one bit of each string of 8 bits, and chooses the nearest string of the main sequence, with
+// ties broken at random. The paper (II-B.7) states that 36 % of these choices are right.
+// Enumeration gives 8/21.
 TEST(MainSequence, TheNearestStringIsTheRightOneIn38Percent) {
     const auto all = main_strings(8);
     double right = 0;

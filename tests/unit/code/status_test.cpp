@@ -54,7 +54,7 @@ TEST(Status, ValuesCountFromZero) {
     }
 }
 
-// Receivers in other languages use the numbers of this document.
+// Receivers in other languages use the numbers in docs/pose-packet.md.
 TEST(Status, NumbersAreThoseOfTheDocumentedPackets) {
     std::ifstream file(test::source_dir() + "/docs/pose-packet.md");
     const std::string text(std::istreambuf_iterator<char>(file), {});

@@ -1,5 +1,6 @@
-// Tests the table of unshared lines of places in other code variants against the rolls of the
-// reference implementation.
+// Two positions share a line at shift s if their rolls in this line differ by s. Tests the table of
+// the minimum number of lines that a place in another code variant does not share, against the
+// rolls of the reference implementation.
 #include "code/unshared_codes.hpp"
 
 #include <algorithm>

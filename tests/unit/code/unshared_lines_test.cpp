@@ -1,4 +1,6 @@
-// Tests the tables of unshared lines against numbers obtained by counting lines.
+// Two positions share a line at shift s if their rolls in this line differ by s. Tests the tables
+// of the minimum number of lines that another place does not share, against numbers obtained by
+// counting lines.
 #include "code/unshared_lines.hpp"
 
 #include <algorithm>
@@ -29,9 +31,9 @@ Lines max_equal(const std::array<int, kMaxLines>& offsets, std::size_t lines, bo
     return most;
 }
 
-/// Returns the minimum numbers of lines that another place of the sequence does not share. The
-/// first number is for a single shift. The second number is for two shifts, on the two sides of a
-/// border.
+/// Returns the minimum number of lines that another place of the sequence does not share. The first
+/// number is for a single shift of all lines. The second number is for two shifts, one on each side
+/// of a border.
 Unshared counted(const Secondary& a, std::uint32_t place, std::size_t lines) {
     std::size_t max_at_one = 0;
     std::size_t max_on_both = 0;
@@ -66,8 +68,9 @@ TEST(UnsharedLines, AreAsCounted) {
 
 using Counts = std::array<int, kMaxCounted>;
 
-/// Returns, at index n - 1, the number of other positions of one sequence that leave exactly n
-/// lines unshared. A position counts once for every shift at which it shares a line.
+/// Element n - 1 of the result is the number of other positions of one sequence that do not share n
+/// of the lines, but share the rest. A position counts once for every shift at which it shares a
+/// line.
 Counts counted_by_unshared(const Secondary& a, std::uint32_t place, std::size_t lines) {
     Counts counts{};
     for (std::uint32_t other = 0; other < a.length; ++other) {

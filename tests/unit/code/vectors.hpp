@@ -9,7 +9,7 @@
 
 namespace dotpose::code_test {
 
-/// The 8 x 8 letters of the window with its top left symbol at `place`.
+/// A window of 8 x 8 symbols, with its top left symbol at `place`.
 struct CodeVector {
     CodeVariant code;
     Place place;

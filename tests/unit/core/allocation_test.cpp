@@ -18,7 +18,7 @@ thread_local int allocations = 0;
 
 void* counted(std::size_t size, std::size_t alignment) {
     ++allocations;
-    // aligned_alloc needs a multiple of the alignment.
+    // aligned_alloc requires a size that is a multiple of the alignment.
     const std::size_t whole = (size + alignment - 1) / alignment * alignment;
     void* memory = std::aligned_alloc(alignment, whole == 0 ? alignment : whole);
     if (memory == nullptr) throw std::bad_alloc();
@@ -68,8 +68,8 @@ std::vector<GreyImage> frames_of(int width_px, int height_px) {
     return frames;
 }
 
-/// Returns the number of allocations while locating all frames in all ways. Adds the number of
-/// fixes to `fixes`.
+/// Locates all frames with all combinations of options. Returns the number of allocations, and adds
+/// the number of fixes to `fixes`.
 int allocations_of(const std::vector<GreyImage>& frames, Locator& locator, int& fixes) {
     int counted = 0;
     for (const GreyImage& frame : frames) {

@@ -32,8 +32,8 @@ inline void fill(GreyImage& image, int u0, int v0, int u1, int v1, int level) {
     }
 }
 
-/// Returns the fraction of a Gaussian with deviation `sigma` about `centre` that is on the pixel at
-/// `u`.
+/// Returns the fraction of a Gaussian with standard deviation `sigma` about `centre` that is on the
+/// pixel at `u`.
 inline double gaussian_share(int u, double centre, double sigma) {
     const double scale = sigma * std::numbers::sqrt2;
     return 0.5 * (std::erf((u + 0.5 - centre) / scale) - std::erf((u - 0.5 - centre) / scale));
@@ -58,7 +58,7 @@ inline void darken(GreyImage& image, Vec2 centre, double sigma, double depth) {
     }
 }
 
-/// Thresholds in a column of the last measured band: low and high.
+/// The low and the high threshold in a column of the last measured band.
 struct Levels {
     int low = 0;
     int high = 0;
@@ -97,7 +97,7 @@ inline std::vector<DetectedDot> blobs_of(const GreyImage& image) {
     return blobs_of(image, workspace);
 }
 
-/// Returns the distance to the nearest of some dots.
+/// Returns the distance from `place` to the nearest dot.
 inline double nearest_px(const std::vector<DetectedDot>& dots, Vec2 place) {
     double nearest = 1e9;
     for (const DetectedDot& dot : dots)

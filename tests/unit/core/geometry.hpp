@@ -113,8 +113,7 @@ inline std::vector<DetectedDot> dots_of(const std::vector<PlacedDot>& placed) {
     return dots;
 }
 
-/// Returns a displacement by a sixth of the spacing. Its direction is a random one of the four
-/// directions.
+/// Returns a displacement by a sixth of the spacing, in a random one of the four directions.
 inline Vec2 random_displacement(Rng& rng) {
     const auto symbol = static_cast<Symbol>(rng.below(4));
     return {dx(symbol) / 6.0, dy(symbol) / 6.0};
@@ -181,7 +180,7 @@ inline View random_view(Rng& rng) {
     return view;
 }
 
-/// The matrices P with their memory.
+/// A grid of the matrices P that owns its cells.
 struct OwnedGrid {
     explicit OwnedGrid(int side)
         : cells(static_cast<std::size_t>(side) * static_cast<std::size_t>(side)) {

@@ -5,7 +5,8 @@
 
 namespace dotpose::core_test {
 
-/// Computes the formula of PlaneFromImage from the numbers of the plane.
+/// Returns the pattern point of an image point according to the formula of PlaneFromImage, in
+/// double precision.
 inline Vec2 formula(const PlaneFromImage& plane, Vec2 p) {
     const Vec2 r = p - real(plane.centre_q8, 8);
     const Vec2 perspective = real(plane.perspective_q30, 30);

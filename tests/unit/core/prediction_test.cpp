@@ -1,4 +1,4 @@
-// Tests predictions that move with the camera against plane geometry in double precision.
+// Tests the motion of predictions with the camera against plane geometry in double precision.
 #include "dotpose/prediction.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// An ideal view of the pattern as the grid that the decoder receives.
+// Makes the grid that the decoder receives for an ideal view of the pattern.
 #pragma once
 
 #include <array>

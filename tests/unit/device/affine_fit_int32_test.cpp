@@ -39,8 +39,7 @@ AffineFitInt32 fit_of(const std::vector<Pair>& pairs) {
     return fit;
 }
 
-/// Value and slopes (per px) of one coordinate. Solves the normal equations relative to the mean of
-/// the points.
+/// Least-squares solution of one coordinate: its value at the centre, and its slopes per px.
 struct Solution {
     long double at_centre;
     long double du;
@@ -95,7 +94,8 @@ TEST(AffineFitInt32, IsTheLeastSquaresSolution) {
         EXPECT_NEAR(std::ldexp(plane.dv_q24.x, -24), static_cast<double>(x.dv), kSlope);
         EXPECT_NEAR(std::ldexp(plane.du_q24.y, -24), static_cast<double>(y.du), kSlope);
         EXPECT_NEAR(std::ldexp(plane.dv_q24.y, -24), static_cast<double>(y.dv), kSlope);
-        // The error of the slopes at the mean point adds to the error of the value at the centre.
+        // The value at the centre follows from the value at the mean point, so its error contains
+        // the error of the slopes.
         const double tolerance = 2.0 / 65536 + kSlope * 0.3 * reach;
         EXPECT_NEAR(real(plane.at_centre_q16, 16).x, static_cast<double>(x.at_centre), tolerance);
         EXPECT_NEAR(real(plane.at_centre_q16, 16).y, static_cast<double>(y.at_centre), tolerance);

@@ -12,7 +12,7 @@
 
 namespace dotpose::core_test {
 
-/// Conditions of a drawn rectangle.
+/// Size, orientation and errors of a drawn rectangle.
 struct Drawing {
     int columns = 6;
     int rows = 6;

@@ -16,7 +16,6 @@ namespace {
 /// The region of an A4 page.
 constexpr KnownRegion kSheet{CodeVariant::anoto, {}, {1024, 2048}, 393, 564};
 
-/// Draws a view of a sheet.
 Shot shot_on(const KnownRegion& sheet, int side_px, double spacing_px, std::uint64_t index) {
     Setup setup;
     setup.preset = Preset::nominal;

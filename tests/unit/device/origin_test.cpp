@@ -15,7 +15,6 @@ constexpr std::uint64_t kSeed = 26;
 constexpr Vec2 kImage_px{188, 120};
 constexpr Vec2 kCentre_px{93.5, 59.5};
 
-/// Returns the origin found from all dots.
 Vec2 origin_of(const std::vector<DetectedDot>& dots, const Mesh& mesh, Vec2 near_px) {
     std::vector<std::uint16_t> seeds(dots.size());
     std::iota(seeds.begin(), seeds.end(), std::uint16_t{0});
@@ -68,9 +67,10 @@ TEST(Origin, IsThatOfAPlainGrid) {
 }
 
 TEST(Origin, IsTheMeanOfDisplacedDots) {
-    // The 9 x 9 dots are displaced by 1/6 along one random axis, which is 0.12 rms per axis. Their
-    // mean is displaced by 0.013, or by 0.035 if only a dozen dots are in view. If the grid were
-    // found half a cell off, the error would be 0.5.
+    // Each of the 9 x 9 dots is displaced by 1/6 spacing along one random axis, which is 0.12
+    // spacings rms per axis. Their mean is displaced by 0.013 spacings, or by 0.035 spacings if
+    // only a dozen dots are in view. If the grid were found half a cell off, the error would be 0.5
+    // spacings.
     for_many_grids([](const Mesh& mesh, Rng& rng) {
         const auto dots = dots_of(
             placed_dots(mesh, 20, kImage_px, [&](int, int) { return random_displacement(rng); }));
@@ -95,8 +95,8 @@ TEST(Origin, BearsDotsThatAreMissingOrFalse) {
 }
 
 TEST(Origin, OnlyDotsAFewCellsAwayHaveASay) {
-    // At larger distances, the error of an axis that is slightly too long would add up to half a
-    // cell.
+    // If more distant dots were used, an axis that is slightly too long would cause errors of up to
+    // half a cell.
     for_many_grids([](const Mesh& mesh, Rng&) {
         const auto displaced_far_away = [](int i, int j) {
             return std::max(std::abs(i), std::abs(j)) <= 6 ? Vec2{} : Vec2{0.3, -0.3};

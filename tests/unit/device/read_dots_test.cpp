@@ -62,8 +62,8 @@ TEST(ReadDots, LooksAtAllCellsInView) {
         for (int j = 0; j < kMaxComparedLines; ++j) {
             for (int i = 0; i < kMaxComparedLines; ++i) {
                 const FixedVec at_q16 = place_q16(tracking.cells, i, j);
-                // Squares of 9 x 9 px around intersections, and of 5 x 5 px around dots, must be
-                // inside the image.
+                // A cell is read only if the square of 9 x 9 px around its intersection, and the
+                // squares of 5 x 5 px around its dots, are inside the image.
                 const auto is_in = [&](double at_px, double displaced_px, int side_px) {
                     const double corner = std::floor(at_px);
                     bool in = corner >= 4 && corner <= side_px - 5;

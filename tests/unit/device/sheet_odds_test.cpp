@@ -1,5 +1,5 @@
-// Tests the bound on the probability of a wrong place on known sheets against the sum of the odds
-// of all places one by one, in double precision.
+// Tests the upper bound on the probability that a place on known sheets is wrong, against a sum
+// over all places in double precision.
 #include "device/sheet_odds.hpp"
 
 #include <cmath>
@@ -16,7 +16,8 @@ namespace {
 using core::Axis;
 
 constexpr std::uint64_t kSeed = 4219;
-/// Larger than 63 columns and rows, so places at a distance of 63 have equal bits on one axis.
+/// A sheet with more than 63 columns and rows, so that places at a distance of 63 cells have equal
+/// bits on one axis.
 constexpr KnownRegion kSheet{CodeVariant::anoto, {3, 5}, {1000, 2000}, 140, 130};
 
 const core::KnownSheets kOnly{{&kSheet, 1}, OtherSheets::impossible};
@@ -73,7 +74,7 @@ TEST(SheetOdds, BoundIsAboveTheSumOverAllPlaces) {
         const double sum_log2 = std::log2(odds_of_others(block, corner));
         EXPECT_GE(fix.p_wrong_log2, sum_log2) << trial;
         // `chance` is the probability that random bits have at most `fix.bit_errors` errors at one
-        // place. The corner can have 4 * 145 * 135 places.
+        // place. There are 4 * 145 * 135 possible places of the corner.
         double chance = 0;
         double term = std::exp2(-2 * block.dots());
         for (int k = 0; k <= fix.bit_errors; ++k) {
@@ -97,8 +98,8 @@ TEST(SheetOdds, MoreDotsAreNeededIfOtherSheetsArePossible) {
     const int only_log2 = fix.p_wrong_log2;
     const core::KnownSheets possible{{&kSheet, 1}, OtherSheets::possible};
     is_certain(block, corner, possible, fix);
-    // An unknown sheet may have the same columns. Its rows can then have 3 positions. Each position
-    // agrees by chance with a probability of 2^-36.
+    // An unknown sheet may have the same columns. Its rows can then be at 3 positions, each of
+    // which agrees by chance with a probability of 2^-36.
     EXPECT_GE(fix.p_wrong_log2, -36);
     EXPECT_GT(fix.p_wrong_log2, only_log2);
 }

@@ -156,7 +156,7 @@ Place worst_alternative(Place place) {
             }
         }
     }
-    // The rolls of the rows must not change.
+    // The section along y is chosen so that the rolls of the rows do not change.
     const int row =
         code::roll_from(CodeVariant::anoto, place.cell.y, place.section.v, place.cell.x);
     alternative.section.v = static_cast<std::uint8_t>(

@@ -193,7 +193,7 @@ TEST_P(DrawTurned, letters_are_those_of_the_pattern) {
         const char expected = letter(symbol_at(pattern.code, place.cell, place.section));
         if (std::tolower(mark.letter) != expected) ++errors;
     }
-    // Misread dots, usually with one or two wrong bits each, are marked.
+    // The drawing marks misread dots. Most of them have one or two wrong bits.
     EXPECT_LE(errors, static_cast<std::size_t>(located.fix.bit_errors));
     EXPECT_LE(errors, 1U);
     EXPECT_EQ(count(symbols, "stroke=\"#d500f9\""), errors);
@@ -258,7 +258,7 @@ TEST(DrawFrame, says_why_there_is_no_fix) {
     EXPECT_THAT(svg, Not(HasSubstr(" mm<")));
 }
 
-// A phone photo with 12 million pixels and thousands of dots.
+// A phone photo has 12 million pixels and shows thousands of dots.
 TEST(DrawFrame, a_photo_stays_below_a_megabyte) {
     dotpose::Setup setup;
     setup.camera.width_px = 4032;
@@ -303,7 +303,7 @@ TEST(DrawFrame, escapes_the_title) {
 }
 
 TEST(DrawFrame, works_whatever_the_status) {
-    // A trace filled by a located frame, and an empty trace.
+    // The first trace was filled by a located frame, and the second trace is empty.
     Located full(render(clean_shot()));
     Located empty(render(clean_shot()));
     empty.trace = {};
@@ -373,7 +373,7 @@ TEST(DrawPath, shows_fixes_and_gaps) {
     EXPECT_EQ(count(group(svg, "lost"), "<circle"), 10U);
     EXPECT_EQ(count(group(svg, "errors"), "<circle"), 20U);
     EXPECT_EQ(count(group(svg, "error-bars"), "<line"), 20U);
-    EXPECT_THAT(svg, HasSubstr(">5.0 µm<"));  // hypotenuse of 3 and 4 µm
+    EXPECT_THAT(svg, HasSubstr(">5.0 µm<"));  // the hypotenuse of 3 and 4 µm
 }
 
 TEST(DrawPath, works_without_points_without_fixes_and_without_errors) {

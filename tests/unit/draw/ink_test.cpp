@@ -39,7 +39,7 @@ TEST(InkSvg, WithoutAPageContainsAllStrokes) {
             point.x_mm += 1e8;
     }
     const std::string svg = ink_svg(page);
-    // The strokes are 6 mm x 6 mm, and the margin is 5 mm.
+    // The strokes span 6 mm x 6 mm, and the margin is 5 mm.
     EXPECT_THAT(svg, HasSubstr(R"(width="16mm" height="16mm")"));
     EXPECT_THAT(svg, HasSubstr(R"(d="M5.0000 5.0000 L7.0000 8.0000")"));
 }
@@ -50,7 +50,7 @@ TEST(InkMl, HasTracesInTheNamespace) {
     EXPECT_THAT(ink, HasSubstr(R"(<ink xmlns="http://www.w3.org/2003/InkML">)"));
     EXPECT_THAT(ink, HasSubstr(R"(<trace contextRef="#page">1.0000 2.0000 500.000 0.00 0.00, )"
                                R"(3.0000 5.0000 505.000 0.00 0.00</trace>)"));
-    // A lean of 0.5 rad towards +x.
+    // The pen leans by 0.5 rad towards +x.
     EXPECT_THAT(ink, HasSubstr("7.0000 8.0000 1000.000 28.65 0.00</trace>"));
 }
 

@@ -69,12 +69,13 @@ TEST(sheet_map, shows_every_sheet_where_it_lies_with_y_up) {
     const auto& [straight, turned] = std::array{found[0], found[1]};
     const double per_m = (straight[1][0] - straight[0][0]) / 0.1;
     EXPECT_GT(per_m, 1000);
-    // Clockwise from the top left corner: right, down, left.
+    // The corners are in clockwise order, starting at the top left, so the steps are right, down
+    // and left.
     expect_step(straight[0], straight[1], 0.1 * per_m, 0);
     expect_step(straight[1], straight[2], 0, 0.05 * per_m);
     expect_step(straight[2], straight[3], -0.1 * per_m, 0);
-    // Rotated by 90 degrees counter-clockwise, the upper edge points up, and the page is to its
-    // right.
+    // This page is rotated by 90 degrees counter-clockwise, so its upper edge points up, and the
+    // page is to the right of this edge.
     expect_step(straight[0], turned[0], 0.2 * per_m, -0.1 * per_m);
     expect_step(turned[0], turned[1], 0, -0.1 * per_m);
     expect_step(turned[1], turned[2], 0.05 * per_m, 0);
@@ -105,7 +106,8 @@ TEST(sheet_map, shows_sheets_without_a_pose_beside_the_world) {
         for (std::size_t j = 1; j < i; ++j)
             EXPECT_NE(found[i][0], found[j][0]) << "one over the other";
     }
-    // At two metres from the origin, a page of 0.1 m would be too small to be visible next to it.
+    // On a map that contains the origin, which is two metres away, a page of 0.1 m would be too
+    // small to be visible.
     EXPECT_THAT(svg, Not(HasSubstr(R"(class="axis")")));
 }
 

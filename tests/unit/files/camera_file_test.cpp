@@ -205,8 +205,9 @@ TEST(CameraGeometry, TheScaleIsThatOfATiltedCamera) {
     const double f = model.working_distance_mm / model.mm_per_px;
     Camera camera;
     camera.centre_px = {93.5, 59.5};
-    // The axes of the paper's plane are (cy, sx sy, -cx sy) and (0, cx, sx). The divisor is 0 for
-    // rays perpendicular to the normal of the plane.
+    // With the sines and cosines sx, cx, sy and cy of the two tilts, the axes of the paper's plane
+    // are (cy, sx sy, -cx sy) and (0, cx, sx). The divisor is 0 for rays perpendicular to the
+    // normal of the plane.
     const double nx = std::sin(-0.2);
     const double ny = -std::sin(0.3) * std::cos(-0.2);
     const double nz = std::cos(0.3) * std::cos(-0.2);
@@ -334,8 +335,8 @@ TEST_F(CameraFile, AMissingFileIsToldWithTheReason) {
     EXPECT_EQ(error, "cannot read nothere.yaml: No such file or directory");
 }
 
-// Some drivers state this model for every camera. If its additional terms are zero, the model
-// equals plumb_bob.
+// Some drivers state the model rational_polynomial for every camera. If its additional terms are
+// zero, it equals plumb_bob.
 TEST_F(CameraFile, ARationalPolynomialWithoutItsOwnTermsIsPlumbBob) {
     const auto rational = [](const std::string& coefficients) {
         std::string text = kRos;

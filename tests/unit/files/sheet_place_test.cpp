@@ -15,9 +15,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Returns a sheet of 20 x 10 cells with a spacing of 0.5 mm. The first cell is 4 mm to the right
-/// of and 3 mm below the corner of the page. The last cell is therefore at (13.5, 7.5) mm. Margins
-/// of 6.5 and 2.5 mm follow.
+/// Returns a sheet of 20 x 10 cells with a spacing of 0.5 mm. The first cell is at (4, 3) mm from
+/// the corner of the page, so the last cell is at (13.5, 7.5) mm. Margins of 6.5 and 2.5 mm follow.
 SheetEntry small_entry(Cell origin) {
     SheetEntry entry;
     entry.name = "small";
@@ -95,8 +94,8 @@ TEST(find_sheet, a_margin_gives_way_to_the_neighbours_own_region) {
 
 TEST(find_sheet, the_margin_of_a_sheet_at_the_plane_s_corner_has_the_last_cells) {
     const std::vector<SheetEntry> sheets = {small_entry({0, 0})};
-    // The place is three cells to the left of and above the first cell, where the pattern continues
-    // in another section.
+    // The place is three columns to the left of the first cell and three rows above it, where the
+    // pattern continues in another section.
     const Place place = moved(CodeVariant::anoto, {{0, 0}, {10, 20}}, -3, -3);
     ASSERT_EQ(place.cell, (Cell{kPositionsPerAxis - 3, kPositionsPerAxis - 3}));
     Fix fix = fix_at(place.cell, 0.5, 0);
@@ -140,7 +139,7 @@ TEST(world_place, flips_y_and_turns_counter_clockwise) {
     SheetPlace place{&entry, 100, 200, 0};
     EXPECT_FALSE(world_place(place));
 
-    // The page is not rotated. The place is 100 mm to the right of and 200 mm below the corner.
+    // The page is not rotated. The place is 100 mm to the right of the corner, and 200 mm below it.
     entry.world = {5, 7, 0};
     auto pose = world_place(place);
     ASSERT_TRUE(pose);
@@ -184,7 +183,7 @@ TEST(world_place, half_a_turn_is_positive) {
     EXPECT_EQ(world_place({&entry, 0, 0, 0})->yaw_rad, kPi);
 }
 
-/// Returns a fix with a covariance in which every element has an effect.
+/// Returns a fix with a covariance in which no element is zero.
 Fix uncertain_fix() {
     Fix fix = fix_at({1010, 2003}, 0.5, 0.25, 0.7);
     constexpr float kCovariance[3][3] = {

@@ -14,7 +14,6 @@
 
 namespace {
 
-/// The input of the host, and its output.
 std::string input;
 std::string output;
 std::size_t taken = 0;

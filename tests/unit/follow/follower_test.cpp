@@ -68,7 +68,8 @@ TEST(Follower, TellsWhereTheRobotIsByItsCameraFile) {
         EXPECT_LT(turn_between(now.track.pose.theta_rad(), theta_rad + 30 * kDegree_rad), 0.01);
         tracked += fix.attempt == Attempt::tracked ? 1 : 0;
     }
-    // The mount also applies to predictions, so the pattern is found at the predicted positions.
+    // The predictions also take the mount into account, so the pattern is found at the predicted
+    // positions.
     EXPECT_GE(tracked, kFrames - 3);
     EXPECT_FALSE(follower.is_in_world());
 }
@@ -89,7 +90,7 @@ TEST(Follower, SinglyAndInASequenceImagesGiveThePlaceOnTheSheet) {
         EXPECT_EQ(alone.place->entry->name, "floor");
         EXPECT_TRUE(alone.code_is_given);
         EXPECT_DOUBLE_EQ(alone.spacing_mm, kDefaultSpacing_mm);
-        // The position of the camera, relative to the first intersection of the sheet.
+        // This is the position of the camera relative to the first intersection of the sheet.
         const double x_mm = kPivot_x_mm + std::cos(1.0) * kCameraOnRobot_mm.x -
                             std::sin(1.0) * kCameraOnRobot_mm.y -
                             options.sheets[0].sheet.origin.x * kDefaultSpacing_mm;
@@ -138,8 +139,8 @@ TEST(Follower, AReferencePointReplacesThatOfTheCameraFile) {
     options.reference_px = PixelPoint{(model.width_px - 1) / 2.0, (model.height_px - 1) / 2.0};
     const Fix fix = Follower(options).locate(image).fix;
     ASSERT_EQ(fix.status, Status::ok);
-    // The distance from the image centre to the robot's centre is the distance of the camera on the
-    // robot.
+    // The fix refers to the image centre. Its distance from the robot's centre is the distance at
+    // which the camera is mounted.
     EXPECT_NEAR(std::hypot(fix.x_mm() - kPivot_x_mm, fix.y_mm() - kPivot_y_mm),
                 std::hypot(kCameraOnRobot_mm.x, kCameraOnRobot_mm.y), 0.01);
 }

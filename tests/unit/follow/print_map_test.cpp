@@ -1,4 +1,4 @@
-// Maps of simulated prints, and fixes corrected by them.
+// Tests maps of simulated prints, and fixes that are corrected by these maps.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 namespace dotpose::test {
 namespace {
 
-/// Side of a page on which few frames see each dot several times.
+/// Side of the page. It is so small that kFrames frames show each dot several times.
 constexpr double kSide_mm = 30;
 constexpr int kFrames = 100;
 
-/// The map of a print with jitter and a feed wave, made once.
+/// The map of a print with jitter and a feed wave, which is computed once for all tests.
 class PrintMapping : public ::testing::Test {
   protected:
     static void SetUpTestSuite() {
@@ -116,7 +116,7 @@ TEST_F(PrintMapping, UsesTheViewOfACameraFile) {
     EXPECT_LE(test.with.absolute_um(), 0.2);
 }
 
-/// The map of such a print hardly changes the residuals of a frame, but moves its fix by microns.
+/// Without jitter, the map hardly changes the residuals of a frame, but moves its fix by microns.
 TEST(PrintMapOfAPrintWithoutJitter, IsUsed) {
     const MappedPrint print({.side_mm = kSide_mm, .jitter_mm = 0});
     const MapTest test = test_map(print, map_of(print, kFrames).map, 20);

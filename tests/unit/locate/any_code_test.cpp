@@ -39,7 +39,7 @@ TEST_F(AnyCodeTest, GivenAProfileAllIsAsItWas) {
         for (std::uint64_t i = 0; i < 12; ++i) {
             SCOPED_TRACE(i);
             const GreyImage image = render(draw_shot(setup_of(preset), i));
-            // The content of the memory has no effect.
+            // Fills the memory with other data, which must have no effect.
             static_cast<void>(
                 Locator(*memory_, DeviceOptions{}).locate_in_any_code(image.view(), {}));
             const Fix fix = Locator(*memory_, DeviceOptions{}).locate_in_code(image.view()).fix;

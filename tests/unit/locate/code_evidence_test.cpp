@@ -11,7 +11,7 @@ namespace dotpose {
 namespace {
 
 constexpr Cell kPlace{1000, 2000};
-/// Maximum amount by which the evidence of a place is rounded down, in 2^-8 of log2.
+/// Maximum amount by which the evidence of a place is rounded down, as log2 with 8 fractional bits.
 constexpr int kRounding = 24;
 /// Returns the log odds of a frame that makes `code` less likely by `log2` bits.
 CodeEvidence::LogOdds against(CodeVariant code, int log2) {
@@ -78,9 +78,9 @@ TEST(CodeEvidence, FramesAgainstEachOtherCancelOut) {
     EXPECT_EQ(evidence.log2_q8(CodeVariant::anoto), evidence.log2_q8(CodeVariant::libdots));
 }
 
-// Overlapping views of the same bits. Each bit is 1 with a probability of 1/2 in the true code
-// variant, and of 3/4 in the other code variants. Each bit in view therefore multiplies the odds of
-// the other code variants by 1.5 or by 0.5.
+// Simulates overlapping views of the same bits. Each bit is 1 with a probability of 1/2 in the true
+// code variant, and of 3/4 in the other code variants. Each bit in view therefore multiplies the
+// odds of the other code variants by 1.5 or by 0.5.
 TEST(CodeEvidence, IsSeldomMuchAgainstTheTruth) {
     constexpr std::size_t kBits = 40;
     constexpr std::size_t kSeen = 25;

@@ -14,7 +14,6 @@ constexpr std::uint64_t kSeed = 4242;
 /// The region of an A4 page.
 constexpr KnownRegion kSheet{CodeVariant::anoto, {}, {1024, 2048}, 393, 564};
 
-/// Draws a view of the sheet.
 Shot shot_on_sheet(const ShotSize& size, std::uint64_t index) {
     Shot shot = shot_of(size, kSeed, index);
     Rng rng(shot.seed, 1);

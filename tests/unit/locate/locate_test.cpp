@@ -214,7 +214,7 @@ TEST(Locate, SmallAndLargeMemoryGiveTheSameFix) {
 }
 
 TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
-    // Frames of other sizes and failures in between have no effect.
+    // Frames of other sizes and failures in between must have no effect.
     const auto used_memory = std::make_unique<LargeMemory>();
     Locator used(*used_memory, DeviceOptions{});
     const GreyImage big = render(shot_of({.width_px = 640, .height_px = 480}, kSeed, 3));
@@ -352,7 +352,7 @@ TEST(Locate, ALensIsUndone) {
 }
 
 // The second attempt measures dots at the places given by the code, including dots that are not
-// blobs.
+// blobs. These dots must also be counted as seen.
 TEST(Locate, UsesNoMoreDotsThanItSaw) {
     SmallMemory memory;
     int by_second = 0;

@@ -184,7 +184,7 @@ Fix pushed(const GreyImage& image, const LocatorOptions& options) {
     return locator.finish();
 }
 
-/// A way to locate a frame with options.
+/// A function that locates a frame with the given options.
 using Way = std::function<Fix(const GreyImage&, const LocatorOptions&)>;
 
 /// Expects that an attempt locates a frame if the minimum contrast is a third of the contrast of

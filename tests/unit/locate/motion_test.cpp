@@ -38,7 +38,7 @@ Shot moved_shot(const Shot& shot, const MeasuredMotion& motion) {
     return next;
 }
 
-/// Draws the motion of about half a view of `view_mm`, in any direction.
+/// Draws a motion by half of `view_mm` in any direction.
 MeasuredMotion draw_motion(double view_mm, Rng& rng) {
     const double direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
     MeasuredMotion motion;
@@ -170,7 +170,8 @@ TEST_F(FramesReadTogether, AWrongMotionGivesNoWrongFix) {
     EXPECT_EQ(located, 0);
 }
 
-// Frames without a pattern between the views of a series increase only the distance.
+// Frames without a pattern between the views of a series must have no effect except that the motion
+// adds up.
 TEST_F(FramesReadTogether, FramesWithoutAPatternAreSkipped) {
     constexpr ShotSize kSize{.width_px = 80, .height_px = 80};
     int located = 0;

@@ -60,8 +60,8 @@ TEST(SecondAttempt, DotsThatFallOnThePixelsAlikeAreNotBiased) {
                         .read({}, core::SecondAttempt::Resampling::if_doubtful));
         const Fix fix = w.fix;
         EXPECT_EQ(fix.attempt, Attempt::second);
-        // Without correction of the bias, the error would be up to 0.01, which is 50 standard
-        // deviations.
+        // Without correction of the bias, the error would be up to 0.01 spacings, which is 50
+        // standard deviations.
         EXPECT_LT(std::abs(fix.x_grid() - x_grid(shot.pose)), 5 * std::sqrt(fix.covariance[0][0]));
         EXPECT_LT(std::abs(fix.y_grid() - y_grid(shot.pose)), 5 * std::sqrt(fix.covariance[1][1]));
     }

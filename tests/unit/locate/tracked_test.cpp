@@ -32,7 +32,7 @@ Prediction true_prediction(const Shot& shot) {
     plane.at_centre_q16 = fixed({shot.pose.fraction_x, shot.pose.fraction_y}, 16);
     plane.du_q24 = fixed(0.5 * (at(1, 0) - at(-1, 0)), 24);
     plane.dv_q24 = fixed(0.5 * (at(0, 1) - at(0, -1)), 24);
-    // Along x, at(x, 0) = du x / (1 + tilt x).
+    // Along x, at(x, 0) = du x / (1 + tilt x). The tilt therefore follows from two opposite points.
     constexpr double kFar_px = 50;
     const auto tilt = [](Vec2 ahead, Vec2 behind) {
         const double a = length(ahead);

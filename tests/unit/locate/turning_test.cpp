@@ -1,5 +1,5 @@
-// Tests frames of a rolling shutter in which the scene turns while the rows are read. The frames
-// are fresh frames, and drives with predictions from the last fix.
+// Tests frames of a rolling shutter in which the scene turns while the rows are read: single
+// frames, and drives with predictions from the last fix.
 #include <cmath>
 #include <numbers>
 
@@ -88,7 +88,7 @@ TEST(Turning, TheFixOfAStillSceneHasNoTurn) {
     }
 }
 
-constexpr int kIntervals = 2;  ///< frame interval, in readouts
+constexpr int kIntervals = 2;  ///< frame interval, in units of the readout time
 
 /// A camera on a robot that drives in a circle.
 struct Drive {

@@ -28,7 +28,7 @@ class TemporaryDirectory {
 std::string read_file(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, const std::string& content);
 
-/// A page with 1 bit per pixel, as read by a reader of its format.
+/// A page with 1 bit per pixel, as read from its file.
 struct Bitmap {
     int width_px = 0;
     int height_px = 0;

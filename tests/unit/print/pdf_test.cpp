@@ -169,7 +169,7 @@ TEST(labels, stay_clear_of_the_dots) {
 TEST(labels, are_left_out_where_there_is_no_room) {
     const Sheet sheet = make_sheet(small_page(2));
     EXPECT_THAT(content_of_labels(sheet, {1, 1}, named()), Not(HasSubstr("Tj")));
-    const Sheet wider = make_sheet(small_page(5));  // a single line, so there is no command
+    const Sheet wider = make_sheet(small_page(5));  // a single line without the command
     const std::string content = content_of_labels(wider, {1, 1}, named());
     EXPECT_THAT(content, HasSubstr("page 1 of 1"));
     EXPECT_THAT(content, Not(HasSubstr("dotpose print")));

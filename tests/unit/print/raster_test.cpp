@@ -66,7 +66,8 @@ void expect_exact_dots(const Bitmap& page, const Sheet& sheet, int scale) {
             }
         }
     }
-    // All expected pixels are different. If the numbers are equal, the page has no other pixels.
+    // The expected pixels are all different, so equal numbers mean that the page contains no other
+    // ink.
     EXPECT_EQ(page.count_ink(), sheet.columns * sheet.rows * static_cast<int>(shape.size()));
 }
 
@@ -86,8 +87,8 @@ TEST(write_raster, fills_whole_printer_pixels_with_the_default_spacing) {
 }
 
 TEST(write_raster, first_letters_are_those_of_the_code) {
-    // The symbols "dddurddl" of the test vector at (217, 1134). The vector is independent of
-    // `symbol_at`.
+    // The page contains the symbols "dddurddl" of the test vector at (217, 1134). The vector is
+    // independent of `symbol_at`.
     const Bitmap page = print_and_read(small_sheet(), "page.png", 300);
     const Pixels expected = {{0, 1}, {0, 1}, {0, 1}, {0, -1}, {1, 0}, {0, 1}, {0, 1}, {-1, 0}};
     for (std::size_t i = 0; i < expected.size(); ++i) {

@@ -174,7 +174,7 @@ TEST(Dot, BlurAndMotionWidenItAsTheyShould) {
     EXPECT_NEAR(dot.variance_u, still + 1.8 * 1.8 / 12, 0.01);
 }
 
-// Two poses see the same cell. The error of the dot's place on the paper must be the same.
+// The same cell is seen from two poses. The error of the dot's place on the paper must be the same.
 TEST(Dot, PrintingErrorsBelongToThePage) {
     Imperfections seen;
     seen.blur_sigma_px = 0.5;

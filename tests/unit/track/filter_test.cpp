@@ -22,7 +22,7 @@ constexpr std::int64_t kFrame_us = 5000;
 constexpr double kFrame_s = 0.005;
 constexpr double kPi = std::numbers::pi;
 
-using Pose = std::array<double, 3>;  ///< position in mm, mm, and angle in rad
+using Pose = std::array<double, 3>;  ///< x and y in mm, and the angle in rad
 
 std::int32_t bam(double angle_rad) {
     return static_cast<std::int32_t>(
@@ -88,8 +88,8 @@ std::array<double, 6> solved(const Covariance9& covariance, std::array<double, 6
 }
 
 /// A robot that moves as the filter assumes for an agility of 1. Its accelerations have the
-/// deviations in TrackOptions. They decrease by 1 % (0.5 / 0.505) per frame, and are constant
-/// within a frame.
+/// standard deviations in TrackOptions. They decrease by 1 % (0.5 / 0.505) per frame, and are
+/// constant within a frame.
 struct ModelRobot {
     explicit ModelRobot(Rng& rng) {
         pose[2] = rng.uniform(-kPi, kPi);
@@ -263,7 +263,7 @@ TEST(Filter, IsNotThrownByASightingThatIsOff) {
         const double x_mm = frame == 200 ? 0.1 : 0;
         const Sighting sighting =
             at(frame, disturbed({x_mm, 0, 0}, 0.001, rng), round_covariance(0.001));
-        // 0.1 mm per frame would be 20 mm/s.
+        // A motion of 0.1 mm per frame would be a speed of 20 mm/s.
         EXPECT_NEAR(tracker.update(sighting.time_us, &sighting).pose.vx_mm_s, 0, 3) << frame;
     }
 }

@@ -63,7 +63,7 @@ TEST(FramePacer, TakesEveryFrameOfAMovingDevice) {
 
 TEST(FramePacer, TakesAFrameASecondAfterFiveSecondsOfRest) {
     Device device;
-    // A device at rest, with noise of 0.01 spacings.
+    // The device is at rest, with noise of 0.01 spacings.
     device.run_until(65 * kSecond_us, [](std::int64_t t) {
         return at(100 + (t / kFrame_us % 2 == 0 ? 0.01 : -0.01));
     });
@@ -127,7 +127,7 @@ TEST(FramePacer, AddsUpWhatASlowDeviceCreeps) {
     device.run_until(600 * kSecond_us,
                      [](std::int64_t t) { return at(100 + static_cast<double>(t) / 60e6); });
     const auto moving = std::ranges::count(device.motions, Motion::moving);
-    // In 5 s of every 7 s, there are 50 frames per second.
+    // For 5 s of every 7 s, the device takes 50 frames per second.
     EXPECT_GT(moving, 60 * 240);
     EXPECT_GT(std::ranges::count(device.motions, Motion::stationary), 60);
 }

@@ -1,4 +1,4 @@
-// Tests trackers that also use the measured motion between frames, from odometry.
+// Tests trackers that also use odometry, which is the measured motion between frames.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -101,7 +101,8 @@ double relative_error(const TrackedPose& pose, bool is_y_up) {
 
 class TrackMotion : public testing::TestWithParam<bool> {};
 
-// The robot drives for a second over the pattern and for three seconds over a table.
+// The robot drives for a second over the pattern, and for three seconds over a table without a
+// pattern.
 TEST_P(TrackMotion, OdometryCarriesThePoseAcrossAGap) {
     const bool is_y_up = GetParam();
     constexpr int kDrives = 200;
@@ -129,8 +130,8 @@ TEST_P(TrackMotion, OdometryCarriesThePoseAcrossAGap) {
         EXPECT_GT(sum / (3 * kDrives), 0.8);
         EXPECT_LT(sum / (3 * kDrives), 1.25);
     }
-    // 600 steps with errors of 0.01 mm give 0.24 mm. The errors of their rotations, 0.012 rad in
-    // total, displace the robot further.
+    // 600 steps with independent errors of 0.01 mm add up to a standard deviation of 0.24 mm. The
+    // errors of their rotations, 0.012 rad in total, displace the robot further.
     EXPECT_GT(sigma_mm, 0.24);
     EXPECT_LT(sigma_mm, 1.5);
 }
@@ -149,8 +150,8 @@ TEST(TrackMotionLost, ARobotIsLostWhenItsOdometryIsTooUncertain) {
         tracker.update(t, nullptr, odometry_until(t, false, rng));
         if (tracker.track().events.lost) lost_us = t;
     }
-    // 100 steps with errors of 0.01 mm give 0.1 mm. With the errors of the rotation, the limit is
-    // reached earlier.
+    // After 100 steps with independent errors of 0.01 mm, the standard deviation is 0.1 mm, which
+    // is the limit. Because of the errors of the rotation, the limit is reached earlier.
     EXPECT_GT(lost_us, 20 * kFrame_us);
     EXPECT_LT(lost_us, 102 * kFrame_us);
 }

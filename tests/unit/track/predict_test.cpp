@@ -73,8 +73,8 @@ Pose driving(std::int64_t time_us) {
     return {5000 + driven * std::cos(kPi / 6), 7000 + driven * std::sin(kPi / 6), 0.4 + 3 * t};
 }
 
-/// Returns the sighting in a world with y up, whose x axis is the x axis of the pattern rotated by
-/// 2 rad.
+/// Returns the sighting of a pose in a world with y up. The x axis of the world is the x axis of
+/// the pattern, rotated by 2 rad.
 Sighting in_world(const Pose& pose, std::int64_t time_us) {
     constexpr double kYaw_rad = 2;
     Sighting sighting = sighting_of(fix_at(pose), time_us);
@@ -190,7 +190,7 @@ TEST(TrackerPredict, ExpectsNothingWhereTheFilterDoesNot) {
     robot.sighting = sighting_of(robot.fix, 0);
     expect_as_seen(robot.predict(kFrame_us), robot.fix);  // the tracker has no sighting yet
     robot = drive(200'000, driving);
-    expect_as_seen(robot.predict(200'000), robot.fix);  // the time of the newest frame
+    expect_as_seen(robot.predict(200'000), robot.fix);  // at the time of the newest frame
     expect_as_seen(robot.predict(100'000), robot.fix);
     // 70 ms after the last sighting, the robot counts as lost.
     expect_as_seen(robot.predict(270'000), robot.fix);

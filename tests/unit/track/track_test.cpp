@@ -74,7 +74,7 @@ TEST(Tracker, StartsLostAndBelievesTheFirstFix) {
 
 TEST(Tracker, FollowsConstantVelocityAndTurnsPastHalfATurn) {
     Tracker tracker;
-    drive(tracker, 0, 4'000'000);  // 8 rad, more than a full turn
+    drive(tracker, 0, 4'000'000);  // turns by 8 rad, which is more than a full turn
     const TrackedPose& pose = tracker.track().pose;
     const double s = 3.995;
     EXPECT_NEAR(pose.vx_mm_s, 100, 0.01);

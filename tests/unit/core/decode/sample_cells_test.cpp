@@ -75,7 +75,7 @@ TEST(SampleCells, ReadsTheBitsOfACleanFrame) {
         sampled.visit([&](const GridCell& cell, Vec2 at, Bits bits, Symbol symbol) {
             SCOPED_TRACE(testing::Message()
                          << "view " << i << " at " << at.x << ", " << at.y << ", seed " << kSeed);
-            // Bits are unknown where all places of the dot are outside the image.
+            // Bits are unknown where all four possible places of the dot are outside the image.
             const double outside = view.spacing_px / 6 + 1;
             if (at.x < -outside || at.y < -outside || at.x > view.image_px.x - 1 + outside ||
                 at.y > view.image_px.y - 1 + outside) {

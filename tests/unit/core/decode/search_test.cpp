@@ -84,11 +84,10 @@ TEST(ScoreLines, TellsByHowMuchTheBestOfEachLineLeads) {
 }
 
 TEST(FindAxis, FindsThePositionAmongWrongBits) {
-    // The search succeeds in two cases. In the first case, some run has the correct roll among the
-    // best rolls of each line. In the second case, the steps have the correct place among the best
-    // places of each sequence. Longer lines tolerate more wrong bits. With 12 rows and every fifth
-    // bit wrong, only half of the windows are found. In principle, 240 bits with 0.28 bits of
-    // information each would suffice to distinguish all 4e8 * 63 hypotheses.
+    // The search finds the position if some run of lines has the correct roll among the best rolls
+    // of each of its lines, or if the correct place is among the best places of each sequence.
+    // Longer lines tolerate more wrong bits. For example, with 12 rows and every fifth bit wrong,
+    // only half of the windows are found.
     for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::microdots}) {
         EXPECT_GE(found_of_200(code, 12, 0.08), 198) << "seed " << kSeed;
         EXPECT_GE(found_of_200(code, 20, 0.12), 198) << "seed " << kSeed;
@@ -97,7 +96,7 @@ TEST(FindAxis, FindsThePositionAmongWrongBits) {
 }
 
 TEST(FindAxis, HoldsForThePublishedCode) {
-    // Runs of this code have eight lines.
+    // In this code, eight consecutive lines are necessary to determine a position.
     EXPECT_EQ(found_of_200(CodeVariant::libdots, 12, 0), 200) << "seed " << kSeed;
     EXPECT_GE(found_of_200(CodeVariant::libdots, 12, 0.05), 198) << "seed " << kSeed;
     EXPECT_GE(found_of_200(CodeVariant::libdots, 30, 0.2), 198) << "seed " << kSeed;
@@ -160,9 +159,9 @@ TEST(FindAxis, RandomBitsAreNotInTheCodeOrScoreLow) {
         ScoredWindow lines = window(CodeVariant::anoto, random_place(rng), 20, 12, 0.5, rng);
         AxisReading reading;
         if (lines.find(CodeVariant::anoto, reading) == Status::not_in_code) continue;
-        // A line of random bits agrees with its best roll in 9 or 10 of 12 bits. The 6 lines of the
-        // selected run reach this score. The other 14 lines score 0 on average. Selecting the best
-        // of 15 runs increases the score slightly.
+        // A line of 12 random bits agrees with its best roll in 9 or 10 bits. Only the 6 lines of
+        // the selected run reach this score, because the other 14 lines score 0 on average. The
+        // best of 15 runs scores slightly more than an average run.
         EXPECT_FALSE(reading.is_clear()) << i << ", seed " << kSeed;
         EXPECT_LT(reading.score, reading.max_possible * 7 / 10) << i << ", seed " << kSeed;
     }

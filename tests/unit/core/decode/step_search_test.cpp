@@ -1,5 +1,5 @@
-// Tests the search for the position from all steps between lines, if no run of lines determines the
-// position.
+// Tests the search that uses the steps between all neighbouring lines. It is necessary if no run of
+// lines determines the position.
 #include "core/decode/step_search.hpp"
 
 #include <gtest/gtest.h>

@@ -11,8 +11,8 @@ namespace {
 
 using namespace core;
 
-/// Returns paper of one level with dark squares of 2 x 2 px every 8 px, in the rows that tiles
-/// measure.
+/// Returns an image of uniform paper with dark squares of 2 x 2 px every 8 px. The squares are in
+/// rows in which the tiles are measured.
 GreyImage dotted(int width_px, int height_px, int paper, int ink) {
     GreyImage image = blank(width_px, height_px, paper);
     for (int v = 2; v + 2 <= height_px; v += 8) {
@@ -139,7 +139,9 @@ TEST(AdaptiveThreshold, ADefectPixelIsHalfAsDarkAsInk) {
         for (const int width : {1, 2}) {
             GreyImage image = blank(120, 80);
             fill(image, u, 34, u + width, 35, 20);
-            // The ink is 180 levels darker than the paper, and also lowers the mean of its tile.
+            // The contrast of a tile is measured with pairs of adjacent pixels, of which the first
+            // is in an even column. The ink is 180 levels darker than the paper, so the contrast of
+            // a pair with one dark pixel is about 90.
             for (const int min_contrast : {70, 100}) {
                 int dark_tiles = 0;
                 for_each_band(image, {.min_contrast = min_contrast}, w.threshold, [&](int) {

@@ -21,8 +21,8 @@ constexpr std::uint64_t kSeed = 22;
 constexpr double kWorstShift_px = 0.25;
 constexpr double kUsualShift_px = 0.11;
 
-/// Returns an image of a picture, drawn from (u0, 30). Each letter other than '.' is a square of
-/// ink of 2 x 2 px.
+/// Returns an image with a picture, whose top left corner is at (u0, 30). Each letter other than
+/// '.' is a square of ink of 2 x 2 px.
 GreyImage drawn(std::initializer_list<std::string_view> picture, int u0 = 30) {
     GreyImage image = blank(96, 80);
     int v = 30;
@@ -237,7 +237,8 @@ TEST(Blobs, NoMoreRunsAreLookedAtThanTheWorkspaceSays) {
         w.open.max_runs = rows * 20;
         EXPECT_EQ(static_cast<int>(blobs_of(image, w).size()), rows * 10);
     }
-    // If a row has more runs than the table can hold, the remaining dots end in this row.
+    // The first three rows of dots have 60 runs. The other five runs are at the top of five dots in
+    // the fourth row.
     w.open.max_runs = 3 * 20 + 5;
     EXPECT_EQ(blobs_of(image, w).size(), 35u);
 }
@@ -331,7 +332,7 @@ TEST(Blobs, RandomPixelsFormTheSetsThatFloodingFinds) {
     }
 }
 
-/// Dots of one size with some blobs of other sizes, and the dots that the filter keeps.
+/// The list after the size filter, and the number of dots that the filter keeps.
 struct Sifted {
     std::vector<DetectedDot> dots;
     int count = 0;

@@ -53,8 +53,9 @@ TEST(ReadoutTurn, SeparatesTheRotationFromTheMotion) {
 }
 
 TEST(ReadoutTurn, ThePlaneOfASquareGridShowsTheDrift) {
-    // A grid with a spacing of 10 px, turned by 30 degrees. The image shows its point p at p + row
-    // drift. The inverse of this map has the columns du and dv.
+    // A grid with a spacing of 10 px, turned by 30 degrees, in a drifting scene. The scene point p
+    // appears at p + v drift in the image, where v is the image row. du and dv are the columns of
+    // the map from the image to the grid.
     const float c = std::sqrt(0.75F) / 10;
     const float s = 0.5F / 10;
     const core::FloatVec drift{0.2F, -0.3F};

@@ -1,4 +1,4 @@
-// Tests sums over boxes against sums over their pixels.
+// Tests the sums of the levels in boxes against sums over single pixels.
 #include "core/detect/level_sums.hpp"
 
 #include <gtest/gtest.h>

@@ -21,7 +21,7 @@ struct Set {
     bool passes_high = false;
 };
 
-/// Compares pixels with the thresholds of their tiles.
+/// Results of comparing each pixel with the thresholds of its tile.
 struct Marked {
     std::vector<char> is_dark;
     std::vector<char> is_below_high;
@@ -111,7 +111,8 @@ void expect_sets(const GreyImage& image) {
 }
 
 TEST(PixelSets, AreThoseDarkerThanTheirTilesLevel) {
-    // Random grey levels, including levels one step from the threshold, in uneven light.
+    // The grey levels are random, and include levels one step from the threshold. The light is
+    // uneven.
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         const int width = 64 + static_cast<int>(rng.below(260));

@@ -50,8 +50,9 @@ TEST(Smooth, SinglePixelsVanish) {
         const GreyImage found = smoothed(image);
         for (int v = 0; v < 120; ++v) {
             for (int u = 0; u < 188; ++u) {
-                // A bright pixel is 55 levels above the paper. It raises the mean of the
-                // surroundings, at least 5 x 5 pixels, by up to 55 / 25 levels.
+                // A bright pixel is 55 levels above the paper. It raises the mean of its
+                // surroundings by up to 55 / 25 levels, because the surroundings contain at least 5
+                // x 5 pixels.
                 ASSERT_NEAR(found.view().row(v)[u], kNormalLevel, 3) << u << ", " << v;
             }
         }
@@ -101,9 +102,9 @@ TEST(Smooth, AGradientOfTheLightBecomesEven) {
                 ASSERT_NEAR(found.view().row(v)[u], kNormalLevel, 2) << u << ", " << v;
             }
         }
-        // Less than 4 px from the border, the border cuts off a part of the surroundings. The
-        // middle of the remaining part is up to 2 px from the pixel. The slope therefore changes
-        // the mean.
+        // At less than 4 px from the border, a part of the surroundings is outside the image, and
+        // the middle of the remaining part is up to 2 px from the pixel. The mean of this part
+        // differs from the level at the pixel, because of the slope.
         expect_even(found, 5);
     }
 }

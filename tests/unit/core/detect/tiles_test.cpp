@@ -1,4 +1,4 @@
-// Tests the measurement of tiles, on noise, against a simple reference computation.
+// Tests the measurement of tiles in images of noise against a simple reference computation.
 #include "core/detect/tiles.hpp"
 
 #include <algorithm>
@@ -15,9 +15,9 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 71;
 
-/// Returns the mean of every fourth row. Also returns the minimum mean of two adjacent pixels in
-/// these rows, where the first pixel is in an even column. Rows extend past the last column of the
-/// image.
+/// Returns the mean over every fourth row of the tile, and the minimum mean of two adjacent pixels
+/// in these rows, where the first pixel is in an even column. The rows extend past the last column
+/// of the image, to the end of the last tile.
 Tile expected_tile(const AdaptiveThreshold& threshold, int band, int tile) {
     const int begin = band_begin(threshold, band);
     const int end = band_end(threshold, band);

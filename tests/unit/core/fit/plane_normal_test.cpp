@@ -83,13 +83,13 @@ TEST(ScaledPlane, ChangesAsItsDerivativesTell) {
             const Vec2 change =
                 (1 / (2 * static_cast<double>(kStep))) * (formula(scaled(plane).changed(more), px) -
                                                           formula(scaled(plane).changed(less), px));
-            // The derivative with respect to the lens term, kBend, neglects tilt and shear.
+            // The derivative with respect to the lens term, kBend, neglects tilt and shear, so its
+            // tolerance is larger.
             const double most = k == kBend ? 0.15 : 0.002;
             ASSERT_NEAR(derivatives[0][k], change.x, most);
             ASSERT_NEAR(derivatives[1][k], change.y, most);
         }
-        // `changed` is also exact for a large change of the tilt, because a tilt in the pattern is
-        // a tilt in the image.
+        // `changed` is exact even for a large change of the tilt.
         const Vec2 place = formula(seen, px) - formula(seen, {});
         const double by = 1 + (0.3 * place.x - 0.2 * place.y) / 9;
         const auto unit = scaled(plane).scale();
@@ -133,7 +133,7 @@ TEST(ScaledPlane, DistortionsAreWhatMakesItDifferFromAPlainCamera) {
     EXPECT_NEAR(plain.du_y, -plain.dv_x, 2e-5);
 }
 
-/// Places of many points, with residuals caused by a known step.
+/// Normal equations of many points. The change `step` of the parameters causes all residuals.
 struct Problem {
     static constexpr int kPoints = 150;
     PlaneNormal normal;

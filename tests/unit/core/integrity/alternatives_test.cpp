@@ -80,10 +80,10 @@ TEST(Alternatives, FewLinesExcludeNone) {
 
 using Odds = std::array<float, kSections>;
 
-/// Returns the expected sum of the odds of all alternatives that differ in two or more sequences.
-/// `first` and `second` are the odds of two adjacent lines at each roll offset. Enumerates every
-/// digit of every sequence that differs. The first line of the reading is at `position`. The result
-/// is multiplied once by `factor`, for the step between the lines.
+/// Returns the expected sum of the odds of all alternatives that differ in two or more sequences,
+/// for two adjacent lines. `first` and `second` are the odds of these lines at each roll offset.
+/// The first line of the reading is at `position`. Enumerates every digit of every sequence that
+/// differs. The result is multiplied by `factor`, once for the step between the lines.
 double two_lines(std::uint32_t position, const Odds& first, const Odds& second, double factor) {
     constexpr std::array<int, 4> kBases{3, 3, 2, 3};
     const auto texts = code_test::secondary_texts(CodeVariant::anoto);

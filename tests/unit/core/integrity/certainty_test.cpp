@@ -77,9 +77,9 @@ TEST(IsCertain, AcceptsWhatIsClearlyRead) {
     }
 }
 
-/// Returns a block that two alternatives explain equally well. In the columns where the two
-/// alternatives differ, half of the distinguishing bits agree with one alternative, and half with
-/// the other.
+/// Returns a block that its own place and an alternative explain equally well. In the columns where
+/// they differ, half of the distinguishing bits agree with the own place, and half with the
+/// alternative.
 Block between(const Block& block, const std::vector<int>& own,
               const std::vector<int>& alternative) {
     Block mixed = block;
@@ -125,7 +125,7 @@ TEST(IsCertain, RefusesWhatAnAlternativeExplainsAsWell) {
         }
         ASSERT_FALSE(worst.empty());
         IntegrityOptions options;
-        // The number of errors alone must not cause a refusal.
+        // Disables the limit of bit errors, so that only the alternatives can cause a refusal.
         options.max_bit_error_q8 = 256;
         without_errors += judge(block, block.place, options).is_certain;
         EXPECT_FALSE(judge(between(block, own, worst), block.place, options).is_certain);

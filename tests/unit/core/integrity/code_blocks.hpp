@@ -1,4 +1,4 @@
-// Cuts blocks of the code with known damage, and sums exactly over their alternatives.
+// Blocks of the code with known damage, and exact sums over their alternatives.
 #pragma once
 
 #include <algorithm>
@@ -74,8 +74,8 @@ inline int contradictions(const Block& block, bool is_x, const std::vector<int>&
     return wrong;
 }
 
-/// Returns the rolls of the lines of an axis after two changes of the rolls. One sequence is
-/// `further` digits ahead of its place at the position, and all rolls are increased by `shift`.
+/// Returns the rolls that the lines of an axis would have if one sequence were `further` digits
+/// ahead, and all rolls were increased by `shift`.
 inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequence, int further,
                                  int shift) {
     const Place& p = block.place;

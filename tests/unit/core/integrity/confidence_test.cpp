@@ -53,11 +53,11 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
     for (const int bits : {100, 400, 3000}) {
         for (const int wrong : {0, 1, 5, 20}) {
             SCOPED_TRACE(testing::Message() << wrong << " wrong of " << bits);
-            // The fraction of wrong bits is 1 / (1 + odds).
+            // The fraction of wrong bits is 1 / (1 + odds). The estimate allows for two additional
+            // errors.
             const double expected = std::log2(bits / (wrong + 2.0) - 1);
-            // Weights are quantised in steps of 8, and the exponential is accurate to 2 %. The
-            // tolerance is 0.1 of a power of two, plus 3 % of the exponent for the middle of the
-            // heaviest step.
+            // Weights are quantised in steps of 8, which changes the largest weights by up to 3 %.
+            // The exponential is accurate to 2 %, and 0.1 is the tolerance for this error.
             EXPECT_NEAR(odds_per_bit_q8(confidence(bits, 127, wrong)) / 256.0, expected,
                         0.1 + 0.03 * expected);
         }
@@ -65,8 +65,8 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
 }
 
 TEST(OddsPerBit, GrowWithTheWeightOfWhatIsRight) {
-    // Weak bits that are correct imply even higher odds for bits of full weight, in proportion to
-    // the weights.
+    // If the same fraction of bits with half the weight is wrong, log2 of the odds of a bit with
+    // full weight is about twice as large.
     const double full = odds_per_bit_q8(confidence(1000, 124, 50));
     const double half = odds_per_bit_q8(confidence(1000, 60, 50));
     EXPECT_GT(half, 1.7 * full);
@@ -85,7 +85,8 @@ TEST(OddsPerBit, FallWithTheWrongWeight) {
     const auto odds_of = [](int wrong) { return odds_per_bit_q8(confidence(400, 127, wrong)); };
     for (int wrong = 0; wrong < 400; ++wrong) {
         ASSERT_LE(odds_of(wrong + 1), odds_of(wrong)) << wrong;
-        // Odds are computed to 2^-5, and decrease by at least 2^-6 per bit in this range.
+        // log2 of the odds is accurate to 2^-5, and decreases by at least 2^-6 per wrong bit in
+        // this range.
         if (wrong < 150) {
             ASSERT_LT(odds_of(wrong + 3), odds_of(wrong)) << wrong;
         }

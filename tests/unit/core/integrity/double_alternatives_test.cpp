@@ -1,4 +1,5 @@
-// Tests the odds of double alternatives against a sum over all of them in double precision.
+// Tests the odds of double alternatives (positions that differ in two sequences) against a sum over
+// all of them in double precision.
 #include "core/integrity/double_alternatives.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,8 @@ using namespace core;
 constexpr std::uint64_t kSeed = 46;
 constexpr int kLines = 9;
 constexpr int kOdds_q8 = 3 * 256;
-/// Minimum of the sum: each of the 190,027 pairs of places counts at least 2^-64 at each shift.
+/// Minimum of the sum, because each of the 190,027 pairs of places counts at least 2^-64 at each
+/// shift.
 constexpr double kFloor = 190'027.0 * 63 * 0x1p-64;
 
 /// Lines that agree with a position. The rolls of the position have the score 1000. All other rolls

@@ -1,5 +1,5 @@
-// Tests the expected odds of double alternatives against a sum over every digit of every pair of
-// places in double precision.
+// Tests the expected odds of double alternatives (positions that differ in two sequences) against a
+// sum in double precision over every digit of every pair of places.
 #include "core/integrity/expected_double_alternatives.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,8 @@ constexpr std::array<int, 4> kBases{3, 3, 2, 3};
 using ByAnchors = std::array<double, kMinFound>;
 
 /// Adds the odds of the alternatives with these roll offsets, at each of the 63 shifts, to `sums`.
-/// The number of shared anchors, which are the first `anchors` lines by rank, selects the sum.
+/// Alternatives that share n anchors are added to sums[n]. The anchors are the first `anchors`
+/// lines by rank.
 void add_alternative(const RatiosCase& c, const RankedLines& lines, int anchors,
                      const std::array<int, kLines>& offsets, double weight, ByAnchors& sums) {
     for (int first = 0; first < 63; ++first) {

@@ -1,5 +1,4 @@
-// Tests the search for places on known sheets against a search over all places one by one, in
-// double precision.
+// Tests the search for places on known sheets against an exhaustive search in double precision.
 #include "core/integrity/known_places.hpp"
 
 #include <cmath>
@@ -202,7 +201,7 @@ TEST(KnownPlaces, OverlappingSheetsHaveTheSamePlace) {
         const auto best = core::find_known_place(core::kernels(), block, sheets);
         return best ? wrong_at(block, sheets, *best) : 1;
     };
-    // Each of the two sheets has about as many other places as one sheet.
+    // Two sheets have about twice as many other places as one sheet.
     const float once = wrong_on({&kSheet, 1});
     const float twice = wrong_on(std::array{kSheet, right});
     EXPECT_GT(twice, once);

@@ -120,7 +120,7 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanThereIs) {
     EXPECT_GT(settled, 80);
 }
 
-/// Returns the odds of all alternatives that differ in one sequence, one by one.
+/// Returns the sum of the odds of all alternatives that differ in one sequence.
 double single_odds(const LikelihoodRatios& ratios) {
     double sum = 0;
     for (std::size_t k = 0; k < ratios.basis.size(); ++k) {
@@ -160,8 +160,8 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSingleAlternatives) {
 }
 
 /// Returns the expected odds of one set of far alternatives in double precision (docs/integrity.md,
-/// the quick estimate). The odds consist of the odds of alternatives that share a run of lines, and
-/// the odds of all other alternatives.
+/// the quick estimate). They are the sum of the odds of alternatives that share a run of lines with
+/// the reading, and of the odds of all other alternatives.
 double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
     const auto power = [](int log2_q8) { return std::exp2(log2_q8 / 256.0); };
     const double equal = power(set.equal_q8 + kUnevenness_q8);
@@ -185,7 +185,7 @@ double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
 }
 
 /// The estimate is an upper bound for any certainty of the reading and any limit. With this small
-/// number of lines, the other sets have about the odds of the first set.
+/// number of lines, all sets have about equal odds, so the test would detect a missing set.
 TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSetsOfFarAlternatives) {
     Rng rng(11);
     int doubtful = 0;

@@ -21,8 +21,8 @@ RatiosCase random_case(int lines, CodeVariant code, Rng& rng) {
     return c;
 }
 
-/// Returns the minimum loss over all patterns of shared lines (one bit each) with at most
-/// `max_shared` consecutive shared lines.
+/// Returns the minimum loss over all patterns of shared lines with at most `max_shared` consecutive
+/// shared lines. A pattern has one bit per line, which is set if the line is shared.
 int min_loss_of_patterns(const std::vector<int>& losses, int max_shared) {
     int least = INT32_MAX;
     for (std::uint32_t shared = 0; shared < 1U << losses.size(); ++shared) {

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 52;
 
-/// Returns the places in the sequence `text` at which line 0 can be. The `digits` digits after line
-/// `run` must equal those of the reading, whose line 0 is at place `own`.
+/// Returns the places of line 0 in the sequence `text` for which the `digits` digits after line
+/// `run` equal those of the reading. In the reading, line 0 is at place `own`.
 std::vector<std::uint32_t> places_with_digits(const std::string& text, std::uint32_t own, int run,
                                               int digits) {
     const auto digit = [&](std::uint32_t place, int n) {

@@ -54,7 +54,7 @@ double sum_of_singles(const RatiosCase& c) {
                     lost += c.storage[line].scores[static_cast<std::size_t>(c.rolls[line])] -
                             c.storage[line].scores[static_cast<std::size_t>(other)];
                 }
-                // A lost score is twice the weight of the bits that change sign.
+                // The loss of score is twice the weight of the bits that change sign.
                 if (shares) sum += std::exp2(-lost / 2 / 127 * c.odds_q8 / 256);
             }
         }
@@ -83,8 +83,9 @@ TEST(QuickAlternatives, CountAllThatDifferInOneSequence) {
 }
 
 TEST(QuickAlternatives, CountWhatSharesTheOnlyLinesThatSayMuch) {
-    // An alternative may share five consecutive lines, or seven lines in `libdots`. Here, only four
-    // to nine consecutive lines are certain, so an alternative may share nearly all certain lines.
+    // An alternative may share five consecutive lines with the reading, or seven lines in
+    // `libdots`. Here, only four to nine consecutive lines are certain, so an alternative may share
+    // nearly all certain lines.
     Rng rng(kSeed);
     int told = 0;
     for (int i = 0; i < 400; ++i) {
@@ -155,8 +156,7 @@ TEST(QuickAlternatives, FewLinesOrWeakOddsDoNotTell) {
         c.storage.push_back(scored_line(own, 12, 0, 127, rng));
     c.odds_q8 = 8;
     EXPECT_EQ(quick_alternatives_log2_q8(c.ratios()), 0);
-    // With odds of 2^8 for a bit of full weight, the alternatives in the same lines have almost no
-    // odds.
+    // With odds of 2^8 for a bit of full weight, the odds of the alternatives are negligible.
     c.odds_q8 = 8 * 256;
     EXPECT_LT(quick_alternatives_log2_q8(c.ratios()), -30 * 256);
 }

@@ -69,7 +69,7 @@ inline RatiosCase read_at_random(Rng& rng, int lines) {
     return c;
 }
 
-/// The place of a position in each sequence.
+/// Places in the four sequences that belong to one position.
 using PlacesOfAlternative = std::array<std::uint32_t, 4>;
 
 inline PlacesOfAlternative own_places(const RatiosCase& c) {
@@ -99,8 +99,8 @@ inline std::vector<int> rolls_from(const RatiosCase& c, const PlacesOfAlternativ
     return rolls;
 }
 
-/// Returns the odds of a position with these rolls, relative to the reading, but at least 2^-64,
-/// because smaller odds count as 2^-64.
+/// Returns the odds of a position with these rolls, relative to the reading. Odds below 2^-64 count
+/// as 2^-64.
 inline double odds_of_rolls(const RatiosCase& c, const std::vector<int>& rolls) {
     double lost = 0;
     for (std::size_t line = 0; line < rolls.size(); ++line) {

@@ -1,4 +1,5 @@
-// Tests seam alternatives against a sum over all places, borders and shifts in double precision.
+// Tests the odds of seam alternatives, which have different shifts on the two sides of a border,
+// against a sum over all places, borders and shifts in double precision.
 #include "core/integrity/seam_alternatives.hpp"
 
 #include <algorithm>
@@ -78,7 +79,7 @@ Sum sum_of_all(const RatiosCase& c) {
         for (std::size_t border = 1; border < c.rolls.size(); ++border) {
             const double lost = min_loss(c, alternative, 0, border) +
                                 min_loss(c, alternative, border, c.rolls.size());
-            // A lost score is twice the weight of the bits that change sign.
+            // The loss of score is twice the weight of the bits that change sign.
             const double odds = -lost / 2 / 127 * c.odds_q8 / 256;
             if (odds <= kMinLog2) continue;
             sum.odds += std::exp2(odds + kSeamLog2);

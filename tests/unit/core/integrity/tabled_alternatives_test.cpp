@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 83;
 
-/// Returns the odds of all alternatives that differ in one sequence and share a line, one by one.
+/// Returns the sum of the odds of all alternatives that differ in one sequence and share a line
+/// with the reading.
 double exact_sum(const LikelihoodRatios& ratios, std::size_t sequence) {
     double sum = 0;
     for (std::uint32_t place = 0; place < ratios.basis[sequence].length; ++place) {
@@ -28,7 +29,8 @@ double exact_sum(const LikelihoodRatios& ratios, std::size_t sequence) {
         set_roll_offsets(ratios, sequence, place, offsets);
         const auto end = offsets.begin() + ratios.count();
         for (auto shared = offsets.begin(); shared != end; ++shared) {
-            // Shared lines at the same shift belong to the same alternative.
+            // All lines that are shared at one shift belong to the same alternative, which is
+            // counted once.
             if (std::find(offsets.begin(), shared, *shared) != shared) continue;
             int lost = 0;
             for (int line = 0; line < ratios.count(); ++line)

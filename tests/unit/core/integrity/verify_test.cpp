@@ -52,7 +52,7 @@ TEST(Verify, CountsEveryBitThatContradicts) {
         IntegrityOptions any;
         any.max_p_wrong_log2 = 0;
         Verdict quick_before = judge(reading, any, verify_quickly);
-        // The x bits of the grid are flipped one after the other.
+        // Flips x bits of the grid one after another.
         int flipped = 0;
         for (GridCell& cell : reading.owned.cells) {
             if (cell.dot == GridCell::kNoDot || flipped == bits / 4) continue;
@@ -60,12 +60,12 @@ TEST(Verify, CountsEveryBitThatContradicts) {
             ++flipped;
             const Verdict now = judge(reading);
             ASSERT_EQ(now.fix.bit_errors, flipped);
-            // Additional contradictions never make a position more certain, unless they cause the
-            // exact sums to be computed.
+            // Additional contradictions must not make a position more certain, unless they cause
+            // the exact sums to be computed.
             const Verdict quick = judge(reading, any, verify_quickly);
             ASSERT_EQ(quick.fix.bit_errors, flipped);
             // Below 2^-36 on either axis, the quick estimate is coarse, and both values are
-            // rounded.
+            // rounded. Values below 2^-34 are therefore not compared.
             constexpr int kCoarse = -34;
             ASSERT_GE(std::max(quick.fix.p_wrong_log2, kCoarse),
                       std::max(quick_before.fix.p_wrong_log2, kCoarse) - 1);
@@ -179,7 +179,7 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
     }
 }
 
-/// Returns a difficult view: it is small, and dots are missing, displaced, or have another symbol.
+/// Returns a difficult view: it is small, and dots are missing, displaced, or have a wrong symbol.
 Reading troubled(Rng& rng, int turn) {
     View view = random_view(rng);
     view.code = kCodeVariants[static_cast<std::size_t>(rng.below(3))];
@@ -291,7 +291,7 @@ TEST(Verify, ACloserLookCertifiesWhatAQuickOneCannot) {
         EXPECT_LE(close.fix.p_wrong_log2, quick.fix.p_wrong_log2);
         more += quick.status != Status::ok && close.status == Status::ok;
         if (close.status != Status::ok) continue;
-        // The smaller of two upper bounds is an upper bound.
+        // `verify` reports the smaller of two upper bounds: the exact sums, and the quick estimate.
         const double exact = exact_p_wrong(reading);
         EXPECT_GE(close.fix.p_wrong_log2, std::min<double>(exact, quick.fix.p_wrong_log2) - 0.1);
     }

@@ -95,8 +95,8 @@ TEST(WeighOtherCodes, SumsUpPlacesAlongBothAxes) {
             const OtherCode& there = others.of[static_cast<std::size_t>(other)];
             EXPECT_NEAR(static_cast<double>(there.here()) / (x_here * y_here), 1, 0.06);
             EXPECT_GE(static_cast<double>(there.elsewhere()), 0.94 * exact);
-            // Unlikely places are not summed individually. Each unlikely place contributes an upper
-            // limit of its odds. The sum may exceed the exact sum by these limits.
+            // Unlikely places are not summed individually, but counted with an upper bound of their
+            // odds. The sum may therefore exceed the exact sum.
             const double most = x_here + x_elsewhere + y_here + y_elsewhere;
             EXPECT_LE(static_cast<double>(there.elsewhere()), 1.06 * exact + 2e-12 * most + 4e-13);
             close += exact > 1e-9 ? 1 : 0;

@@ -195,10 +195,10 @@ TEST(KernelsAlternatives, ExpectationsHaveTheSameBitsInEachForm) {
 /// alternative has the digits of the reading and the roll offset 0.
 using OddsByRun = std::array<std::array<double, 66>, 63>;
 
-/// Calls `use(shift, are_equal)` for every choice of digits at one step, in those sequences `k` and
-/// above that are in the bit set `different`. The first argument is the change of the roll modulo
-/// 63. The second argument is true if all digits equal those of the reading. `shift` and
-/// `are_equal` are the values for the sequences below `k`.
+/// Calls `use` for every choice of digits at one step in the sequences of the bit set `different`,
+/// from sequence `k` on. Its first argument is the change of the roll modulo 63. Its second
+/// argument is true if all digits equal those of the reading. `shift` and `are_equal` are the
+/// values of these arguments for the sequences below `k`.
 void visit_digits(const OwnPlaces& places, unsigned different, std::size_t line, std::size_t k,
                   int shift, bool are_equal, const auto& use) {
     if (k == 4) return use((shift + 63 * 63) % 63, are_equal);

@@ -111,12 +111,13 @@ TEST(KernelsWindows, CentresAreFoundWhereDotsAre) {
     repeat_with_each_form(200, [](const Kernels& kernels, Rng& rng) {
         constexpr double kMargin_px = 2;
         const double sigma_px = rng.uniform(0.7, 4);
-        // A smaller window would contain little more than the top of the dot. After rounding to
-        // whole grey levels, the top is flat.
+        // A smaller window would contain little more than the top of the dot, which is flat after
+        // rounding to whole grey levels.
         const auto reach_px = static_cast<float>(rng.uniform(std::max(3.3, 2.5 * sigma_px), 12));
         const auto anywhere = [&] { return rng.uniform(20, OneDot::kSide_px - 21); };
         const auto at_border = [&] { return rng.uniform(kMargin_px, kMargin_px + 1); };
-        // A large dot at the border would be only partly in view.
+        // Only small dots are drawn at the border, because a large dot would be only partly in
+        // view.
         const bool is_inside = sigma_px > 0.8 || rng.below(2) == 0;
         const double u = is_inside ? anywhere() : at_border();
         const double v = anywhere();
@@ -267,8 +268,8 @@ TEST(KernelsWindows, LightThatFallsOffMovesNoCentres) {
 
 TEST(KernelsWindows, AShadowThatEndsMovesNoCentresBesideItsEdge) {
     repeat_with_each_form(20, [](const Kernels& kernels, Rng& rng) {
-        // The edge is between the second and the third column of dots, outside all centroid
-        // windows.
+        // The edge between dark and light paper is between the second and the third column of dots,
+        // outside all centroid windows.
         expect_no_common_error(kernels, rng, 3.3F,
                                [&](double u, double /*v*/) { return u < 40 ? 90 : 200; });
     });
@@ -276,7 +277,8 @@ TEST(KernelsWindows, AShadowThatEndsMovesNoCentresBesideItsEdge) {
 
 TEST(KernelsWindows, PredictedDotsAreReadByTheDarkestPlace) {
     repeat_with_each_form(40, [](const Kernels& kernels, Rng& rng) {
-        // The dot is below the intersection at (40, 40), which is symbol 3. The grid is upright.
+        // The dot is displaced downwards from the intersection at (40, 40), which is symbol 3. The
+        // grid is upright.
         const OneDot dot(40, 41.8, 1, 0);
         CellsInView view = dot.cells;
         view.plane = {0, 0, 1 / 11.0F, 0, 0, 1 / 11.0F, 0, 0, 0};

@@ -125,7 +125,7 @@ struct Picture {
     }
 };
 
-/// Measured dots with their memory.
+/// Measured dots and the memory that contains them.
 class DotTable {
   public:
     explicit DotTable(int capacity) {

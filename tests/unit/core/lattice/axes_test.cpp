@@ -60,9 +60,9 @@ TEST(Axes, AreFoundAtAnyAngleAndSpacing) {
             EXPECT_NEAR(std::remainder(degrees(found.v) - degrees(found.u) - 90, 360), 0, 1e-6);
         }
     }
-    // Displacements change an edge by up to a third of its length, but half of the edges have no
-    // displacement along or across them. The refinement starts from 4 cells, over which an error of
-    // 5 % is 1/5 cell.
+    // Displacements change an edge by up to a third of its length, so the axes have an error of
+    // some percent. The refinement starts with dots up to 4 cells away, where an error of 5 % is
+    // 1/5 cell.
     const auto worst = [](std::vector<double>& errors, double share) {
         std::sort(errors.begin(), errors.end());
         return errors[static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1))];
@@ -80,8 +80,8 @@ TEST(Axes, AreNearlyExactWithoutDisplacements) {
         const auto dots = dots_of(placed_dots(mesh, 20, image, [](int, int) { return Vec2{}; }));
         Lattice lattice;
         ASSERT_EQ(axes_of(edges_of(dots, image), lattice), Status::ok) << angle;
-        // The axes are made 4 % longer, because the nearest neighbours of displaced dots are closer
-        // than a spacing.
+        // The stage lengthens the axes by 4 %, because the nearest neighbours of displaced dots are
+        // closer than a spacing.
         EXPECT_NEAR(length(mesh_of(lattice).u), 11 * 1.043, 0.05) << angle;
         EXPECT_NEAR(std::remainder(degrees(mesh_of(lattice).u) - angle, 90), 0, 0.2) << angle;
     }

@@ -176,7 +176,8 @@ TEST(Neighbours, SeedsAreTheDotsNearestTheCentre) {
 }
 
 TEST(Neighbours, AMixedUpCrowdAtTheCentreStillGivesSeeds) {
-    // More dots than seeds have the same distance. Some of them are chosen.
+    // 500 dots have the same distance from the centre. This is more than the maximum number of
+    // seeds, so only some of these dots are chosen.
     std::vector<DetectedDot> dots(500, dot_at({50, 50}));
     dots.push_back(dot_at({4000, 4000}));
     std::array<std::uint16_t, kMaxSeeds> seeds;

@@ -152,7 +152,7 @@ TEST(FindGrid, RefusesWhatIsNoGrid) {
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << i << ", seed " << kSeed);
         core::PatchGrid grid;
-        // Dots at random places.
+        // These dots are at random places.
         const auto scattered = empty_patch();
         std::vector<Vec2> dots;
         const int count = 60 + static_cast<int>(rng.below(400));
@@ -161,7 +161,7 @@ TEST(FindGrid, RefusesWhatIsNoGrid) {
         finish_patch(*scattered, dots);
         EXPECT_FALSE(
             core::find_grid(core::kernels(), *scattered, core::whole_view(*scattered), grid));
-        // Dots on their intersections, without displacement.
+        // These dots are on their intersections, without displacement.
         const auto plain =
             patch_of(random_float_plane(rng.uniform(7, 15), 1e-4, rng), {0, 0, 0.02, 0}, rng);
         EXPECT_FALSE(core::find_grid(core::kernels(), *plain, core::whole_view(*plain), grid));

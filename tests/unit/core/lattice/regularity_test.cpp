@@ -18,9 +18,9 @@ using namespace core;
 constexpr std::uint64_t kSeed = 47;
 constexpr Vec2 kImage_px{188, 120};
 
-/// Returns the tolerance if displacements count as noise of 0.12 spacings. The error is largest at
-/// the corners. At a corner, a fit of 8 parameters to at least 100 dots has 2 to 3 times the error
-/// 0.12 sqrt(8 / 100).
+/// Returns the tolerance of a fit to displaced dots. The displacements act as noise of 0.12
+/// spacings per axis. The error is largest at the corners, where a fit of 8 parameters to at least
+/// 100 dots has 2 to 3 times the error 0.12 sqrt(8 / 100).
 double perspective_tolerance(const std::vector<PlacedDot>&) {
     return 0.25;
 }

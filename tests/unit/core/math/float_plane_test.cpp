@@ -39,7 +39,7 @@ TEST(FloatPlane, FarAwayItDoesNotFold) {
     plane.du_x = plane.dv_y = 0.1F;
     plane.tilt_x = -0.01F;
     EXPECT_FLOAT_EQ(core::plane_point(plane, {75, 10}).x, 30);
-    // At larger distances, the divisor is limited to a quarter.
+    // At larger distances, the divisor would be smaller, but it is limited to a quarter.
     EXPECT_FLOAT_EQ(core::plane_point(plane, {100, 10}).x, 40);
     EXPECT_FLOAT_EQ(core::plane_point(plane, {200, 10}).y, 4);
 }
@@ -100,7 +100,7 @@ TEST(FloatPlane, TellsWhatACameraMaySee) {
     for (int i = 0; i < 200; ++i) {
         const FloatPlane good = random_float_plane(rng.uniform(5, 80), rng.uniform(0, 4e-3), rng);
         ASSERT_TRUE(core::is_within_reason(good, 94, 60));
-        // Any number of the plane may be NaN or infinite.
+        // Refuses NaN and infinity in any number of the plane.
         for (float FloatPlane::*number :
              {&FloatPlane::at_x, &FloatPlane::at_y, &FloatPlane::du_x, &FloatPlane::du_y,
               &FloatPlane::dv_x, &FloatPlane::dv_y, &FloatPlane::tilt_x, &FloatPlane::tilt_y,

@@ -1,4 +1,4 @@
-// Tests the model dot against dots drawn by sampling, and its derivatives against difference
+// Tests the dot model against dots drawn by sampling, and its derivatives against difference
 // quotients.
 #include "core/pose/dot_model.hpp"
 

@@ -1,4 +1,4 @@
-// Draws dots of any shape by sampling the ink. This is slow, and independent of the dot model of
+// Draws dots of any shape by sampling the ink. This is slow, but independent of the dot model of
 // the core.
 #pragma once
 

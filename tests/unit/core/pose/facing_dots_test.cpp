@@ -1,5 +1,6 @@
-// Tests the correction of the bias of facing dots. The measured centres of two facing dots are
-// shifted towards each other. The centres of other neighbours are not.
+// Tests the correction of the bias of facing dots, which are two neighbours displaced towards each
+// other. Their measured centres are shifted towards each other. The centres of other neighbours are
+// not shifted.
 #include "core/pose/facing_dots.hpp"
 
 #include <map>
@@ -78,8 +79,8 @@ class FacingFrame {
 core::PoseFit fit_with(double pull) {
     core::PoseFit fit;
     fit.displacement = static_cast<float>(kDisplacement);
-    // One coordinate in eight is shifted, because a quarter of the dots face a neighbour along one
-    // axis.
+    // A quarter of the dots are shifted along one of the two axes, so one coordinate in eight is
+    // shifted.
     fit.variance = static_cast<float>(kNoise * kNoise + pull * pull / 8);
     return fit;
 }
@@ -92,7 +93,7 @@ TEST(FacingDots, AreMovedApartByWhatDrawsThemTogether) {
         const FloatPlane plane = random_float_plane(spacing_px, rng.uniform(0, 4e-4), rng);
         constexpr double kPull = 0.014;
         FacingFrame frame(plane, kPull, rng);
-        // A quarter of the dots has a neighbour that faces it.
+        // A quarter of the dots have a neighbour that faces them.
         EXPECT_NEAR(frame.mean_error_px(), kPull * spacing_px / 4, kPull * spacing_px / 12);
         ASSERT_TRUE(core::correct_neighbour_bias(plane, fit_with(kPull), frame.dots()));
         EXPECT_LT(frame.mean_error_px(), 0.1 * kPull * spacing_px);

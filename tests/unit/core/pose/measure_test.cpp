@@ -14,7 +14,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 45;
 
-/// Draws paper with dots, and with light that decreases from one side to the other.
+/// Draws paper with dots. The light decreases from one side of the image to the other.
 GreyImage drawn(const View& view, const std::vector<PlacedDot>& dots, double angle) {
     GreyImage image = blank(static_cast<int>(view.image_px.x), static_cast<int>(view.image_px.y));
     const Vec2 way{std::cos(angle), std::sin(angle)};
@@ -36,9 +36,9 @@ bool is_inside(const View& view, Vec2 point_px, double margin_px) {
            point_px.y < far.y;
 }
 
-/// Expects every measured dot to be the dot of its cell, within the tolerance, or within a third of
-/// a pixel where the border cuts the window. No dot that is at least `margin_px` inside the image
-/// may be missing.
+/// Expects the centre of every measured dot to be within the tolerance of the dot of its cell, or
+/// within a third of a pixel where the border of the image cuts the window. No dot that is at least
+/// `margin_px` inside the image may be missing.
 void expect_measured(const View& view, const std::vector<PlacedDot>& placed, int quarters,
                      double margin_px, double tolerance_px, Rng& rng) {
     const GreyImage image = drawn(view, placed, rng.uniform(0, 6.3));
@@ -102,8 +102,8 @@ TEST(MeasureDots, FindsBadlyPrintedOnesWhereTheyAre) {
             Vec2& at = placed[d].centre_px;
             at = at + 0.15 * view.spacing_px * Vec2{std::cos(direction), std::sin(direction)};
         }
-        // A dot may be half a spacing away from a neighbour. In this case, the rim of the neighbour
-        // is in the window.
+        // A dot may be half a spacing away from a neighbour, so that the rim of the neighbour is in
+        // the window.
         expect_measured(view, placed, i % 4, 7, 0.14, rng);
     }
 }

@@ -1,4 +1,4 @@
-// Measured dots with their memory.
+// Measured dots and the memory that contains them.
 #pragma once
 
 #include <array>

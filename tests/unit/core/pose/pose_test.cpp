@@ -163,7 +163,7 @@ TEST(Pose, PastTheEndOfTheCodeItContinuesInAnotherSection) {
     EXPECT_EQ(fix.fraction_x_q16, 0.75 * 65536);
 }
 
-/// Sums over many fixes: products of the errors of (x, y, theta), and covariances of the fixes.
+/// Sums over many fixes: the products of the errors of (x, y, theta), and the reported covariances.
 struct Scatter {
     double squares[3][3] = {};
     double claimed[3][3] = {};
@@ -239,10 +239,10 @@ struct HalfDark {
 };
 
 TEST(Pose, DotsInTheDarkCountLess) {
-    // Noise of 0.02 px in the light part corresponds to 0.08 px in the dark part, which is 16 times
-    // the variance. The comparison is with the same number of dots in the light part. The variance
-    // of the plain mean is 8.5 times as large, and the variance of the weighted mean 1.9 times as
-    // large.
+    // Noise of 0.02 px in the light part corresponds to 0.08 px in the dark part, so the variance
+    // of a dot is 16 times as large there. Compared with a view whose dots are all in the light
+    // part, the variance of the plain mean is 8.5 times as large, and the variance of the weighted
+    // mean is 1.9 times as large.
     Rng rng(kSeed);
     const HalfDark paper;
     const View view = random_view(rng);

@@ -113,8 +113,8 @@ TEST(FitUneven, FitsTheSideOfTheReferencePoint) {
         EXPECT_LT(length(sheet.off()), 0.02);
         EXPECT_LT(sheet.fix.dots_used, sheet.owned.dots.count * 9 / 10);
     }
-    // In some trials, the line is found slightly off the true line. The sheet is then classified as
-    // uneven, because a line does not explain all residuals.
+    // In some trials, the estimated line is slightly off the true line. The sheet is then
+    // classified as uneven, because a line does not explain all residuals.
     EXPECT_GE(divided, 55);
 }
 
