@@ -173,7 +173,7 @@ struct DriveCalibration {
     Camera camera;  ///< the given camera with `theta_offset_rad` set
     int frames = 0;
     int located = 0;
-    double sigma_rad = 0;    ///< standard deviation of the offset
+    double sigma_rad = 0;    ///< standard deviation of `camera.theta_offset_rad`
     double residual_mm = 0;  ///< rms distance of the positions from a straight line
     double length_mm = 0;    ///< length of the drive
 };

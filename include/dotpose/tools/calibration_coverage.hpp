@@ -36,7 +36,8 @@ inline constexpr int kWantedPlaces = 4;
 /// sectors. Different directions distinguish lens distortion from a printer that stretches one axis
 /// of the paper.
 inline constexpr int kWantedDirections = 3;
-/// Maximum uncertainty of the lens in the corner of the image (see `corner_sigma_px`).
+/// Maximum standard deviation of the undistorted position of the farthest corner of the image (see
+/// `corner_sigma_px`).
 inline constexpr double kWantedCornerSigma_px = 0.1;
 
 /// Returns the corner of the image that is farthest from the distortion centre.

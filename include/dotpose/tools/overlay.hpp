@@ -23,7 +23,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// One page with dots. The coordinate frame of its sheet begins at the top left corner of the
+/// One page with dots. The origin of its sheet's coordinate frame is the top left corner of the
 /// displayed page.
 struct OverlaidPage {
     /// Number of the page among the pages of all copies, from 1. The pages of the second copy are

@@ -53,7 +53,7 @@ struct MappedPage {
     double slow_mm = 0;            ///< rms of the smooth, low-frequency distortion of the page, per
                                    ///< axis
     bool is_rigid = true;          ///< true if height and tilt of the camera were constant
-    int iterations = 0;            ///< number of iterations in the last round of the solver
+    int iterations = 0;            ///< conjugate gradient iterations in the last round
 };
 
 struct PrintMapResult {

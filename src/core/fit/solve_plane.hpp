@@ -14,7 +14,7 @@ struct PoseFit {
     int reach_px = 1;        ///< image length that corresponds to `ScaledPlane::scale()`, in px
     int dots = 0;            ///< number of inliers
     float variance = 0;      ///< noise variance of a dot along one axis, in spacings^2
-    float squares = 0;       ///< sum of the squared residuals of all inliers after the last step
+    float squares = 0;       ///< sum of the squared residuals after the last step, in spacings^2
     float displacement = 0;  ///< typical distance of a dot from its intersection, in spacings
     PlaneNormal normal;      ///< decomposed normal equations for the parameters of `jacobian`
     std::array<Parameters, kPoseParameters> covariance;  ///< covariance of the whitened parameters

@@ -96,8 +96,8 @@ inline constexpr float kFirstMaxOffset = 0.42F;
 inline constexpr float kMinDisplacement = 0.11F;
 inline constexpr float kMaxDisplacement = 0.32F;
 /// Maximum distance between a dot and the nearest of the four places of its cell. The limit is
-/// kMaxOffsetPart times the displacement, but at most kMaxOffset spacings. Larger circles around
-/// the places would nearly touch.
+/// kMaxOffsetPart times the displacement, but at most kMaxOffset spacings. kMaxOffset is half of
+/// the distance between facing places of adjacent cells if the displacement is kMaxDisplacement.
 inline constexpr float kMaxOffsetPart = 0.75F;
 inline constexpr float kMaxOffset = 0.18F;
 /// A search ends without a grid if a fit uses fewer than kMinUsed dots, or if less than

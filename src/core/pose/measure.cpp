@@ -131,8 +131,8 @@ BorderBackground border_background(const Patch& patch, FixedVec pixel, int half)
 }
 
 /// Fits a Gaussian dot to a window by one Gauss-Newton step. The Gaussian has the sigma of the
-/// window profile, and a small `offset` from the window centre. With d and offset in units of
-/// sigma, the darkness is
+/// window profile, and a small `offset` from the window centre. The vector d points from the window
+/// centre to a pixel. With d and `offset` in units of sigma, the model of the darkness is
 ///
 ///     darkness(d) = height exp(-d^2 / 2) (1 + offset . d).
 ///

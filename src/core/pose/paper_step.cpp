@@ -305,7 +305,9 @@ class Search {
     PartSums all_{};
     AffineFit affine_;
     float variance_;
-    float off_plane_;   ///< log odds of a dot that is not on the plane
+    /// Natural logarithm of the odds for a plane that an outlier contributes. No dot contributes
+    /// less (see tuned::kOnPlane).
+    float off_plane_;
     float weight_ = 1;  ///< number of dots that each sample represents
     std::size_t lines_ = 0;
     float per_spacing_ = 0;  ///< number of lines per spacing

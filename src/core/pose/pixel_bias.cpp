@@ -65,7 +65,7 @@ float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide
 struct CentroidError {
     float px;                  ///< centroid minus true centre
     DotShape::Terms by_shape;  ///< derivatives of `px` with respect to the shape terms
-    float slopes;              ///< slope of the moment along this axis, divided by the slope along
+    float slope_ratio;         ///< slope of the moment along this axis, divided by the slope along
                                ///< u
 };
 
@@ -107,15 +107,16 @@ class AxisBias {
             tuned::kOfModel + tuned::kOfMisfit * std::max(shape.misfit() - tuned::kMisfit, 0.0F);
         amplitude_px_ = error.px;
         variance_ = shape.variance(error.by_shape) + of_model * error.px * error.px;
-        const float differs = error.slopes - 1;
+        const float differs = error.slope_ratio - 1;
         const float squared = differs * differs;
-        slopes_ = 1 + differs * squared / (squared + tuned::kSlopes * tuned::kSlopes);
+        slope_ratio_ = 1 + differs * squared / (squared + tuned::kSlopes * tuned::kSlopes);
     }
 
     float amplitude_px() const { return amplitude_px_; }
-    /// Returns the slope of the moment along this axis, relative to the slope along u. If noise can
+    /// Returns the slope along this axis divided by the slope along u. A slope is the derivative of
+    /// the first moment of a centroid window with respect to a shift of the dot. If noise can
     /// explain the difference from 1, the ratio is shrunk towards 1.
-    float slopes() const { return slopes_; }
+    float slope_ratio() const { return slope_ratio_; }
     /// Returns the bias of a dot, in px. Also adds the sine of its phase to the sum for
     /// `variance_of_mean`.
     float of(float phase) {
@@ -134,7 +135,7 @@ class AxisBias {
   private:
     float amplitude_px_ = 0;
     float variance_ = 0;
-    float slopes_ = 1;
+    float slope_ratio_ = 1;
     float sines_ = 0;
     float dots_ = 0;
 };
@@ -142,10 +143,10 @@ class AxisBias {
 /// Returns the centroid error, in px, of a dot at offset `d` from its window centre. The kernels
 /// take a single Newton step as if the moment were linear in d, but it is proportional to d - bend
 /// d^3. They also divide the moments of both axes by the slope along u at the window centre.
-/// `slopes` is the slope along v divided by the slope along u.
-FloatVec error_off_centre(float bend, float slopes, FloatVec d) {
+/// `slope_ratio` is the slope along v divided by the slope along u.
+FloatVec error_off_centre(float bend, float slope_ratio, FloatVec d) {
     return {2 * bend * d.x * d.x * d.x,
-            d.y * (slopes * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1)};
+            d.y * (slope_ratio * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1)};
 }
 
 float bend_of_moment(const DotShape& shape, float amplitude_px, float radius_px) {
@@ -236,7 +237,7 @@ FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window
         const float u = place_of_window(dots.window_u[k], dots.sum_u[k], dots.mass[k]);
         const float v = place_of_window(dots.window_v[k], dots.sum_v[k], dots.mass[k]);
         const FloatVec window_error = error_off_centre(
-            bend, along_v.slopes(),
+            bend, along_v.slope_ratio(),
             {dots.x[k] + window.centre_px.x - u, dots.y[k] + window.centre_px.y - v});
         dots.x[k] -= along_u.of(phase.rest.x + offset.x) + window_error.x;
         dots.y[k] -= along_v.of(phase.rest.y + offset.y) + window_error.y;

@@ -110,8 +110,8 @@ inline constexpr float kBlurred_px2 = 0.7F * 0.7F;
 inline constexpr float kOfModel = 0.01F;
 inline constexpr float kMisfit = 2.5F;
 inline constexpr float kOfMisfit = 0.025F;
-/// Scale of the shrinkage in `AxisBias::slopes`: the relative difference between the moment slopes
-/// along u and v that noise causes if the dots are round.
+/// Scale of the shrinkage in `AxisBias::slope_ratio`: the relative difference between the moment
+/// slopes along u and v that noise causes if the dots are round.
 inline constexpr float kSlopes = 0.03F;
 }  // namespace bias
 
