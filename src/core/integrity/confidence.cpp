@@ -86,13 +86,14 @@ int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8) {
 }
 
 int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8) {
-    // log2(410815348 * 63 * 4) = 36.59
+    // There are 410815348 positions, 63 sections and 4 orientations, and log2 of the product is
+    // 36.59.
     constexpr int kHypotheses_q8 = 9368;
     return agreement_log2_q8(axis, odds_per_bit_q8) + kHypotheses_q8 + log2_times_q8;
 }
 
 int chance_log2(const Confidence& axis, int odds_per_bit_q8) {
-    // log2(410815348 * 63 * 4) = 36.6
+    // Rounds log2 of the number of hypotheses, 36.59, up to 37.
     const std::int64_t sum_q16 = 37 * 65536 + agreement_log2_q16(axis, odds_per_bit_q8);
     return static_cast<int>(std::min<std::int64_t>(sum_q16 >> 16, 36)) + 1;
 }

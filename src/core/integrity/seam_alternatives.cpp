@@ -13,11 +13,11 @@ namespace {
 
 /// Prior probability that a given border between two lines is a seam with a given roll difference,
 /// as log2 in units of 2^-8. With this prior and the default limit, a position is accepted if a
-/// seam explains the view equally well. It is refused if a seam explains the view better by two
-/// bits.
+/// seam explains the view equally well, but refused if the likelihood of a seam is at least four
+/// times higher.
 constexpr int kSeam_q8 = -32 * 256;
-/// The sum includes only alternatives whose odds, without the prior, exceed this limit. The limit
-/// is log2 in units of 2^-8.
+/// Minimum odds of an alternative that the sum includes, without the prior, as log2 in units of
+/// 2^-8.
 constexpr int kMin_q8 = -8 * 256;
 
 /// Minimum losses of an alternative before and after each border. Each minimum is over all shifts

@@ -113,8 +113,8 @@ class OtherPlaces {
     /// Adds the odds that the search for similar places does not find: the place of the reading in
     /// a4 at all shifts except `shift_here_`, and every place at shifts without a shared line.
     void add_unsimilar() {
-        // A place with the rolls of the reading shares all lines at one shift, and no line at any
-        // other shift.
+        // A place with the rolls of the reading shares all lines at one shift and no line at any
+        // other shift, so `add` would add nothing.
         if (!has_same_rolls_) add(ratios_.places[kA4], here_, shift_here_);
         add_sharing_none();
     }
@@ -148,8 +148,8 @@ class OtherPlaces {
         RollOffsets offsets;
         const std::uint8_t* own = ratios_.basis[kA4].rolls + ratios_.places[kA4];
         const std::uint8_t* alternative = theirs_.rolls + place;
-        // Sets the offsets of kMaxLines lines, even if fewer lines are in view. Loops of constant
-        // length are faster.
+        // Sets the offsets of kMaxLines lines, even if fewer lines are in view, because loops of
+        // constant length are faster.
         for (std::size_t line = 0; line < offsets.size(); ++line)
             offsets[line] = roll_offset(own[line], alternative[line]);
         return offsets;
@@ -262,9 +262,8 @@ class AxisWeigher {
         return others;
     }
 
-    /// Replaces the bound by a sum over all other places, unless the bound is negligible. `across`
-    /// is the summed odds on the other axis. The odds on this axis are multiplied by `across`
-    /// before the comparison.
+    /// Replaces the bound by a sum over all other places, unless the bound times `across` is
+    /// negligible. `across` is the summed odds on the other axis.
     void look_closer(CodeVariant other, float across, OtherPlaces& others) {
         if (others.elsewhere() * across <= kNegligibleOdds) return;
         others.begin_count();
