@@ -56,8 +56,8 @@ struct PushedImage {
     }
 };
 
-/// An image of a rolling shutter from which the rotation of the scene was removed, and the fit of
-/// this rotation.
+/// An image of a rolling shutter after removing the rotation of the scene, and the fit of this
+/// rotation.
 struct RollingImage {
     std::span<std::uint8_t> memory;
     bool is_fitted = false;  ///< true if `confirm` fits the rotation
@@ -77,11 +77,11 @@ struct DesktopWorkspace : DeviceWorkspace {
     PushedImage pushed;
     RollingImage rolling;
     bool is_mirrored = false;  ///< true if an attempt found the mirrored code
-    /// True if the first attempt found too few cells for a certain position without known sheets.
+    /// True if the first attempt found fewer cells than a certain position needs without known
+    /// sheets.
     bool shows_too_few_cells = false;
 
-    /// Sets the known sheets, and the minimum sides of images and patches, which are smaller on
-    /// known sheets.
+    /// Sets the known sheets. On known sheets, smaller images and patches can be located.
     void set_known(const KnownSheets& sheets) {
         DeviceWorkspace::set_known(sheets);
         patch->min_side_px = sheets.any() ? kMinKnownFrameSide_px : Patch::kMinSide_px;
@@ -164,8 +164,8 @@ class WorkspaceOf : public DesktopWorkspace {
         MaxWidth <= kMaxSideWithLowTiles_px ? kLowTile_px : kHighTile_px;
     static constexpr int kTiles = MaxWidth / kTileWidth_px + 1;
     static constexpr int kLevels = kTiles * kTileWidth_px + kReadAhead_px;
-    // Maximum number of runs in a row, because a run may begin at every second pixel. Also the
-    // maximum number of blobs, because each run may begin a blob.
+    // Maximum number of runs in a row. A run may begin at every second pixel, and each run may
+    // begin a blob.
     static constexpr int kRuns = MaxWidth / 2 + 2;
 
     // Size of the largest image that can be pushed row by row: 188 x 188 px for the paper's sensor,
@@ -181,8 +181,8 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<std::array<std::uint8_t, kRolls>, 2> rolls_;
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
-    // The side of a block of the paper map is a tenth of the shorter image side, and at least 6 px,
-    // so there are at most 11 x 683 blocks.
+    // The side of a paper map block is a tenth of the shorter image side, and at least 6 px. There
+    // are at most 11 x 683 blocks.
     std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint8_t, 11 * 683> brightest_papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};

@@ -182,8 +182,8 @@ float chance_of(const Confidence& bits, const Query& query) {
 }
 
 /// Returns the weighted number of possible codes, or 1 if the code is given. The weight of a code
-/// is its odds relative to the code that was read. All codes have the same number of alternatives,
-/// so the odds of the alternatives are multiplied by this number.
+/// is its odds relative to the code that was read. The odds of the alternatives are multiplied by
+/// this number, because all codes have the same number of alternatives.
 float codes_in_question(const Query& query) {
     return !is_code_in_question(query) ? 1
                                        : power_of_two_rounded_up(query.others->log2_in_question_q8);

@@ -138,9 +138,9 @@ class AnchorOffsets {
 };
 
 /// A place in one sequence. offsets[n] is the roll offset of the place at a fixed anchor `one`
-/// minus its roll offset at anchor n, modulo 63. If this equals the roll offset of a place in
-/// another sequence at anchor n minus that at `one`, the two places form an alternative that shares
-/// anchor n.
+/// minus its roll offset at anchor n, modulo 63. An alternative that combines this place with a
+/// place in another sequence, and that shares `one`, also shares anchor n if offsets[n] equals the
+/// roll offset of the other place at anchor n minus its roll offset at `one`.
 struct Opposite {
     AnchorBytes offsets;
     std::uint32_t place;

@@ -97,8 +97,8 @@ struct ScoredTurn {
     }
 };
 
-/// Cache for the table of one axis. The next region reuses the table if its code and positions are
-/// the same, because sheets in the same file often have the same positions on one axis.
+/// Cache for the table of one axis. Sheets in the same file often have the same positions on one
+/// axis, so the next region reuses the table if its code and positions are the same.
 template <typename Table>
 class KeptTable {
   public:

@@ -12,9 +12,9 @@
 // - Single alternative: an alternative whose place differs in one sequence.
 // - Double alternative: an alternative whose places differ in two sequences.
 // - Far alternative: an alternative whose places differ in two or more sequences.
-// - Near alternative: shares at least four adjacent lines with the reading.
-// - Seam alternative: has one shift before a border between two lines, and another shift after the
-//   border.
+// - Near alternative: an alternative that shares at least four adjacent lines with the reading.
+// - Seam alternative: an alternative with one shift before a border between two lines, and another
+//   shift after the border.
 #pragma once
 
 #include <algorithm>

@@ -69,7 +69,7 @@ class UnsharedLines {
 
 inline std::size_t UnsharedLines::min_unshared(std::size_t sequence, Sharing sharing) const {
     const code::Secondary& a = ratios_.basis[sequence];
-    // For a4, `kUnshared` contains only the sequence of one code.
+    // For a4, `kUnshared` covers only one of the codes.
     const bool is_known = sequence < 3 || a.digits == code::kA4Restored.data();
     if (row_ == SIZE_MAX || !is_known) return 0;
     const std::uint32_t ahead = ratios_.places[sequence] + first_line_;
