@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "calibrate/least_squares.hpp"
 #include "calibrate/median.hpp"

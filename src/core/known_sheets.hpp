@@ -9,8 +9,9 @@
 
 namespace dotpose::core {
 
-/// Range of first positions at which a block of `lines` adjacent lines overlaps a region, along one
-/// axis. The region begins at `region_first` and has `region_size` positions.
+/// Range of the positions of a block's first line at which the block overlaps a region, along one
+/// axis. The block has `lines` adjacent lines. The region begins at `region_first` and has
+/// `region_size` positions.
 struct PositionRange {
     std::uint32_t first;
     std::uint32_t count;
@@ -42,8 +43,8 @@ struct KnownSheets {
     bool any() const { return !regions.empty(); }
     bool are_valid() const { return std::all_of(regions.begin(), regions.end(), is_valid); }
     bool are_all() const { return any() && others == OtherSheets::impossible; }
-    /// Returns true if a block is at least partly on a known sheet. `corner` is the place of its
-    /// upper left cell.
+    /// Returns true if a block overlaps a known sheet. `corner` is the place of the upper left cell
+    /// of the block.
     bool show(CodeVariant code, const Place& corner, int columns, int rows) const {
         for (const KnownRegion& region : regions) {
             if (region.code == code && region.section == corner.section &&

@@ -1,6 +1,6 @@
 // Option ranges: the valid range of each option. If all options are in range, no stage can
-// overflow. Some options are safe at any value and have no range. An example is the lens
-// coefficient k (see `bend_q48`).
+// overflow. Options that are safe at any value have no range, for example the lens coefficient k
+// (see `bend_q48`).
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,7 @@ struct OtherAxis {
     float here = 1;  ///< ratio of the same place in the other code
     /// Upper bound on the summed ratios of all other places.
     float elsewhere = 0;
-    /// Largest ratio of any examined place that is not the place that was read.
+    /// Largest ratio among the examined places, without the place that was read.
     float best = 0;
     std::uint32_t position = 0;  ///< position of the first compared line at the place with the
                                  ///< ratio `best`

@@ -21,8 +21,8 @@ FixedVec image_centre_q8(const AdaptiveThreshold& threshold);
 /// Returns the image point whose pose is reported. `centre_q8` is the image centre.
 FixedVec reference_q8(FixedVec centre_q8, const DeviceOptions& options);
 
-/// Returns ok if the options are valid and the workspace accepts frames of this size. Otherwise,
-/// returns the reason. The second overload also requires pixels.
+/// Returns ok if the options are valid and the workspace accepts frames of this size, and the
+/// reason for a refusal otherwise. The second overload also refuses an image without pixels.
 Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w);
 Status check(const ImageView& image, const DeviceOptions& options, const Workspace& w);
 
@@ -30,7 +30,6 @@ Status check(const ImageView& image, const DeviceOptions& options, const Workspa
 /// to `reason`, and returns the fix.
 const Fix& refuse(Status reason, Workspace& w);
 
-/// Clears the results of the previous frame.
 void forget_frame(Workspace& w);
 
 /// Starts a frame. The frame size must be within the limits of the workspace.
@@ -45,7 +44,6 @@ inline void detect_row(const std::uint8_t* pixels, const DeviceOptions& options,
     if (ready > 0) threshold_bands(ready, options, w);
 }
 
-/// Detects all blobs in an image.
 void detect_image(const ImageView& image, const DeviceOptions& options, Workspace& w);
 
 /// Returns the minimum number of dots of a grid. Known sheets need fewer dots.
@@ -61,7 +59,8 @@ Status find_dots(const DeviceOptions& options, Workspace& w);
 /// `max_seeds` dots, in a square around `start_q8`. Error: no_grid.
 Status find_axes(FixedVec start_q8, int max_seeds, Workspace& w);
 
-/// Chooses the grid region to decode. The memory for lines limits the size of this region.
+/// Chooses the region of the grid to decode. The size of the region is limited by the memory for
+/// lines.
 void choose_region(Workspace& w);
 
 /// Returns `mirrored` if the bits agree with a mirrored pattern, and `reason` otherwise.

@@ -26,7 +26,7 @@ struct Workspace {
     std::int16_t min_side_px = kMinFrameSide_px;
     std::int16_t max_width_px = 0;
     std::int16_t max_height_px = kMaxFrameSide_px;
-    /// True if stages do not share memory. The results of every stage then remain available.
+    /// True if stages do not share memory, so that the results of every stage remain available.
     bool keeps_every_stage = false;
     KnownSheets known;
     // Stage `detect`.
@@ -60,7 +60,7 @@ struct Workspace {
     std::span<const DetectedDot> found_dots() const {
         return dots.first(static_cast<std::size_t>(dot_count));
     }
-    /// Sets the known sheets. On known sheets, smaller images can be located.
+    /// Sets the known sheets, and the minimum side of an image, which is smaller on known sheets.
     void set_known(const KnownSheets& sheets) {
         known = sheets;
         min_side_px =

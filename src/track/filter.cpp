@@ -10,9 +10,9 @@ namespace {
 constexpr float kHold_s = 0.5F;
 
 /// Factor by which a sighting increases or decreases the agility, the factor of the process noise
-/// (see filter.hpp). Increases and decreases use the same factor, so they are equally frequent in
-/// equilibrium. Consecutive innovations then have equal signs as often as opposite signs, as in a
-/// filter with the correct noise variance.
+/// (see filter.hpp). Because the factor is the same in both directions, consecutive innovations in
+/// equilibrium have equal signs as often as opposite signs, as in a filter with the correct noise
+/// variance.
 constexpr float kAgility_step = 1.5F;
 constexpr float kMinAgility = 1e-6F;
 /// Innovations above this number of standard deviations are not considered noise.
@@ -107,7 +107,7 @@ void set_pose_covariance(MotionEstimate& motion) {
     }
 }
 
-/// Returns the inverse of a symmetric positive definite matrix, computed from cofactors.
+/// Returns the inverse of a symmetric positive definite matrix.
 Matrix3 inverse(const Matrix3& m) {
     Matrix3 cofactors{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -154,10 +154,9 @@ void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, cons
         }
         p[i][i] += kRounding * before[i][i];
     }
-    // The upper three rows equal R S^-1 H P. This product has no cancellation, while the
-    // subtraction above would lose all digits in single precision after a long gap. All other
-    // elements need the subtraction. Their diagonal therefore includes a bound on the rounding
-    // error.
+    // The upper three rows equal R S^-1 H P, a product without cancellation. The subtraction above
+    // would lose all digits of these rows in single precision after a long gap. The other elements
+    // need the subtraction, so their diagonal includes a bound on the rounding error.
     const auto upper = product(noise, weighted);
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 9; ++j)

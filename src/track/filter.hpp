@@ -15,8 +15,8 @@ inline constexpr float kRad_per_bam = 1.46291808e-9F;  // pi / 2^31
 /// Returns the pose of a sighting. The velocities and the covariance are 0.
 TrackedPose pose_of(const Sighting& sighting);
 
-/// Returns the state after the first sighting. The velocities are 0. The standard deviation of the
-/// velocities is half the maximum speed or turn rate.
+/// Returns the state after the first sighting. The velocities are 0, with a standard deviation of
+/// half the maximum speed or turn rate.
 MotionEstimate started_at(const Sighting& sighting, const TrackOptions& options);
 
 /// Predicts the state at a later time.

@@ -40,9 +40,9 @@ std::int32_t bounded(float sigma, float unit, std::int32_t min, std::int32_t max
     return std::max(static_cast<std::int32_t>(value), min);
 }
 
-/// Returns the standard deviation of the predicted pose along an axis. Combines the filter
-/// covariance with the covariance of the fix. `unforeseen` is a motion that the filter cannot
-/// predict. Three standard deviations must cover this motion, so a third of it is added.
+/// Returns the standard deviation of the predicted pose along an axis, from the covariances of the
+/// filter and of the fix. Adds a third of `unforeseen`, a motion that the filter cannot predict,
+/// because three standard deviations must cover this motion.
 float sigma(const Covariance6& predicted, const Sighting& seen, std::size_t axis,
             float unforeseen) {
     return std::sqrt(predicted[axis][axis] + seen.covariance[axis][axis]) +

@@ -10,8 +10,8 @@ namespace {
 
 using namespace dotpose::track;
 
-/// log2 of the number of hypotheses along one axis, rounded down. There are kPositionsPerAxis
-/// positions, 63 sections and 4 turns.
+/// log2 of the number of hypotheses along one axis, rounded down. The hypotheses are all
+/// combinations of kPositionsPerAxis positions, 63 sections and 4 turns.
 constexpr int kHypotheses_log2 = 36;
 static_assert((std::uint64_t{kPositionsPerAxis} * kSections * 4) >> kHypotheses_log2 == 1,
               "the number of hypotheses is rounded down to a power of two");
@@ -45,8 +45,8 @@ bool is_within(const Vector3& difference, const Vector3& limits) {
     return true;
 }
 
-/// Returns true if a robot within the speed and turn rate limits can move from `from` to
-/// `sighting`.
+/// Returns true if a robot can move from `from` to `sighting` within the limits of speed and turn
+/// rate.
 bool is_reachable(const MotionEstimate& from, const Sighting& sighting,
                   const TrackOptions& options) {
     if (from.pose.plane != sighting.plane) return false;

@@ -13,9 +13,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of adjacent lines that two positions share in `anoto` and `microdots`. Six shared
-/// lines would have five equal digits in each sequence, and five digits determine a place. In
-/// `libdots`, some positions share more lines. The near alternatives include these positions.
+/// Maximum number of adjacent lines that two positions share in `anoto` and `microdots`. Two
+/// positions with six shared lines would be equal, because they would have five equal digits in
+/// each sequence, and five digits determine a place. In `libdots`, some positions share more lines.
+/// The near alternatives include these positions.
 constexpr int kMaxSharedInARow = code::kOrder;
 /// Limit for the expected odds of the far alternatives. At or above this limit, the detailed
 /// evaluation is skipped, because it cannot make the fix certain.
@@ -49,14 +50,14 @@ struct Expectation {
     float of_more;  ///< alternatives that differ in three or four sequences
 };
 
-/// Returns the sum of the odds of all alternatives. Adds the individual odds of more far
-/// alternatives: of the double alternatives, and of the near alternatives that share
-/// kMaxSharedInARow - 1 lines. This reduces the part of the sum that is only an expectation.
-/// `known` is the sum of the odds of all other alternatives.
+/// Returns the sum of the odds of all alternatives. Where possible, counts the double alternatives,
+/// and the near alternatives that share kMaxSharedInARow - 1 lines, one by one, because their
+/// expected odds may be lower than their true odds. `known` is the sum of the odds of all other
+/// alternatives.
 float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float known,
                         Expectation expected, float limit) {
-    // The odds are as precise as the default limit requires, even if the caller permits larger
-    // odds.
+    // The result is as precise as the default limit requires, even if the limit of the caller is
+    // larger.
     const float usual = std::min(limit, kUsualLimit);
     float sum = kMargin * expected.of_more;
     if (sum > usual / 16) {
@@ -67,8 +68,9 @@ float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float 
     }
     sum += known;
     if (sum >= limit) return sum;
-    // Maximum for the expected odds of the double alternatives that are not counted one by one.
-    // Without this maximum, an expectation alone could cause a refusal.
+    // Maximum of the expected odds of the double alternatives that are not counted one by one. It
+    // is at most an eighth of the odds that remain below the limit, so that an expectation alone
+    // does not cause a refusal.
     const float negligible = std::min(sum < usual / 8 ? usual / 16 : sum / 8, (limit - sum) / 8);
     return sum +
            sum_of_double_alternatives(kernels, lines, expected.of_two, negligible, limit - sum);

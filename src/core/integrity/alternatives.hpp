@@ -9,10 +9,9 @@
 namespace dotpose::core {
 
 /// Returns log2 of the summed odds of all alternatives except seam alternatives, rounded up to an
-/// integer and clamped to at most 0. For far alternatives, which share few adjacent lines with the
-/// reading, the sum contains individual odds or expected odds. For all other alternatives, it
-/// contains exact odds or upper bounds. The sum is only as precise as a comparison with
-/// 2^limit_log2 requires. Returns 0 if there are at most 5 lines.
+/// integer and clamped to at most 0. The odds of some far alternatives are expectations. All other
+/// odds are exact or upper bounds. The sum is only as precise as a comparison with 2^limit_log2
+/// requires. Returns 0 if there are at most 5 lines.
 int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2 = 0);
 
 }  // namespace dotpose::core

@@ -21,8 +21,8 @@ namespace {
 
 /// Number of shifts, out of 63, at which an alternative does not share a given line.
 constexpr float kShifts = kSections - 1;
-/// Upper bound on the odds of each skipped single alternative, as log2 in units of 2^-8 and as a
-/// number.
+/// Upper bound on the odds of a single alternative that is not evaluated, as log2 in units of 2^-8
+/// and as a number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
 /// Total number of places in the four sequences.
@@ -53,8 +53,8 @@ constexpr FarAlternatives kFarAlternatives = [] {
     return sets;
 }();
 
-/// Returns an upper bound on the expected odds of the far alternatives. Computes the rough bound of
-/// quick_alternatives.cpp in floating point, for all sets in parallel.
+/// Returns an upper bound on the expected odds of the far alternatives. This is the rough bound of
+/// quick_alternatives.cpp in floating point, for all alternative sets in parallel.
 float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
     std::array<float, kMaxLines> odds;
     const auto count = static_cast<std::size_t>(ratios.count());
@@ -82,8 +82,8 @@ float sharing_none(const LikelihoodRatios& ratios) {
 /// Loss caused by one wrong bit, in score units. All bits have the full weight, so losses are
 /// multiples of kBit.
 constexpr int kBit = 2 * 127;
-/// Sets `losses` to the lines and their minimum losses, by decreasing loss. Losses are in bits and
-/// are clamped to [0, kMaxBits]. Returns the number of lines.
+/// Writes the lines and their minimum losses to `losses`, sorted by decreasing loss. Losses are in
+/// bits and are clamped to [0, kMaxBits]. Returns the number of lines.
 std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> losses) {
     constexpr int kMaxBits = 31;
     const auto count = static_cast<std::size_t>(ratios.count());
@@ -124,10 +124,9 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
     return lost;
 }
 
-/// Returns an upper bound on the odds of the single alternatives that share a line. Uses the bounds
-/// of `tabled_alternatives` where possible. In the other sequences, adds the odds of each
-/// alternative that may lose less than `loss_limit`. Returns 1 if `Kernels::list_similar_places`
-/// returns false.
+/// Returns an upper bound on the odds of the single alternatives that share a line. Sequences whose
+/// table bound is too large are searched for alternatives with relevant odds. Returns 1 if this
+/// search is impossible (see `Kernels::list_similar_places`).
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;
@@ -183,17 +182,17 @@ float chance_of(const Confidence& bits, const Query& query) {
 }
 
 /// Returns the weighted number of possible codes, or 1 if the code is given. The weight of a code
-/// is its odds relative to the code that was read. All codes have the same number of alternatives,
-/// so the odds of the alternatives are multiplied by this number.
+/// is its odds relative to the code that was read. The odds of the alternatives are multiplied by
+/// this number, because all codes have the same number of alternatives.
 float codes_in_question(const Query& query) {
     return !is_code_in_question(query) ? 1
                                        : power_of_two_rounded_up(query.others->log2_in_question_q8);
 }
 
 /// Returns an upper bound on the probability that one axis is wrong. Returns 1 if the bounds on
-/// chance and alternatives exceed 2^limit_log2. Tries up to three bounds on the alternatives. Each
-/// bound is slower and tighter than the preceding bound. For hard bits, only the first bound
-/// exists.
+/// chance and alternatives exceed 2^limit_log2. Tries up to three bounds on the alternatives, each
+/// slower and tighter than the preceding bound. If the ratios come from hard bits, only the first
+/// bound is available.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,
                  const Query& query) {
     const LikelihoodRatios& ratios = unshared.ratios();

@@ -21,17 +21,17 @@ namespace dotpose::core {
 struct AxisBits {
     std::span<const ComparedLine> lines;
     AxisReading reading;  ///< reading of the first line, at bit 0
-    /// Agreement with the code. Includes all bits read on this axis, also bits outside the middle.
+    /// Agreement of all bits of this axis with the code, including the bits outside the middle.
     Confidence confidence;
     std::span<const std::uint8_t> rolls;  ///< roll of each line
 };
 
-/// Returns true if the hard bits make the position certain. Returns false if in doubt. This test
-/// takes a tenth of the work of `is_certain`, and is sufficient for clean frames. It compares
-/// alternatives only with the bits near the middle of the view. Ignoring all other bits can only
-/// increase the bound on the error probability. Sets `fix.bit_errors`. On success, also sets
-/// `fix.p_wrong_log2` and, unless `others` is null, the odds of the other codes. On failure,
-/// `fix.p_wrong_log2` is not valid.
+/// Returns true if the hard bits make the position certain. If the result is false, `is_certain`
+/// may still find the position certain. This test takes a tenth of the work of `is_certain`, and is
+/// sufficient for clean frames. It compares alternatives only with the bits near the middle of the
+/// view. Ignoring all other bits can only increase the bound on the error probability. Sets
+/// `fix.bit_errors`. On success, also sets `fix.p_wrong_log2` and, unless `others` is null, the
+/// odds of the other codes. On failure, `fix.p_wrong_log2` is not valid.
 bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
                           CodeVariant code, const IntegrityOptions& options, Fix& fix,
                           OtherCodes* others = nullptr);
@@ -44,13 +44,13 @@ struct Evidence {
     Lines rows;
 };
 
-/// Compares the bits of an upright block with the code, on the x and y axes. Cell (0, 0) is at
-/// `place`.
+/// Returns the agreement of the bits of an upright block with the code, on the x and y axes. Cell
+/// (0, 0) of the block is at `place`.
 std::array<Confidence, 2> compared_with_code(CodeVariant code, const Place& place,
                                              const BitBlock& block);
 
-/// Scores the lines of a block. Returns the scores and `bits` as evidence. Cell (0, 0) of the block
-/// is at `place`. The scores are in `storage`.
+/// Returns the evidence that consists of `bits` and the scores of the lines of a block. Cell (0, 0)
+/// of the block is at `place`. The scores are stored in `storage`, which must outlive the evidence.
 Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& place,
                      const BitBlock& block, const std::array<Confidence, 2>& bits,
                      std::span<ScoredLine> storage);

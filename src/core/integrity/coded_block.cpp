@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// First line and first cell to compare. `kFirst` is relative to cell (0, 0). `kFirstOfBlock` is
-/// the index in a BitBlock.
+/// Index of the first line that is compared, and of the first cell in each line. `kFirst` is
+/// relative to cell (0, 0), and `kFirstOfBlock` is relative to the first cell of a BitBlock.
 constexpr int kFirst = -kMaxComparedLines / 2;
 constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);
 

@@ -1,5 +1,5 @@
-// Coded block: packs the bits that were read and the bits of the code into words, because a single
-// instruction can compare the words of a whole line.
+// Coded block: the bits that were read and the bits of the code, packed into one word per line. A
+// single instruction can then compare a whole line.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"

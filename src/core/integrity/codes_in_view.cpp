@@ -5,9 +5,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Limits below which the odds of another code are negligible, and no further bits are compared.
-/// kMaxOddsHere is the limit for the place of the reading in the other code. kMaxOddsElsewhere is
-/// the limit for the sum over all other places in the other code.
+/// If the odds of another code are below these limits, they are negligible and are not recomputed
+/// from more bits. kMaxOddsHere applies to the place of the reading in the other code, and
+/// kMaxOddsElsewhere to the sum over all other places.
 constexpr float kMaxOddsHere = 1e-12F;
 constexpr float kMaxOddsElsewhere = 1e-10F;
 

@@ -5,7 +5,7 @@
 
 namespace dotpose::core {
 
-/// Maximum number of columns that are compared bit by bit. The same limit applies to rows.
+/// Maximum number of columns, and of rows, that are compared bit by bit.
 inline constexpr int kMaxComparedLines = 32;
 
 /// A column or row. Each word has one bit per cell. Bit 0 is the first cell.

@@ -65,7 +65,7 @@ int odds_per_bit_q8(const Confidence& confidence) {
     }
     const std::uint64_t allowed_q16 = std::uint64_t{allowed} << 16;
     int odds_q8 = 0;
-    // Bisection. The expected weight of wrong bits decreases as the odds increase.
+    // Bisects the odds, because the expected weight of wrong bits decreases as the odds increase.
     for (int step_q8 = 8 * 256; step_q8 >= 8; step_q8 /= 2) {
         std::uint64_t expected_q16 = 0;
         for (std::size_t i = 0; i < count && expected_q16 <= allowed_q16; ++i) {
@@ -86,13 +86,14 @@ int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8) {
 }
 
 int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8) {
-    // log2(410815348 * 63 * 4) = 36.59
+    // There are 410815348 positions, 63 sections and 4 orientations, and log2 of the product is
+    // 36.59.
     constexpr int kHypotheses_q8 = 9368;
     return agreement_log2_q8(axis, odds_per_bit_q8) + kHypotheses_q8 + log2_times_q8;
 }
 
 int chance_log2(const Confidence& axis, int odds_per_bit_q8) {
-    // log2(410815348 * 63 * 4) = 36.6
+    // Rounds log2 of the number of hypotheses, 36.59, up to 37.
     const std::int64_t sum_q16 = 37 * 65536 + agreement_log2_q16(axis, odds_per_bit_q8);
     return static_cast<int>(std::min<std::int64_t>(sum_q16 >> 16, 36)) + 1;
 }

@@ -61,14 +61,13 @@ class Confidence {
 /// docs/integrity.md, "Alternatives: odds". Returns 0 if the bits contain no information.
 int odds_per_bit_q8(const Confidence& confidence);
 
-/// Returns log2 of Chernoff's upper bound on the probability of a chance agreement with one given
-/// place, in units of 2^-8. In a chance agreement, random bits of the same weights agree with the
-/// place at least as well as the bits that were read do. Any value of `odds_per_bit_q8` gives an
-/// upper bound.
+/// Returns log2 of Chernoff's upper bound, in units of 2^-8, on the probability that random bits of
+/// the same weights agree with a given place at least as well as the bits that were read. Any value
+/// of `odds_per_bit_q8` gives an upper bound.
 int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8);
 
-/// Returns log2 of an upper bound on the probability of a chance agreement with any place, in any
-/// section and orientation. See docs/integrity.md, "Chance: a bound". Any value of
+/// Returns log2 of an upper bound on the probability that random bits agree equally well with any
+/// place, in any section and orientation. See docs/integrity.md, "Chance: a bound". Any value of
 /// `odds_per_bit_q8` gives an upper bound. The bound is smallest near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 

@@ -12,36 +12,36 @@
 namespace dotpose::core {
 namespace {
 
-/// Minimum result: kNegligible for each pair of places, at each shift. This prevents a fix from
-/// relying on smaller expected odds. The 190,027 pairs include 2,217 pairs that contain a place of
-/// the reading.
+/// Minimum of the result: kNegligible for each pair of places and each shift, so that no fix relies
+/// on smaller expected odds. The 190,027 pairs include 2,217 pairs that contain a place of the
+/// reading.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// log2 of large odds. If it does not take too long, all alternatives with larger odds are counted
-/// individually.
+/// log2 of the odds above which all alternatives are counted individually, unless this takes too
+/// long.
 constexpr int kLargeOdds_log2 = -36;
 
-/// Set of anchors. Bit n is the anchor with index n, in the order of the lines. Anchors are the
-/// lines with the most information.
+/// Set of anchors, which are the lines with the most information. Bit n represents anchor n.
+/// Anchors are numbered in the order of the lines.
 using Anchors = std::uint32_t;
 
 /// A vector with one byte per anchor. The vector fits in one register.
 using AnchorBytes [[gnu::vector_size(16)]] = std::uint8_t;
 static_assert(sizeof(AnchorBytes) >= kMaxAnchors);
 
-/// Returns differences of offsets modulo 63. The arguments are in [-62, 62], with negative
-/// differences represented modulo 256.
+/// Returns differences of roll offsets modulo 63. The differences are in [-62, 62], and negative
+/// differences are represented modulo 256.
 AnchorBytes modulo_sections(AnchorBytes offsets) {
     return offsets + (static_cast<AnchorBytes>(offsets >= kSections) & kSections);
 }
 
 /// The anchors, divided into `shared - 1` groups. An alternative that shares `shared` anchors
-/// shares at least two anchors of one group.
+/// therefore shares at least two anchors of one group.
 class Groups {
   public:
     Groups(int anchors, int shared) : count_(shared - 1) {
-        // Assigns the anchors to the groups in turn. The anchors of a group are then far apart, and
-        // few alternatives share two of them.
+        // Assigns the anchors to the groups in turn, so that the anchors of a group are far apart
+        // and few alternatives share two of them.
         for (int n = 0; n < anchors; ++n)
             groups_[static_cast<std::size_t>(n % count_)] |= Anchors{1} << n;
     }
@@ -59,9 +59,9 @@ class Groups {
         }
     }
 
-    /// Returns true if (`one`, `other`) is the first pair, in the order of `visit_pairs`, of
-    /// anchors that are both in `shared`. An alternative that shares several pairs of anchors is
-    /// counted only at the first pair.
+    /// Returns true if (`one`, `other`) is the first pair that `visit_pairs` visits among the pairs
+    /// of anchors in `shared`. An alternative that shares several pairs of anchors is counted only
+    /// at the first pair.
     bool is_first_pair(Anchors shared, std::size_t one, std::size_t other) const {
         for (const Anchors group : groups_) {
             const Anchors both = shared & group;
@@ -137,18 +137,17 @@ class AnchorOffsets {
     std::array<std::array<AnchorBytes, code::kA4Restored.size()>, 4> all_;
 };
 
-/// A place in one sequence. An element of `offsets` is the roll offset of the place at a fixed
-/// anchor `one` minus its roll offset at the element's anchor, modulo 63. Consider an alternative
-/// with this place and with a place in another sequence. The alternative shares an anchor if the
-/// element of `offsets` equals the roll offset of the other place at this anchor minus its roll
-/// offset at `one`.
+/// A place in one sequence. offsets[n] is the roll offset of the place at a fixed anchor `one`
+/// minus its roll offset at anchor n, modulo 63. An alternative that combines this place with a
+/// place in another sequence, and that shares `one`, also shares anchor n if offsets[n] equals the
+/// roll offset of the other place at anchor n minus its roll offset at `one`.
 struct Opposite {
     AnchorBytes offsets;
     std::uint32_t place;
 };
 
-/// The places in one sequence, except the place of the reading. The places are sorted into buckets
-/// by the difference of their offsets at two anchors, modulo 63.
+/// The places in one sequence except the place of the reading, sorted into buckets by the
+/// difference of their offsets at two anchors, modulo 63.
 class Buckets {
   public:
     Buckets(const AnchorOffsets& offsets, std::size_t sequence, std::uint32_t length,
@@ -204,9 +203,9 @@ class Finder {
     float sum() const {
         float sum = 0;
         groups_.visit_pairs([&](std::size_t one, std::size_t other) {
-            // Sorts the places of the first sequence into buckets, and combines them with each of
-            // the other sequences. a3 is never sorted into buckets, because it is the shortest
-            // sequence.
+            // Each call sorts the places of its first sequence into buckets, and combines them with
+            // the places of the other sequences. a3 is never sorted into buckets, because it is the
+            // shortest sequence.
             sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
                    sum_of_bucketed(3, {0, 1, 2}, one, other);
         });
@@ -257,8 +256,8 @@ class Finder {
         RollOffsets b;
         lines_.set_offsets(sequence_a, place_a, a);
         lines_.set_offsets(sequence_b, place_b, b);
-        // Adding 126 keeps the index of the loss positive. 126 is a multiple of 63 and does not
-        // change the shift.
+        // Adding 126, a multiple of 63, keeps the index of the loss positive without changing the
+        // shift.
         const std::size_t shared = offsets_.line(anchor);
         const int base = 2 * kSections - a[shared] - b[shared];
         int lost = 0;
@@ -299,8 +298,8 @@ std::array<int, kMaxAnchors + 1> min_losses_of_unshared(const RankedLines& lines
     return sums;
 }
 
-/// Number of anchors, and number of anchors that an alternative must share to be counted
-/// individually.
+/// Parameters of a search: the number of anchors, and the number of anchors that an alternative
+/// must share to be counted individually.
 struct Search {
     int anchors;
     int shared;
@@ -346,9 +345,9 @@ float sum_of_double_alternatives(const Kernels& kernels, const RankedLines& line
     const auto expected_odds = [&](int shared) {
         return kMargin * by_shared[static_cast<std::size_t>(shared)];
     };
-    // The search visits 6 pairs of anchors if seven shared anchors are required, 18 pairs for four,
-    // and 66 pairs for two. Fewer than four shared anchors are required only if the fix would be
-    // refused otherwise.
+    // The search takes longer if fewer shared anchors are required: it visits 6 pairs of anchors
+    // for seven shared anchors, 18 pairs for four, and 66 pairs for two. Fewer than four are
+    // required only if the fix would be refused otherwise.
     constexpr int kMinForDetail = 4;
     int shared = std::min(kMinFound, anchors);
     while (shared > 2 &&

@@ -1,4 +1,4 @@
-// Double alternatives: positions that differ from the reading in the places in two secondary
+// Double alternatives: positions whose places differ from those of the reading in two secondary
 // sequences. See docs/integrity.md, "Alternatives: odds".
 #pragma once
 
@@ -13,11 +13,9 @@ namespace dotpose::core {
 /// odds of the pairs that share at least k anchors. For all other pairs, the sum contains their
 /// expected odds times kMargin. `expected` is the expected sum of the odds of all pairs.
 ///
-/// If kMargin * `expected` is at most 4 * `negligible`, and a fast search finds all pairs with
-/// large odds, the function uses this search. Otherwise, it chooses k such that the expected part
-/// is at most `negligible`, if this does not take too long. If the expected part exceeds
-/// `max_odds`, the caller refuses the fix. In this case, the function returns the expected part
-/// alone, without evaluating any pairs.
+/// k is chosen such that the expected part of the sum is at most 4 * `negligible`, unless the
+/// search would take too long. If the expected part exceeds `max_odds`, the function returns it
+/// without evaluating any pairs, because the caller refuses the fix.
 float sum_of_double_alternatives(const Kernels& kernels, const RankedLines& lines, float expected,
                                  float negligible, float max_odds);
 

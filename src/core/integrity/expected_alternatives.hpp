@@ -1,6 +1,6 @@
-// Expected alternatives: the expected odds of positions that differ from the reading in several
-// secondary sequences. There are 4e8 such positions, too many for an enumeration. The expectation
-// is over all places. See docs/integrity.md, "Alternatives: odds".
+// Expected alternatives: the expected odds of positions whose places differ from those of the
+// reading in several secondary sequences. The expectation is over all places. There are 4e8 such
+// positions, too many for an enumeration. See docs/integrity.md, "Alternatives: odds".
 #pragma once
 
 #include "core/integrity/ranked_lines.hpp"
@@ -12,9 +12,9 @@ namespace dotpose::core {
 /// at most 21 times the mean.
 inline constexpr float kMargin = 32;
 
-/// Returns the expected sum of the odds of the far alternatives that differ from the reading in the
-/// places in `min_different` to `max_different` sequences, and that share at most `max_shared`
-/// adjacent lines with it.
+/// Returns the expected sum of the odds of the far alternatives whose places differ from those of
+/// the reading in `min_different` to `max_different` sequences, and that share at most `max_shared`
+/// adjacent lines with the reading.
 float sum_of_expected_alternatives(const Kernels& kernels, const RankedLines& lines, int max_shared,
                                    int min_different, int max_different);
 

@@ -1,6 +1,6 @@
-// Expected double alternatives: the expected odds of positions that differ from the reading in two
-// secondary sequences. The expectation is over all places. See docs/integrity.md, "Alternatives:
-// odds".
+// Expected double alternatives: the expected odds of positions whose places differ from those of
+// the reading in two secondary sequences. The expectation is over all places. See
+// docs/integrity.md, "Alternatives: odds".
 #pragma once
 
 #include "core/integrity/ranked_lines.hpp"

@@ -31,7 +31,6 @@ inline std::size_t sum_of_rolls(std::size_t a, std::size_t b) {
     return sum < kSections ? sum : sum - kSections;
 }
 
-/// Returns the number of bits that were read in all lines.
 int number_of_bits(const BitLines& lines);
 
 /// The lines on one axis of a block. Contains, for each line and each roll, the number of bits that
@@ -86,20 +85,20 @@ struct ScoredTurn {
           columns(kernels, upright.columns, ranges.columns, ranges.rows.first),
           rows(kernels, upright.rows, ranges.rows, ranges.columns.first) {}
 
-    /// Returns the range of positions of the block's first column for which at least one column of
-    /// the block is in `region`.
+    /// Returns the positions of the block's first column at which the block overlaps the columns of
+    /// `region`.
     PositionRange columns_of(const KnownRegion& region) const {
         return {region.first.x, region.columns, columns.count()};
     }
-    /// Returns the range of positions of the block's first row for which at least one row of the
-    /// block is in `region`.
+    /// Returns the positions of the block's first row at which the block overlaps the rows of
+    /// `region`.
     PositionRange rows_of(const KnownRegion& region) const {
         return {region.first.y, region.rows, rows.count()};
     }
 };
 
-/// Cache for the table of one axis. The next region reuses the table if its code and positions are
-/// the same. Sheets in the same file often have the same positions on one axis.
+/// Cache for the table of one axis. Sheets in the same file often have the same positions on one
+/// axis, so the next region reuses the table if its code and positions are the same.
 template <typename Table>
 class KeptTable {
   public:
@@ -118,10 +117,10 @@ class KeptTable {
     std::optional<Table> table_;
 };
 
-/// Calls `use(column, column_roll, row, row_roll)` for each column class and row class. The roll of
-/// a column is its roll in section 0 plus `column_roll`, which depends on the section and the row
-/// class. The roll of a row is its roll in section 0 plus `row_roll`, which depends on the section
-/// and the column class.
+/// Calls `use(column, column_roll, row, row_roll)` for each pair of a column class and a row class.
+/// The roll of a column is its roll in section 0 plus `column_roll`, which depends on the section
+/// and the row class. The roll of a row is its roll in section 0 plus `row_roll`, which depends on
+/// the section and the column class.
 template <typename Use>
 void visit_classes(const Section& section, Use use) {
     for (std::size_t column = 0; column < kSections; ++column) {

@@ -41,7 +41,8 @@ class OddsOfBits {
     int per_bit_;  ///< log2 of the odds per bit, in units of 2^-23
 };
 
-/// Position of the first line, and the roll that is added to all rolls in section 0.
+/// Position of the first line, and the number that is added to the rolls in section 0 to obtain the
+/// rolls of the lines.
 struct PositionAndRoll {
     std::uint32_t position;
     std::size_t roll;
@@ -88,10 +89,10 @@ float random_agreement(int bits, int wrong) {
     return term * power_of_two_exactly(exponent) / (1 - ratio);
 }
 
-/// Returns an upper bound on the probability of a chance agreement if no known sheet is in view. In
-/// a chance agreement, random bits agree with a known place at least as well as the bits that were
-/// read do. `bits` is the number of bits per axis, and `wrong` the number of wrong bits per axis.
-/// `lines` is the larger of the numbers of columns and rows.
+/// If no known sheet is in view, the bits are random. Returns an upper bound on the probability
+/// that random bits agree with a known place at least as well as the bits that were read. `bits` is
+/// the number of bits per axis, and `wrong` the number of wrong bits per axis. `lines` is the
+/// number of columns or rows, whichever is larger.
 float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int, 2>& wrong,
                       int lines) {
     float places = 0;
@@ -108,8 +109,8 @@ float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int,
     const float trials = std::max(kTurns * places, 1024.0F);
     const float anywhere = trials * random_agreement(2 * bits, wrong[0] + wrong[1]);
     if (sheets.are_all()) return anywhere;
-    // An unknown sheet may have the same rows as a known sheet. All y bits then agree with the
-    // code, and they determine the turn, the roll and the row position. Only the columns of one
+    // An unknown sheet may have the same rows as a known sheet. All y bits then agree with the code
+    // and determine the orientation, the roll and the row position, so that only the columns of one
     // class remain possible. The same applies to rows if an unknown sheet has the same columns.
     return anywhere + columns * random_agreement(bits, wrong[0]) +
            rows * random_agreement(bits, wrong[1]);

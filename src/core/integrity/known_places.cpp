@@ -9,9 +9,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Stores the maximum number of bits on one axis that agree with the code. The first index is the
-/// class: the position modulo 63. The second index is the roll that is added to the rolls in
-/// section 0. Each maximum is over all positions in a class.
+/// Maximum number of bits on one axis that agree with the code. The first index is the class, which
+/// is the position modulo 63. The second index is the roll that is added to the rolls in section 0.
 class Peaks {
   public:
     Peaks(const ScoredAxis& axis, CodeVariant code, const PositionRange& range) {

@@ -14,7 +14,7 @@ namespace dotpose::core {
 /// A place on a known sheet, and the orientation of the block at this place.
 struct KnownPlace {
     CodeVariant code = CodeVariant::anoto;
-    int quarters = 0;            ///< quarter turns from the block to the pattern, as for `turned`
+    int quarters = 0;            ///< argument of `turned` that makes the block upright
     Place place;                 ///< place of cell (0, 0) of the turned block
     int bits = 0;                ///< number of bits in the block; a dot has two bits
     std::array<int, 2> wrong{};  ///< number of wrong bits on x and y

@@ -9,12 +9,12 @@
 //   The places determine the roll offsets up to a shift.
 // - Shift: a number that is added to the rolls of all lines. It depends on the section.
 // - Shared line: a line in which the roll offset is 0.
-// - Single alternative: differs from the reading in the place in one sequence.
-// - Double alternative: differs in the places in two sequences.
-// - Far alternative: differs in the places in two or more sequences.
-// - Near alternative: shares at least four adjacent lines with the reading.
-// - Seam alternative: has one shift before a border between two lines, and another shift after the
-//   border.
+// - Single alternative: an alternative whose place differs in one sequence.
+// - Double alternative: an alternative whose places differ in two sequences.
+// - Far alternative: an alternative whose places differ in two or more sequences.
+// - Near alternative: an alternative that shares at least four adjacent lines with the reading.
+// - Seam alternative: an alternative with one shift before a border between two lines, and another
+//   shift after the border.
 #pragma once
 
 #include <algorithm>
@@ -76,7 +76,6 @@ class LikelihoodRatios {
     /// Returns the minimum loss of an alternative that does not share the line. The minimum is
     /// negative if another roll agrees better with the line.
     int min_loss(int line) const { return min_losses_[static_cast<std::size_t>(line)]; }
-    /// Returns the minimum losses of `count` adjacent lines, starting at line `first`.
     std::span<const std::int16_t> min_losses(int first, int count) const {
         return std::span(min_losses_)
             .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
@@ -109,8 +108,8 @@ class LikelihoodRatios {
     float odds(int lost) const {
         const int log2_q8 = std::clamp(log2_odds_q8(lost), kNegligible_q8, -kNegligible_q8);
         const int whole = log2_q8 >> 8;
-        // The exponent of a float begins at bit 23 and has a bias of 127. Emscripten's standard
-        // library has no `std::bit_cast`.
+        // Builds the float from its exponent, which begins at bit 23 and has a bias of 127.
+        // Emscripten's standard library has no `std::bit_cast`.
         const auto power =
             __builtin_bit_cast(float, static_cast<std::uint32_t>(whole - 16 + 127) << 23);
         return static_cast<float>(exp2_q16(log2_q8 - whole * 256)) * power;
@@ -136,7 +135,7 @@ class LikelihoodRatios {
     /// Returns the loss in bits: the number of wrong bits at `roll` minus the number of wrong bits
     /// at the roll of the reading.
     int loss_of_bits(int line, int roll) const;
-    /// Among all rolls except the roll of the reading, the rolls with the minimum loss in a line.
+    /// The rolls with the minimum loss in a line, among all rolls except the roll of the reading.
     struct Nearest {
         int lost_bits = 0;      ///< loss of these rolls, in bits
         int log2_count_q8 = 0;  ///< upper bound on log2 of their number, in units of 2^-8
@@ -159,8 +158,8 @@ class LikelihoodRatios {
 using RollOffsets = std::array<std::uint8_t, kMaxLines>;
 
 /// Returns the roll offset, from 0 to 62. `own` is the roll of the reading, and `alternative` is
-/// the roll of the alternative. Compilers can vectorise loops over lines, because all arithmetic is
-/// on bytes.
+/// the roll of the alternative. All arithmetic is on bytes so that compilers can vectorise loops
+/// over lines.
 constexpr std::uint8_t roll_offset(std::uint8_t own, std::uint8_t alternative) {
     return static_cast<std::uint8_t>(alternative - own + (alternative < own ? kSections : 0));
 }
@@ -176,10 +175,10 @@ inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequenc
         offsets[static_cast<std::size_t>(line)] = roll_offset(own[line], alternative[line]);
 }
 
-/// Returns the loss of an alternative at the shift where it shares the line `shared`. Stops if the
-/// alternative is hopeless, and returns the loss so far. Returns nullopt if the alternative also
-/// shares an earlier line at this shift, because the caller counts the alternative at the earlier
-/// line.
+/// Returns the loss of an alternative at the shift at which it shares the line `shared`. If the
+/// alternative is negligible, stops early and returns the loss so far. Returns nullopt if the
+/// alternative also shares an earlier line at this shift, because the caller counts the alternative
+/// at the earlier line.
 std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOffsets& offsets,
                                    int shared);
 

@@ -1,7 +1,6 @@
 // Minimum losses: lower bounds on the loss of every alternative. An alternative shares at most
-// `LikelihoodRatios::max_shared` adjacent lines. Of any max_shared + 1 adjacent lines, it therefore
-// has a loss in at least one. In most frames, these bounds prove that all alternatives are
-// negligible.
+// `LikelihoodRatios::max_shared` adjacent lines, so it has a loss in at least one of any max_shared
+// + 1 adjacent lines. In most frames, these bounds prove that all alternatives are negligible.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -14,15 +13,15 @@ using MinLosses = std::array<int, kMaxLines + 1>;
 /// Returns the lower bounds for the first n lines, or for the last n lines if `from_last` is true.
 MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last);
 
-/// Returns a lower bound on the loss of every seam alternative, over all borders. A seam
+/// Returns a lower bound on the loss of every seam alternative, wherever its border is. A seam
 /// alternative has one shift before a border between two lines, and another shift after the border.
 /// Gains count as 0.
 int min_loss_with_border(const LikelihoodRatios& ratios);
 
-/// Returns true if every seam alternative certainly loses at least `loss_limit` in a single line.
-/// This is the case if more than 2 * `max_shared` adjacent lines have at least this minimum loss.
-/// An alternative shares at most `max_shared` adjacent lines on each side of the border, so it
-/// cannot share all of these lines.
+/// Returns true if every seam alternative loses at least `loss_limit` in a single line, because
+/// more than 2 * `max_shared` adjacent lines have at least this minimum loss. A seam alternative
+/// cannot share all of these lines, because it shares at most `max_shared` adjacent lines on each
+/// side of its border.
 bool must_lose_with_border(const LikelihoodRatios& ratios, int loss_limit);
 
 }  // namespace dotpose::core

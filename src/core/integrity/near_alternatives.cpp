@@ -8,8 +8,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of periods that are added to a place before a line index is subtracted. The difference is
-/// then positive, because kPeriods periods of any sequence contain more than kMaxLines places.
+/// Number of periods of a sequence that are added to a place before a line index is subtracted, so
+/// that the difference is positive. kPeriods periods of any sequence contain more than kMaxLines
+/// places.
 constexpr std::uint32_t kPeriods = kMaxLines / code::kA3.size() + 1;
 
 /// Roll offsets of 16 lines, or sums of two roll offsets in each of 16 lines.
@@ -31,10 +32,10 @@ void set_sums(const RollOffsets& a, const RollOffsets& b, std::size_t lines, Rol
     }
 }
 
-/// The places in one sequence at which the digits of a run occur. The digits of a run are the
-/// digits of the reading in the steps between the lines of the run. Contains the roll offsets of
-/// these places relative to their offsets in the first line of the run, or the negatives of these
-/// relative offsets. The first place is the place of the reading.
+/// The places in one sequence at which the digits of a run occur. A run is a group of adjacent
+/// lines, and its digits are the digits of the reading between these lines. For each place,
+/// contains the roll offsets relative to the offset in the first line of the run, or the negatives
+/// of these relative offsets. The first place is the place of the reading.
 class TwinPlaces {
   public:
     enum class Sign : std::uint8_t { positive, negative };
@@ -78,9 +79,9 @@ class TwinPlaces {
     std::array<RollOffsets, code::kA4Restored.size()> twins_;
 };
 
-/// Sums the odds of the alternatives that share all lines of one run. An alternative is a
-/// combination of twin places in all sequences. Combines the first two sequences one by one, and
-/// compares each combination with 32 combinations of the last two sequences at a time.
+/// Sums the odds of the alternatives that share all lines of one run. Each alternative is a
+/// combination of twin places in the four sequences. Compares each combination in the first two
+/// sequences with 32 combinations in the last two sequences at a time.
 class RunSum {
   public:
     RunSum(const Kernels& kernels, const RankedLines& lines, const CoarseLosses& losses, int run,

@@ -17,14 +17,14 @@ constexpr int kSingles_q8 = 2441;
 /// Limit for the odds of the far alternatives, as log2 in units of 2^-8. Below this limit, no
 /// tighter bound is needed.
 constexpr int kSmallOdds_q8 = -36 * 256;
-/// Default limit of the error probability, as log2 in units of 2^-8. Bounds are as tight as this
-/// limit requires, even if the caller permits larger odds.
+/// Default limit of the error probability, as log2 in units of 2^-8. Bounds are at least as tight
+/// as this limit requires, even if the limit of the caller is larger.
 constexpr int kUsualLimit_q8 = -30 * 256;
-/// Upper bound on the odds of each skipped single alternative, as log2 in units of 2^-8.
+/// Upper bound on the odds of a single alternative that is not evaluated, as log2 in units of 2^-8.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 
-/// Odds in a line that an alternative does not share, as log2 in units of 2^-8. The other rolls are
-/// all rolls except the roll of the reading.
+/// Odds in a line that an alternative does not share, as log2 in units of 2^-8. Other rolls are all
+/// rolls except the roll of the reading.
 struct LineOdds {
     int best_q8;  ///< odds of the best other roll
     int sum_q8;   ///< summed odds of all other rolls
@@ -57,18 +57,18 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
 }
 
 /// Returns an upper bound on the expected odds of the alternatives in one set, as log2 in units of
-/// 2^-8. Merges all nonzero roll offsets into one state. Let p be the probability that all digits
-/// in a step are equal. A step leads to a given roll offset with a probability of at most p. A line
-/// that is not shared therefore multiplies the odds by at most p * `sum`, and by at most `best`
-/// (see `LineOdds`).
+/// 2^-8. The bound treats all nonzero roll offsets as one state. If p is the probability that all
+/// digits in a step are equal, the step leads to a given roll offset with a probability of at most
+/// p. A line that is not shared therefore multiplies the odds by at most p * `sum`, and by at most
+/// `best` (see `LineOdds`).
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
     const auto max_shared = static_cast<std::size_t>(ratios.max_shared());
     const int equal = set.equal_q8 + kUnevenness_q8;
-    // One element per line: the summed odds of the alternatives that have shared all lines since
-    // this line. All sums in this function are divided by the probability that all digits so far
-    // are equal. An element therefore remains constant while an alternative shares lines.
+    // Summed odds of the alternatives that have shared all lines since a given line, with one
+    // element per line. All sums in this function are divided by the probability that all digits so
+    // far are equal, so an element remains constant while an alternative shares lines.
     std::array<int, kMaxShared + kMaxLines> sharing;
     // pairs[n] is sharing[n] + sharing[n - 1]. Adding pairs halves the number of additions.
     std::array<int, kMaxShared + kMaxLines> pairs;
@@ -120,9 +120,9 @@ int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
 }
 
 /// Returns an upper bound on the odds of the far alternatives in all sets, as log2 in units of
-/// 2^-8. If `roughly` is true, replaces the sum over the rolls of a line by the number of rolls
-/// times the best odds. For hard bits, uses `LikelihoodRatios::log2_of_nearest_q8` instead. Stops
-/// when the sum exceeds `max_log2_q8`.
+/// 2^-8. If `roughly` is true, bounds the sum over the rolls of a line by the number of rolls times
+/// the best odds. Ratios of hard bits always use the bound of
+/// `LikelihoodRatios::log2_of_nearest_q8`. Stops when the sum exceeds `max_log2_q8`.
 int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     AllLineOdds odds;
     odds[0] = {};
@@ -188,13 +188,12 @@ class ByShift {
     std::array<Loss, kMaxLines> losses_;  ///< sorted by decreasing loss
     std::uint32_t in_all_ = 0;            ///< total of all losses
     /// Number of elements of `losses_` that `may_matter` adds before its first check, and the sum
-    /// of these losses. An alternative that shares the first of these lines cannot lose
-    /// `loss_limit_` in these lines alone.
+    /// of these losses. An earlier check would be useless: at the shift at which an alternative
+    /// shares the first of these lines, its loss in the other lines is below `loss_limit_`.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
-    /// For each shift, `none_` plus the losses in the lines that the current alternative shares.
-    /// The alternative avoids these losses. Values below `none_` belong to earlier alternatives and
-    /// count as `none_`.
+    /// For each shift, `none_` plus the losses that the current alternative avoids by sharing
+    /// lines. Values below `none_` belong to earlier alternatives and count as `none_`.
     std::array<std::uint32_t, kSections> kept_{};
     /// Value in `kept_` at shifts where the alternative avoids no losses. Increasing `none_` for
     /// each alternative resets `kept_` without writing to it.
@@ -238,7 +237,7 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     for (const Loss* const end = loss + first_count_; loss != end; ++loss)
         keep(*loss);
     // If `largest` is at most this value, the alternative loses at least `loss_limit_` at every
-    // shift, in the lines so far.
+    // shift in the lines that were added so far.
     std::uint32_t max_to_keep = none - loss_limit_ + first_losses_;
     for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
         keep(*loss);
@@ -307,9 +306,8 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
 }
 
 /// Returns an upper bound on the odds of the single alternatives of the given sequences that share
-/// a line, as log2 in units of 2^-8. Adds kSkippedOdds_q8 for every alternative and every line.
-/// Only a few alternatives may lose less than `loss_limit`. Their odds are computed individually
-/// and added.
+/// a line, as log2 in units of 2^-8. Most alternatives contribute only kSkippedOdds_q8 for each
+/// line. The odds of the few alternatives that may be more probable are computed individually.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int loss_limit = ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain();
@@ -342,7 +340,7 @@ int other_sections_log2_q8(const LikelihoodRatios& ratios) {
 }  // namespace
 
 int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
-    // For hard bits, there is no tighter bound. The sum therefore stops only at the caller's limit.
+    // There is no tighter bound for hard bits, so the sum stops only at the caller's limit.
     const bool is_last = ratios.is_of_bits();
     int far = far_log2_q8(ratios, true, is_last ? limit_q8 : kSmallOdds_q8);
     if (far > kSmallOdds_q8 && !is_last) far = far_log2_q8(ratios, false, limit_q8);
@@ -357,9 +355,10 @@ int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
         constexpr int kLittle_q8 = -5 * 256;
         const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
         sequences = add_by_tables(ratios, little_q8, sequences, singles);
-        // Adds the single alternatives at shifts without a shared line. They lose at least
-        // `min_loss` in each line, so the bound for the other sections (one for each shift) applies
-        // to each alternative.
+        // Adds the single alternatives at shifts without a shared line. Like the reading's position
+        // in another section, they lose at least `min_loss` in each line. At each place, their
+        // summed odds over all of these shifts are therefore at most the bound for the other
+        // sections.
         singles = add_log2(singles, kSingles_q8 + other_sections);
     }
     if (sequences != 0) singles = add_log2(singles, singles_log2_q8(ratios, sequences));

@@ -38,8 +38,8 @@ void RankedLines::rank_lines() {
     for (std::size_t line = 0; line < static_cast<std::size_t>(count()); ++line) {
         const OddsByOffset& odds = odds_[line];
         sums[line] = std::accumulate(odds.begin() + 1, odds.end(), 0.0F);
-        // Insertion sort. The machine code of `std::sort` would be larger than the other code in
-        // this file.
+        // Insertion sort, because the machine code of `std::sort` would be larger than the other
+        // code in this file.
         std::size_t rank = line;
         for (; rank > 0 && sums[lines[rank - 1]] > sums[line]; --rank)
             lines[rank] = lines[rank - 1];
@@ -52,8 +52,8 @@ void RankedLines::rank_lines() {
 void RankedLines::set_offsets(std::size_t sequence, std::uint32_t place,
                               RollOffsets& offsets) const {
     using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
-    // The vectors also access elements beyond the last line. The tables of rolls and the array of
-    // offsets contain these elements.
+    // The vectors also access elements beyond the last line. These elements exist in the tables of
+    // rolls and in the array of offsets.
     static_assert(kMaxLines % sizeof(Bytes) == 0 && kMaxLines <= code::kLinesAhead);
     const std::uint8_t* const rolls = ratios.basis[sequence].rolls;
     for (std::size_t line = 0; line < static_cast<std::size_t>(count()); line += sizeof(Bytes)) {

@@ -16,7 +16,7 @@ class RankedLines {
     int count() const { return ratios.lines.count(); }
     int rank(std::uint32_t line) const { return ranks_[line]; }
     /// Returns the odds of an alternative in each line, by roll offset. The odds are at least
-    /// kNegligible, and the padding is 0.
+    /// kNegligible. The last element for each line is padding and is 0.
     std::span<const OddsByOffset> odds() const {
         return std::span(odds_).first(static_cast<std::size_t>(count()));
     }
@@ -40,8 +40,8 @@ class RankedLines {
     std::array<std::array<std::int16_t, 256>, kMaxLines> losses_;
 };
 
-/// Minimum losses of the lines, in coarse units, because sums of these losses must fit in bytes.
-/// Each loss is rounded down to whole units, and is at most `limit`.
+/// Minimum losses of the lines, rounded down to coarse units so that sums of losses fit in bytes.
+/// Each loss is at most `limit`.
 struct CoarseLosses {
     explicit CoarseLosses(const LikelihoodRatios& ratios);
 

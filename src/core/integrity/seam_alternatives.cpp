@@ -13,11 +13,11 @@ namespace {
 
 /// Prior probability that a given border between two lines is a seam with a given roll difference,
 /// as log2 in units of 2^-8. With this prior and the default limit, a position is accepted if a
-/// seam explains the view equally well. It is refused if a seam explains the view better by two
-/// bits.
+/// seam explains the view equally well, but refused if the likelihood of a seam is at least four
+/// times higher.
 constexpr int kSeam_q8 = -32 * 256;
-/// The sum includes only alternatives whose odds, without the prior, exceed this limit. The limit
-/// is log2 in units of 2^-8.
+/// Minimum odds of the alternatives that are included in the sum, as log2 in units of 2^-8. These
+/// odds exclude the prior.
 constexpr int kMin_q8 = -8 * 256;
 
 /// Minimum losses of an alternative before and after each border. Each minimum is over all shifts
@@ -111,7 +111,7 @@ int loss_limit_of(const LikelihoodRatios& ratios) {
 }
 
 /// Returns the step losses in units of `part`, rounded down. A seam alternative avoids the loss in
-/// one step, which crosses the border. `part` is therefore the smallest integer with
+/// the step that crosses the border. `part` is therefore the smallest integer with
 ///     kLimitParts * part >= loss_limit + (largest step loss)
 /// A sum of kLimitParts units then reaches `loss_limit` even without the largest step loss.
 StepLosses losses_of_steps(const LikelihoodRatios& ratios, int loss_limit) {

@@ -1,5 +1,5 @@
-// Seam alternatives: the odds that the view contains a seam between two sections with the same
-// positions, relative to the reading. See docs/integrity.md, "Seams: odds with a prior".
+// Seam alternatives: the odds, relative to the reading, that the view contains a seam between two
+// sections with the same positions. See docs/integrity.md, "Seams: odds with a prior".
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -8,10 +8,10 @@
 
 namespace dotpose::core {
 
-/// Returns log2 of the summed odds in units of 2^-8, including the prior of a seam. A seam
-/// alternative differs from the reading in the place in one sequence. Its shift changes at a border
-/// between two lines. Includes only alternatives that explain the bits about as well as the reading
-/// does. Returns kNever_q8 if there are no such alternatives.
+/// Returns log2 of the summed odds in units of 2^-8, including the prior of a seam. The place of a
+/// seam alternative differs from that of the reading in one sequence, and its shift changes at a
+/// border between two lines. Includes only alternatives that explain the bits about as well as the
+/// reading does. Returns kNever_q8 if there are no such alternatives.
 int seam_alternatives_log2_q8(const LikelihoodRatios& ratios);
 
 /// Variant that uses kernels to search for the alternatives.

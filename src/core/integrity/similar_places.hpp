@@ -14,14 +14,13 @@ inline constexpr int kMaxSteps = 18;
 /// that loses at least kLimitParts parts is excluded.
 inline constexpr unsigned kLimitParts = 15;
 
-/// Steps in which an alternative has no loss even if its digit differs from the digit of the
-/// reading: no step, or any single step. A seam alternative has no loss in the step across the
-/// border.
+/// Steps in which a different digit causes no loss: no step, or any single step. The second case
+/// applies to seam alternatives, which have no loss in the step across the border.
 enum class Excused : std::uint8_t { none, any_one };
 
 /// Steps in which digits are compared, and the loss if a digit differs from the digit of the
-/// reading. An alternative with a different digit shares at most one of the two lines of the step.
-/// It loses at least the smaller of their minimum losses.
+/// reading. An alternative with a different digit shares at most one of the two lines of the step,
+/// so it loses at least the smaller of their minimum losses.
 struct Steps {
     Steps(const LikelihoodRatios& ratios, int loss_limit, Excused excused);
 

@@ -8,8 +8,8 @@ namespace {
 
 /// Returns the odds of a single alternative at the shift at which it shares a line.
 float odds_at(const RankedLines& lines, const RollOffsets& offsets, std::size_t shared) {
-    // With `base`, the offset in the shared line is 126, which is 0 modulo 63. The other offsets
-    // are positive.
+    // Adding `base` makes the offset in the shared line 126, which is 0 modulo 63, and keeps the
+    // other offsets positive.
     const int base = 2 * kSections - offsets[shared];
     int lost = 0;
     for (int line = 0; line < lines.count(); ++line) {

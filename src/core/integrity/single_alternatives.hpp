@@ -1,4 +1,4 @@
-// Single alternatives: positions that differ from the reading in the place in one secondary
+// Single alternatives: positions whose place differs from that of the reading in one secondary
 // sequence. See docs/integrity.md, "Alternatives: odds".
 #pragma once
 
@@ -7,8 +7,7 @@
 namespace dotpose::core {
 
 /// Returns an upper bound on the summed odds of all single alternatives that share a line with the
-/// reading. The sum includes each alternative at every shift where it shares a line. Negligible
-/// alternatives contribute an upper bound on their odds.
+/// reading. The sum includes each alternative at every shift at which it shares a line.
 float sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines);
 
 }  // namespace dotpose::core

@@ -9,8 +9,8 @@ namespace dotpose::core {
 namespace {
 
 /// Upper bounds on the odds of the single alternatives that share a line, for each sequence. The
-/// bounds use the table that `unshared` uses. The lines that this table covers are called table
-/// lines.
+/// bounds are computed from the table of `unshared`. The lines that this table covers are called
+/// table lines.
 class Bounds {
   public:
     explicit Bounds(const UnsharedLines& unshared) : unshared_(unshared) {

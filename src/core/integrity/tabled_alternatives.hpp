@@ -1,4 +1,4 @@
-// Tabled alternatives: computes upper bounds on the odds of single alternatives, from tables. The
+// Tabled alternatives: upper bounds on the odds of single alternatives, computed from tables. The
 // tables contain the number of alternatives for each number of unshared lines. With these bounds,
 // the alternatives of most sequences do not have to be enumerated.
 #pragma once

@@ -25,16 +25,16 @@ enum class Sharing : std::uint8_t {
 class UnsharedLines {
   public:
     static constexpr int kMaxTableLines = 16;
-    /// Uses the table with the most lines. The table has at most `max_lines` lines, and at most as
-    /// many lines as the view.
+    /// Uses the largest table that has at most `max_lines` lines and at most as many lines as the
+    /// view.
     explicit UnsharedLines(const LikelihoodRatios& ratios, int max_lines = kMaxTableLines);
     /// Variant that sums the losses with a kernel.
     UnsharedLines(const Kernels& kernels, const LikelihoodRatios& ratios,
                   int max_lines = kMaxTableLines);
 
     const LikelihoodRatios& ratios() const { return ratios_; }
-    /// Returns the number of tables with at most `max_lines` lines and at most as many lines as the
-    /// view. This object uses the last of these tables.
+    /// Returns the number of tables that have at most `max_lines` lines and at most as many lines
+    /// as the view. This object uses the last of these tables.
     std::size_t tables() const { return row_ + 1; }
     /// Returns true if every single alternative in a sequence loses at least `loss_limit`.
     bool all_lose(std::size_t sequence, Sharing sharing, int loss_limit) const {
@@ -69,7 +69,7 @@ class UnsharedLines {
 
 inline std::size_t UnsharedLines::min_unshared(std::size_t sequence, Sharing sharing) const {
     const code::Secondary& a = ratios_.basis[sequence];
-    // For a4, `kUnshared` contains only the sequence of one code.
+    // For a4, `kUnshared` covers only one of the codes.
     const bool is_known = sequence < 3 || a.digits == code::kA4Restored.data();
     if (row_ == SIZE_MAX || !is_known) return 0;
     const std::uint32_t ahead = ratios_.places[sequence] + first_line_;

@@ -31,7 +31,6 @@ AxisReading reading_of(CodeVariant code, const Place& place, Axis axis) {
     }
 }
 
-/// Compares all bits of one axis with the code.
 Confidence compare(CodeVariant code, const Upright& upright, Axis axis,
                    const AxisReading& reading) {
     Confidence confidence;
@@ -58,9 +57,8 @@ Place corner_place(CodeVariant code, const Decoding& decoding, const Upright& up
 struct Doubt {
     int odds_per_bit_q8 = 0;  ///< 0 if the bits contain no information, or if too many bits are
                               ///< wrong
-    /// For each axis, log2 of an upper bound on the probability of a chance agreement, in units of
-    /// 2^-8. In a chance agreement, random bits agree with the code at least as well as the bits
-    /// that were read do.
+    /// For each axis, log2 of an upper bound on the probability that random bits agree with the
+    /// code at least as well as the bits that were read, in units of 2^-8.
     std::array<int, 2> by_chance_q8{};
 };
 
@@ -228,7 +226,6 @@ Status verify_tracked(CodeVariant code, std::span<const ComparedLine> lines, con
 
 namespace {
 
-/// Compares all bits of both axes with the code.
 std::array<Confidence, 2> compare_both(const Grid& grid, CodeVariant code,
                                        const Decoding& decoding) {
     const Upright all(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
@@ -285,8 +282,8 @@ Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const 
                           [&](std::size_t, const LikelihoodRatios& ratios) {
                               return quick_alternatives_log2_q8(ratios, limit_q8) + codes_q8;
                           });
-    // The probability is as precise as the default limit requires, even if the caller accepts a
-    // larger probability.
+    // The result is as precise as the default limit requires, even if the limit of the caller is
+    // larger.
     const int doubtful_q8 = std::min(limit_q8, -30 * 256);
     if (sum(p_wrong_q8) > doubtful_q8) {
         const auto counted_q8 = with_alternatives(

@@ -39,7 +39,7 @@ struct Losses {
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
-        // The quotients are below 16. For such quotients, float rounding never reaches the next
+        // The quotients are below 16, and float rounding of such quotients never reaches the next
         // integer.
         const auto part = static_cast<float>((loss_limit + StepLosses::kLimitParts - 1) /
                                              StepLosses::kLimitParts);
@@ -110,11 +110,12 @@ class OtherPlaces {
     /// Removes the table bound. Must be called before places are added one by one.
     void begin_count() { result_.elsewhere = 0; }
 
-    /// Adds the odds that the search for similar places does not find: the place of the reading in
-    /// a4 at all shifts except `shift_here_`, and every place at shifts without a shared line.
+    /// Adds the odds of the alternatives that the search for similar places does not find: the
+    /// place of the reading in a4 at all shifts except `shift_here_`, and every place at shifts
+    /// without a shared line.
     void add_unsimilar() {
-        // A place with the rolls of the reading shares all lines at one shift, and no line at any
-        // other shift.
+        // A place with the rolls of the reading shares all lines at one shift and no line at any
+        // other shift, so `add` would add nothing.
         if (!has_same_rolls_) add(ratios_.places[kA4], here_, shift_here_);
         add_sharing_none();
     }
@@ -148,8 +149,8 @@ class OtherPlaces {
         RollOffsets offsets;
         const std::uint8_t* own = ratios_.basis[kA4].rolls + ratios_.places[kA4];
         const std::uint8_t* alternative = theirs_.rolls + place;
-        // Sets the offsets of kMaxLines lines, even if fewer lines are in view. Loops of constant
-        // length are faster.
+        // Sets the offsets of kMaxLines lines, even if fewer lines are in view, because loops of
+        // constant length are faster.
         for (std::size_t line = 0; line < offsets.size(); ++line)
             offsets[line] = roll_offset(own[line], alternative[line]);
         return offsets;
@@ -192,8 +193,8 @@ class OtherPlaces {
 
     /// Adds the odds of a place at all shifts with a shared line, except `shift_left_out`.
     void add(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
-        // Summed losses of the lines that are shared at the same shift, by their roll offset, in
-        // units of kUnit.
+        // For each roll offset, the summed losses of the lines with this offset, in units of kUnit.
+        // These lines are shared at the same shift.
         std::array<std::uint16_t, kSections + 1> shared{};
         std::uint16_t most = 0;
         for (std::size_t line = 0; line < count_; ++line) {
@@ -262,9 +263,8 @@ class AxisWeigher {
         return others;
     }
 
-    /// Replaces the bound by a sum over all other places, unless the bound is negligible. `across`
-    /// is the summed odds on the other axis. The odds on this axis are multiplied by `across`
-    /// before the comparison.
+    /// Replaces the bound by a sum over all other places, unless the bound times `across` is
+    /// negligible. `across` is the summed odds on the other axis.
     void look_closer(CodeVariant other, float across, OtherPlaces& others) {
         if (others.elsewhere() * across <= kNegligibleOdds) return;
         others.begin_count();
