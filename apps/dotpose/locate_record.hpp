@@ -18,7 +18,7 @@ struct Record {
     Fix fix;
     CodeReading reading;         ///< code and alternative places, at the image centre like `fix`
     bool code_is_given = false;  ///< true if the user or the sheet file determines the code
-    double spacing_mm = 0;       ///< NaN if unknown. The record then has no fields in mm
+    double spacing_mm = 0;       ///< NaN if unknown, in which case the record has no fields in mm
     /// Spacing computed from the fix and the camera file; see Located.
     double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
     /// Velocity of the camera during the readout of a rolling shutter; see Located.
@@ -30,8 +30,7 @@ struct Record {
     bool is_pen_down = false;
     MapUse map_use = MapUse::no_map;  ///< how the print map was used; see Located
     bool has_sheets = false;          ///< true if the record has the fields of a sheet file
-    std::optional<SheetPlace>
-        place;  ///< place of the fix on its sheet, or none if it is not on a sheet
+    std::optional<SheetPlace> place;  ///< place of the fix on its sheet, or none if on no sheet
     int min_side_px() const { return has_sheets ? kMinKnownFrameSide_px : kMinFrameSide_px; }
     double elapsed_us = 0;  ///< time taken to locate the image, or NaN if not measured
     std::string advice;     ///< advice for an image without a fix, or empty

@@ -86,8 +86,8 @@ class OrderedThreads {
         bool has_ended = false;
         /// Exception that ended the thread, or null. Set before `has_ended`.
         std::exception_ptr failure;
-        std::jthread thread;  ///< last member, so that it is joined before the members that it uses
-                              ///< are destroyed
+        /// Last member, so that the thread is joined before the members that it uses are destroyed.
+        std::jthread thread;
     };
 
     std::vector<std::unique_ptr<Lane>> lanes_;

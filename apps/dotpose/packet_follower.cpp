@@ -104,8 +104,8 @@ bool PacketFollower::advance(const PosePacket& packet) {
         const int step = packets_since(newest_->sequence, packet.sequence);
         if (is_late(step)) return false;
         const auto elapsed_us = static_cast<std::int32_t>(packet.time_us - newest_->time_us);
-        // If the clock went back, the device was restarted. The time between the packets is then
-        // unknown.
+        // If the clock of the device went back, the device was restarted, and the time between the
+        // packets is unknown.
         time_us_ += elapsed_us > 0 ? elapsed_us : kRestart_us;
     }
     newest_ = packet;
