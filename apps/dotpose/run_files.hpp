@@ -29,9 +29,8 @@ Content content_of(const ReportArguments& report);
 /// because some file systems ignore case.
 struct FileIdentity {
     std::uint64_t device = 0;
-    std::uint64_t file =
-        0;                 ///< number of the file. If the file does not exist, number of its folder
-    std::string new_name;  ///< file name in lower case, or empty if the file exists
+    std::uint64_t file = 0;  ///< number of the file, or of its folder if the file does not exist
+    std::string new_name;    ///< file name in lower case, or empty if the file exists
     auto operator<=>(const FileIdentity&) const = default;
 };
 
