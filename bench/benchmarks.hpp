@@ -51,8 +51,7 @@ enum class Way : std::uint8_t {
     twice,
     once,
     narrow,   ///< the first attempt with 16-byte vectors, as on a processor without AVX2
-    tracked,  ///< tracking, from predictions with errors of up to a third of a spacing and 2
-              ///< degrees
+    tracked,  ///< with predictions whose errors are up to a third of a spacing and 2 degrees
     device,
     floor,
     apriltag_1,

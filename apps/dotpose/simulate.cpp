@@ -311,7 +311,7 @@ void add_camera_options(Command& command, CameraModel& camera) {
         ->capture_default_str();
 }
 
-// Adds options for all values that are otherwise random in each frame.
+// Adds an option for each value that is otherwise random in each frame.
 void add_overrides(Command& command, SimulateArguments& arguments) {
     command.add_option("--angle", arguments.angle_deg, "Angle of the camera on the page")
         ->type_name("DEG");
