@@ -80,8 +80,7 @@ inline void add_light(std::vector<Limit>& limits) {
                               constexpr double kLeft = 0.3;
                               Imperfections& worse = shot.imperfections;
                               worse.fall = 2 * (1 - kLeft) / (1 + kLeft);
-                              worse.paper_level /=
-                                  1 + worse.fall / 2;  // grey level of the lighter side
+                              worse.paper_level /= 1 + worse.fall / 2;  // of the lighter side
                               worse.vignetting = vignetting;
                           }});
     }
