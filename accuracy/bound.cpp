@@ -34,7 +34,7 @@ struct BoundFrames {
     /// Angle of the image x axis. If it is negative, each frame has a random angle.
     double theta_rad;
     double motion_px;  ///< motion during the exposure
-    double fall;       ///< change of the light across the image
+    double fall;       ///< relative change of the illumination across the image
 };
 
 constexpr double kAnyAngle = -1;

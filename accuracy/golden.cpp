@@ -92,7 +92,7 @@ struct GoldenSet {
     std::vector<GoldenWay> ways;
 };
 
-/// Sums of the checksums of all frames, because sums do not depend on the order of the frames.
+/// The checksums of all frames are added, because a sum does not depend on the order of the frames.
 struct GoldenTally {
     struct Fixes {
         std::uint64_t checksum = 0;

@@ -79,8 +79,8 @@ TrueSpacePose true_space_pose(const Shot& shot) {
     const CameraPose& pose = shot.pose;
     const double spacing_mm = shot.page.pattern.spacing_mm;
     // The paper is tilted about the image y axis, and then about the image x axis. Theta is the
-    // direction on the paper of the image x axis at the image centre. If the paper is tilted about
-    // both axes, this direction is not that of the pattern's x axis.
+    // angle on the paper of the image x axis at the image centre. The tilts change this angle, so
+    // the rotation about the normal of the paper is theta minus the change.
     const Matrix3d tilt = (Eigen::AngleAxisd(pose.tilt_x_rad, Vector3d::UnitX()) *
                            Eigen::AngleAxisd(pose.tilt_y_rad, Vector3d::UnitY()))
                               .toRotationMatrix();
@@ -123,7 +123,7 @@ SpaceMatrix space_bound(const Shot& shot, double jitter_mm) {
     const double mm = pattern.spacing_mm;
     const Vector3d from_camera =
         Vector3d(x_grid(shot.pose) * mm, y_grid(shot.pose) * mm, 0) - truth.position_mm;
-    // A strongly tilted camera sees paper at several times the width of its untilted view.
+    // A strongly tilted camera sees dots at several times the width of its untilted view.
     const auto reach = static_cast<int>(3 * shot.camera.width_px * shot.camera.mm_per_px / mm);
     SpaceMatrix information = SpaceMatrix::Zero();
     for (int j = -reach; j <= reach; ++j) {

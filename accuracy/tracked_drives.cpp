@@ -18,7 +18,6 @@ constexpr std::array kDrives{DriveRate{0, 1},   DriveRate{30, 1},  DriveRate{100
                              DriveRate{300, 1}, DriveRate{300, 2}, DriveRate{300, 4},
                              DriveRate{100, 4}, DriveRate{30, 8}};
 
-/// Results of a drive.
 struct DriveTally {
     TrackedTally seen;
     TrackedTally settled;  ///< frames after the robot was put down, without the first two

@@ -94,7 +94,6 @@ GreyImage scattered_dots(const Shot& shot, Rng& rng) {
     return render_scene(Scene::scattered_dots, shot, rng.uniform(0.1, 1));
 }
 
-/// A class of wrong predictions.
 struct WrongClass {
     const char* name;
     Prediction (*predict)(const LocatedPair& views, Rng& rng);

@@ -28,7 +28,6 @@ class TagDetector {
     explicit TagDetector(int decimate);
 
     const apriltag_family_t& family() const { return *family_; }
-    /// Returns the number of tags found.
     int detect(GreyImage& image);
     /// Returns true if the detector finds only the tag of the frame, in the correct position and
     /// with all bits correct.

@@ -74,7 +74,7 @@ Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
     return subject;
 }
 
-/// Returns the prediction from the fix of the same frame with a random error.
+/// Returns a prediction for a frame, which is its own fix with a random error.
 Prediction prediction_for(const KnownFrame& frame, Rng& rng, SmallMemory& memory) {
     const Fix fix = Locator(memory, DeviceOptions{}).locate(frame.image.view());
     const double direction_rad = rng.uniform(0, 2 * std::numbers::pi);

@@ -13,9 +13,9 @@ TrackOptions PoseSender::device_tracking() {
     return options;
 }
 
-/// Begins a frame, with the prediction of the tracker if the previous frame had a pose. Otherwise,
-/// begins without a prediction: if the frame did not confirm a prediction, the frame would be lost,
-/// because its rows are not stored.
+/// Begins a frame with the prediction of the tracker. After a frame without a pose, begins without
+/// a prediction, because a frame that does not confirm its prediction is lost: its rows are not
+/// stored.
 Status PoseSender::begin(const board::Frame& frame) {
     if (seen_.status != Status::ok) return locator_.begin(frame.width_px, frame.height_px);
     const Prediction expected =

@@ -4,8 +4,8 @@
 
 /// Returns the options of the program. They accept dots of a single pixel if the frames are small.
 dotpose::DeviceOptions program_options();
-/// If the program is for frames so small that they can only be located on known sheets, passes a
-/// known sheet to the locator.
+/// Passes a known sheet to the locator if the frames of the program are so small that they can only
+/// be located on known sheets.
 void set_known_sheet(dotpose::DeviceLocator& locator);
 
 /// Locates the frames in the file at `path`. The file is a sequence of binary PGM images (P5, 8

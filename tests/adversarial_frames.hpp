@@ -73,7 +73,7 @@ enum class Verdict : std::uint8_t {
     refused,
     right,
     second,  ///< a place that is printed elsewhere in the frame, extrapolated to the image centre
-    twin,    ///< a place that has the same symbols in the code of the options
+    twin,    ///< a place in the code of the options that has the symbols in view
     wrong,
 };
 
@@ -180,7 +180,7 @@ inline void render_overlay(const Shot& shot, Rng& rng, AdversarialFrame& frame) 
                      {other.pose, other.page.pattern.section}};
 }
 
-/// Renders the pattern with some symbols changed, so that the pose of the shot remains correct.
+/// Renders the pattern with some symbols changed. The pose of the shot remains correct.
 inline void render_changed(Adversary adversary, const Shot& shot, Rng& rng,
                            AdversarialFrame& frame) {
     const Pattern pattern = shot.page.pattern;

@@ -117,7 +117,6 @@ inline std::vector<SheetEntry> drive_sheets() {
     return sheets;
 }
 
-/// Writes the two sheets to a sheet file.
 inline void save_drive_sheets(const std::filesystem::path& path) {
     SheetFile sheets(path);
     for (const SheetEntry& entry : drive_sheets())

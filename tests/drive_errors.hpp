@@ -9,14 +9,12 @@
 
 namespace dotpose::test {
 
-/// A pose in the world.
 struct DrivePose {
     double x_mm = 0;
     double y_mm = 0;
     double yaw_rad = 0;
 };
 
-/// The reading of one frame.
 struct DriveReading {
     bool has_fix = false;
     DrivePose raw;

@@ -345,7 +345,8 @@ int run(CalibrateArguments& arguments) {
     require_apart(arguments, series);
     keep_camera_of(arguments.out, arguments.camera);
     use_sheets(arguments);
-    // Fails before the user spends minutes moving the camera if the output cannot be written.
+    // An output that cannot be written is reported before the user spends minutes moving the
+    // camera.
     if (arguments.is_live && !arguments.out.empty())
         require_writable(system::path_of(arguments.out));
     catch_interrupts();

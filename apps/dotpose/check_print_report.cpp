@@ -18,7 +18,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Rounds a number to `decimals` decimal places.
 double rounded(double value, int decimals) {
     const double scale = std::pow(10, decimals);
     const double result = std::round(value * scale) / scale;

@@ -72,7 +72,7 @@ InkSample sample_of(const LogCells& row, std::int64_t index, double fps) {
 
 /// Reads all samples with a tip. Throws Error if there are none.
 std::vector<InkSample> read_samples(const InkArguments& arguments) {
-    // A log of `watch` and the lines of `locate` differ only in their times.
+    // No columns are required, because lines of `locate` have no times.
     LogReader log(system::path_of(arguments.log), {});
     std::vector<InkSample> samples;
     std::int64_t index = 0;

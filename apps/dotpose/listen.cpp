@@ -58,7 +58,6 @@ struct ListenArguments {
     PageArguments page;
 };
 
-/// Reads bytes from a file, a pipe or a serial device.
 class ByteSource {
   public:
     explicit ByteSource(const ListenArguments& arguments) : name_(arguments.source) {

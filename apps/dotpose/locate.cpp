@@ -61,7 +61,6 @@ struct LocateArguments {
     int threads = 1;
 };
 
-/// Locates images in order.
 class ImageLocator {
   public:
     ImageLocator(const LocateArguments& arguments, const RunFiles& files)

@@ -45,8 +45,8 @@ void write_report(const ReportArguments& arguments, const std::string& report);
 /// Adds --draw FILE, which writes an additional picture.
 Option* add_draw_option(Command& command, std::string& path, const std::string& help);
 
-/// The file of a document that the library can only write by name. If the document goes to standard
-/// output, this is a temporary file that `finish` copies there.
+/// A document that the library can only write to a named file. If the document goes to standard
+/// output, the library writes a temporary file, and `finish` copies it.
 class DocumentOutput {
   public:
     /// `out` is the value of -o. `ending` is the file extension of the format, such as ".pdf".

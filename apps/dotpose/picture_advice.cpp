@@ -68,7 +68,7 @@ GreyImage enlarged_middle(const ImageView& image, int side_px, int by) {
     });
 }
 
-/// Returns the spacing of the dots in px if the pattern can be read only in the enlarged image,
+/// Returns the spacing of the dots in px if the pattern can be read only in an enlarged image,
 /// otherwise none.
 std::optional<double> too_small_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {
@@ -260,7 +260,6 @@ std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeM
     return {};
 }
 
-/// Returns advice on the distance of the camera from the sheet.
 std::string advice_on_distance(ImageView image, const DeviceOptions& options,
                                LargeMemory& scratch) {
     if (const auto spacing_px = too_small_spacing_px(image, options, scratch)) {

@@ -21,7 +21,7 @@ namespace {
 using csv::cells_of;
 
 /// Converts a number to an integer. Throws Error unless it is a whole number of at least 0 and
-/// below 2^53, because a double represents only these exactly.
+/// below 2^53, the range in which a double represents all whole numbers exactly.
 std::int64_t whole(double value, const char* column) {
     if (!(value >= 0 && value < 9007199254740992.0) || value != std::floor(value)) {
         throw Error(fmt::format("{} is not a whole number of at least 0", column));

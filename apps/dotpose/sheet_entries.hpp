@@ -22,7 +22,6 @@ class SheetEntryArguments {
     const std::string& path() const { return path_; }
     const std::string& name() const { return name_; }
 
-    /// A page of the document.
     struct Page {
         int number = 1;  ///< page number, counted from 1
         bool is_only = true;
@@ -41,7 +40,7 @@ class SheetEntryArguments {
     /// function adds it. Returns the sheet with its new origin.
     Sheet enter(SheetFile& file, const Sheet& sheet, Page page, SheetPrint print) const;
 
-    /// Appends --origin to `command`, so that it prints the dots of one page.
+    /// Appends --origin to `command`, so that the command prints the dots of one page.
     static std::string with_origin(const std::string& command, Cell origin);
 
     /// Returns the options to omit from a command that reprints a page. The page already has a

@@ -28,7 +28,6 @@ class SimulateOutput {
     virtual void finish() = 0;
 };
 
-/// Returns true if `out` is the name of a video.
 bool is_video_name(const std::string& out);
 
 /// Opens a video or a folder. A missing folder is created, and frames of an earlier run are removed

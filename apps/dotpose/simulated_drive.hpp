@@ -15,7 +15,6 @@ struct DriveOptions {
     double fps = 50;
 };
 
-/// Pose of the camera on a sheet.
 struct PoseOnSheet {
     const SheetEntry* entry = nullptr;
     CameraPose pose;          ///< pose in the pattern frame of the sheet

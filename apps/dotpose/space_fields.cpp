@@ -159,7 +159,7 @@ bool is_brief_space_field(const std::string& name) {
 std::string space_text(const SpacePose& pose, const std::optional<SheetPlace>& place, Units units) {
     const bool is_ros = units == Units::ros;
     const CameraInSpace camera = place ? on_sheet(pose.camera, *place->entry) : pose.camera;
-    const double sign = is_ros ? -1 : 1;  // the output has y and z in the opposite directions
+    const double sign = is_ros ? -1 : 1;  // y and z have the opposite directions in the output
     const std::array values = {camera.x_mm, sign * camera.y_mm, sign * camera.z_mm};
     const double per_mm = is_ros ? 1e-3 : 1;
     std::string text = "camera";

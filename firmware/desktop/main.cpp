@@ -1,5 +1,6 @@
-// Runs the firmware program on a desktop, because devices must print the same lines. With
-// --predict, adds predictions to a file of frames, for the tracked attempt on the devices.
+// Runs the firmware program on a desktop, as the reference for the devices, which must print the
+// same lines. With --predict, adds predictions to a file of frames, for the tracked attempt on the
+// devices.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

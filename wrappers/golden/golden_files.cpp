@@ -124,7 +124,6 @@ std::string numbers_of(const Fix& fix) {
     return all.joined();
 }
 
-/// Writes the lines of one frame.
 class Lines {
   public:
     Lines(std::FILE* file, std::uint64_t index) : file_(file), index_(index) {}

@@ -21,7 +21,6 @@ inline std_msgs::msg::Header to_ros(const dotpose::ros::Header& header) {
     return result;
 }
 
-/// Copies x, y and z of a point or vector.
 template <typename Xyz>
 void copy_xyz(const dotpose::ros::Vector3& from, Xyz& to) {
     to.x = from.x;

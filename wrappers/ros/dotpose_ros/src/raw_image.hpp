@@ -15,8 +15,7 @@ struct RawImage {
     std::string encoding;
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::uint32_t step =
-        0;  ///< distance from the start of a row to the start of the next, in bytes
+    std::uint32_t step = 0;  ///< distance between the starts of consecutive rows, in bytes
     bool is_bigendian = false;
     std::span<const std::uint8_t> data;
 };

@@ -76,8 +76,7 @@ class RobotLocator {
     std::int64_t half_exposure_ns_;
     bool has_lens_;
     std::optional<Lens> refused_lens_;
-    std::string
-        lens_problem_;  ///< reason why the lens cannot be used, which is appended to each status
+    std::string lens_problem_;  ///< why the lens cannot be used, appended to each status
     std::optional<dotpose::Follower> follower_;
     dotpose::ros::RobotMessenger messenger_;
     dotpose::GreyImage grey_;
