@@ -4,8 +4,8 @@
 //
 // Writes tables.md, sweep-*.{csv,svg,png}, table-3.md and figure-*.{svg,png} to FOLDER
 // (accuracy-out). --update also replaces the generated parts of the document and its pictures.
-// --quick locates only a tenth of the frames. It is a test of the program, and its numbers are
-// inaccurate.
+// --quick locates only a tenth of the frames. It is meant for testing the program, because its
+// numbers are inaccurate.
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -105,9 +105,8 @@ void print_frame_tables(const AccuracyOptions& options, TableRun& run) {
     run.print_block("statuses", statuses);
 }
 
-/// Returns the limit of a condition. The limit is the hardest value up to which at least the
-/// fraction `share` of the frames is located at every value. For the spacing, which has a lower and
-/// an upper limit, returns the range of values.
+/// Returns the hardest value of a condition up to which at least the fraction `share` of the frames
+/// is located. For the spacing, which has a lower and an upper limit, returns a range of values.
 std::string reach(const Sweep& sweep, Decoder decoder, double share) {
     const auto located = [&](std::size_t i) {
         const SweepPoint& point = sweep.points[i];

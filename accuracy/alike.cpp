@@ -24,8 +24,8 @@ namespace {
 
 constexpr double kReference_deg = 7;
 constexpr std::array kAngles_deg{0.0, 45.0, 90.0};
-/// The table marks values outside these limits. The first is the maximum ratio of the error to the
-/// error at 7 degrees, the second the range of the mean of error^2 / variance.
+/// Limits beyond which the table marks a value: the maximum ratio of the error to the error at 7
+/// degrees, and the range of the mean of error^2 / variance.
 constexpr double kMaxErrorRatio = 2;
 constexpr std::array kNormalisedRange{0.7, 1.5};
 
@@ -36,7 +36,6 @@ struct AlikeOptions {
     std::vector<double> blurs_px{0.3, 0.5, 0.7, 1.0, 1.5};
 };
 
-/// Returns the score of the frames of one condition.
 Score score_of_condition(const test::AlikeDots& condition, std::uint64_t frames,
                          const TableRun& run) {
     FrameRun frame_run;

@@ -1,5 +1,5 @@
-// Compares position errors with the Cramer-Rao bound, for frames without printing errors, whose
-// only error source is noise. The frames are drawn by the simulator, and by a second renderer.
+// Compares position errors with the Cramer-Rao bound, for frames whose only source of error is
+// noise. The frames are drawn by the simulator and by an independent renderer (dot_image.hpp).
 // Prints a table of docs/accuracy.md in Markdown.
 //
 //   dotpose_tables bound [--frames N] [--seed S] [--threads N]
@@ -31,10 +31,10 @@ struct BoundFrames {
     int width_px;
     int height_px;
     int spacing_px;
-    /// Angle of the image x axis. A negative number stands for a random angle in each frame.
+    /// Angle of the image x axis. If it is negative, each frame has a random angle.
     double theta_rad;
     double motion_px;  ///< motion during the exposure
-    double fall;       ///< change of the light across the image
+    double fall;       ///< relative change of the illumination across the image
 };
 
 constexpr double kAnyAngle = -1;
@@ -61,10 +61,10 @@ DotImage dot_of(const BoundFrames& frames) {
              frames.motion_px * std::sin(kMotionDirection_rad)}};
 }
 
-/// Returns the bound on the median error of a position, in px: the error of the mean of all dots,
-/// if scale, angle and tilt are known.
+/// Returns the Cramer-Rao bound of the median position error, in px. Scale, angle and tilt are
+/// assumed to be known.
 double bound_px(const BoundFrames& frames, const DotImage& dot) {
-    constexpr int kPhases = 4;  // of the dot within a pixel, per axis
+    constexpr int kPhases = 4;  // number of sub-pixel phases of the dot along each axis
     double xx = 0;              // Fisher information of a shift, averaged over the phases
     double xy = 0;
     double yy = 0;
@@ -109,7 +109,7 @@ Shot shot_of(const BoundFrames& frames, std::uint64_t seed, int index) {
                                     frames.motion_px * std::sin(kMotionDirection_rad)};
     shot.imperfections.fall = frames.fall;
     shot.imperfections.fall_direction_rad = rng.uniform(0, 2 * std::numbers::pi);
-    shot.imperfections.sub_pixels = 8;  // because errors of 0.0005 px matter
+    shot.imperfections.sub_pixels = 8;  // fine sampling, because errors of 0.0005 px matter
     return shot;
 }
 

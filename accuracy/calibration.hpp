@@ -1,4 +1,4 @@
-/// Measurements of the table `calibration`, and the error statistics that they share.
+/// Functions that measure the errors of calibrations and print the tables of docs/calibration.md.
 #pragma once
 
 #include <algorithm>

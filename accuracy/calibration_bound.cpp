@@ -17,7 +17,7 @@ Vec2 displacement_mm(const Page& page, Cell cell) {
     return {dx(symbol) * page.pattern.displacement_mm, dy(symbol) * page.pattern.displacement_mm};
 }
 
-/// Returns the printed dot nearest to the point at this offset from the pose point.
+/// Returns the printed dot nearest to the pose point plus `offset_mm`.
 TrueDot nearest_dot(const Shot& shot, Vec2 offset_mm) {
     const double mm = shot.page.pattern.spacing_mm;
     const CameraPose& pose = shot.pose;
@@ -77,9 +77,9 @@ Vector2d on_paper_at(const Camera& camera, PixelPoint pixel) {
     return {point.x_mm, point.y_mm};
 }
 
-/// Returns the derivatives of a dot's position with respect to all parameters, per step. The last
-/// column is the derivative with respect to the length of the dot's displacement, which depends on
-/// ink and blur.
+/// Returns the change of a dot's position on the paper for one step of each parameter. The last
+/// column is the derivative with respect to the length of the dot's displacement, which is unknown
+/// because it depends on ink and blur.
 MatrixXd jacobian(const Camera& camera, const TrueDot& dot,
                   const std::vector<Parameter>& parameters) {
     MatrixXd rows(2, static_cast<Eigen::Index>(parameters.size()) + 1);

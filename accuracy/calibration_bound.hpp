@@ -1,5 +1,5 @@
-// Lower bounds for the errors of any calibration: the residual with the true parameters, and the
-// Cramer-Rao bounds for the printer's jitter.
+// Lower bounds of the errors of a calibration. They are the residual with the true parameters, and
+// the Cramer-Rao bounds that follow from the jitter of the printed dots.
 #pragma once
 
 #include <map>
@@ -16,13 +16,13 @@ struct TrueDot {
     int frame = 0;
     PixelPoint pixel;
     Vec2 off_mm;        ///< measured position on the paper minus nominal position
-    Vec2 displaced_mm;  ///< displacement from its intersection, along the image axes
+    Vec2 displaced_mm;  ///< displacement of the dot from its intersection, along the image axes
 };
 std::vector<TrueDot> true_dots(const LensCalibration& found, const std::vector<Shot>& shots);
 
-/// Unknown parameters of a mounted camera. In addition, the pose of each frame is always unknown.
+/// Parameters of a mounted camera that are estimated in addition to the pose of each frame.
 enum class Unknown {
-    view,      ///< lens, scale along both axes, skew, perspective, as for `calibrate_lens`
+    view,      ///< lens, scale along both axes, skew and perspective, as in `calibrate_lens`
     square,    ///< lens, one scale, perspective
     straight,  ///< lens, one scale
 };

@@ -98,7 +98,7 @@ struct Series {
     }
 };
 
-/// Returns the width on the paper of the middle image row, in mm.
+/// Returns the length of the middle image row on the paper, in mm.
 double field_mm(const Camera& camera) {
     const double v = (camera.height_px - 1) / 2.0;
     const CameraPoint left = on_paper(camera, undistorted(camera, {0, v}));
@@ -174,7 +174,7 @@ void measure_parameters(const Series& series, const LensCalibration& found,
 void measure_residual(const LensCalibration& found, const std::vector<Shot>& shots,
                       const std::vector<TrueDot>& dots, LensTally& tally) {
     Locator locator{DeviceOptions{}};
-    // `residual_px` is in pixels at the middle of each frame.
+    // The scale at the middle of each frame converts `residual_px` to mm.
     std::vector<double> mm_per_px(shots.size(), NAN);
     for (std::size_t i = 0; i < shots.size(); ++i) {
         DeviceOptions options;

@@ -60,8 +60,8 @@ Table draw_table(Rng& rng) {
         lying.print = {1 + rng.uniform(-kPrintError, kPrintError),
                        1 + rng.uniform(-kPrintError, kPrintError)};
     }
-    // The sheet file gives the true mean scale of the first sheet. The scales of the
-    // sheet along the two axes may differ.
+    // The sheet file contains the true mean scale of the first sheet. The mean of its print scales
+    // is therefore 1, but the scales along the two axes may differ.
     const double mean = std::sqrt(table[0].print.x * table[0].print.y);
     table[0].print = {table[0].print.x / mean, table[0].print.y / mean};
     return table;

@@ -67,7 +67,7 @@ DotTable::DotTable(const DotImage& dot) {
 
 double DotTable::darkness(Vec2 from_dot) const {
     if (std::max(std::abs(from_dot.x), std::abs(from_dot.y)) > kReach_px) return 0;
-    // Cubic interpolation by Catmull and Rom, along both axes.
+    // Catmull-Rom interpolation along both axes.
     const auto weights = [](double t) {
         return std::array{0.5 * t * (-1 + t * (2 - t)), 0.5 * (2 + t * t * (3 * t - 5)),
                           0.5 * t * (1 + t * (4 - 3 * t)), 0.5 * t * t * (t - 1)};
@@ -122,7 +122,8 @@ GreyImage draw_with(const DotTable& dot, const Shot& shot) {
             for (int v = first(at.y); v < std::min(height * 1.0, at.y + DotTable::kReach_px); ++v) {
                 for (int u = first(at.x); u < std::min(width * 1.0, at.x + DotTable::kReach_px);
                      ++u) {
-                    // The light falls on the paper, before the image is blurred.
+                    // The illumination at the dot is used, because light falls on the paper before
+                    // the image is blurred.
                     darkness[static_cast<std::size_t>(width * v + u)] +=
                         light_at(at) * dot.darkness({u - at.x, v - at.y});
                 }

@@ -20,7 +20,8 @@ class DotImage {
     Vec2 derivative(Vec2 from_dot) const;
 
   private:
-    /// Part of a point's light that a pixel at this distance along one axis receives.
+    /// Returns the fraction of a point's light that a pixel at this distance receives, along one
+    /// axis.
     double share(double distance_px) const;
     double derivative_of_share(double distance_px) const;
 
@@ -47,8 +48,8 @@ class DotTable {
     std::vector<double> values_;
 };
 
-/// Draws the frame of a shot. Uses the pose without tilt, the pattern, and of the imperfections the
-/// levels of paper and ink, the fall of the light, and the noise. `dot` has the blur, the motion
+/// Draws the frame of a shot. Ignores the tilt of the pose, and all imperfections except the levels
+/// of paper and ink, the illumination gradient and the noise. `dot` contains the blur, the motion
 /// and the size of the dots.
 GreyImage draw_with(const DotTable& dot, const Shot& shot);
 

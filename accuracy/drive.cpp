@@ -41,7 +41,6 @@ constexpr std::array kDriveKinds{DriveKind{"nominal", true, 1},
                                  DriveKind{"no printing errors", false, 1},
                                  DriveKind{"no printing errors, four times the noise", false, 4}};
 
-/// Result of one frame of a drive.
 struct Sample {
     double t_s = 0;
     test::DriveState truth;

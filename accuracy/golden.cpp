@@ -1,7 +1,6 @@
 // Computes checksums that detect every change of a pose, down to the last bit. Locates sets of
-// simulated frames with every attempt and prints one line for each set and attempt. The line
-// contains a checksum of the pixels, a checksum of all integers of the fixes, and the number of
-// located frames.
+// simulated frames with every attempt. For each set and attempt, prints a checksum of the pixels, a
+// checksum of all integers of the fixes, and the number of located frames.
 //
 //   dotpose_tables golden [--threads N]
 //
@@ -93,7 +92,7 @@ struct GoldenSet {
     std::vector<GoldenWay> ways;
 };
 
-/// Sums of the checksums of all frames. The sums do not depend on the order of the frames.
+/// The checksums of all frames are added, because a sum does not depend on the order of the frames.
 struct GoldenTally {
     struct Fixes {
         std::uint64_t checksum = 0;

@@ -1,14 +1,15 @@
 // Compares p_wrong, the upper bound of the probability that a position is wrong, with the frequency
-// of wrong positions. Accepts every reading, however doubtful, and counts it by its p_wrong.
+// of wrong positions. Accepts every reading, however large its p_wrong is, and groups the readings
+// by p_wrong.
 //
 //   dotpose_tables integrity [--grids N] [--doubtful N] [--frames N] [--seed S] [--threads N]
 //
 // A grid consists of bits with random errors and is decoded without an image. As in the model of
 // p_wrong, the errors are independent of each other, and less frequent in bits of larger weight.
-// Doubtful grids have enough errors that p_wrong is between 1e-3 and 1e-5. In this range, counting
-// can refute p_wrong. Frames are rendered patterns with flipped bits, read by `locate`. The exit
-// status is 1 if more positions are wrong than p_wrong predicts. After Ctrl-C, the tables contain
-// the cases counted so far.
+// Doubtful grids have enough errors that p_wrong is between 1e-3 and 1e-5. In this range, wrong
+// positions are frequent enough to show whether p_wrong is too small. Frames are rendered patterns
+// with flipped bits, read by `locate`. The exit status is 1 if more positions are wrong than
+// p_wrong predicts. After Ctrl-C, the tables contain the cases counted so far.
 #include "integrity.hpp"
 
 #include <algorithm>
@@ -93,8 +94,8 @@ bool holds(const Bin& bin) {
            poisson_at_least(bin.wrong, bin.predicted) > 1e-3;
 }
 
-/// Prints the counts of all readings, in classes of p_wrong that span a factor of 8 each. Returns
-/// true if all classes are consistent with p_wrong.
+/// Prints the counts of all readings in classes of p_wrong that are each a factor of 8 wide.
+/// Returns true if all classes are consistent with p_wrong.
 bool print(std::string_view title, const IntegrityTally& tally) {
     constexpr std::size_t kWidth_log2 = 3;
     constexpr std::size_t kLast = 34;  // first bin of the last class, which is open-ended
@@ -121,9 +122,9 @@ bool print(std::string_view title, const IntegrityTally& tally) {
     return all_hold;
 }
 
-/// Prints the counts of readings in three classes, with p_wrong near 1e-3, 1e-4 and 1e-5, and the
-/// upper confidence limits of the true rates. Each class comprises three powers of two. Returns
-/// true if all classes are consistent with p_wrong.
+/// Prints the counts of readings with p_wrong near 1e-3, 1e-4 and 1e-5, and the upper confidence
+/// limits of the true rates. Each of the three classes is a factor of 8 wide. Returns true if all
+/// classes are consistent with p_wrong.
 bool print_doubtful(const IntegrityTally& tally) {
     bool all_hold = true;
     fmt::print("\n{:>15} {:>9} {:>7} {:>10} {:>16} {:>13}\n", "p_wrong", "read", "wrong", "rate",

@@ -10,7 +10,7 @@
 
 namespace dotpose::tables {
 
-/// Options that accept every reading, however doubtful.
+/// Options that accept every reading, however large its p_wrong is.
 inline constexpr IntegrityOptions kAcceptAll{0, 256};
 
 /// Counts of the readings in a class of p_wrong.
@@ -60,8 +60,7 @@ enum class GridKind : std::uint8_t {
     doubtful,  ///< grids with enough errors that p_wrong is between 1e-3 and 1e-5
 };
 
-/// Draws grid `index` of a run with random bit errors, decodes it without an image and counts the
-/// result. Thread-safe.
+/// Decodes grid `index` of a run, which has random bit errors, and counts the result. Thread-safe.
 void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, IntegrityTally& tally);
 
 }  // namespace dotpose::tables

@@ -50,12 +50,12 @@ struct Noise {
         const bool is_wrong = rng.uniform() < chance_of_error(weight);
         return (bit == 1) != is_wrong ? weight : -weight;
     }
-    /// Returns the information of a bit of this weight, in bits: 1 - H(probability of error).
+    /// Returns the information of a bit of this weight: 1 - H(probability of error), in bits.
     double information(int weight) const {
         const double q = chance_of_error(weight);
         return 1 + q * std::log2(q) + (1 - q) * std::log2(1 - q);
     }
-    /// Returns the expected information of a bit, averaged over all weights. Missing cells
+    /// Returns the expected information of a cell's bit, averaged over all weights. Missing cells
     /// contribute 0.
     double information() const {
         double sum = 0;
@@ -65,9 +65,9 @@ struct Noise {
     }
 };
 
-/// Draws the odds of a bit for a doubtful reading with this number of cells. The number of
-/// positions, sections and turns along one axis is 2^36.6. About 30 bits of information in addition
-/// to 36.6 make p_wrong about 2^-13.
+/// Draws the odds of a correct bit so that a reading with this number of cells is doubtful. Along
+/// one axis, there are 2^36.6 combinations of position, section and turn. The decoder needs 36.6
+/// bits to distinguish them, and 30 more bits make p_wrong about 2^-13.
 double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     const double wanted_bits = rng.uniform(60, 80);
     constexpr double kMaxOdds_log2 = 12;
@@ -140,8 +140,8 @@ bool is_right(const Reading& reading, const Decoding& decoding) {
     return true;
 }
 
-/// Returns the information of a reading's bits per axis, with the odds per bit that `verify`
-/// estimates. The information is a fast estimate of -log2(p_wrong) from the results of the decoder.
+/// Returns a fast estimate of -log2(p_wrong): the information of a reading's bits per axis, with
+/// the odds per bit that `verify` estimates.
 double apparent_information(const core::Grid& grid, const Decoding& decoding,
                             const core::Nominal& nominal) {
     core::Confidence confidence;
@@ -160,9 +160,9 @@ double apparent_information(const core::Grid& grid, const Decoding& decoding,
     return bits / 2;
 }
 
-/// Returns true if p_wrong is probably near 1e-5, the class that needs the most readings. Enough of
-/// the selected readings turn out to have a p_wrong near 1e-4 and 1e-3. Only selected readings are
-/// verified, because `verify` takes 20 times the time of all previous steps.
+/// Returns true if p_wrong is probably near 1e-5, because that class needs the most readings. The
+/// selected readings include enough with a p_wrong near 1e-4 and 1e-3. The others are skipped
+/// because `verify` takes 20 times as long as all previous steps.
 bool looks_doubtful(const core::Grid& grid, const Decoding& decoding,
                     const core::Nominal& nominal) {
     const double bits = apparent_information(grid, decoding, nominal);

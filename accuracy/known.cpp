@@ -23,7 +23,6 @@ constexpr std::uint32_t kColumns = 393;
 constexpr std::uint32_t kRows = 564;
 constexpr std::uint32_t kGap = 1024;
 
-/// Views of one size.
 struct ViewSize {
     double spacing_px;
     int width_px;

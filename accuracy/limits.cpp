@@ -1,10 +1,10 @@
-// Measures the fraction of degraded frames that are located. Prints the table of docs/limits.md in
+// Measures which fraction of degraded frames is located. Prints the table of docs/limits.md in
 // Markdown.
 //
 //   dotpose_tables limits [--frames N] [--seed S] [--threads N]
 //
-// Locates N frames for each condition in tests/limit_frames.hpp, but fewer large images and mirror
-// images, because they take longer. The exit status is 1 if any fix is wrong.
+// Locates N frames for each condition in tests/limit_frames.hpp. Large images and mirror images
+// take longer, so fewer of them are located. The exit status is 1 if any fix is wrong.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,8 +24,8 @@ namespace {
 /// Minimum number of frames of a condition, unless --frames is smaller.
 constexpr std::uint64_t kMinFrames = 4;
 
-/// Returns the number of frames whose total number of pixels equals that of `frames` images of 320
-/// x 240. The result is clamped to [kMinFrames, `frames`].
+/// Returns the number of frames that have together as many pixels as `frames` images of 320 x 240,
+/// clamped to [kMinFrames, `frames`].
 int frames_of(const CameraModel& camera, std::uint64_t frames) {
     constexpr std::uint64_t kFull_px = 320 * 240;
     const std::uint64_t area_px =
@@ -67,7 +67,7 @@ int print_limit(const test::Limit& limit, std::uint64_t frames, const TableRun& 
 }
 
 /// Prints the number of mirror images that are refused with the status `mirrored`. Returns the
-/// number of fixes, which are all wrong.
+/// number of fixes, because every fix of a mirror image is wrong.
 int print_mirrored(std::uint64_t frames, const TableRun& run) {
     FrameRun frame_run;
     frame_run.frames = static_cast<int>(std::min(std::max(frames / 10, kMinFrames), frames));

@@ -1,5 +1,5 @@
-// Measures the errors of the tip of a pen, and of its ink (docs/pens.md), with simulated frames.
-// Prints tables in Markdown, and can replace them in the document.
+// Measures the errors of the tip of a pen and of its recorded strokes (docs/pens.md) with simulated
+// frames. Prints tables in Markdown, and can replace them in the document.
 //
 //   dotpose_tables pens [--pivots N] [--words N] [--seed S] [--threads N] [--draw FILE]
 //                       [--update DOCUMENT]
@@ -31,7 +31,7 @@ constexpr double kPenRate_hz = 200;
 constexpr int kStrokesPerWord = 4;
 constexpr int kDrawnStrokes = 12;
 
-/// Returns a shot of a print of its own for each seed.
+/// Returns a shot of a pen. Each seed has its own printing errors.
 Shot pen_shot(std::uint64_t seed, std::uint64_t index) {
     Shot shot = test::pen_shot(seed, index);
     shot.page.seed = seed;
@@ -98,8 +98,8 @@ struct InkTally {
     Errors raw;
     Errors smoothed;
     std::uint64_t strokes = 0;
-    std::uint64_t found = 0;      ///< strokes of the ink
-    std::uint64_t late_ends = 0;  ///< beginnings and ends that are wrong by more than one frame
+    std::uint64_t found = 0;      ///< number of strokes in the recorded ink
+    std::uint64_t late_ends = 0;  ///< number of stroke ends that are wrong by more than one frame
     int largest_delay = 0;        ///< in frames
 
     void operator+=(const InkTally& other) {

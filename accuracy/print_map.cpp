@@ -1,10 +1,10 @@
-// Measures how much a map of the print improves positions (docs/print-map.md). The frames that test
-// a map were not used to make it.
+// Measures how much a map of the print improves positions (docs/print-map.md). The map is tested
+// with other frames than those it was made from.
 //
 //   dotpose_tables print_map [--frames N] [--tests N] [--side MM] [--update DOCUMENT]
 //
-// The exit status is 1 if an error exceeds its limit: a repeatability of 0.12 µm, or a fifth of the
-// absolute error without the map.
+// The exit status is 1 if the repeatability exceeds 0.12 µm, or if the absolute error exceeds a
+// fifth of the absolute error without the map.
 #include <array>
 #include <chrono>
 #include <string>

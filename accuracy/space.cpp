@@ -30,11 +30,11 @@ namespace {
 constexpr double kDegree_rad = std::numbers::pi / 180;
 /// Print jitter of the preset `nominal`.
 constexpr double kJitter_mm = 0.010;
-/// Limit of the normalised squared error of the six coordinates. Above the limit, a pose is wrong.
-/// A correct pose exceeds the limit by chance once in 10^19.
+/// Limit of the normalised squared error of the six coordinates, beyond which a pose is wrong. A
+/// correct pose exceeds the limit by chance once in 10^19.
 constexpr double kWrong = 100;
 
-/// Errors of one method. Errors are relative to the bound.
+/// Errors of one method, relative to the Cramer-Rao bound.
 struct SpaceErrors {
     std::array<Errors, 6> coordinates;
     Errors all;  ///< sum of the normalised squared errors of the six coordinates
@@ -52,7 +52,7 @@ struct SpaceTally {
     std::uint64_t located = 0;
     std::uint64_t wrong = 0;
     std::uint64_t ambiguous = 0;
-    std::uint64_t second = 0;  ///< frames with a second solution, excluded or not
+    std::uint64_t second = 0;  ///< frames with a second solution, whether it is excluded or not
     SpaceErrors ours;
     SpaceErrors opencv;
 
@@ -75,7 +75,7 @@ struct Lens {
 };
 constexpr std::array kLenses = {Lens{"52 degrees", 30, -0.7e-6}, Lens{"28 degrees", 60, -0.2e-6}};
 
-/// Returns frame `index` of a camera that is tilted in any direction.
+/// Returns frame `index` of a camera that is tilted by `tilt_deg` in a random direction.
 Shot shot_at(const Lens& lens, double tilt_deg, std::uint64_t seed, std::uint64_t index) {
     Setup setup;
     setup.camera.width_px = 640;
@@ -113,7 +113,7 @@ SpaceMatrix matrix_of(const SpaceCovariance& covariance) {
 }
 
 #ifdef DOTPOSE_HAS_CALIB3D
-/// Returns the pose that OpenCV computes from the dots that `space_pose` uses.
+/// Returns the pose that OpenCV computes from the same dots as `space_pose`.
 CameraInSpace opencv_pose(const GreyImage& image, const Fix& fix, const Camera& camera,
                           const Trace& trace) {
     const double mm = fix.spacing_mm();

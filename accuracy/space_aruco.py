@@ -121,7 +121,7 @@ class Board:
         """Renders a frame with 4 x 4 samples per pixel, and adds blur, noise and rounding."""
         fine = 4
         rotation, position = truth
-        # Pixels of the points (x, y, 1) on the paper.
+        # Homography from points (x, y, 1) on the paper to pixels.
         columns = numpy.column_stack(
             [rotation.T[:, 0], rotation.T[:, 1], -rotation.T @ position])
         to_fine = numpy.array([[fine, 0, (fine - 1) / 2], [0, fine, (fine - 1) / 2], [0, 0, 1]])

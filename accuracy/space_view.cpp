@@ -15,7 +15,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Returns true if a dot with this pixel is completely in the image.
+/// Returns true if a dot centred at this pixel is completely in the image.
 bool is_in_view(const Shot& shot, const Vec2& pixel) {
     const CameraModel& camera = shot.camera;
     const double radius_px = shot.page.pattern.dot_mm / 2 / camera.mm_per_px + 1;
@@ -24,7 +24,8 @@ bool is_in_view(const Shot& shot, const Vec2& pixel) {
            pixel.y <= camera.height_px - 1 - radius_px;
 }
 
-/// Returns the minimum length of a spacing in the image at a place, over all directions.
+/// Returns the length of a spacing in the image at a place, in the direction in which it is
+/// shortest.
 double shortest_spacing_px(const Projection& projection, const Vec2& place_mm, double spacing_mm) {
     const auto step = [&](double x_mm, double y_mm) {
         const Vec2 to = projection.pixel_from_offset({place_mm.x + x_mm, place_mm.y + y_mm});
@@ -78,12 +79,12 @@ TrueSpacePose true_space_pose(const Shot& shot) {
     const CameraPose& pose = shot.pose;
     const double spacing_mm = shot.page.pattern.spacing_mm;
     // The paper is tilted about the image y axis, and then about the image x axis. Theta is the
-    // angle of the image x axis at the image centre. If the paper is tilted about both axes, this
-    // axis has another direction on the paper.
+    // angle on the paper of the image x axis at the image centre. The tilts change this angle, so
+    // the rotation about the normal of the paper is theta minus the change.
     const Matrix3d tilt = (Eigen::AngleAxisd(pose.tilt_x_rad, Vector3d::UnitX()) *
                            Eigen::AngleAxisd(pose.tilt_y_rad, Vector3d::UnitY()))
                               .toRotationMatrix();
-    // Place on the tilted paper that appears one unit to the right of the image centre.
+    // Point on the tilted paper that appears one unit to the right of the image centre.
     const Vector3d normal = tilt.col(2);
     const Vector3d right(1, 0, -normal.x() / normal.z());
     const Vector3d on_paper = tilt.transpose() * right;
@@ -122,7 +123,7 @@ SpaceMatrix space_bound(const Shot& shot, double jitter_mm) {
     const double mm = pattern.spacing_mm;
     const Vector3d from_camera =
         Vector3d(x_grid(shot.pose) * mm, y_grid(shot.pose) * mm, 0) - truth.position_mm;
-    // The view of a strongly tilted camera extends to several times its width.
+    // A strongly tilted camera sees dots at several times the width of its untilted view.
     const auto reach = static_cast<int>(3 * shot.camera.width_px * shot.camera.mm_per_px / mm);
     SpaceMatrix information = SpaceMatrix::Zero();
     for (int j = -reach; j <= reach; ++j) {

@@ -26,13 +26,14 @@ using SpaceMatrix = Eigen::Matrix<double, 6, 6>;
 /// Returns the error of a pose, in the coordinates of SpacePose::covariance.
 SpaceVector space_error(const CameraInSpace& camera, const TrueSpacePose& truth);
 
-/// Minimum spacing in the image, in the direction of the smallest spacing. Below the minimum, the
-/// images of adjacent dots overlap.
+/// Minimum spacing in the image, in px, in the direction in which it is shortest. Below this
+/// spacing, the images of adjacent dots overlap.
 inline constexpr double kResolvedSpacing_px = 4;
 
-/// Returns the Cramer-Rao bound of the covariance of a pose. Uses all dots that are completely in
-/// view and separate in the image. `jitter_mm` is the standard deviation of the printing error
-/// along each axis. Includes the noise of the image, but not the motion during the exposure.
+/// Returns the Cramer-Rao bound of the covariance of a pose, from all dots that are completely in
+/// view and whose images do not overlap. `jitter_mm` is the standard deviation of the printing
+/// error along each axis. The bound includes the noise of the image, but not the motion during the
+/// exposure.
 SpaceMatrix space_bound(const Shot& shot, double jitter_mm);
 
 }  // namespace dotpose::tables

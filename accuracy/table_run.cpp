@@ -40,7 +40,8 @@ void TableRun::add_update() {
 
 bool TableRun::parse() {
     if (!command.parse(argc_, argv_)) return false;
-    // If the document cannot be read, fails before the measurement, which may take an hour.
+    // An unreadable document is an error before the measurement starts, because the measurement may
+    // take an hour.
     if (!document_.empty()) read_document(document_);
     return true;
 }

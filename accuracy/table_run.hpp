@@ -1,4 +1,5 @@
-/// The run of one table of dotpose_tables: command line, work on all cores, output.
+/// Runs one table of dotpose_tables: parses the command line, distributes the work over all cores,
+/// and prints the results.
 #pragma once
 
 #include <algorithm>
@@ -35,11 +36,11 @@ struct Count : Done {
     Tally tally;
 };
 
-/// Runs one table. The table adds its options, parses the command line, measures, and prints
-/// results.
+/// The run of one table. The function of the table adds its options to `command`, calls `parse`,
+/// measures, and prints its results.
 class TableRun {
   public:
-    /// `what` is the first line of the help. `argv[0]` is skipped.
+    /// `what` is the first line of the help. `argv[0]` is ignored.
     TableRun(const std::string& name, const std::string& what, int argc, const char* const* argv)
         : command(what, name), argc_(argc), argv_(argv) {}
 
@@ -47,7 +48,7 @@ class TableRun {
     std::uint64_t seed = 1;
     unsigned threads = std::max(std::thread::hardware_concurrency(), 1u);
 
-    /// Adds an option for a number of items, 0 to 2e9.
+    /// Adds an option whose value is a number of items, from 0 to 2e9.
     void add_count(const std::string& flag, std::uint64_t& count, const std::string& what);
     void add_seed();
     void add_threads();
@@ -92,13 +93,13 @@ class TableRun {
     Blocks blocks_;
 };
 
-/// Returns a function that shows the progress on `line` and stops the work on Ctrl-C.
+/// Returns a callback that shows the progress on `line` and stops the work on Ctrl-C.
 Progress shown_on(cli::ProgressLine& line);
 
 /// Returns the memory for the locators of this thread.
 LargeMemory& thread_memory();
 
-/// Returns the frame of a shot with the true pose. The code variant of the frame is not set.
+/// Returns the frame and the true pose of a shot. The code variant of the frame is not set.
 KnownFrame known_frame(const Shot& shot);
 
 /// Returns a setup with the preset `nominal` and images of this size.

@@ -1,6 +1,5 @@
 /// The tables of dotpose_tables. Each function adds its options to the run, calls `run.parse()`,
-/// and measures and prints its table. It returns false if a fix is wrong or the run was
-/// interrupted.
+/// measures, and prints its table. It returns false if a fix is wrong or the run was interrupted.
 #pragma once
 
 #include "table_run.hpp"

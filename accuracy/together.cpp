@@ -1,4 +1,4 @@
-// Counts after how many frames a moving camera is located if the bits of its frames are joined.
+// Counts the frames after which a moving camera is located if the bits of its frames are joined.
 // Each view alone is too small for a certain fix. Prints a table in Markdown.
 //
 //   dotpose_tables together [--series N] [--seed S]
@@ -18,11 +18,11 @@ namespace {
 
 /// Number of frames of a series.
 constexpr std::size_t kLength = 8;
-/// A page of A4, and the distance of the first view from its edges, in cells.
+/// A page of A4 size.
 constexpr KnownRegion kSheet{CodeVariant::anoto, {}, {1024, 1024}, 393, 564};
 constexpr std::uint32_t kMargin = 60;
 
-/// Views of one size, and the accuracy of the motion between them.
+/// Size of the views of a series, and standard deviation of the measured motion between them.
 struct SeriesKind {
     double spacing_px;
     int side_px;

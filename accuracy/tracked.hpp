@@ -1,4 +1,4 @@
-/// Measurements of the table `tracked`, and the counts of their results.
+/// Functions that measure the tables of `tracked`, and counters for their results.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ struct TrueView {
     }
 };
 
-/// Returns the quantile `share` of the values, or 0 if there are no values.
+/// Returns the quantile of the values for the probability `share`, or 0 if there are no values.
 inline double quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0;
     const auto n = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
@@ -92,7 +92,6 @@ struct TrackedTally {
     }
 };
 
-/// Tallies, indexed by the kind of prediction.
 struct TrackedTallies {
     std::vector<TrackedTally> kinds;
 
@@ -126,18 +125,18 @@ TrackedTable drives_table(const TableRun& run);
 /// Returns the table of nominal frames with predictions of increasing error.
 TrackedTable offsets_table(const TableRun& run, std::uint64_t frames);
 
-/// Returns the table of changes between two frames: light, lifting, turning, another sheet, covered
-/// dots. The prediction is based on the fix of the first frame, before the change.
+/// Returns the table of changes between two frames, such as other light, a lifted camera, another
+/// sheet or covered dots. The prediction is based on the fix of the first frame, before the change.
 TrackedTable changes_table(const TableRun& run, std::uint64_t frames);
 
-/// Returns the table of predictions of positions that are not in view. Each class gets the same
-/// number of predictions.
+/// Returns the table of predictions of wrong positions. Each class of predictions is tested equally
+/// often.
 TrackedTable wrong_predictions_table(const TableRun& run, std::uint64_t predictions);
 
-/// Returns the wrong position that shares the maximum number of lines with `place`. The lines are
-/// the `lines` columns that begin at `place`, or rows if not `is_along_x`. Along this axis, the
-/// wrong position differs from `place` in its place in one secondary sequence and in its section.
-/// The two positions share all lines of the other axis.
+/// Returns the wrong position that has the maximum number of lines in common with `place`. The
+/// lines are the `lines` columns that begin at `place`, or rows if not `is_along_x`. Along this
+/// axis, the wrong position differs from `place` in one secondary sequence and in its section. All
+/// lines of the other axis are equal.
 Place worst_alternative(CodeVariant code, const Place& place, bool is_along_x, int lines);
 
 }  // namespace dotpose::tables

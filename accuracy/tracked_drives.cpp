@@ -18,10 +18,9 @@ constexpr std::array kDrives{DriveRate{0, 1},   DriveRate{30, 1},  DriveRate{100
                              DriveRate{300, 1}, DriveRate{300, 2}, DriveRate{300, 4},
                              DriveRate{100, 4}, DriveRate{30, 8}};
 
-/// Results of a drive.
 struct DriveTally {
     TrackedTally seen;
-    TrackedTally settled;  ///< frames after the robot was put down, except the first two
+    TrackedTally settled;  ///< frames after the robot was put down, without the first two
 };
 
 struct DriveTallies {
@@ -36,7 +35,7 @@ struct DriveTallies {
     }
 };
 
-/// Counts a frame like TrackedTally::count, but compares poses in the world.
+/// Counts a frame as TrackedTally::count does, but compares the poses in the world.
 void count(const Located& located, const test::DriveState& truth, TrackedTally& tally) {
     const Fix& fix = located.fix;
     if (fix.status != Status::ok) {

@@ -43,8 +43,8 @@ Setup nominal(std::uint64_t seed) {
     return setup;
 }
 
-/// Locates a frame with predictions of increasing error. The first tally counts the fixes that do
-/// not use the prediction.
+/// Locates a frame with predictions of increasing error. The first tally counts the fix without a
+/// prediction, and tally i + 1 the results for kOffsets[i].
 void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     const GreyImage image = render(shot);
     const Fix fresh = Locator(thread_memory(), DeviceOptions{}).locate(image.view());
@@ -92,8 +92,8 @@ void turn(Shot& shot, const Shot&, Rng& rng) {
 /// The change between the first and the second frame.
 struct Change {
     const char* text;
-    /// Changes the first shot into the second shot. `other` is a shot of another sheet. Null means
-    /// that the camera is lifted.
+    /// Turns the first shot into the second shot. `other` is a shot of another sheet. Null if the
+    /// camera is lifted.
     void (*apply)(Shot& shot, const Shot& other, Rng& rng);
 };
 constexpr std::array kChanges{
@@ -107,7 +107,7 @@ constexpr std::array kChanges{
     Change{"put on another sheet", [](Shot& shot, const Shot& other, Rng&) { shot = other; }},
 };
 
-/// Returns the frame of a lifted camera, which is out of focus.
+/// Returns a frame without dots, as seen by a lifted camera that is out of focus.
 GreyImage nothing_in_focus(const Shot& shot, Rng& rng) {
     return test::detail::painted(
         shot, [&](int, int) { return 120 + shot.imperfections.noise_sigma * rng.normal(); });

@@ -4,8 +4,8 @@
 //   dotpose_tables slips [--frames N] [--seed S] [--threads N]
 //   dotpose_tables seams [--frames N] [--seed S] [--threads N]
 //
-// Slips: the halves of the sheet are displaced relative to each other, or the paper is wrinkled.
-// Seams: two butted sheets, in frames that are rendered independently of the simulator.
+// `slips`: halves of a sheet that are displaced relative to each other, and wrinkled paper.
+// `seams`: two sheets side by side, drawn by a renderer that is independent of the simulator.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,7 +41,7 @@ struct SheetFrames {
     Effort effort = Effort::twice;
 };
 
-/// Maximum error that is consistent with the covariance of a fix, in standard deviations.
+/// Maximum error, in standard deviations, that is consistent with the covariance of a fix.
 constexpr double kMaxSigmas = 4;
 
 /// Returns the largest error of x, y and theta in units of their standard deviations.
@@ -70,7 +70,7 @@ void print_uneven_head() {
         "| wrong |\n|---|---|--:|--:|---|--:|---|---|---|--:|\n");
 }
 
-/// Locates `frames` frames, prints their row and returns the number of wrong fixes. Throws Error if
+/// Locates `frames` frames and prints their row. Returns the number of wrong fixes. Throws Error if
 /// interrupted.
 int print_uneven_row(const SheetFrames& sheet, std::uint64_t frames, const TableRun& run) {
     FrameRun frame_run;

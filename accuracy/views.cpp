@@ -5,9 +5,9 @@
 //   dotpose_tables views PAGE... --code NAME [--dpi D] [--views N] [--seed S]
 //
 // PAGE is an image of a page at D dots per inch, or a text file with one symbol (u, d, l or r) for
-// each dot, row by row. The true pose of a view is read from the page itself, with the code given
-// and from many more dots than the view contains. Locates N views of each size, from all pages in
-// turn. The exit status is 1 if any fix is wrong.
+// each dot, row by row. The true pose of a view is located in a larger part of the page, with the
+// code given. Locates N views of each size, distributed over all pages. The exit status is 1 if any
+// fix is wrong.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,10 +32,10 @@ namespace dotpose::tables {
 namespace {
 
 constexpr double kMmPerInch = 25.4;
-/// Side length of the part of a page from which the true pose of a view is read, in spacings. The
+/// Side length, in spacings, of the part of a page from which the true pose of a view is read. The
 /// part contains about 1500 dots.
 constexpr double kSurroundings_grid = 40;
-/// Number of views of a run after which the evidence of the code is expected to be complete.
+/// Number of views after which the evidence collected from them is expected to identify the code.
 constexpr int kFirstViews = 50;
 
 struct ScannedPage {
@@ -43,7 +43,7 @@ struct ScannedPage {
     double mm_per_px = 0;
 };
 
-/// Draws one solid disc for each symbol of a text.
+/// Draws a page with one solid disc for each symbol of a text.
 GreyImage drawn(const std::vector<std::string>& rows, double dpi) {
     constexpr double kDisplacement_grid = 1.0 / 6;
     constexpr double kRadius_grid = 1.0 / 6;
@@ -91,13 +91,12 @@ ScannedPage read_page(const std::string& path, double dpi) {
     return {drawn(rows, dpi), kMmPerInch / dpi};
 }
 
-/// A view of a page: the frame and the true pose.
 struct View {
     GreyImage frame;
     Truth truth;
 };
 
-/// Returns the pose at a point of the page, or none if the surroundings of the point cannot be
+/// Returns the pose at a point of the page, or none if the part of the page around it cannot be
 /// read.
 std::optional<Fix> pose_on_page(const ScannedPage& page, double x_px, double y_px,
                                 Locator& locator) {
@@ -147,10 +146,10 @@ std::optional<View> draw_view(const ScannedPage& page, int width_px, int height_
 struct ViewCounts {
     int views = 0;
     int given = 0;  ///< number of views located with the code given
-    // The following counts are subsets of `given`. They apply to detection of the code.
+    // The next counts include only views of `given`, located again with detection of the code.
     int alone = 0;        ///< number located without evidence from other views
     int ambiguous = 0;    ///< number refused with ambiguous_code, without evidence from other views
-    int later_given = 0;  ///< number of views after the first kFirstViews views
+    int later_given = 0;  ///< number of views after the first kFirstViews
     int later = 0;        ///< number of `later_given` located with the evidence of earlier views
     int wrong = 0;
     double max_against_log2 = 0;  ///< maximum evidence of a single view against the given code

@@ -20,9 +20,9 @@ Detections detections_in(apriltag_detector_t* detector, GreyImage& image) {
     return Detections(apriltag_detector_detect(detector, &view));
 }
 
-/// Returns the image of a printed tag with many pixels per square: a white border, a black border,
-/// and the bits (white for 1). Does not use `apriltag_to_image`, because the library has no
-/// function that frees its result completely.
+/// Returns the image of a printed tag with `px_per_square` pixels per square: a white border, a
+/// black border, and the bits, which are white for 1. Does not use `apriltag_to_image`, because the
+/// library has no function that frees its result completely.
 GreyImage draw_tag(const apriltag_family_t& family, int id, int px_per_square) {
     const int squares = family.total_width;
     const int side_px = squares * px_per_square;
@@ -97,8 +97,8 @@ bool TagDetector::is_right(TagFrame& frame) {
     if (zarray_size(found.get()) != 1) return false;
     apriltag_detection_t* tag = nullptr;
     zarray_get(found.get(), 0, &tag);
-    // In libapriltag, the corner of the first pixel is the origin. The image centre is therefore at
-    // half the image size.
+    // The origin of libapriltag is the corner of the first pixel, so the image centre is at half
+    // the image size.
     const double u_error_px = tag->c[0] - frame.image.width_px / 2.0;
     const double v_error_px = tag->c[1] - frame.image.height_px / 2.0;
     return tag->id == frame.id && tag->hamming == 0 && std::hypot(u_error_px, v_error_px) < 1;

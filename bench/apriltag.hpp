@@ -10,14 +10,14 @@
 
 namespace dotpose::bench {
 
-/// A frame with one tag of the family tag36h11 in the centre.
+/// A frame with a tag of the family tag36h11 in its centre.
 struct TagFrame {
     GreyImage image;
     int id = 0;
 };
 
 /// Renders frames with a tag at a random angle. The tag and its white border cover two thirds of
-/// the shorter side of the frame. Lighting, blur and noise are the same as in nominal frames of the
+/// the shorter side of the frame. Illumination, blur and noise are those of nominal frames of the
 /// same camera.
 std::vector<TagFrame> render_tags(const CameraModel& camera, int count);
 
@@ -28,10 +28,9 @@ class TagDetector {
     explicit TagDetector(int decimate);
 
     const apriltag_family_t& family() const { return *family_; }
-    /// Returns the number of tags found.
     int detect(GreyImage& image);
-    /// Returns true if the detector finds exactly one tag, the tag of the frame, in the correct
-    /// position and with all bits correct.
+    /// Returns true if the detector finds only the tag of the frame, in the correct position and
+    /// with all bits correct.
     bool is_right(TagFrame& frame);
 
   private:

@@ -1,4 +1,4 @@
-/// Measurements of dotpose_bench, grouped by source file, and the tables of their results.
+/// Declares the measurements of dotpose_bench, by source file, and the tables of their results.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace dotpose::bench {
 
 void add_frame_benchmarks();
 
-/// Times for one kind of frame, in µs, or 0 if not measured.
+/// Times for one kind of frame, in µs. A time is 0 if it was not measured.
 struct FrameTimes {
     CameraModel camera;
     double dots = 0;
@@ -26,13 +26,13 @@ struct FrameTimes {
     double tracked_us = 0;
     double device_us = 0;  ///< `Effort::device`
     double floor_us = 0;
-    double tag_us[2] = {};  ///< libapriltag with decimate 1 and 2
+    double tag_us[2] = {};  ///< libapriltag with `decimate` 1 and 2
 
     double megapixels() const { return 1e-6 * camera.width_px * camera.height_px; }
 };
-/// Returns the times for frames of several sizes, from small to large.
+/// Returns the times for frames of several sizes, ordered by size.
 std::vector<FrameTimes> times_by_size(const Results& results);
-/// Returns the times for frames of one size with an increasing number of dots.
+/// Returns the times for frames of one size, ordered by their number of dots.
 std::vector<FrameTimes> times_by_dots(const Results& results);
 std::string size_table(const std::vector<FrameTimes>& times);
 std::string dots_table(const std::vector<FrameTimes>& times);
@@ -46,12 +46,12 @@ void draw_dots(std::ostream& out, const std::vector<FrameTimes>& times);
 
 // ---- Individual frames: varied.cpp ----
 
-/// Methods of processing the frames, in the order of the table.
+/// Methods of processing a frame, in the order of the table.
 enum class Way : std::uint8_t {
     twice,
     once,
     narrow,   ///< the first attempt with 16-byte vectors, as on a processor without AVX2
-    tracked,  ///< predictions with errors of up to a third of a spacing and 2 degrees
+    tracked,  ///< with predictions whose errors are up to a third of a spacing and 2 degrees
     device,
     floor,
     apriltag_1,
@@ -59,7 +59,7 @@ enum class Way : std::uint8_t {
 };
 inline constexpr std::size_t kWays = 8;
 
-/// Time statistics of one method, in µs. The time of a frame is the time of its fastest pass.
+/// Time statistics of one method, in µs. The time of a frame is that of its fastest pass.
 struct FrameSpread {
     int frames = 0;
     int found = 0;
@@ -76,9 +76,9 @@ struct Varied {
     const FrameSpread& of(Way way) const { return spreads[static_cast<std::size_t>(way)]; }
 };
 
-/// Measures the time to locate `frames` nominal frames of 188 x 120 px, and the time of libapriltag
-/// to detect the tags in `frames` / 10 frames. Each frame is measured `passes` times. Throws Error
-/// if a fix is wrong.
+/// Measures the time in which `locate` processes each of `frames` nominal frames of 188 x 120 px,
+/// and libapriltag each of `frames` / 10 frames with tags. Each frame is measured `passes` times.
+/// Throws Error if a fix is wrong.
 Varied time_varied_frames(int frames, int passes);
 std::string varied_table(const Varied& varied);
 
@@ -114,7 +114,7 @@ std::string small_table(const std::vector<SmallTimes>& times);
 
 // ---- Hard frames: hard.cpp ----
 
-/// Results for hard frames of 188 x 120 px. The time of a frame is the time of its faster pass.
+/// Results for hard frames of 188 x 120 px. The time of a frame is that of its faster pass.
 struct HardTimes {
     int frames = 0;
     int located = 0;
@@ -123,7 +123,7 @@ struct HardTimes {
     double p99_ms = 0;
     double longest_ms = 0;
 };
-/// Times frames of the preset `hard`. Throws Error if a fix is wrong.
+/// Measures the times of frames of the preset `hard`. Throws Error if a fix is wrong.
 HardTimes time_hard_frames(int frames);
 std::string hard_table(const HardTimes& times);
 
@@ -142,7 +142,7 @@ std::string code_table(const Results& results);
 /// Returns the load averages of the last 1, 5 and 15 minutes.
 std::string load_average();
 
-/// Returns a list of the processor, caches, compiler and library, in Markdown.
+/// Returns a Markdown list with the processor, its caches, the compiler and the library.
 std::string machine_list();
 
 }  // namespace dotpose::bench

@@ -1,4 +1,4 @@
-// Benchmarks of the position code without images.
+// Benchmarks of encoding and decoding positions, without images.
 #include <fmt/core.h>
 
 #include <dotpose/code.hpp>

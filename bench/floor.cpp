@@ -6,10 +6,10 @@
 namespace dotpose::bench {
 namespace {
 
-/// Number of pixels that are counted in parallel. Each lane has an 8-bit counter, so the compiler
+/// Number of pixels that are counted in parallel. Each lane counts in 8 bits, so that the compiler
 /// can use the widest vectors of the processor.
 constexpr std::size_t kLanes = 64;
-/// Maximum count of a lane.
+/// Number of steps that a lane can count without overflow.
 constexpr std::size_t kMaxSteps = 255;
 
 std::uint32_t count_steps(std::span<const std::uint8_t> pixels, std::uint8_t level) {

@@ -1,4 +1,4 @@
-/// Minimum work of any method that reads all pixels. Its time is a lower bound for these methods.
+/// Counts dark pixels, as a lower bound of the time of any method that reads all pixels.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace dotpose::bench {
 
-/// Returns the number of pixels that are darker than `level`, in one pass.
+/// Returns the number of pixels that are darker than `level`.
 std::uint32_t count_dark(std::span<const std::uint8_t> pixels, std::uint8_t level);
 
 }  // namespace dotpose::bench

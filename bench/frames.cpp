@@ -15,8 +15,8 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns the number of frames to render. The number is large enough that branch prediction and
-/// caches do not adapt to individual frames, and small enough for quick rendering.
+/// Returns the number of frames to render. There must be enough frames that branch prediction and
+/// caches do not adapt to individual frames, but few enough to render quickly.
 int count_of(const CameraModel& camera) {
     constexpr int kMaxFrames = 20;
     constexpr int kPixels = 4'000'000;
@@ -24,7 +24,7 @@ int count_of(const CameraModel& camera) {
 }
 
 /// Returns true if the first attempt and the attempt of DeviceLocator both find a pose. Other
-/// frames are excluded, because an attempt may end early on them and appear fast.
+/// frames are excluded, because an attempt that fails early on them would appear fast.
 bool is_located_by_first_attempt(const KnownFrame& frame) {
     const auto memory = std::make_unique<LargeMemory>();
     const auto locates = [&](Effort effort) {

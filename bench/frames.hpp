@@ -9,23 +9,23 @@
 
 namespace dotpose::bench {
 
-/// Seed not used by any test or for tuning.
+/// Seed of the frames, which is not used by any test or for tuning.
 inline constexpr std::uint64_t kSeed = 606;
 
 /// Returns nominal frames that the first attempt and the attempt of DeviceLocator both locate.
-/// Small cameras get more frames. The first call for a camera renders the frames.
+/// There are more frames if they are small. The first call for a camera renders the frames.
 const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera);
 
 /// Returns true if the fix has a pose and the pose is correct.
 bool is_right(const Fix& fix, const Truth& truth);
 
-/// Returns the quantile `share` of sorted values, by the nearest rank.
+/// Returns the quantile of sorted values for the probability `share`, by the nearest rank.
 double quantile(const std::vector<double>& sorted, double share);
 
 /// Calls `work(i)` for i from 0 to count - 1, on all cores.
 void on_all_cores(int count, const std::function<void(int)>& work);
 
-/// Returns frame_at(0) to frame_at(count - 1), computed on all cores.
+/// Returns the frames frame_at(0) to frame_at(count - 1), which are rendered on all cores.
 std::vector<KnownFrame> render_frames(int count, const FrameSource& frame_at);
 
 /// Results for frames that were timed individually.

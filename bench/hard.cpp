@@ -13,7 +13,7 @@
 namespace dotpose::bench {
 
 HardTimes time_hard_frames(int frames) {
-    // Renders the frames in batches, to limit the memory.
+    // The frames are rendered in batches, to limit the memory.
     constexpr int kMaxRendered = 500;
     constexpr int kPasses = 2;
     Setup setup;

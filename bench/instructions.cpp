@@ -1,6 +1,6 @@
-// Locates nominal frames of 188 x 120 px for bench/instructions, which counts the instructions of
-// the calls. Prints the number of frames, and the number of frames that the first attempt locates
-// if the code is not given.
+// Locates nominal frames of 188 x 120 px. bench/instructions counts the instructions of the calls.
+// Prints the number of frames, and the number of frames that the first attempt locates without a
+// given code.
 #include <cstdio>
 #include <memory>
 #include <vector>
@@ -18,7 +18,7 @@ constexpr std::uint64_t kSeed = 606;
 
 }  // namespace
 
-/// The counted functions have C linkage, so callgrind can select them by name.
+/// The counted functions have C linkage, so that callgrind can select them by name.
 extern "C" [[gnu::noinline]] void count_fresh_frame(const ImageView& image, Locator& locator) {
     locator.locate(image);
 }
@@ -27,8 +27,8 @@ extern "C" [[gnu::noinline]] void count_tracked_frame(const ImageView& image,
                                                       Locator& locator) {
     locator.locate(image, prediction);
 }
-/// Locates a frame without a given code. count_frame_in_code locates the same frame with its code
-/// given. The difference between the two counts is due to the detection of the code.
+/// Locates a frame whose code is not given. count_frame_in_code locates the same frame with its
+/// code given, so the difference between the counts is due to the detection of the code.
 extern "C" [[gnu::noinline]] CodeReading count_frame_in_any_code(const ImageView& image,
                                                                  Locator& locator) {
     return locator.locate_in_any_code(image, {});
@@ -39,8 +39,8 @@ extern "C" [[gnu::noinline]] void count_frame_in_code(const ImageView& image, Lo
 
 namespace {
 
-/// Locates the frame without and with its code given. Returns true if the first attempt located the
-/// frame in the first code that it tried. Other frames are not counted.
+/// Locates the frame without and with its code given, and returns true. If the first attempt does
+/// not locate the frame in the first code that it tries, returns false without counting the frame.
 bool compare_codes(const ImageView& image, Locator& locator) {
     const auto is_settled = [](const CodeReading& reading) {
         return reading.fix.status == Status::ok && reading.fix.attempt == Attempt::first &&
@@ -70,7 +70,8 @@ int main() {
         count_fresh_frame(image.view(), locator);
         const Fix fix = locator.trace().fix;
         if (fix.status != Status::ok) return 1;
-        // Displaces the prediction by a fifth of a spacing and a degree, as if the robot had moved.
+        // The prediction is displaced by a fifth of a spacing and a degree, as if the robot had
+        // moved.
         constexpr std::int32_t kDegree_bam = 11930465;
         const Prediction prediction =
             moved(Prediction::like(fix), CodeVariant::anoto, {65536 / 5, 0}, kDegree_bam,

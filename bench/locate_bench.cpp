@@ -1,4 +1,4 @@
-// Benchmarks of whole frames: dotpose, libapriltag and one pass over the pixels.
+// Benchmarks of whole frames for dotpose, for libapriltag, and for one pass over the pixels.
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -15,7 +15,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns the camera of the paper with a larger image.
+/// Returns the camera of the paper with another image size.
 CameraModel camera_of(int width_px, int height_px) {
     CameraModel camera;
     camera.width_px = width_px;
@@ -30,7 +30,7 @@ CameraModel phone_camera() {
     return camera;
 }
 
-/// Maximum size of the frames measured with libapriltag, which is slower than all other methods.
+/// Maximum size of the frames that are measured with libapriltag, which is the slowest method.
 constexpr int kMaxTagPixels = 1280 * 800;
 
 const std::vector<CameraModel>& sizes() {
@@ -40,8 +40,8 @@ const std::vector<CameraModel>& sizes() {
     return all;
 }
 
-/// Returns cameras with the same image size that see increasing areas of the paper, and therefore
-/// increasing numbers of dots.
+/// Returns cameras with the same image size and decreasing spacings, whose frames contain more and
+/// more dots.
 const std::vector<CameraModel>& spacings() {
     static const std::vector<CameraModel> all = [] {
         std::vector<CameraModel> cameras;
@@ -92,7 +92,7 @@ void locate_frames(benchmark::State& state, const CameraModel& camera, Effort ef
     state.counters["dots"] = dots / static_cast<double>(frames.size());
 }
 
-/// Tracks each frame from a prediction based on its own fix.
+/// Tracks each frame with a prediction from its own fix.
 void track_frames(benchmark::State& state, const CameraModel& camera) {
     Locator& locator = locator_for(camera, DeviceOptions{}.effort);
     const std::vector<KnownFrame>& frames = nominal_frames(camera);

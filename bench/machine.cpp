@@ -11,7 +11,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns the value of `name` in a file with lines of the form `name: value` or `name="value"`.
+/// Returns the value of `name` in a file whose lines are `name: value` or `name="value"`.
 std::string value_in(const char* path, std::string_view name) {
     std::ifstream lines(path);
     for (std::string line; std::getline(lines, line);) {

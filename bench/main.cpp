@@ -4,9 +4,9 @@
 //   dotpose_bench --benchmark_filter=stage [--benchmark_...]
 //
 // Writes tables.md, pixels.svg and dots.svg to FOLDER (bench-out). --update also replaces the
-// generated parts of the document and its figures. --quick is a short test of the program with
-// inaccurate numbers. If options of Google Benchmark are given, only the selected benchmarks are
-// run and printed.
+// generated parts of the document and its figures. --quick tests the program in a short time, and
+// its numbers are inaccurate. If options of Google Benchmark are given, runs and prints only the
+// selected benchmarks.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -38,8 +38,8 @@ struct Arguments {
 
 Arguments parse(int argc, char** argv) {
     Arguments arguments;
-    // Interleaves the repetitions of all benchmarks. A temporary load on the machine then affects
-    // repetitions of several benchmarks, and not all repetitions of one.
+    // The repetitions of all benchmarks are interleaved, so that a temporary load on the machine
+    // affects some repetitions of several benchmarks, and not all repetitions of one.
     for (const char* option : {"--benchmark_enable_random_interleaving=true",
                                "--benchmark_repetitions=9", "--benchmark_min_time=0.05"})
         arguments.library.emplace_back(option);
@@ -96,8 +96,8 @@ const FrameTimes& of_width(const std::vector<FrameTimes>& sizes, int width_px) {
                               [](const FrameTimes& t) { return t.camera.width_px; });
 }
 
-/// Returns the minimum percentage of frames located by the first attempt, and the maximum ratio of
-/// the time to the time at 0 degrees.
+/// Returns the minimum percentage of frames located by the first attempt at any tilt, and the
+/// maximum ratio of the time to the time at 0 degrees.
 std::pair<double, double> worst_tilt(const std::vector<TiltTimes>& tilts) {
     double share = 100;
     double ratio = 1;
@@ -110,7 +110,7 @@ std::pair<double, double> worst_tilt(const std::vector<TiltTimes>& tilts) {
     return {share, ratio};
 }
 
-/// Returns a table of target and measured values.
+/// Returns a table that compares measured values with their targets.
 std::string aims_table(const std::vector<FrameTimes>& sizes, const Varied& varied,
                        const std::vector<TiltTimes>& tilts, const HardTimes& hard) {
     const double locate_us = varied.of(Way::twice).median_us;
@@ -148,8 +148,8 @@ std::string aims_table(const std::vector<FrameTimes>& sizes, const Varied& varie
 void run(const Arguments& arguments) {
     Results results;
     if (arguments.is_partial) return run_benchmarks(arguments.library, results);
-    // Reads the document first. If it cannot be read, the program fails before the measurement,
-    // which takes minutes.
+    // An unreadable document is an error before the measurement starts, because the measurement
+    // takes minutes.
     if (!arguments.document.empty()) read_document(arguments.document);
     fs::create_directories(arguments.out);
 

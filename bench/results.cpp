@@ -9,7 +9,8 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns the CPU time, which depends less on other processes than the elapsed time does.
+/// Returns the CPU time of one call in µs. CPU time depends less on other processes than elapsed
+/// time.
 double us_of(const benchmark::BenchmarkReporter::Run& run) {
     return 1e6 * run.cpu_accumulated_time / static_cast<double>(run.iterations);
 }
@@ -29,7 +30,7 @@ void Results::ReportRuns(const std::vector<Run>& repetitions) {
     Run fastest = *std::ranges::min_element(repetitions, {}, us_of);
     fastest.run_name.repetitions.clear();
     ConsoleReporter::ReportRuns({fastest});
-    // A benchmark with a wrong result stops before its first iteration.
+    // A benchmark whose result is wrong stops before its first iteration.
     if (std::ranges::any_of(repetitions, [](const Run& run) { return run.iterations == 0; })) {
         has_failed_ = true;
         return;

@@ -14,13 +14,13 @@ struct Result {
     double dots = 0;  ///< mean number of dots in the frames, or 0 for benchmarks without frames
 };
 
-/// Prints and stores the fastest repetition of each benchmark. Other load on the machine can only
-/// make a repetition slower.
+/// Prints and stores the fastest repetition of each benchmark, because other load on the machine
+/// can only make a repetition slower.
 class Results : public benchmark::ConsoleReporter {
   public:
     Results();
 
-    /// Returns the result of a benchmark. Throws Error if it was not run or failed.
+    /// Returns the result of a benchmark. Throws Error if the benchmark failed or was not run.
     const Result& of(const std::string& name) const;
     bool has_failed() const { return has_failed_; }
 

@@ -1,4 +1,4 @@
-// Measures the time per frame of small cameras, whose frames show hardly enough cells for a fix.
+// Measures the time per frame of small cameras, whose frames contain barely enough cells for a fix.
 #include <algorithm>
 #include <memory>
 

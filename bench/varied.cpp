@@ -1,4 +1,5 @@
-// Times many different frames individually, to show how the time varies between frames.
+// Measures the times of many different frames individually, to show how the time varies between
+// frames.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -24,7 +25,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// A method of locating frames, and the frames that it locates.
+/// A method of locating frames, its frames, and its results.
 struct Subject {
     std::vector<const GreyImage*> frames;
     int found = 0;
@@ -58,8 +59,7 @@ Subject locating(const std::vector<KnownFrame>& frames, Effort effort, SmallMemo
     return subject;
 }
 
-/// Returns the method that locates frames as on a processor without AVX2, with the first attempt
-/// only.
+/// Returns the method that uses only the first attempt, without AVX2.
 Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
     static core::SmallWorkspace workspace;
     const auto locates = [](const GreyImage& image) {
@@ -74,7 +74,7 @@ Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
     return subject;
 }
 
-/// Returns the prediction from the fix of the same frame, displaced by a random offset.
+/// Returns a prediction for a frame, which is its own fix with a random error.
 Prediction prediction_for(const KnownFrame& frame, Rng& rng, SmallMemory& memory) {
     const Fix fix = Locator(memory, DeviceOptions{}).locate(frame.image.view());
     const double direction_rad = rng.uniform(0, 2 * std::numbers::pi);
@@ -122,9 +122,9 @@ Subject detecting(std::vector<TagFrame>& frames, TagDetector& detector) {
     return subject;
 }
 
-/// Times every frame once. All frames are copied to the same memory, like the frames of a camera.
-/// Between two passes, all other frames are located, so caches and branch prediction do not adapt
-/// to a single frame.
+/// Measures the time of every frame once. Each frame is copied to the same memory, as with a
+/// camera. Because all other frames are located between two measurements of a frame, caches and
+/// branch prediction do not adapt to it.
 void pass(Subject& subject) {
     using Clock = std::chrono::steady_clock;
     GreyImage camera = *subject.frames.front();

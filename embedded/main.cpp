@@ -1,4 +1,4 @@
-// Main program of a device, for any board that implements board.hpp.
+// Main program of a device. It runs on any board that implements board.hpp.
 #include "pose_sender.hpp"
 
 int main() {

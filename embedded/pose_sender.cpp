@@ -4,8 +4,8 @@
 
 using namespace dotpose;
 
-/// The tracker needs standard deviations of the poses. Fixes of DeviceLocator have no covariance,
-/// so this function sets the errors measured in docs/firmware.md.
+/// Returns options for the tracker, with the errors measured in docs/firmware.md. The tracker needs
+/// standard deviations of the poses, but fixes of DeviceLocator have no covariance.
 TrackOptions PoseSender::device_tracking() {
     TrackOptions options;
     options.min_sigma_mm = 0.0012F;
@@ -13,9 +13,9 @@ TrackOptions PoseSender::device_tracking() {
     return options;
 }
 
-/// Begins a frame with the tracker's prediction. There is no frame buffer, so the rows of a frame
-/// are lost if the frame does not confirm the prediction. After a frame without a pose, the next
-/// frame therefore begins without a prediction.
+/// Begins a frame with the prediction of the tracker. After a frame without a pose, begins without
+/// a prediction, because a frame that does not confirm its prediction is lost: its rows are not
+/// stored.
 Status PoseSender::begin(const board::Frame& frame) {
     if (seen_.status != Status::ok) return locator_.begin(frame.width_px, frame.height_px);
     const Prediction expected =
@@ -25,10 +25,10 @@ Status PoseSender::begin(const board::Frame& frame) {
 
 Fix PoseSender::locate(const board::Frame& frame) {
     Status begun = begin(frame);
-    // If the prediction cannot be used, for example after the robot was lifted, locates the frame
-    // without it.
+    // If the prediction cannot be used, for example because the robot was lifted, the frame is
+    // located without it.
     if (begun == Status::not_tracked) begun = locator_.begin(frame.width_px, frame.height_px);
-    // Reads all rows even if the frame was refused, to stay synchronised with the camera.
+    // All rows are read, even if the frame was refused, to stay synchronised with the camera.
     for (int row = 0; row < frame.height_px; ++row) {
         const std::uint8_t* pixels = board::next_row();
         if (begun == Status::ok) locator_.push_row(pixels);

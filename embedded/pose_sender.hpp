@@ -1,12 +1,12 @@
 /// Processes the frames of a device, on any board. For each frame, PoseSender reads the rows from
-/// the camera and locates the pattern with a prediction. It then sends the pose as a packet,
-/// updates the tracker, and determines the time of the next frame.
+/// the camera, locates the pattern with a prediction, sends the pose as a packet, updates the
+/// tracker, and determines the time of the next frame.
 ///
 ///     static PoseSender sender;
 ///     for (;;) sender.send_next();
 ///
-/// PoseSender does not use the heap. The object contains all memory, about 15 KB for frames of 188
-/// x 120 px.
+/// The object contains all memory, about 15 KB for frames of 188 x 120 px. PoseSender does not use
+/// the heap.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class PoseSender {
                         const dotpose::PacerOptions& pacing = {})
         : locator_(memory_, options), tracker_(device_tracking()), pacer_(pacing) {}
 
-    /// Takes a frame from the board and sends its packet.
+    /// Reads a frame from the board, locates it and sends its packet.
     void send_next();
 
   private:
@@ -36,7 +36,7 @@ class PoseSender {
     dotpose::DeviceLocator locator_;
     dotpose::Tracker tracker_;
     dotpose::FramePacer pacer_;
-    dotpose::Fix seen_;           ///< fix of the newest frame; not ok initially
+    dotpose::Fix seen_;           ///< fix of the newest frame, initially not ok
     dotpose::Sighting sighting_;  ///< sighting of the newest fix with status ok
     std::uint16_t sequence_ = 0;  ///< number of frames so far, modulo 2^16
     std::int64_t next_us_ = 0;    ///< earliest time of the next frame

@@ -3,10 +3,10 @@
 //   qemu-... -plugin ./libdotpose_count.so,stages=FILE,out=FILE
 //
 // The plugin counts the instructions between the markers `resume` and `pause` of markers.hpp,
-// excluding the markers. The stage file has lines "ADDRESS NAME" with hexadecimal addresses. The
-// instruction at an address begins the stage with this name. A stage lasts until the next stage
-// begins. Instructions between `resume` and the first stage belong to the stage "other". The output
-// has one line with the names of the stages, and one line of counts for each marker `end_frame`.
+// without the markers. The stage file consists of lines "ADDRESS NAME" with hexadecimal addresses.
+// The stage NAME begins at the instruction at ADDRESS and ends when the next stage begins.
+// Instructions between `resume` and the first stage belong to the stage "other". The output has one
+// line with the names of the stages, and one line of counts for each marker `end_frame`.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -20,8 +20,8 @@
 #include <string>
 #include <string_view>
 
-// Debian has no package with the plugin header. The functions and types are therefore declared
-// here, for version 1 of the interface ("QEMU TCG Plugins" in QEMU's documentation).
+// The functions and types for version 1 of the interface are declared here ("QEMU TCG Plugins" in
+// QEMU's documentation), because Debian has no package with the plugin header.
 extern "C" {
 
 using qemu_plugin_id_t = std::uint64_t;
@@ -68,8 +68,8 @@ struct Stage {
     std::uint64_t count = 0;  ///< number of instructions in the current frame
 };
 
-/// Global state, because QEMU passes only one pointer to callbacks. The emulated machine has one
-/// processor, so there is only one thread.
+/// The state is global, because QEMU passes only one pointer to callbacks. The emulated machine has
+/// one processor, so all callbacks run in one thread.
 struct Counter {
     std::deque<Stage> stages = {{0, "other"}};
     Stage* current = &stages.front();
@@ -131,7 +131,8 @@ const Markers* markers = &kThumbMarkers;
 
 const Marker* marker_at(const qemu_plugin_insn* instruction) {
     const std::size_t size = qemu_plugin_insn_size(instruction);
-    std::uint32_t encoding = 0;  // bytes copied as is: targets and host are little-endian
+    // The bytes are copied unchanged, because targets and host are little-endian.
+    std::uint32_t encoding = 0;
     std::memcpy(&encoding, qemu_plugin_insn_data(instruction), std::min(size, sizeof encoding));
     const auto found = std::ranges::find_if(
         *markers, [&](const Marker& m) { return m.size == size && m.encoding == encoding; });

@@ -7,7 +7,7 @@
 #include "markers.hpp"
 #include "number.hpp"
 
-// Frame size for which the memory is dimensioned.
+// Maximum frame size, for which the memory is dimensioned.
 #ifndef DOTPOSE_FRAME_WIDTH_PX
 #define DOTPOSE_FRAME_WIDTH_PX 188
 #define DOTPOSE_FRAME_HEIGHT_PX 120
@@ -28,7 +28,7 @@ constexpr KnownRegion kSheets[] = {
 
 DeviceMemoryFor<DOTPOSE_FRAME_WIDTH_PX, DOTPOSE_FRAME_HEIGHT_PX> memory;
 DeviceLocator locator(memory, program_options());
-// Rows are word-aligned, as with DMA from a camera. Aligned rows are copied by words.
+// Rows are aligned to words, as with DMA from a camera, because aligned rows are copied faster.
 alignas(4) std::array<std::uint8_t, kMaxWidth_px> row;
 
 struct FrameHeader {
@@ -38,8 +38,9 @@ struct FrameHeader {
     Prediction prediction;
 };
 
-/// Reads the next number of a header and the byte after it. Returns false if there is no number, if
-/// its absolute value exceeds INT32_MAX, or if neither a blank nor a newline follows it.
+/// Reads the next number of a header and the character after it. Returns false if there is no
+/// number, if its absolute value exceeds INT32_MAX, or if the character is neither a blank nor a
+/// newline.
 bool read_number(std::int32_t& number) {
     char byte = 0;
     do {
@@ -64,7 +65,7 @@ bool read_into(Int& value) {
     return true;
 }
 
-/// Reads the numbers of a prediction, which follow the letter T. Returns false if a number is
+/// Reads the numbers of a prediction that follow the letter T. Returns false if a number is
 /// invalid.
 bool read_prediction(Prediction& prediction) {
     Place& place = prediction.place;

@@ -2,14 +2,14 @@
 
 #include <dotpose/locate.hpp>
 
-/// Returns the options of the program. In small frames, a dot may have a single pixel.
+/// Returns the options of the program. They accept dots of a single pixel if the frames are small.
 dotpose::DeviceOptions program_options();
-/// Makes a sheet known to the locator if the program is for frames that can only be located on
-/// known sheets.
+/// Passes a known sheet to the locator if the frames of the program are so small that they can only
+/// be located on known sheets.
 void set_known_sheet(dotpose::DeviceLocator& locator);
 
-/// Locates the frames in the file at `path`, a sequence of binary PGM images (P5, 8 bits, no
-/// comments). If a prediction precedes an image, the image is tracked. A prediction is a line with
+/// Locates the frames in the file at `path`. The file is a sequence of binary PGM images (P5, 8
+/// bits, no comments). An image that follows a prediction is tracked. A prediction is a line with
 /// the letter T and the integers of Place (x, y, u, v), PlaneFromImage (centre, at_centre, du, dv)
 /// and displacement_q16, separated by blanks. Prints one line for each frame:
 ///
@@ -17,6 +17,6 @@ void set_known_sheet(dotpose::DeviceLocator& locator);
 ///     BIT_ERRORS P_WRONG
 ///
 /// The values are the integers of Fix (fraction_q16, theta_bam, spacing_px_q16, p_wrong_log2).
-/// Returns the exit status: 0 if all frames were read, or 1 after printing a message if the file
+/// Returns the exit status: 0 if all frames were read. Prints a message and returns 1 if the file
 /// cannot be opened or has invalid content.
 int locate_frames(const char* path);

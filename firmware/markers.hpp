@@ -1,4 +1,4 @@
-/// No-op instructions that mark the code whose instructions firmware/count.cpp counts.
+/// Instructions without effect that mark the code whose instructions firmware/count.cpp counts.
 #pragma once
 
 namespace markers {

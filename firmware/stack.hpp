@@ -1,5 +1,5 @@
-/// Measures the stack usage. The stack is filled with a pattern at the start. Words that no longer
-/// contain the pattern have been used.
+/// Measures the stack usage. At the start, the stack is filled with a pattern. A word that no
+/// longer contains the pattern has been used.
 #pragma once
 
 #include <cstddef>
@@ -7,15 +7,14 @@
 
 namespace stack {
 
-/// Lowest word of the stack, and the word above its highest word. The linker script defines the
-/// symbols.
+/// Lowest word of the stack, and the first word above it. Both are defined by the linker script.
 extern "C" std::uint32_t stack_bottom[], stack_top[];
 
 inline constexpr std::uint32_t kPaint = 0x5AFEC0DE;
 
-/// Fills the stack below the caller's frame with the pattern. Must be called first.
+/// Fills the unused stack below the caller's frame with the pattern. Must be called first.
 [[gnu::always_inline]] inline void paint() {
-    // Number of words left unpainted, for the variables of this function.
+    // Number of words that are not filled, because they contain the variables of this function.
     constexpr std::size_t kOwnWords = 16;
     auto* const end = static_cast<std::uint32_t*>(__builtin_frame_address(0)) - kOwnWords;
     for (volatile std::uint32_t* word = stack_bottom; word < end; ++word)
@@ -30,7 +29,8 @@ inline std::size_t high_water_bytes() {
     return static_cast<std::size_t>(stack_top - word) * sizeof *word;
 }
 
-/// Returns true if the stack may have overflowed into the variables.
+/// Returns true if the stack was completely used, so that it may have overflowed into the
+/// variables.
 inline bool has_overflown() {
     return *static_cast<volatile std::uint32_t*>(stack_bottom) != kPaint;
 }

@@ -1,5 +1,5 @@
-/// Frames designed to deceive `locate`, and the poses that may be reported for each of them. Every
-/// frame depends only on (class, seed, index).
+/// Frames that are designed to cause wrong fixes, and the poses that may be reported for each of
+/// them. A frame depends only on its class, seed and index.
 #pragma once
 
 #include <array>
@@ -20,21 +20,21 @@ enum class Adversary : std::uint8_t {
     noise,           ///< dark grains of 1 to 4 px
     text,            ///< a page of words
     halftone,        ///< a printed halftone screen with dots of varying size
-    texture,         ///< 1/f noise, also thresholded
+    texture,         ///< 1/f noise, in some frames thresholded
     plain_grid,      ///< dots on the intersections, without displacement
     random_symbols,  ///< a perfect grid with random symbols
     random_offsets,  ///< dots displaced by the nominal length in a random direction
     scattered_dots,
     seam,        ///< two sections with a border anywhere in the frame
-    cut,         ///< two places of the pattern joined at a cut
+    cut,         ///< two places of the pattern that meet at a cut
     overlay,     ///< two patterns printed on top of each other
     mirrored,    ///< the mirrored pattern
-    replaced,    ///< 30 to 60 % of the symbols replaced by random symbols
-    flipped,     ///< 5 to 45 % of the bits flipped
+    replaced,    ///< 30 to 60 % of the symbols are random
+    flipped,     ///< 5 to 45 % of the bits are flipped
     half_empty,  ///< a pattern that is printed on only one side of the frame
     few_lines,   ///< 5 to 8 columns or rows on blank paper
-    slip,        ///< one column or row of dots removed or doubled
-    other_code,  ///< printed as anoto and read in another code, or vice versa
+    slip,        ///< one column or row of dots is missing or occurs twice
+    other_code,  ///< a pattern in anoto that is read in another code, or vice versa
 };
 inline constexpr std::array kAdversaries = {Adversary::noise,          Adversary::text,
                                             Adversary::halftone,       Adversary::texture,
@@ -63,7 +63,8 @@ struct Answer {
 struct AdversarialFrame {
     GreyImage image;
     DeviceOptions options;
-    /// The first answer is the place at the centre. Empty if every fix is wrong.
+    /// The first answer is the place at the image centre. There are no answers if every fix is
+    /// wrong.
     std::vector<Answer> answers;
     Pattern printed;
 };
@@ -71,9 +72,8 @@ struct AdversarialFrame {
 enum class Verdict : std::uint8_t {
     refused,
     right,
-    second,  ///< a place printed elsewhere in the frame, extrapolated to the centre
-    twin,    ///< a place with the same symbols around the centre, in the code variant of the
-             ///< options
+    second,  ///< a place that is printed elsewhere in the frame, extrapolated to the image centre
+    twin,    ///< a place in the code of the options that has the symbols in view
     wrong,
 };
 
@@ -87,8 +87,9 @@ inline bool agrees(const Fix& fix, const Answer& answer) {
            std::abs(theta) < 0.1 && fix.section == answer.section;
 }
 
-/// Returns true if nothing in the frame contradicts the fix. In the code of the options, at least
-/// three quarters of the bits around the fix then agree with the printed code around the answer.
+/// Returns true if a fix in another code than the printed one is consistent with the frame. This is
+/// the case if, around the fix, at least three quarters of its bits agree with the printed bits
+/// around the answer.
 inline bool is_twin(const Fix& fix, const AdversarialFrame& frame) {
     if (frame.answers.empty() || frame.options.code == frame.printed.code) return false;
     const Answer& answer = frame.answers.front();
@@ -122,8 +123,8 @@ inline int reach_cells(const Shot& shot) {
     return static_cast<int>(cells / 2);
 }
 
-/// Two parts of the pattern, joined at a border. Beyond the border, the frame shows the pattern at
-/// an offset of (`other_x`, `other_y`) cells, in the same or another section.
+/// Two parts of the pattern that are joined at a border. Beyond the border, the frame shows the
+/// pattern at an offset of (`other_x`, `other_y`) cells, in the same section or in another.
 struct Joint {
     bool is_vertical;
     std::uint32_t border;
@@ -197,13 +198,13 @@ inline void render_changed(Adversary adversary, const Shot& shot, Rng& rng,
     frame.answers = {{shot.pose, pattern.section}};
 }
 
-/// Renders a pattern with only some of its lines printed.
+/// Renders a pattern of which only some columns or rows are printed.
 inline void render_part(Adversary adversary, Shot shot, Rng& rng, AdversarialFrame& frame) {
     constexpr std::uint32_t kFar = 1000;
     const int reach = reach_cells(shot);
     const bool has_few = adversary == Adversary::few_lines;
     std::uint32_t lines = has_few ? 5 + rng.below(4) : kFar;
-    // A few lines may be anywhere in view. A half pattern begins near the middle.
+    // The few lines may be anywhere in view. A half pattern begins near the middle.
     const int spread = has_few ? reach : reach / 3;
     const auto offset = static_cast<int>(rng.below(static_cast<unsigned>(2 * spread + 1))) - spread;
     const bool is_vertical = rng.below(2) == 0;

@@ -1,4 +1,4 @@
-/// Frames without a pattern, painted pixel by pixel.
+/// Frames without a pattern, computed pixel by pixel.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline std::uint8_t grey(double level) {
     return static_cast<std::uint8_t>(std::clamp(level, 0.0, 255.0) + 0.5);
 }
 
-/// Returns an image of the shot's size, with the pixels level(u, v).
+/// Returns an image of the shot's size in which pixel (u, v) has the grey level `level(u, v)`.
 template <typename Level>
 GreyImage painted(const Shot& shot, Level level) {
     GreyImage image{{}, shot.camera.width_px, shot.camera.height_px};
@@ -45,8 +45,8 @@ inline GreyImage noise(const Shot& shot, Rng& rng) {
     });
 }
 
-/// sin and cos of a + k * i for i = 0, 1, ... along one axis. The sines and cosines of both axes
-/// determine a plane wave.
+/// sin and cos of a + k * i for i = 0, 1, ... along one axis. A plane wave is a combination of the
+/// sines and cosines of both axes.
 struct Phases {
     std::vector<double> sin, cos;
 
@@ -58,7 +58,8 @@ struct Phases {
     }
 };
 
-/// A wave over an image: the sine or cosine of a phase that increases by `ku` and `kv` per pixel.
+/// A plane wave over an image: the sine or cosine of a phase that increases by `ku` and `kv` per
+/// pixel.
 class Wave {
   public:
     Wave(const CameraModel& camera, double ku, double kv)

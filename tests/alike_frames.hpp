@@ -1,5 +1,5 @@
-/// Frames in which all dots have the same, or nearly the same, sub-pixel phase. Every frame depends
-/// only on (dots, seed, index).
+/// Frames in which all dots have almost the same sub-pixel phase. A frame depends only on its dots,
+/// seed and index.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace dotpose::test {
 
-/// Dots without printing errors, seen straight from above.
+/// Dots without printing errors, seen by a camera that looks straight at the paper.
 struct AlikeDots {
     int spacing_px = 11;
     double dot = 1.0 / 6;  ///< diameter, in spacings
@@ -38,7 +38,7 @@ inline Shot shot_of(const AlikeDots& dots, std::uint64_t seed, int index) {
     shot.imperfections = {};
     shot.imperfections.noise_sigma = 3;
     shot.imperfections.blur_sigma_px = dots.blur_px;
-    shot.imperfections.sub_pixels = 8;  // because errors of 0.001 px matter
+    shot.imperfections.sub_pixels = 8;  // fine sampling, because errors of 0.001 px matter
     shot.page.pattern.dot_mm = dots.dot * kDefaultSpacing_mm;
     return shot;
 }

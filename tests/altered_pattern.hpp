@@ -1,4 +1,4 @@
-/// Renders the pattern with symbols that differ from the code, in the same way as the simulator.
+/// Renders patterns whose symbols differ from the code, in the same way as the simulator.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@ inline Vec2 displacement_of(Symbol symbol) {
     return {static_cast<double>(dx(symbol)), static_cast<double>(dy(symbol))};
 }
 
-/// Returns the random number generator of a cell, which is the same in every call.
+/// Returns the random number generator of a cell. Its numbers are the same in every call.
 inline Rng rng_of(std::uint64_t seed, Cell cell) {
     return Rng(seed, (std::uint64_t{cell.x} << 32) | cell.y);
 }
 
-/// Returns the symbol of the code, with each of its two bits flipped with the given probability.
+/// Returns the symbol of the code after each of its two bits was flipped with this probability.
 inline Symbol flipped_symbol(const Pattern& pattern, double probability, std::uint64_t seed,
                              Cell cell) {
     Rng rng = rng_of(seed, cell);
@@ -27,7 +27,7 @@ inline Symbol flipped_symbol(const Pattern& pattern, double probability, std::ui
     return make_symbol(x_bit(symbol) ^ flip_x, y_bit(symbol) ^ flip_y);
 }
 
-/// Renders the shot like `render(shot)`, but with dots displaced by `displacement_of`, in units of
+/// Renders the shot like `render(shot)`, but displaces the dots by `displacement_of`, in units of
 /// the nominal displacement.
 inline GreyImage render_dots(const Shot& shot, const simulate::DisplacementOf& displacement_of) {
     const Imperfections& seen = shot.imperfections;

@@ -1,6 +1,6 @@
-/// A simulated robot that drives a figure eight over two sheets, rests, is lifted twice, and
-/// crosses printed graphics. Provides the frames of its camera, and its true poses. World frame:
-/// mm, y up.
+/// A simulated robot that drives a figure of eight over two sheets, rests, is lifted twice, and
+/// crosses printed graphics. Provides the frames of its camera and its true poses. The world frame
+/// is in mm, with y up.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace dotpose::test {
 
 inline constexpr double kDriveFps = 200;
-/// x of the seam between two adjacent A3 pages. The seam is in the middle of the figure eight.
+/// x coordinate of the seam between two adjacent A3 pages, which is in the middle of the path.
 inline constexpr double kSeam_mm = 420;
 
 struct DriveState {
@@ -31,18 +31,18 @@ struct DriveState {
     bool has_graphics = false;
 };
 
-/// Times of the events of the drive, in s. All events coincide with frames.
+/// Times of the events of the drive, in s. Each event coincides with a frame.
 struct DrivePlan {
-    double start = 0.8;  ///< the robot rests before this time
+    double start = 0.8;  ///< end of the first rest
     double lift = 2.0;
-    double put_down = 2.3;  ///< at the other end of the figure eight
+    double put_down = 2.3;  ///< put down at the other end of the path
     double graphics = 2.6;
     double graphics_end = 3.0;
     double second_lift = 3.4;
-    double second_put_down = 3.55;  ///< displaced a little to the side
-    double stop = 4.5;              ///< the robot slows down before this time, and rests after it
+    double second_put_down = 3.55;  ///< put down a little to the side
+    double stop = 4.5;              ///< beginning of the final rest. The robot slows down before it
     double end = 5.5;
-    /// Maximum speed, in the middle of the figure eight. 0 for a robot at rest.
+    /// Maximum speed, which is reached in the middle of the path. 0 for a robot that does not move.
     double speed_mm_s = 300;
 };
 
@@ -86,7 +86,7 @@ class Drive {
         const double u = std::clamp(t / kRamp, 0.0, 1.0);
         return u * u * (3 - 2 * u);
     }
-    /// Returns the phase rate of the figure eight at full speed, in rad/s.
+    /// Returns the rate at which the phase of the path changes at full speed, in rad/s.
     double full_rate() const { return plan_.speed_mm_s / std::hypot(300, 200); }
     double phase(double t) const {
         const double driven =
@@ -117,7 +117,6 @@ inline std::vector<SheetEntry> drive_sheets() {
     return sheets;
 }
 
-/// Writes the two sheets to a sheet file.
 inline void save_drive_sheets(const std::filesystem::path& path) {
     SheetFile sheets(path);
     for (const SheetEntry& entry : drive_sheets())
@@ -134,7 +133,6 @@ class DriveCamera {
         camera_.height_px = height_px;
     }
 
-    /// Returns the imperfections of the preset nominal.
     static Imperfections nominal() {
         Rng rng(2024);
         return draw_imperfections(Preset::nominal, rng);
@@ -150,7 +148,7 @@ class DriveCamera {
         if (std::abs(state.x_mm - kSeam_mm) > reach_mm) {
             return view_of(state.x_mm < kSeam_mm ? 0 : 1, state, seed);
         }
-        // Near the seam, each pixel shows the sheet on its side of the seam.
+        // Near the seam, each pixel shows the sheet that is on its side of the seam.
         GreyImage image = view_of(0, state, seed);
         const GreyImage right = view_of(1, state, seed);
         const Projection projection(camera_, pose_on(0, state));
@@ -166,7 +164,7 @@ class DriveCamera {
     }
 
   private:
-    /// Returns the pose on a sheet. The x axis of each sheet is parallel to the x axis of the
+    /// Returns the pose on a sheet. The x axes of the sheets are parallel to the x axis of the
     /// world.
     CameraPose pose_on(std::size_t sheet_index, const DriveState& state) const {
         const Sheet& sheet = sheets_[sheet_index].sheet;
@@ -187,7 +185,8 @@ class DriveCamera {
     GreyImage view_of(std::size_t sheet_index, const DriveState& state, std::uint64_t seed) const {
         constexpr double kExposure_s = 5e-5;
         Imperfections imperfections = base_;
-        // The robot drives along the image's x axis. The scene moves in the opposite direction.
+        // The robot drives along the x axis of the image, so the scene moves in the opposite
+        // direction.
         const double speed_mm_s = std::hypot(state.vx_mm_s, state.vy_mm_s);
         imperfections.motion_px = {-speed_mm_s * kExposure_s / camera_.mm_per_px, 0};
         imperfections.graphics = state.has_graphics ? 2 : 0;
@@ -195,7 +194,7 @@ class DriveCamera {
                       imperfections, seed);
     }
 
-    /// Returns the image of a lifted robot, in which nothing is in focus.
+    /// Returns the image of a lifted robot, which is out of focus and shows no dots.
     GreyImage empty(std::uint64_t seed) const {
         GreyImage image{{}, camera_.width_px, camera_.height_px};
         Rng rng(seed);

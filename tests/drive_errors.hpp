@@ -9,14 +9,12 @@
 
 namespace dotpose::test {
 
-/// A pose in the world.
 struct DrivePose {
     double x_mm = 0;
     double y_mm = 0;
     double yaw_rad = 0;
 };
 
-/// The reading of one frame.
 struct DriveReading {
     bool has_fix = false;
     DrivePose raw;
@@ -28,8 +26,8 @@ struct DriveReading {
     double turn_rad_s = 0;
 };
 
-/// Errors of position (per axis), heading and velocities. Filtered errors are counted from the
-/// third frame after the event `fix`, because a filter that has just started has no velocity.
+/// Errors of position (per axis), heading and velocities. Errors are counted from the third frame
+/// after the event `fix`, because a filter that has just started does not know the velocity.
 class DriveErrors {
   public:
     void add(const DriveState& truth, const DriveReading& reading) {
@@ -56,7 +54,7 @@ class DriveErrors {
 
     int fixes() const { return fixes_; }
     int wrong() const { return wrong_; }
-    /// Root mean square errors.
+    /// Root mean square errors, in the units of their names.
     double raw_um() const { return 1000 * root_mean(raw_mm2_); }
     double filtered_um() const { return 1000 * root_mean(filtered_mm2_); }
     double raw_deg() const { return degrees(root_mean(raw_rad2_)); }

@@ -1,5 +1,5 @@
-/// The conditions of docs/limits.md: nominal frames with one property at its worst permitted value.
-/// Every frame depends only on (condition, seed, index).
+/// The conditions of docs/limits.md. In each, nominal frames have one property at its worst
+/// permitted value. A frame depends only on its condition, seed and index.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct Limit {
     std::string condition;
     std::function<void(Shot&)> worsen;
     CameraModel camera = {};
-    /// True if limits_test.cpp requires that (almost) all frames are located.
+    /// True if limits_test.cpp requires that almost all frames are located.
     bool is_held = true;
     FixedLens lens = {};  ///< lens passed to `locate`
     bool is_white_on_black = false;
@@ -35,13 +35,13 @@ inline CameraModel camera_of(int width_px, int height_px, double spacing_px) {
     return camera;
 }
 
-/// Returns a direction in the image that differs from frame to frame.
+/// Returns a random direction in the image for each frame.
 inline Vec2 direction_of(const Shot& shot) {
     const double angle_rad = Rng(shot.seed, 1).uniform(-std::numbers::pi, std::numbers::pi);
     return {std::cos(angle_rad), std::sin(angle_rad)};
 }
 
-/// Returns the fraction of the frame that is covered by dirt and graphics.
+/// Returns the fraction of the frame that dirt and graphics cover.
 inline double covered_share(Shot shot) {
     constexpr double kPaper = 255;
     // The threshold is half-way between the paper and the lightest dirt.
@@ -51,13 +51,14 @@ inline double covered_share(Shot shot) {
     shot.imperfections.paper_level = kPaper;
     shot.imperfections.dirt_blobs = worse.dirt_blobs;
     shot.imperfections.graphics = worse.graphics;
-    shot.page.columns = shot.page.rows = 1;  // a single dot, far outside of the view
+    shot.page.columns = shot.page.rows = 1;  // one dot, far outside the view
     const GreyImage image = render(shot);
     const auto dark = std::ranges::count_if(image.pixels, [](int grey) { return grey < kDark; });
     return static_cast<double>(dark) / static_cast<double>(image.pixels.size());
 }
 
-/// Adds dirt or graphics in steps of `step` until they cover a fraction of the frame in [from, to).
+/// Adds dirt or graphics in steps of `step` until they cover a fraction of the frame from `from` to
+/// `to`.
 inline void cover(Shot& shot, int Imperfections::*count, int step, double from, double to) {
     for (std::uint64_t trial = 0;; ++trial) {
         shot.seed = Rng(shot.seed, trial).bits();
@@ -79,7 +80,7 @@ inline void add_light(std::vector<Limit>& limits) {
                               constexpr double kLeft = 0.3;
                               Imperfections& worse = shot.imperfections;
                               worse.fall = 2 * (1 - kLeft) / (1 + kLeft);
-                              worse.paper_level /= 1 + worse.fall / 2;  // level of the lighter side
+                              worse.paper_level /= 1 + worse.fall / 2;  // of the lighter side
                               worse.vignetting = vignetting;
                           }});
     }
@@ -181,7 +182,7 @@ inline void add_camera_faults(std::vector<Limit>& limits) {
                  },
                  camera});
             // If the scene moves in the direction of the readout, the image contains fewer rows of
-            // cells.
+            // cells, which may be too few.
             limits.back().is_held = percent == 10 || !is_device;
         }
         for (const int degrees : {2, 10, 20, 40, 60}) {
@@ -273,7 +274,7 @@ inline void add_partial(std::vector<Limit>& limits) {
         PartialView islands;
         islands.islands = 3;
         part("dots on 15 to 45 % of the area, the rest paper", {});
-        // At 20 px, the certainty of some strips of seven rows is too low.
+        // At 20 px, some strips have only seven rows, which is not enough for a certain fix.
         limits.back().is_held = spacing_px < 20;
         part("the same, the rest a dark table", on_table);
         part("three islands of 60 dots and more", islands);
@@ -284,7 +285,7 @@ inline void add_partial(std::vector<Limit>& limits) {
 /// of `shot`, and the paper has the grey level of the ink.
 inline GreyImage white_on_black(const Shot& shot) {
     Shot blank = shot;
-    blank.page.columns = blank.page.rows = 1;  // a single dot, far outside of the view
+    blank.page.columns = blank.page.rows = 1;  // one dot, far outside the view
     Imperfections& perfect = blank.imperfections;
     perfect.noise_sigma = perfect.salt_and_pepper = 0;
     perfect.dirt_blobs = perfect.graphics = 0;
@@ -321,7 +322,7 @@ inline Shot shot_at(const Limit& limit, std::uint64_t seed, std::uint64_t index)
     return shot;
 }
 
-/// Returns the image passed to `locate`, with black dots on white.
+/// Returns the image to be located. If the sheet is white on black, the image is inverted.
 inline GreyImage picture_of(const Limit& limit, const Shot& shot) {
     if (!limit.is_white_on_black) return render(shot);
     GreyImage image = detail::white_on_black(shot);

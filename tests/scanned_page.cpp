@@ -11,8 +11,8 @@
 namespace dotpose::test {
 namespace {
 
-/// Maps places of the sheet to the scan, in px. The page is rotated about its middle, which remains
-/// in the middle of the scan.
+/// Maps places on the sheet to the scan, in px. The page is rotated about its centre, which is at
+/// the centre of the scan.
 class ScanGeometry {
   public:
     ScanGeometry(double width_mm, double height_mm, const ScanSettings& settings)
@@ -45,7 +45,7 @@ class ScanGeometry {
     int height_px_;
 };
 
-/// The ink coverage of a scan in floating point: 0 for paper, 1 for ink.
+/// The ink coverage of each pixel of a scan: 0 for paper, 1 for ink.
 class InkLayer {
   public:
     InkLayer(int width_px, int height_px)
@@ -53,7 +53,7 @@ class InkLayer {
           height_(height_px),
           ink_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)) {}
 
-    /// Draws a disc, with 8 x 8 samples per pixel.
+    /// Draws a disc with 8 x 8 samples per pixel.
     void disc(double u_px, double v_px, double radius_px) {
         constexpr int kSamples = 8;
         const int reach = static_cast<int>(std::ceil(radius_px + 1));
@@ -73,7 +73,7 @@ class InkLayer {
         }
     }
 
-    /// Convolves rows and then columns with a Gaussian.
+    /// Convolves the rows and then the columns with a Gaussian.
     void blur(double sigma_px) {
         const int reach = static_cast<int>(std::ceil(3.5 * sigma_px));
         if (reach == 0) return;

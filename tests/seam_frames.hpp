@@ -1,7 +1,6 @@
-/// Frames of two adjacent sheets with a straight seam, drawn by an independent renderer. It shares
-/// no code with the simulator and therefore cannot repeat the simulator's errors. Each dot is a
-/// disc that is sampled within each pixel and cut off at the seam. Then blur, light and noise are
-/// applied to the image.
+/// Frames of two adjacent sheets with a straight seam. Their renderer shares no code with the
+/// simulator and therefore cannot repeat its errors. It samples each dot, a disc that is cut off at
+/// the seam, within each pixel. Then it applies blur, light and noise to the image.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +18,8 @@
 
 namespace dotpose::test {
 
-/// Two half planes of one pattern, seen from straight above. The image centre is on the near side.
+/// Two half planes of one pattern, seen by a camera that looks straight at the paper. The image
+/// centre is on the near side.
 struct SeamShot {
     int width_px = 188;
     int height_px = 120;
@@ -31,17 +31,17 @@ struct SeamShot {
     double theta_rad = 0;
 
     double seam_px = 0;        ///< distance from the image centre to the seam
-    double direction_rad = 0;  ///< direction of the seam from the image centre, in the image
-    double along_px = 0;       ///< position on the seam about which the far side is rotated
-    double turn_rad = 0;       ///< rotation of the far side
-    double shift_x_px = 0;     ///< shift of the far side
+    double direction_rad = 0;  ///< direction from the image centre to the seam, in the image
+    double along_px = 0;    ///< position, along the seam, of the centre of the far side's rotation
+    double turn_rad = 0;    ///< rotation of the far side
+    double shift_x_px = 0;  ///< shift of the far side
     double shift_y_px = 0;
 
     double paper_level = 190;
-    double fall = 0.1;  ///< relative loss of light from the left to the right side
+    double fall = 0.1;  ///< relative decrease of the light from the left to the right side
     double blur_px = 0.6;
     double noise = 3;
-    double jitter_grid = 0.02;  ///< standard deviation of a printed dot's place, per axis
+    double jitter_grid = 0.02;  ///< standard deviation of a printed dot's place, along each axis
     std::uint64_t seed = 1;
 
     Truth truth() const {
@@ -54,7 +54,7 @@ struct SeamShot {
     }
 };
 
-/// Ink coverage of an image with a border, with the blur of a lens.
+/// Ink coverage of an image and of a border around it, which the blur needs.
 class InkMap {
   public:
     InkMap(int width_px, int height_px)
@@ -62,7 +62,8 @@ class InkMap {
           rows_(static_cast<std::size_t>(height_px) + 2 * kBorder),
           ink_(columns_ * rows_) {}
 
-    /// Adds the area around a place, in px, for which `is_ink(x, y)` is true.
+    /// Adds ink at the points within `radius` of (x, y) for which `is_ink` returns true. All
+    /// lengths are in px.
     template <typename IsInk>
     void add(double x, double y, double radius, IsInk is_ink) {
         constexpr int kSamples = 6;
@@ -123,7 +124,7 @@ class InkMap {
     std::vector<double> ink_;
 };
 
-/// Adds the dots of one side of the seam: +1 for the near side, -1 for the far side.
+/// Adds the dots of one side of the seam. `side` is +1 for the near side and -1 for the far side.
 inline void add_side(const SeamShot& shot, int side, InkMap& map, Rng& rng) {
     const double nx = std::cos(shot.direction_rad);
     const double ny = std::sin(shot.direction_rad);
@@ -148,7 +149,8 @@ inline void add_side(const SeamShot& shot, int side, InkMap& map, Rng& rng) {
                 i - shot.fraction_x + dx(symbol) / 6.0 + shot.jitter_grid * rng.normal();
             const double y =
                 j - shot.fraction_y + dy(symbol) / 6.0 + shot.jitter_grid * rng.normal();
-            // The image x axis has the angle theta in the pattern.
+            // The image x axis has the angle theta in the pattern, so the pattern is rotated by
+            // -theta.
             const double u = shot.spacing_px * (c * x + s * y) - hinge_x;
             const double v = shot.spacing_px * (c * y - s * x) - hinge_y;
             const double at_x =
@@ -184,9 +186,9 @@ inline GreyImage render(const SeamShot& shot) {
     return image;
 }
 
-/// Draws a view with a seam at most `max_distance_px` from the image centre, in any direction. The
-/// far side is shifted by up to half a spacing, and rotated by up to one degree about any point of
-/// the seam in view.
+/// Draws a view with a seam at most `max_distance_px` from the image centre, in a random direction.
+/// The far side is shifted by up to half a spacing, and rotated by up to one degree about a random
+/// point of the visible seam.
 inline SeamShot draw_seam_shot(int width_px, int height_px, double max_distance_px,
                                std::uint64_t seed, std::uint64_t index) {
     Rng rng(seed, index);

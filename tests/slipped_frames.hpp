@@ -1,7 +1,7 @@
-/// Frames of sheets that are not planar. One kind is wrinkled paper. The other kind has two halves
-/// that are displaced relative to each other, as by a printer with a bad paper feed or at the seam
-/// of two sheets. The true pose is the pose of the shot, which refers to the part of the paper at
-/// the image centre.
+/// Frames of sheets that are not planar: wrinkled paper, and sheets with two halves that are
+/// displaced relative to each other, as by a printer with a bad paper feed or at the seam of two
+/// sheets. The true pose is the pose of the shot. It refers to the part of the paper at the image
+/// centre.
 #pragma once
 
 #include <array>
@@ -14,15 +14,15 @@
 
 namespace dotpose::test {
 
-/// A line beyond which the dots are displaced and rotated.
+/// A line, and the displacement and rotation of the dots beyond it.
 struct Slip {
     double distance_grid = 0;  ///< distance of the line from the pose point
     double direction_rad = 0;  ///< direction of the normal of the line, from +x towards +y
-    Vec2 shift_grid;           ///< displacement where the line is closest to the pose point
+    Vec2 shift_grid;  ///< displacement at the point of the line that is closest to the pose point
     double turn_rad = 0;
 };
 
-/// Returns half of the length of the view along a direction of the pattern, in spacings.
+/// Returns half the length of the view along a direction of the pattern, in spacings.
 inline double half_extent_grid(const Shot& shot, double direction_rad) {
     const double from_u_axis = direction_rad - shot.pose.theta_rad;
     return (std::abs(std::cos(from_u_axis)) * shot.camera.width_px +
@@ -30,8 +30,8 @@ inline double half_extent_grid(const Shot& shot, double direction_rad) {
            shot.camera.mm_per_px / (2 * shot.page.pattern.spacing_mm);
 }
 
-/// Draws a slip. Its line is anywhere in view, in any direction. The displacement is 0.05 to 0.5
-/// spacings in any direction, and the rotation up to one degree.
+/// Draws a slip whose line is anywhere in view, in any direction. The displacement is 0.05 to 0.5
+/// spacings in any direction, and the rotation is at most one degree.
 inline Slip draw_slip(const Shot& shot) {
     Rng rng(shot.seed, 3);
     Slip slip;
@@ -59,8 +59,8 @@ inline void apply(const Slip& slip, Shot& shot) {
     };
 }
 
-/// Adds three waves to the paper, with wavelengths of 16 to 60 spacings in any direction. Each wave
-/// displaces dots by up to `amplitude_grid`.
+/// Deforms the paper by three waves with wavelengths of 16 to 60 spacings, in any direction. Each
+/// wave displaces the dots by up to `amplitude_grid`.
 inline void wrinkle(double amplitude_grid, Shot& shot) {
     struct Wave {
         Vec2 per_grid;  ///< radians per spacing
@@ -80,8 +80,8 @@ inline void wrinkle(double amplitude_grid, Shot& shot) {
                 rng.uniform(0, 2 * std::numbers::pi),
                 {amplitude_mm * std::cos(moves_rad), amplitude_mm * std::sin(moves_rad)}};
     }
-    // At the pose point, the paper is not displaced, and the image x axis is not rotated relative
-    // to the paper.
+    // The waves are corrected by a shift and a rotation, so that the paper is neither displaced nor
+    // rotated at the pose point.
     const Vec2 axis{std::cos(shot.pose.theta_rad), std::sin(shot.pose.theta_rad)};
     Vec2 shift_there_mm;
     double turn_mm = 0;  // per spacing

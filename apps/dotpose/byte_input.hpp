@@ -11,8 +11,8 @@ struct ByteInput {
     bool is_line = false;  ///< true for a serial device, which has no end
 };
 
-/// Opens a file, a pipe or a serial device. `baud` is the rate of a serial device, one of the usual
-/// rates from 9,600 to 2,000,000. Throws Error if the source cannot be opened.
+/// Opens a file, a pipe or a serial device. `baud` is the rate of a serial device: a standard rate
+/// from 9,600 to 2,000,000. Throws Error if the source cannot be opened.
 ByteInput open_input(const std::string& name, int baud);
 
 }  // namespace dotpose::cli

@@ -114,8 +114,8 @@ Series series_of(const CalibrateArguments& arguments) {
     return series;
 }
 
-/// Runs `work(number of frames, frame_at, options)` and shows the progress. Corrects the frames by
-/// the flat field of the camera, if it has one.
+/// Runs `work(number of frames, frame_at, options)` and shows the progress. If the camera has a
+/// flat field, the frames are corrected by it.
 template <typename Work>
 auto with_progress(const CalibrateArguments& arguments, Sources& sources,
                    const std::optional<Camera>& camera, const std::string& what, Work work) {
@@ -142,8 +142,8 @@ auto with_progress(const CalibrateArguments& arguments, Sources& sources,
     }
 }
 
-/// Returns the path of the picture of the turn: the path given by --draw. If the picture of the
-/// lens also needs the path given by --draw, inserts "-spin" before the extension.
+/// Returns the path of the picture of the turn. This is the path of --draw, with "-spin" before the
+/// extension if the picture of the lens is also drawn.
 std::string spin_picture_of(const CalibrateArguments& arguments) {
     const bool is_only_picture = arguments.spin.empty() || !arguments.sources.is_given();
     if (arguments.picture.empty() || is_only_picture) return arguments.picture;
@@ -161,8 +161,8 @@ void write_result(const std::string& out, const Camera& camera) {
     output.finish();
 }
 
-/// Returns the camera for --pivot. Throws BadArgument without a camera, and Error without a focal
-/// length.
+/// Returns the camera for --pivot. Throws BadArgument if there is no camera, and Error if the
+/// camera has no focal length.
 Camera pivot_camera(const std::optional<Camera>& camera, const std::string& path) {
     if (!camera) throw BadArgument("--pivot needs --camera FILE, with a focal length");
     try {
@@ -174,8 +174,7 @@ Camera pivot_camera(const std::optional<Camera>& camera, const std::string& path
 }
 
 /// Calibrates the flat field, the lens, the mount, the heading, the tip and the readout, in this
-/// order.
-/// Skips calibrations that have no frames. Writes the camera file and the pictures. Returns a
+/// order. Skips calibrations without frames. Writes the camera file and the pictures. Returns a
 /// report.
 std::string calibrate_camera(const CalibrateArguments& arguments, Series& series) {
     std::string report;
@@ -270,8 +269,8 @@ std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
     return stitching_report(stitching);
 }
 
-/// If --camera is not given, reads the camera file that -o replaces. Values that this calibration
-/// does not determine, such as the mount, are kept.
+/// If --camera is not given, uses the camera file that -o replaces, to keep values that this
+/// calibration does not determine, such as the mount.
 void keep_camera_of(const std::string& out, CameraArgument& camera) {
     if (!camera.path.empty()) return;
     camera.camera = replaced_camera("-o", out);
@@ -281,7 +280,7 @@ void keep_camera_of(const std::string& out, CameraArgument& camera) {
                      out));
 }
 
-/// Takes the code and the spacing from the sheet file of --sheets.
+/// Uses the code and the spacing in the sheet file of --sheets.
 void use_sheets(CalibrateArguments& arguments) {
     if (arguments.sheets.empty() || arguments.stitch) return;
     arguments.spacing = SpacingSource::sheets;
@@ -302,7 +301,7 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
     } else {
         files.reads("--sheets", arguments.sheets);
     }
-    // -o and --camera may name the same file. Values that are not calibrated are then kept.
+    // -o and --camera may name the same file, because values that are not calibrated are kept.
     const auto camera = identity_of(arguments.camera.path);
     if (camera && camera == identity_of(arguments.out) &&
         !is_camera_info(system::path_of(arguments.camera.path))) {
@@ -329,7 +328,6 @@ int run_print_map(const CalibrateArguments& arguments) {
     return 0;
 }
 
-/// Returns the exit status.
 int run(CalibrateArguments& arguments) {
     if (!arguments.print_map.empty()) return run_print_map(arguments);
     const bool has_series = !arguments.spin.empty() || !arguments.drive.empty() ||
@@ -347,7 +345,8 @@ int run(CalibrateArguments& arguments) {
     require_apart(arguments, series);
     keep_camera_of(arguments.out, arguments.camera);
     use_sheets(arguments);
-    // Checks the output before the user spends minutes moving the camera.
+    // An output that cannot be written is reported before the user spends minutes moving the
+    // camera.
     if (arguments.is_live && !arguments.out.empty())
         require_writable(system::path_of(arguments.out));
     catch_interrupts();

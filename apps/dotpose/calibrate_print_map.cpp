@@ -44,7 +44,7 @@ PrintMap earlier_map(const std::string& out) {
     }
 }
 
-/// Adds all frames of the sources.
+/// Adds all frames of the sources to the map.
 void add_frames(const PrintMapArguments& arguments, Sources& sources, PrintMapping& mapping) {
     capture::SourceOptions options = arguments.sources.options;
     options.tell = tell;

@@ -87,7 +87,7 @@ std::string lens_report(const LensCalibration& calibration, SpacingSource source
         calibration.px_per_spacing, 100 * calibration.dot_width, 100 * calibration.coverage);
     add(text, "residual    {:.4f} px before, {:.4f} px after (rms per axis)",
         calibration.residual_before_px, calibration.residual_px);
-    // The calibration depends on the spacing only if it includes the view of a mounted camera.
+    // Only the view of a mounted camera depends on the spacing.
     const bool is_assumed = calibration.is_mounted && source == SpacingSource::assumed &&
                             calibration.verdict == CalibrationVerdict::good;
     if (calibration.is_mounted) {
@@ -182,7 +182,7 @@ std::string print_scale_text(double scale, double sigma) {
                        is_scale_known(sigma) ? "" : " (UNKNOWN)");
 }
 
-/// Appends the print scales of the sheets and the reference of the scales.
+/// Appends the print scales of the sheets, and the sheet or camera that the scales refer to.
 void add_print_scales(std::string& text, const Stitching& stitching) {
     bool is_all_told = true;
     std::string fixed;

@@ -1,4 +1,4 @@
-/// Frames that `dotpose calibrate` uses.
+/// Selects the frames for `dotpose calibrate`.
 #pragma once
 
 #include <string>
@@ -14,11 +14,11 @@ inline constexpr const char* kMirrored =
     "the frames show the pattern mirrored: use --flip, which is then written into the camera file";
 
 /// The frames of a calibration: all given images, and at most 50 frames of each video, camera or
-/// raw stream. These frames show different places and are kept in memory. Images are read from
-/// their files on request.
+/// raw stream, which show different places. Images are read when they are needed. All other frames
+/// are kept in memory.
 class CalibrationFrames {
   public:
-    /// Reads videos and raw frames to their end, and a camera until 50 places were seen. Ctrl-C
+    /// Reads videos and raw frames to their end, and a camera until it has shown 50 places. Ctrl-C
     /// ends the current source early. Throws Error if a source fails, if no frame of a source can
     /// be located, or after a signal other than Ctrl-C.
     CalibrationFrames(const SourceArguments& arguments, Sources& sources,

@@ -63,8 +63,8 @@ void require_svg(const std::string& path) {
     throw BadArgument(fmt::format("'{}': the name of the map must end in .svg", path));
 }
 
-/// Returns true if a printer driver can cause this deviation of the scale from 1. Otherwise, the
-/// resolution of the scan or the spacing is probably wrong.
+/// Returns true if the scale is close enough to 1 to be caused by a printer driver. Otherwise, the
+/// given resolution of the scan or the given spacing is probably wrong.
 bool is_plausible(const PrintScale& scale) {
     constexpr double kMaxDeviation = 0.25;
     return std::abs(scale.scale_x - 1) <= kMaxDeviation &&
@@ -100,12 +100,12 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
     }
 }
 
-/// Returns a remark for the user with the largest expected shift of the dots on the page. This
-/// shift is not fitted, because the edges of the paper are not visible in the scan.
+/// Returns a remark for the user about the largest expected shift of the dots on the page. The
+/// shift cannot be fitted, because the edges of the paper are not visible in the scan.
 std::string offset_remark(const SheetEntry& entry) {
     const Sheet& sheet = entry.sheet;
-    // Returns the largest shift of the first dot due to the scale. Printer drivers usually scale a
-    // page about a corner or about its centre.
+    // Returns the largest shift of the first dot along one axis, if the driver scales the page
+    // about a corner or about its centre, as most drivers do.
     const auto shift_mm = [](double scale, double first_mm, double side_mm) {
         return std::abs(1 - scale) * std::max(first_mm, std::abs(side_mm / 2 - first_mm));
     };
@@ -125,9 +125,10 @@ std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& s
     std::string done;
     std::set<std::size_t> fitted;
     for (const PrintField& field : check.fields) {
-        // Several parts of a sheet may be visible. Uses only the first part, which is the largest.
+        // If several parts of a sheet are visible, only the first part is used, because it is the
+        // largest.
         if (!field.scale || !field.sheet || !fitted.insert(*field.sheet).second) continue;
-        // Reads the entry again, because another process may have changed it during the check.
+        // The entry is read again, because another process may have changed it during the check.
         const std::string& name = sheets[*field.sheet].name;
         const auto found = std::ranges::find(file.sheets(), name, &SheetEntry::name);
         if (found == file.sheets().end()) {
@@ -187,7 +188,8 @@ void require_apart(const CheckPrintArguments& arguments) {
     files.writes("--draw", arguments.picture, Content::svg);
 }
 
-/// Returns the part of the error message that explains how to check a scan with too many pixels.
+/// Returns the part of the error message that explains how to check a scan that has too many
+/// pixels.
 std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution>& resolution,
                        int max_megapixels) {
     const double megapixels = 1e-6 * scan.width_px * scan.height_px;
@@ -207,7 +209,7 @@ std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution
     return remedy + "; or scan the page in parts";
 }
 
-/// Reads the scan, and flips the image if --flip is given. Throws Error.
+/// Reads the scan, and flips the image if --flip is given. Throws Error if the scan cannot be read.
 GreyImage read_scan(const CheckPrintArguments& arguments, const CheckPrintOptions& options) {
     std::string note;
     try {
@@ -221,7 +223,6 @@ GreyImage read_scan(const CheckPrintArguments& arguments, const CheckPrintOption
     }
 }
 
-/// Returns the exit status.
 int run(const CheckPrintArguments& arguments) {
     if (!arguments.picture.empty()) require_svg(arguments.picture);
     require_apart(arguments);

@@ -18,7 +18,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Rounds a number to `decimals` decimal places.
 double rounded(double value, int decimals) {
     const double scale = std::pow(10, decimals);
     const double result = std::round(value * scale) / scale;
@@ -75,8 +74,8 @@ void add_field(std::string& text, const CheckedScan& scan, const PrintField& fie
         100 * field.wrong_share());
 }
 
-/// Returns a prefix that names a field: "sheet 'table': ", or "from cell X,Y on: " if the field
-/// belongs to no sheet. If there is only one field, returns an empty string.
+/// Returns a prefix that names a field: "sheet 'table': ", or "from cell X,Y on: " if the field is
+/// not on a known sheet. The prefix is empty if there is only one field.
 std::string about(const CheckedScan& scan, const PrintCheck& check,
                   std::optional<std::size_t> index) {
     if (!index || check.fields.size() == 1) return "";
@@ -162,8 +161,8 @@ ordered_json json_of(const Pattern& pattern) {
     return {{"spacing_mm", rounded(pattern.spacing_mm, 6)}, {"dot_mm", rounded(pattern.dot_mm, 6)}};
 }
 
-/// Returns a remark to append to the name of a detected code, or an empty string if all other codes
-/// are improbable.
+/// Returns a remark to append to the name of a detected code. The remark is empty if all other
+/// codes are improbable.
 std::string code_remark(const PrintCheck& check) {
     constexpr double kDoubtful = 0.01;
     if (check.code_p_wrong < kDoubtful) return "";

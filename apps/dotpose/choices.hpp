@@ -8,8 +8,8 @@
 
 namespace dotpose::cli {
 
-/// Returns a validator that accepts only `names`. The error message of the validator lists the
-/// names and suggests the nearest name.
+/// Returns a validator that accepts only `names`. Its error message lists the names and suggests
+/// the nearest one.
 Validator one_of(const std::vector<std::string>& names);
 
 /// Joins the names as "a, b or c".

@@ -46,8 +46,8 @@ std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
     return names;
 }
 
-/// Formats the help in two columns. The first column contains an option with its value. The second
-/// column describes the option, followed in parentheses by its default and by the options that it
+/// Formats the help in two columns. The first column contains an option and its value. The second
+/// column contains the description and, in parentheses, the default and the options that it
 /// requires or excludes.
 class HelpFormatter : public CLI::Formatter {
   public:
@@ -105,8 +105,9 @@ std::pair<std::string, std::string> split(const std::string& text, std::string_v
     return {text.substr(0, at), text.substr(at + separator.size())};
 }
 
-/// Returns our own error message for a CLI11 error, because the messages of CLI11 name types and
-/// counts. CLI11 reports option names and values only as parts of its message.
+/// Returns our own message for a CLI11 error, because the messages of CLI11 contain type names and
+/// counts. The name of the option and its value are extracted from the message, because CLI11 does
+/// not report them separately.
 std::string message_of(const CLI::ParseError& error) {
     const std::string text = error.what();
     if (text == "A subcommand is required") return "no command given";
@@ -134,7 +135,7 @@ std::string message_of(const CLI::ParseError& error) {
 }
 
 /// Calls `parse` and translates the exceptions of CLI11. Returns false after printing the help or
-/// the version. Like Command::parse, throws UsageError after an error.
+/// the version. Throws UsageError after an error.
 bool parsed(CLI::App& app, const std::function<void()>& parse) {
     try {
         parse();
@@ -388,7 +389,7 @@ Command* Command::command_of(CLI::App* app) const {
     return command.get();
 }
 
-// Types of option values for which the templates are instantiated.
+// The templates are instantiated for these types of option values.
 template <typename Value>
 using Store = std::function<void(const Value&)>;
 using Text = const std::string&;

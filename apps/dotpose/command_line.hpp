@@ -1,7 +1,7 @@
-/// Commands and their options: a thin layer over CLI11 that uses the names of CLI11.
+/// Commands and their options. A thin layer over CLI11 that uses the names of CLI11.
 ///
-/// The CLI11 header adds ten seconds to the compile time of each source file that includes it.
-/// Therefore only command_line.cpp includes it.
+/// Only command_line.cpp includes the CLI11 header, because the header adds ten seconds to the
+/// compile time of each source file.
 #pragma once
 
 #include <cstddef>
@@ -89,7 +89,7 @@ class Option {
     std::vector<std::string> get_lnames() const;  ///< long names, without the hyphens
     bool get_positional() const;
     int get_items_expected_max() const;  ///< maximum number of values, or 0 for a flag
-    /// All values that the validators accept, or empty if the validators do not list them.
+    /// All values that the validators accept. Empty if the validators do not list them.
     const std::vector<std::string>& choices() const { return choices_; }
 
   private:
@@ -135,7 +135,7 @@ class Command {
     /// Parses the arguments of `main` and runs the callbacks of the given commands. Returns false
     /// after printing the help or the version. Throws UsageError.
     bool parse(int argc, const char* const* argv);
-    /// Overload for words in reverse order and without the program name.
+    /// Like the first overload, for words in reverse order without the program name.
     bool parse(std::vector<std::string> words);
 
     std::string get_name() const;
@@ -146,7 +146,7 @@ class Command {
     std::vector<Option*> get_options() const;
     std::vector<Command*> get_all_subcommands() const;
     std::vector<Command*> get_parsed_subcommands() const;
-    std::vector<std::string> remaining() const;  ///< words that the parser did not accept
+    std::vector<std::string> remaining() const;  ///< words that the parser did not recognize
 
   private:
     Option* option_of(CLI::Option* option) const;

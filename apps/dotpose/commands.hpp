@@ -1,7 +1,7 @@
-/// Subcommands of the tool, one source file each. Each function registers a command with its
-/// options. If the user gives the command, CLI11 runs the callback of the command. The callback
-/// sets `exit_code` on failure. A callback may throw dotpose::Error. main.cpp converts the
-/// exception into a message and an exit status.
+/// Subcommands of the tool, one source file each. Each function registers a command, its options
+/// and a callback, which CLI11 runs if the command is given. The callback sets `exit_code` on
+/// failure, or throws dotpose::Error. main.cpp converts the exception into a message and an exit
+/// status.
 #pragma once
 
 #include "command_line.hpp"

@@ -44,17 +44,17 @@ std::pair<std::uint32_t, std::uint32_t> parse_pair(const std::string& flag, cons
     return {(*numbers)[0], (*numbers)[1]};
 }
 
-/// Checks that a number is positive. The corresponding check of CLI11 is not used, because its
-/// message contains an upper limit of 309 digits.
+/// Checks that a number is positive. The check of CLI11 is not used because its message contains an
+/// upper limit of 309 digits.
 std::string require_positive(const std::string& text) {
     double value = 0;
     if (parse_number(text, value) && value > 0 && std::isfinite(value)) return {};
     return "'" + text + "' is not a length in mm above 0";
 }
 
-/// Rejects a spacing that was probably given in micrometres or metres. The minimum is ten dots of a
-/// printer with 25,000 dpi. At the maximum, the smallest view that determines a position (8 x 8
-/// dots) fills most of an A0 poster.
+/// Rejects a spacing that was probably given in micrometres or metres. The minimum is about ten
+/// dots of a printer with 25,000 dpi. At the maximum, the smallest view that determines a position
+/// (8 x 8 dots) is 0.8 m wide.
 std::string require_spacing(const std::string& text) {
     constexpr double kMin_mm = 0.01;
     constexpr double kMax_mm = 100;
@@ -243,7 +243,8 @@ FrameSize parse_frame_size(const std::string& flag, const std::string& text) {
 }
 
 void refuse_non_finite_numbers(Command& app) {
-    // The values of these types are not numbers. For example, a file may be called "nan".
+    // Values of these types are texts, even if they can be parsed as numbers. For example, a file
+    // may be called "nan".
     const std::set<std::string> texts = {"DIR",   "FILE", "FILE|-", "FILE|-|DIR", "NAME", "PART",
                                          "RANGE", "SCAN", "SOURCE", "TEXT",       "URL"};
     const auto is_finite = [](const std::string& text) -> std::string {

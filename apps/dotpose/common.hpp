@@ -22,8 +22,8 @@ namespace dotpose::cli {
 /// `code` is the default.
 void add_code_option(Command& command, CodeVariant& code);
 
-/// Adds --code auto|anoto|libdots|microdots for commands that read a pattern. None represents auto,
-/// the default.
+/// Adds --code auto|anoto|libdots|microdots for commands that read a pattern. The default is auto,
+/// for which `code` is none.
 void add_code_option(Command& command, std::optional<CodeVariant>& code);
 
 /// Adds --section U,V, two numbers from 0 to 62.
@@ -51,7 +51,7 @@ struct CameraArgument {
     std::optional<Camera> camera;
 };
 
-/// Adds --camera FILE. The file is read during the parsing of the command line.
+/// Adds --camera FILE. The file is read while the command line is parsed.
 Option* add_camera_option(Command& command, CameraArgument& camera, const std::string& help);
 
 /// Adds --decoder and --effort. `options` must outlive the command.
@@ -85,13 +85,13 @@ Option* add_named(Command& command, const std::string& flag, const Values& value
 /// The options --code, --section, --spacing, --displacement and --dot.
 class PatternArguments {
   public:
-    /// Use of the pattern: the command makes the pattern, or expects it in an image. An expected
-    /// pattern does not have the option --section, because the section is read from the image.
+    /// Whether the command makes the pattern or expects it in an image. An expected pattern has no
+    /// option --section, because the section is read from the image.
     enum class Use { made, expected };
     void add_to(Command& command, Use use = Use::made);
 
-    /// Returns the pattern that the options describe. Displacement and dot diameter default to a
-    /// sixth of the spacing.
+    /// Returns the pattern that the options describe. The default of displacement and dot diameter
+    /// is a sixth of the spacing.
     Pattern pattern() const;
 
     /// Returns the expected code, or none if the code is detected from the image.
@@ -109,12 +109,12 @@ class PatternArguments {
 std::string drawing_name(DotDrawing drawing);
 std::optional<DotDrawing> drawing_by_name(const std::string& name);
 
-/// Adds --dots, the method by which a PDF draws dots.
+/// Adds --dots, the way in which a PDF draws dots.
 void add_drawing_option(Command& command, DotDrawing& drawing);
 
-/// Parses integers from 0 to `max`, separated by exactly the given separators. For example,
-/// "640x480" has the separators "x", and "10,20,640x480" has ",,x". Returns none for any other
-/// string.
+/// Parses integers from 0 to `max` that are separated by the characters of `separators`, one
+/// between each pair of integers. For example, "640x480" has the separators "x", and
+/// "10,20,640x480" has ",,x". Returns none for any other string.
 std::optional<std::vector<std::uint32_t>> whole_numbers(std::string_view text,
                                                         std::string_view separators,
                                                         std::uint32_t max);
@@ -123,7 +123,7 @@ struct FrameSize {
     int width_px = 0;
     int height_px = 0;
 };
-/// Parses "WIDTHxHEIGHT". Throws ValidationError with the name of the flag.
+/// Parses "WIDTHxHEIGHT". Throws ValidationError, which contains the name of the flag.
 FrameSize parse_frame_size(const std::string& flag, const std::string& text);
 
 /// Makes all numeric options of all subcommands reject values that are not finite, such as nan, inf
@@ -139,11 +139,11 @@ std::vector<std::string> given_arguments();
 /// Returns the word in a form that can be pasted into a shell, quoted where necessary.
 std::string quoted_for_shell(const std::string& word);
 
-/// Returns the command line in a form that can be pasted into a shell, quoted where necessary.
-/// Omits the options in `without` and their values.
+/// Returns the command line in a form that can be pasted into a shell, without the options in
+/// `without` and their values.
 std::string command_line(const std::set<std::string>& without = {});
 
-/// Describes the page and its region of the code plane in words.
+/// Returns a description of the page and of its region of the code plane.
 std::string region_text(const Sheet& sheet);
 
 /// Returns the name of a code variant as accepted by --code.

@@ -7,7 +7,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Prints `name` if it begins with the typed text.
+/// Prints a completion if `name` begins with the typed text.
 void offer(const std::string& typed, const std::string& name, const std::string& what) {
     if (name.starts_with(typed)) fmt::print("{}\t{}\n", name, what);
 }
@@ -36,7 +36,7 @@ Command* command_named(const std::string& name, const Command& parent) {
 }  // namespace
 
 void print_completions(Command& app, std::vector<std::string> words) {
-    // Removes each word "=", because bash passes the = of --option=value as a separate word.
+    // Words "=" are removed, because bash splits --option=value at the "=".
     if (words.empty() || words.back() == "=") words.emplace_back();
     std::erase(words, "=");
     const std::string typed = words.back();

@@ -8,13 +8,13 @@
 
 namespace dotpose::cli {
 
-/// First argument of a request for completions, followed by the words of the command line.
+/// First argument of a request for completions. The words of the command line follow.
 inline constexpr const char* kComplete = "__complete";
 
-/// Prints the completions of the last of `words`: commands, options or values of an option. Each
-/// line contains a completion, a tab and a description. Prints nothing if the word may be arbitrary
-/// text or a file. If the command belongs to dotpose-live, runs the callback of the command. The
-/// callback starts dotpose-live.
+/// Prints the completions of the last of `words`, which are commands, options or values of an
+/// option. Each line contains a completion, a tab and a description. Prints nothing if the word may
+/// be a file or arbitrary text. If dotpose-live implements the command, runs the callback of the
+/// command, which starts dotpose-live.
 void print_completions(Command& app, std::vector<std::string> words);
 
 }  // namespace dotpose::cli

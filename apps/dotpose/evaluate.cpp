@@ -48,14 +48,15 @@ constexpr const char* kEvaluateExamples =
     "wrong; errors are computed from the other fixes. Exit status 1 if truth.csv or an image\n"
     "cannot be read, 2 for wrong usage.\n";
 
-/// Value of `--protocol paper`: repeats the protocol of section IV of the paper.
+/// Value of `--protocol paper`, which repeats the protocol of section IV of the paper.
 struct PaperProtocol {};
 constexpr std::array kProtocols = {PaperProtocol{}};
 const char* name(PaperProtocol) {
     return "paper";
 }
 
-/// Reference point of the poses in truth.csv: the image centre or the robot.
+/// Reference point of the poses in truth.csv: the image centre, or the reference point of the
+/// robot.
 enum class TruthOf : std::uint8_t { image, robot };
 constexpr std::array kTruths = {TruthOf::image, TruthOf::robot};
 const char* name(TruthOf truth) {
@@ -89,7 +90,7 @@ Progress progress_on(ProgressLine& line) {
     };
 }
 
-/// Returns the score as JSON. Statistics without frames are NaN in `score` and null in JSON.
+/// Returns the score as JSON. Statistics without frames, which are NaN in `score`, become null.
 nlohmann::ordered_json json_of(const Score& score) {
     nlohmann::ordered_json statuses = nlohmann::ordered_json::object();
     for (std::size_t i = 1; i < score.by_status.size(); ++i) {
@@ -120,7 +121,6 @@ std::string report_of(const Score& score, bool as_json) {
     return text;
 }
 
-/// Returns the exit status.
 int report(const std::vector<Outcome>& outcomes, const ReportArguments& arguments) {
     int exit_code = 0;
     for (const Outcome& outcome : outcomes) {
@@ -132,7 +132,7 @@ int report(const std::vector<Outcome>& outcomes, const ReportArguments& argument
     return exit_code;
 }
 
-/// Evaluates the frames in batches. After Ctrl-C, the completed batches are kept.
+/// Evaluates the frames in batches. After Ctrl-C, the results of completed batches are kept.
 std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line) {
     const int part = 16 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     std::vector<Outcome> outcomes;
@@ -147,7 +147,7 @@ std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line) 
         std::ranges::move(evaluate(run).front(), std::back_inserter(outcomes));
     }
     if (interrupted()) {
-        // Removes the frames of a video that were not read. These frames are marked by a problem.
+        // Frames of a video that were not read are marked by a problem.
         std::erase_if(outcomes, [](const Outcome& outcome) { return !outcome.problem.empty(); });
         tell(fmt::format("interrupted; the report covers the first {} of {} frames",
                          outcomes.size(), all.frames));
@@ -172,8 +172,8 @@ int evaluate_run(const EvaluateArguments& arguments, const std::string& what, Fr
     return outcomes.size() < static_cast<std::size_t>(run.frames) ? kExitFailed : exit_code;
 }
 
-/// Locates the frames with the camera file, as `locate --camera` does. If the size of an image
-/// differs from the size in the camera file, the frame gets a problem.
+/// Makes `run` locate the frames with the camera file, as `locate --camera` does. A frame whose
+/// size differs from the size in the camera file gets a problem.
 void locate_with(const Camera& camera, const std::vector<TruthRow>& rows, FrameRun& run) {
     run.frame_at = [camera, rows, read = run.frame_at](int index) {
         KnownFrame frame = read(index);
@@ -192,7 +192,6 @@ void locate_with(const Camera& camera, const std::vector<TruthRow>& rows, FrameR
     };
 }
 
-/// Describes the sources in a few words for the progress line.
 std::string what_is_read(const SourceArguments& sources) {
     if (sources.names.size() == 1 && sources.list.empty()) return sources.names.front();
     return "the frames";
@@ -295,8 +294,8 @@ int evaluate_protocol(const EvaluateArguments& arguments) {
 int run(EvaluateArguments& arguments) {
     const bool writes = arguments.sweep || arguments.protocol;
     const bool has_sources = arguments.sources.is_given();
-    // --preset selects the frames to evaluate. If --sweep or --protocol is given, --preset sets the
-    // conditions of the sweep or the protocol instead.
+    // Without --sweep and --protocol, --preset selects the frames to evaluate. Otherwise, it sets
+    // the conditions of the sweep or the protocol.
     const int jobs = static_cast<int>(has_sources) + static_cast<int>(arguments.sweep.has_value()) +
                      static_cast<int>(arguments.protocol) +
                      static_cast<int>(arguments.preset && !writes);

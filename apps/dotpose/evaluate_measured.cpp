@@ -17,8 +17,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the place of the reference point on its sheet or in the world, or none if the place is
-/// not known in this frame.
+/// Returns the place of the reference point on its sheet or in the world, or none if this frame
+/// does not determine the place.
 std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPlace>& place) {
     if (!place) return std::nullopt;
     const std::string& sheet = place->entry->name;
@@ -28,8 +28,8 @@ std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPl
     return FoundPlace{sheet, 1000 * world->x_m, 1000 * world->y_m, world->yaw_rad};
 }
 
-/// Throws Error unless all true places are in a single frame of reference, and the sheets have
-/// places in this frame. Returns true if the frame is the world.
+/// Throws Error unless all true places are in the same frame of reference, and the sheets have a
+/// place in it. Returns true if this frame of reference is the world.
 bool require_one_frame(const std::vector<TruthRow>& rows, const std::vector<SheetEntry>& sheets,
                        bool is_aligned) {
     bool is_in_world = false;

@@ -26,11 +26,11 @@ struct MeasuredArguments {
     void add_to(Command& command);
     void add_files(RunFiles& files) const;
 
-    /// Throws BadArgument if any other option of this group is given without --sheets.
+    /// Throws BadArgument if another option of this group is given without --sheets.
     void require_sheets() const;
 };
 
-/// Returns {"median": ..., "p95": ..., "max": ...}. NaN becomes null.
+/// Returns {"median": ..., "p95": ..., "max": ...}, with null for NaN.
 nlohmann::ordered_json quantiles_json(const Quantiles& quantiles);
 
 /// Locates the frames in order, compares the located poses with the true poses and writes the

@@ -1,4 +1,4 @@
-/// Output lines as lists of named values, written as JSON or CSV.
+/// Lines of output as lists of named values, which are written as JSON or CSV.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@ namespace dotpose::cli {
 /// Format of output lines. Only `locate` supports text.
 enum class RecordFormat { json, csv, text };
 
-/// Version of the JSON lines, written in the first field of each line.
-/// docs/schema/lines-VERSION.json describes the lines. Keys may be added within a version. Keys are
-/// never removed, and never change their meaning.
+/// Version of the JSON lines, which is the first field of each line. docs/schema/lines-VERSION.json
+/// describes the lines. Within a version, keys may be added, but are never removed and never change
+/// their meaning.
 inline constexpr const char* kSchemaVersion = "1";
 
 struct Field {
@@ -23,8 +23,7 @@ struct Field {
     /// Name of the JSON array that contains the field. Adjacent fields with the same name form one
     /// array. In CSV, each field is a column.
     std::string array = {};
-    /// If `text` is empty, JSON contains null if this member is true. Otherwise, JSON omits the
-    /// field.
+    /// Whether JSON contains null if `text` is empty. Otherwise, JSON omits the empty field.
     bool is_null_if_empty = false;
 };
 
@@ -42,7 +41,7 @@ std::string degrees(double angle_rad);
 /// Formats an upper bound of a probability with three digits, rounded up to remain an upper bound.
 std::string p_wrong_text(double p_wrong);
 
-/// Formats fields as one line, including the line break. In JSON, fields without a value are null
+/// Formats fields as one line that ends with a line break. In JSON, fields without a value are null
 /// or omitted (`is_null_if_empty`), and invalid UTF-8 bytes are replaced. CSV contains all columns.
 std::string json_line(const std::vector<Field>& fields);
 std::string csv_header(const std::vector<Field>& fields);

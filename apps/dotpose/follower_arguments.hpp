@@ -16,18 +16,17 @@ struct FollowerArguments {
     CameraArgument camera;
     std::string print_map;  ///< path of the print map, or empty for none
     bool is_inverted = false;
-    FollowerOptions options;  ///< options of the follower, without the contents of the sheet file
-                              ///< and the camera file
+    FollowerOptions options;  ///< without the contents of the sheet file and camera file
 
-    /// Adapts the camera file to the frames of `sources` (SourceArguments::fit_to). If a camera
-    /// file is given, --reference is a pixel of the whole frame and not of the region --roi.
+    /// Adapts the camera file to the frames of `sources` (SourceArguments::fit_to). With a camera
+    /// file, --reference is a pixel of the whole frame, even if --roi selects a region.
     void fit_to(SourceArguments& sources);
 
     /// Registers the input files.
     void add_files(RunFiles& files) const;
 
-    /// Reads the sheet file and the print map. Throws Error if a file cannot be read, if there are
-    /// no sheets, or if the map is of other sheets.
+    /// Reads the sheet file and the print map. Throws Error if a file cannot be read, if it
+    /// contains no sheets, or if the map belongs to other sheets.
     FollowerOptions read() const;
 };
 

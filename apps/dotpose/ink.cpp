@@ -47,8 +47,8 @@ std::string extension_of(const std::string& out) {
     return print::lower_case(system::path_of(out).extension().string());
 }
 
-/// Reads the tip of the pen in a row. Returns a sample without standard deviations if the row has
-/// no tip or, with sheets, if the tip is on no sheet. `index` is the index of the row.
+/// Reads the tip of the pen from a row of the log. If the row has no tip, or if the tip is on none
+/// of the sheets, the sample has no standard deviations. `index` is the index of the row.
 InkSample sample_of(const LogCells& row, std::int64_t index, double fps) {
     if (row.number("tip_x_pattern_m")) throw Error("its lengths are in m; write it in --units mm");
     InkSample sample;
@@ -70,9 +70,9 @@ InkSample sample_of(const LogCells& row, std::int64_t index, double fps) {
     return sample;
 }
 
-/// Reads the samples with a tip. Throws Error if there are none.
+/// Reads all samples with a tip. Throws Error if there are none.
 std::vector<InkSample> read_samples(const InkArguments& arguments) {
-    // Only the times distinguish a log of watch from the lines of locate.
+    // No columns are required, because lines of `locate` have no times.
     LogReader log(system::path_of(arguments.log), {});
     std::vector<InkSample> samples;
     std::int64_t index = 0;
@@ -92,7 +92,7 @@ std::vector<InkSample> read_samples(const InkArguments& arguments) {
                     arguments.log));
 }
 
-/// Sets the sizes of the pages of the sheet file.
+/// Copies the sizes of the sheets in the sheet file to their pages.
 void set_sizes(const std::string& sheets, std::vector<InkPage>& pages) {
     if (sheets.empty()) return;
     const std::vector<SheetEntry> entries = read_sheets(system::path_of(sheets));
@@ -105,8 +105,8 @@ void set_sizes(const std::string& sheets, std::vector<InkPage>& pages) {
     }
 }
 
-/// Returns the path of the file of a page: the path of -o, with the name of the page before the
-/// extension if there are several pages.
+/// Returns the path of the file of a page: the path of -o. If there are several pages, the name of
+/// the page is inserted before the extension.
 std::string path_of_page(const std::string& out, const std::string& page, bool is_only) {
     if (is_only) return out;
     std::string name = page;

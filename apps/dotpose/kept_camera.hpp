@@ -1,4 +1,4 @@
-/// Values of a camera file that a new calibration keeps.
+/// Values of a camera file that are kept when a calibration replaces the file.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace dotpose::cli {
 
-/// Reads the camera file that a calibration replaces. Returns none if there is no file, or an empty
-/// file. `option` is the option that names the file. Throws Error if the file is not a camera file.
+/// Reads the camera file that a calibration replaces. Returns none if the file is missing or empty.
+/// `option` is the option that names the file. Throws Error if the file is not a camera file.
 std::optional<Camera> replaced_camera(const std::string& option, const std::string& path);
 
 /// Throws Error if the image sizes of the camera file and of the frames differ.

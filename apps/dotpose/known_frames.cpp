@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using capture::SourceKind;
 
-/// Returns true if the last components of `path` are the components of `end`.
+/// Returns true if the last components of `path` are those of `end`.
 bool ends_with(const fs::path& path, const fs::path& end) {
     const std::vector<fs::path> all(path.begin(), path.end());
     const std::vector<fs::path> last(end.begin(), end.end());
@@ -102,7 +102,7 @@ KnownFrames known_images(const std::vector<std::string>& names,
     return known;
 }
 
-/// Frames that can only be read in order. Threads may request them approximately in order.
+/// Frames that can only be read in order. Several threads may request frames, in approximate order.
 class FramesInOrder {
   public:
     /// Opens the first source. Throws Error or BadArgument if the source cannot be opened.

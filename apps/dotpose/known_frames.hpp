@@ -21,10 +21,11 @@ struct KnownFrames {
 };
 
 /// Returns the frames of the sources with their poses. The poses are read from `poses` or, if
-/// `poses` is empty, from truth.csv beside the images or the video. A folder represents the frames
-/// of all rows of its truth.csv. Any other image has the pose of the row whose `file` is the name
-/// of the image. If the sources include a video, a camera or raw frames, row N belongs to frame N,
-/// counted over all sources. Throws Error if there are no poses, or if an image has no pose.
+/// `poses` is empty, from truth.csv beside the images or the video. For a folder, returns the
+/// frames of all rows of its truth.csv. Any other image has the pose of the row whose `file` is the
+/// name of the image. If the sources include a video, a camera or raw frames, row N belongs to
+/// frame N, counted over all sources. Throws Error if there are no poses, or if an image has no
+/// pose.
 KnownFrames known_frames(const SourceArguments& arguments, const std::string& poses,
                          std::optional<double> spacing_mm);
 

@@ -12,24 +12,24 @@ namespace dotpose::cli {
 /// Value of -o for standard output.
 inline constexpr const char* kStandardOutput = "-";
 
-/// Returns true if `out`, the value of -o, is standard output. `out` is empty if -o is not given.
+/// Returns true if `out`, the value of -o, names standard output. `out` is empty if -o is not
+/// given.
 inline bool is_standard_output(const std::string& out) {
     return out.empty() || out == kStandardOutput;
 }
 
-/// Thrown if the reader of an output, such as `head`, has closed the output.
+/// Thrown when writing to an output whose reader, such as `head`, has ended.
 struct ReaderLeft : Error {
     using Error::Error;
 };
 
-/// Throws Error because an output cannot be written. `error_number` is the errno of the failure.
-/// Throws ReaderLeft if the reader closed the output.
+/// Throws ReaderLeft if the reader closed the output, otherwise Error because the output cannot be
+/// written. `error_number` is the errno of the failure.
 [[noreturn]] void throw_unwritable(const std::string& output, int error_number);
 
 struct FileCloser {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
-/// A file of the C library that is closed automatically.
 using File = std::unique_ptr<std::FILE, FileCloser>;
 
 /// Creates or truncates a file. Throws Error on failure.
@@ -42,8 +42,8 @@ class Lines {
     /// An empty path or "-" means standard output. Throws Error if the file cannot be created.
     explicit Lines(const std::string& path);
 
-    /// Writes a line. Throws ReaderLeft if the reader closed the output and SIGPIPE is ignored, and
-    /// Error if the line cannot be written for another reason.
+    /// Writes a line. Throws Error if the line cannot be written. If the reason is that the reader
+    /// closed the output, and SIGPIPE is ignored, throws ReaderLeft.
     void write(const std::string& line);
 
   private:

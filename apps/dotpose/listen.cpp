@@ -58,7 +58,6 @@ struct ListenArguments {
     PageArguments page;
 };
 
-/// Reads bytes from a file, a pipe or a serial device.
 class ByteSource {
   public:
     explicit ByteSource(const ListenArguments& arguments) : name_(arguments.source) {
@@ -129,7 +128,7 @@ class LossCounter {
 
 using Sinks = std::vector<std::unique_ptr<ReadingSink>>;
 
-/// Connects to the broker and starts the page, if the options request them.
+/// Connects to the broker and starts the web page, if the options request them.
 Sinks open_sinks(const ListenArguments& arguments) {
     Sinks sinks;
     sinks.push_back(open_publisher(arguments.publish, arguments.sheets));
@@ -138,7 +137,6 @@ Sinks open_sinks(const ListenArguments& arguments) {
     return sinks;
 }
 
-/// Writes the outputs of `listen`.
 class ListenOutputs {
   public:
     ListenOutputs(const ListenArguments& arguments, Sinks sinks)
@@ -203,7 +201,8 @@ void run(const ListenArguments& arguments) {
     files.reads("--web-token-file", arguments.page.token_file);
     files.writes_lines(arguments.lines.out, content_of(arguments.lines.format));
     files.writes("--log", arguments.log, Content::csv);
-    // Opens the sinks before all other outputs, because this process may be replaced.
+    // The sinks are opened before all other outputs, because opening them may replace this process
+    // by dotpose-live.
     Sinks sinks = open_sinks(arguments);
     catch_interrupts();
     ByteSource source(arguments);

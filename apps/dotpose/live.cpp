@@ -1,5 +1,5 @@
-// Starts `dotpose-live` for the commands that only dotpose-live implements. Commands that read
-// frames also start it for cameras and videos.
+// Starts `dotpose-live` for the commands that only dotpose-live implements, and for other commands
+// that read frames from cameras and videos.
 #include <cerrno>
 #include <string>
 

@@ -1,5 +1,5 @@
 /// `dotpose calibrate --live`. This part of the command runs in dotpose-live, because it opens a
-/// window. `dotpose` and dotpose-live have different definitions of this function.
+/// window. Therefore `dotpose` and dotpose-live define this function differently.
 #pragma once
 
 #include <string>
@@ -15,10 +15,11 @@ struct LiveCalibrationOptions {
     std::string save;
 };
 
-/// Takes frames while the user moves the camera, shows the unmet requirements, and calibrates the
-/// lens. Ends when there are enough frames, the source ends, or the user stops it. In `dotpose`,
-/// replaces this process with dotpose-live. Throws Error if the source fails, or if there are too
-/// few frames for the verdict `good`. The message then names the unmet requirements.
+/// Takes frames while the user moves the camera, shows the requirements that are not yet met, and
+/// calibrates the lens. Ends when there are enough frames, when the source ends, or when the user
+/// ends it. In `dotpose`, replaces this process with dotpose-live. Throws Error if the source
+/// fails, or if there are too few frames for the verdict `good`. The message then names the unmet
+/// requirements.
 LensCalibration calibrate_live(const SourceArguments& arguments, Sources& sources,
                                const CalibrateOptions& calibration,
                                const LiveCalibrationOptions& options);

@@ -14,8 +14,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the path of dotpose-live: in the libexec directory if dotpose is installed, otherwise
-/// beside this program.
+/// Returns the path of dotpose-live, which is in the libexec directory if dotpose is installed, and
+/// otherwise beside this program.
 std::string live_program() {
     std::error_code failed;
     const auto folder = system::program_folder();
@@ -33,8 +33,8 @@ int become_live() {
     for (std::string& word : words)
         arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    // Timeout in seconds for a camera that delivers no frames. OpenCV reads the variable while
-    // OpenCV is loaded, so the variable must be set before the program starts.
+    // Timeout in seconds for a camera that delivers no frames. OpenCV reads this variable when it
+    // is loaded, so the variable must be set before the program starts.
     setenv("OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT", "2", 0);
     execv(live_program().c_str(), arguments.data());
     return errno;

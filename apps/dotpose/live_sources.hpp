@@ -1,5 +1,5 @@
-/// Access to cameras and videos. Only dotpose-live accesses cameras and videos, because it loads
-/// the video module. `dotpose` and dotpose-live have different definitions of these functions.
+/// Access to cameras and videos. Only dotpose-live has it, because only dotpose-live loads the
+/// video module. Therefore `dotpose` and dotpose-live define these functions differently.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace dotpose::cli {
 
-/// In `dotpose`, replaces this process with dotpose-live, with the same command line. Throws Error
-/// if dotpose-live is missing. Does nothing in dotpose-live.
+/// In `dotpose`, replaces this process with dotpose-live and the same command line. Throws Error if
+/// dotpose-live is missing. In dotpose-live, does nothing.
 void hand_over();
 
 /// Like `hand_over`, but returns if dotpose-live is missing.
@@ -21,8 +21,8 @@ void hand_over_if_possible();
 std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
                                                 const capture::SourceOptions& options);
 
-/// Creates a video, encoded as H.264 if the name ends in .mp4 and as Motion JPEG if it ends in
-/// .avi. In `dotpose`, throws Error with the name of the missing program.
+/// Creates a video file. Its encoding is H.264 if the name ends in .mp4, and Motion JPEG if it ends
+/// in .avi. In `dotpose`, throws Error with the name of the missing program.
 std::unique_ptr<video::GreyVideo> create_video(const std::string& path, double fps);
 
 }  // namespace dotpose::cli

@@ -61,7 +61,6 @@ struct LocateArguments {
     int threads = 1;
 };
 
-/// Locates images in order.
 class ImageLocator {
   public:
     ImageLocator(const LocateArguments& arguments, const RunFiles& files)
@@ -71,9 +70,9 @@ class ImageLocator {
 
     const Follower& follower() const { return follower_; }
 
-    /// Locates an image. The image must remain valid until it has been drawn. `bits_per_px` is the
-    /// number of bits per pixel if the image is from a compressed video, or 0 if unknown. Throws
-    /// Error if the size of the image differs from the size in the camera file.
+    /// Locates an image. The image must remain valid until `draw` has been called. `bits_per_px` is
+    /// the number of bits per pixel if the image is from a compressed video, or 0 if unknown.
+    /// Throws Error if the size of the image differs from the size in the camera file.
     Record operator()(const std::string& name, GreyImage& image, double bits_per_px) {
         if (arguments_.follower.is_inverted) invert(image);
         const auto start = steady_clock::now();
@@ -93,7 +92,8 @@ class ImageLocator {
         return record;
     }
 
-    /// Returns the record of an image whose size in the file header is too large.
+    /// Returns the record of an image that was not read because the size in its header is too
+    /// large.
     Record too_large(const std::string& name, const ImageTooLarge& image) const {
         Record record = empty_record(follower_);
         record.file = name;
@@ -103,7 +103,7 @@ class ImageLocator {
         return record;
     }
 
-    /// Draws the newest image if --draw was given. Throws Error.
+    /// Draws the newest image if --draw is given. Throws Error on failure.
     void draw(const Record& record) {
         if (!pictures_) return;
         pictures_->add(record.file, follower_.image(), follower_.trace(),
@@ -155,7 +155,7 @@ RunFiles files_of(const LocateArguments& arguments, const Sources& sources) {
     return files;
 }
 
-/// Locates all frames of a run. After a failure, continues with the next frame or source.
+/// Locates all frames of a run. Frames and sources that fail are skipped.
 class LocateRun {
   public:
     LocateRun(const LocateArguments& arguments, Sources& sources)
@@ -170,7 +170,7 @@ class LocateRun {
           frames_(sources.open(options_of(arguments))),
           images_(sources.number_of_images()),
           progress_("locating", arguments.lines.out) {
-        // While the tool waits for a name from a pipe, a signal must end it immediately. No line is
+        // A signal must end the tool immediately while it waits for a name from a pipe. No line is
         // lost, because each line is flushed.
         if (!sources.has_pipe()) catch_interrupts();
     }
@@ -204,11 +204,12 @@ class LocateRun {
         return options_of(arguments, [this](Outcome outcome) { return take(outcome); });
     }
 
-    /// Returns the options of the source. `pass_on` receives the outcome of each unreadable image.
+    /// Returns the options of the source. `pass_on` receives the outcome of each image that cannot
+    /// be read.
     capture::SourceOptions options_of(const LocateArguments& arguments,
                                       std::function<bool(Outcome)> pass_on) {
         capture::SourceOptions options = arguments.sources.options;
-        // Reduces large images, unless a camera file determines the image size.
+        // Large images are reduced, unless a camera file determines the image size.
         if (!arguments.follower.camera.camera) options.max_pixels = kDefaultImagePixels;
         options.tell = tell;
         options.stop = interrupted;
@@ -265,7 +266,8 @@ class LocateRun {
         return exit_code_;
     }
 
-    /// Reads the next frame. Skips sources that cannot be read. Returns false after the last frame.
+    /// Reads the next frame and skips sources that cannot be read. Returns false after the last
+    /// frame.
     bool next(capture::Frame& frame) {
         while (true) {
             try {

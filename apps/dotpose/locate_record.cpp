@@ -23,8 +23,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Columns of the pose in the pattern frame. The brief format contains them only without a sheet
-/// file.
+/// Columns of the pose in the pattern frame. The brief format omits them if a sheet file is given.
 constexpr std::array<std::string_view, 6> kPatternPose = {
     "x_mm", "y_mm", "theta_deg", "x_pattern_m", "y_pattern_m", "yaw_pattern_rad"};
 constexpr std::array<std::string_view, 18> kBriefColumns = {
@@ -41,7 +40,7 @@ std::optional<PlanePose> in_frame_of(Units units, const std::optional<PlanePose>
     return pose && units == Units::ros ? std::optional(with_other_y(*pose)) : pose;
 }
 
-/// Explains, with numbers, why a position is rejected as not certain.
+/// Returns an explanation, with numbers, of why a position is rejected as not certain.
 std::string uncertainty_reason(const Record& record) {
     const Fix& fix = record.fix;
     if (fix.p_wrong_log2 <= record.max_p_wrong_log2) {
@@ -54,8 +53,8 @@ std::string uncertainty_reason(const Record& record) {
         fix.p_wrong_log2 >= 0 ? "other positions are as likely"
                               : fmt::format("{} instead of at most {}", p_wrong_text(fix.p_wrong()),
                                             p_wrong_text(std::ldexp(1.0, record.max_p_wrong_log2)));
-    // Bits are also read in cells without a detected dot, so their number is not twice the number
-    // of dots.
+    // The number of bits is not reported, because bits are also read in cells without a detected
+    // dot. It is therefore not twice the number of dots.
     if (fix.bit_errors > 0) {
         return fmt::format("{}; {} of the bits read contradict it", odds, fix.bit_errors);
     }
@@ -113,7 +112,7 @@ std::vector<Field> code_fields(const Record& record, Units units) {
     };
 }
 
-/// Returns `text` if the fix is valid and has a covariance, otherwise an empty string.
+/// Returns `text` if the fix is valid and has a covariance. Otherwise, returns an empty string.
 std::string if_judged(const Fix& fix, std::string text) {
     return fix.status == Status::ok && fix.has_covariance() ? std::move(text) : std::string();
 }
@@ -183,7 +182,6 @@ std::vector<Field> velocity_fields(const Record& record, Units units) {
             {"sigma_turn_rate_deg_s", degrees(std::sqrt(v.covariance[2][2]))}};
 }
 
-/// Returns the fields of the spacing in the image and of the time taken.
 std::vector<Field> image_fields(const Record& record) {
     const Fix& fix = record.fix;
     const bool ok = fix.status == Status::ok;
@@ -193,7 +191,7 @@ std::vector<Field> image_fields(const Record& record) {
     };
 }
 
-/// Explains why there is no fix, without advice. Returns an empty string if there is a fix.
+/// Returns the reason why there is no fix, without advice, or an empty string if there is a fix.
 std::string plain_reason(const Record& record) {
     const Fix& fix = record.fix;
     switch (fix.status) {

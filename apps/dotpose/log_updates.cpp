@@ -15,8 +15,9 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// Column names of a pose and its covariance. `units` contains the factors that convert the columns
-/// to metres and radians. The factors of y and of the angle are negative if y points down.
+/// Column names of a pose and its covariance. `units` contains the factors that convert x, y and
+/// the angle to metres and radians with y up. The factors of y and of the angle are negative if y
+/// points down in the log.
 struct PoseColumns {
     const char* x;
     const char* y;
@@ -59,8 +60,8 @@ std::optional<ros::PlanarCovariance> covariance_in(const LogCells& row,
     return covariance;
 }
 
-/// Returns the pose and the velocities of a row. The log contains a common standard deviation for
-/// both components of the velocity, and one for the turn rate.
+/// Returns the pose and the velocities of a row. Both components of the velocity have the same
+/// standard deviation in the log.
 ros::PlanarMotion motion_in(const LogCells& row, const ros::PlanarPose& pose,
                             const PoseColumns& columns) {
     const auto value = [&row](const char* column) { return row.number(column).value_or(0); };
@@ -90,8 +91,8 @@ std::int64_t time_ns_in(const LogCells& row) {
     if (!(t_s >= 0 && t_s <= double{std::numeric_limits<std::int32_t>::max()})) {
         throw Error(fmt::format("t_s {} is no time of a message, which is 0 to 2^31 - 1", t_s));
     }
-    // The times in the log are whole microseconds. Rounding recovers them exactly from the decimal
-    // text.
+    // The times in the log are whole microseconds, so rounding recovers them exactly from the
+    // decimal text.
     return std::llround(t_s * 1e6) * 1000;
 }
 
@@ -105,8 +106,8 @@ ros::RobotUpdate update_of(const LogCells& row) {
     const std::string_view plane = row.text("plane");
     ros::RobotUpdate update;
     update.time_ns = time_ns_in(row);
-    // While the robot is lost, the row contains no plane. Fixes are then in the world if the row
-    // contains x_m, because only logs with a sheet file with world poses have this column.
+    // A row without a plane is from a lost robot. Its fix is in the world if the row contains x_m,
+    // because only logs of sheets with world poses have this column.
     const bool is_in_world = plane == "world" || (plane.empty() && row.number("x_m"));
     const PoseColumns& columns = is_in_world ? kInWorld : kInPattern;
     if (row.text("status") == "ok") {

@@ -20,7 +20,7 @@ struct MqttArguments {
 struct PublishArguments {
     MqttArguments mqtt;
     std::string robot = "robot";  ///< name of the robot on the broker and in ROS
-    /// Maximum number of messages per second, excluding events. If 0, sends one message per frame.
+    /// Maximum number of messages per second, without events. 0 means one message per frame.
     double max_rate_hz = 0;
 
     /// Adds the options of MqttArguments, --robot and --mqtt-rate. `robot_help` describes --robot.

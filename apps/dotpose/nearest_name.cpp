@@ -15,7 +15,7 @@ std::string bare(std::string_view word) {
     return result;
 }
 
-/// Returns the only name that begins with the word, or an empty string.
+/// Returns the name that begins with the word, or an empty string if there is not exactly one.
 std::string only_continuation(const std::string& word, const std::vector<std::string>& names) {
     constexpr std::size_t kMinCharacters = 2;
     if (word.size() < kMinCharacters) return {};
@@ -54,8 +54,8 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
     const std::string asked = bare(word);
     std::string nearest;
-    // Maximum length of a word that is compared with the names. Longer words do not match any name,
-    // and the distance table for a longer word would need too much memory.
+    // Longer words are not compared with the names, because the distance table would need too much
+    // memory. They cannot match a name anyway.
     constexpr std::size_t kMaxCharacters = 64;
     if (asked.size() > kMaxCharacters) return nearest;
     int min_distance = static_cast<int>(kMaxCharacters);

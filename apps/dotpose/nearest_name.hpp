@@ -12,7 +12,7 @@ namespace dotpose::cli {
 /// distance from "ca" to "abc" is 3.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// Returns the name that was probably meant by `word`. This is the nearest name if the edit
+/// Returns the name that was probably meant by `word`. This is the nearest name if its edit
 /// distance is at most a third of the length of the longer word. Otherwise, it is the only name
 /// that begins with `word`. Case and leading hyphens are ignored. Returns an empty string if no
 /// name is similar.

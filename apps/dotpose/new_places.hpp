@@ -1,4 +1,5 @@
-/// Selects frames that show a new place of a sheet. Other frames add little to a calibration.
+/// Selects frames for a calibration that show new places of a sheet, because frames of the same
+/// place add little information.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +12,14 @@ namespace dotpose::cli {
 
 class NewPlaces {
   public:
-    /// Returns true and stores the place if the frame is new. A frame is new if it differs from
-    /// each stored place of the same section in at least one of these properties:
-    /// - its centre, by a quarter of the shorter side of the frame and at least two spacings,
-    /// - its direction, by 15 degrees, or
-    /// - its distance from the paper, by 10 %.
-    /// `thin_out` increases these minimum differences. Returns false for a frame without a fix.
+    /// Returns true and stores the place if the frame shows a new place. A place is new if it
+    /// differs from each stored place of the same section in at least one of these properties:
+    /// - the centre of the frame, by a quarter of the shorter side of the frame and at least two
+    /// spacings,
+    /// - the direction, by 15 degrees, or
+    /// - the distance from the paper, by 10 %.
+    /// Each call of `thin_out` doubles these minimum differences. Returns false for a frame without
+    /// a fix.
     bool take(const Fix& fix, ImageView image);
 
     std::size_t count() const { return places_.size(); }

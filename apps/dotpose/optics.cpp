@@ -29,7 +29,7 @@ struct OpticsArguments {
     double exposures_per_s = 7684;
 };
 
-/// Explains how the paper rounds the numbers of its section III-A.
+/// Text that explains how the paper rounds the numbers of its section III-A.
 constexpr const char* kRounding =
     "\nThe paper's numbers, and where it rounds:\n"
     "  5.39 mm    sqrt(2) x 0.508 x 7.5 = 5.388\n"
@@ -56,7 +56,7 @@ int run(OpticsArguments& arguments) {
                r.block_fits_anywhere ? "fit at any angle and place"
                : r.block_fits        ? "fit at any angle"
                                      : "do not fit at every angle");
-    // Rounds maximum speeds down.
+    // Maximum speeds are rounded down.
     fmt::print("exposure      1/{:.0f} s: blur under {:g} px up to {:.0f} mm/s, or {:.0f} rpm\n",
                1 / o.exposure_s, o.largest_blur_px, std::floor(r.fastest_mm_s),
                std::floor(r.fastest_turn_rpm));

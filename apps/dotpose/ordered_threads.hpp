@@ -21,8 +21,8 @@ namespace dotpose::cli {
 template <typename Result>
 class OrderedThreads {
   public:
-    /// Emits a result. Blocks while kMaxResults results of the thread are waiting. Returns
-    /// false if the thread must end, because no more results are needed.
+    /// Function that passes on a result. Blocks while kMaxResults results of the thread are
+    /// waiting. Returns false if no more results are needed. The thread must then return.
     using Emit = std::function<bool(Result)>;
     using Work = std::function<void(std::size_t thread, const Emit& emit)>;
 
@@ -42,7 +42,8 @@ class OrderedThreads {
         }
     }
 
-    /// Returns the next result, or none after the last result. Rethrows the exception of a thread.
+    /// Returns the next result, or none after the last result. Rethrows an exception that ended a
+    /// thread.
     std::optional<Result> next() {
         Lane& lane = *lanes_[next_lane_++ % lanes_.size()];
         std::optional<Result> result = lane.take();
@@ -85,7 +86,8 @@ class OrderedThreads {
         bool has_ended = false;
         /// Exception that ended the thread, or null. Set before `has_ended`.
         std::exception_ptr failure;
-        std::jthread thread;  ///< last member, because the thread uses the other members
+        /// Last member, so that the thread is joined before the members that it uses are destroyed.
+        std::jthread thread;
     };
 
     std::vector<std::unique_ptr<Lane>> lanes_;

@@ -1,5 +1,5 @@
-/// Output options with the same names and values in all commands: --format, --units, --draw and -o.
-/// If the value of -o is "-", the output is standard output.
+/// Output options that have the same names and values in all commands: --format, --units, --draw
+/// and -o. The value "-" of -o means standard output.
 #pragma once
 
 #include <cstdio>
@@ -20,8 +20,8 @@ struct LineArguments {
     Units units = Units::mm;
 };
 
-/// Adds --format json|csv and -o. If `has_text`, --format also accepts text. If the name given to
-/// -o ends in .csv, the default format is csv.
+/// Adds --format json|csv and -o. If `has_text`, --format also accepts text. The default format is
+/// csv if the name given to -o ends in .csv, and json otherwise.
 void add_format_options(Command& command, LineArguments& arguments, bool has_text = false);
 
 /// Adds the options of `add_format_options`, and --units mm|ros.
@@ -33,20 +33,20 @@ struct ReportArguments {
     bool as_json = false;
 };
 
-/// Adds --format text|json, and -o with the help `out_help`. If the name given to -o ends in .json,
-/// the default format is json.
+/// Adds --format text|json, and -o with the help `out_help`. The default format is json if the name
+/// given to -o ends in .json, and text otherwise.
 void add_report_options(Command& command, ReportArguments& arguments,
                         const std::string& out_help = "File to write instead of standard output");
 
-/// Writes the report to the file of -o or to standard output. A text report on a terminal is
-/// coloured. Throws Error.
+/// Writes the report to the file of -o or to standard output. A text report is coloured if it is
+/// written to a terminal. Throws Error on failure.
 void write_report(const ReportArguments& arguments, const std::string& report);
 
 /// Adds --draw FILE, which writes an additional picture.
 Option* add_draw_option(Command& command, std::string& path, const std::string& help);
 
-/// Destination of a document that the library can only write to a named file. For standard output,
-/// the library writes a temporary file. This file is copied to standard output at the end.
+/// A document that the library can only write to a named file. If the document goes to standard
+/// output, the library writes a temporary file, and `finish` copies it.
 class DocumentOutput {
   public:
     /// `out` is the value of -o. `ending` is the file extension of the format, such as ".pdf".
@@ -61,7 +61,7 @@ class DocumentOutput {
     /// Returns the path of the file that the library must write.
     const std::filesystem::path& path() const { return path_; }
 
-    /// Copies the document to standard output if -o is "-". Throws Error.
+    /// Copies the document to standard output if -o is "-". Throws Error on failure.
     void finish() const;
 
     /// Returns the stream for reports: standard error if the document is written to standard

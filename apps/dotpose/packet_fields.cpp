@@ -20,11 +20,11 @@ std::optional<PlanePose> pose_of(const PosePacket& packet, double spacing_mm, Un
     return units == Units::ros ? with_other_y(pose) : pose;
 }
 
-/// Returns the field with the standard deviation of the position, the larger of the values along x
-/// and y.
+/// Returns the field with the standard deviation of the position. The packet contains the larger of
+/// the values along x and y.
 Field deviation_field(const PosePacket& packet, double spacing_mm, Units units) {
     const double sigma_mm = packet.deviation_q12 * spacing_mm / 4096;
-    // 255 represents all larger deviations as well, so it is not reported.
+    // 255 also stands for all larger deviations, so the deviation is unknown.
     const bool is_known = packet.status == Status::ok && packet.deviation_q12 < 255;
     if (units == Units::ros) return {"sigma_m", is_known ? metres(sigma_mm) : ""};
     return {"sigma_mm", is_known ? decimal(sigma_mm, 6) : ""};

@@ -1,4 +1,4 @@
-/// Pose packets as fields of output lines.
+/// Output lines for pose packets.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace dotpose::cli {
 
-/// Returns the fields of a packet of a pattern with this spacing. The fields of the pose are empty
-/// if the packet has no fix.
+/// Returns the fields of a packet. `spacing_mm` is the spacing of the pattern. The fields of the
+/// pose are empty if the packet has no fix.
 std::vector<Field> fields(const PosePacket& packet, double spacing_mm, Units units);
 
 }  // namespace dotpose::cli

@@ -10,8 +10,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the fix of a packet. Leaves the covariance unknown, because a packet contains only a
-/// part of the covariance.
+/// Returns the fix of a packet, without a covariance.
 Fix fix_of(const PosePacket& packet) {
     Fix fix;
     fix.status = packet.status;
@@ -26,10 +25,12 @@ Fix fix_of(const PosePacket& packet) {
     return fix;
 }
 
-/// Sets a diagonal covariance from the deviation of a packet, in units of the spacing.
+/// Sets the covariance of a fix to a diagonal matrix that is computed from the deviation in the
+/// packet.
 void set_covariance(const PosePacket& packet, Fix& fix) {
-    // For the minimum of 8 x 8 dots, the standard deviation of the angle is sqrt(6) / 8 of the
-    // standard deviation of the position in spacings. With more dots, the angle is more accurate.
+    // The smallest view of 8 x 8 dots is assumed, because more dots make the angle more accurate.
+    // For this view, the standard deviation of the angle in rad is sqrt(6) / 8 of the standard
+    // deviation of the position in spacings.
     constexpr float kAngleFromPosition = 0.306F;
     constexpr float kThetaStep_rad = 9.6e-5F;  // one step of PosePacket::theta_bam16
     const float sigma = std::max<float>(packet.deviation_q12, 1) / 4096;
@@ -95,7 +96,7 @@ std::optional<Reading> PacketFollower::follow(const PosePacket& packet) {
     return reading;
 }
 
-/// Advances the time to the time of a packet. Returns false if the packet is not newer than the
+/// Advances `time_us_` to the time of a packet. Returns false if the packet is not newer than the
 /// previous packet.
 bool PacketFollower::advance(const PosePacket& packet) {
     constexpr std::int64_t kRestart_us = 1'000'000;
@@ -103,8 +104,8 @@ bool PacketFollower::advance(const PosePacket& packet) {
         const int step = packets_since(newest_->sequence, packet.sequence);
         if (is_late(step)) return false;
         const auto elapsed_us = static_cast<std::int32_t>(packet.time_us - newest_->time_us);
-        // If the clock went back, the device was restarted. The time between the packets is then
-        // unknown.
+        // If the clock of the device went back, the device was restarted, and the time between the
+        // packets is unknown.
         time_us_ += elapsed_us > 0 ? elapsed_us : kRestart_us;
     }
     newest_ = packet;

@@ -13,14 +13,13 @@
 namespace dotpose::cli {
 
 /// Returns the number of packets from an earlier packet to a later packet, computed from their
-/// sequence numbers. The result is not positive if the later packet is a repetition or arrived
-/// late.
+/// sequence numbers. The result is 0 or negative if the later packet is repeated or arrived late.
 inline int packets_since(std::uint16_t earlier, std::uint16_t later) {
     return static_cast<std::int16_t>(later - earlier);
 }
 
-/// Returns true if a packet with this result of `packets_since` is repeated or late. A larger
-/// decrease of the sequence number means that the device was restarted.
+/// Returns true if a packet with this result of `packets_since` is repeated or late. If the result
+/// is more negative, the device was restarted.
 inline bool is_late(int packets) {
     constexpr int kMaxLate = 16;
     return packets <= 0 && packets >= -kMaxLate;
@@ -28,18 +27,18 @@ inline bool is_late(int packets) {
 
 class PacketFollower {
   public:
-    /// Without sheets, the robot is followed in the pattern frame, and `spacing_mm` is the spacing
-    /// of the pattern.
+    /// `spacing_mm` is the spacing of the pattern. It is used only if there are no sheets, in which
+    /// case the robot is followed in the pattern frame.
     PacketFollower(std::vector<SheetEntry> sheets, double spacing_mm);
 
     bool has_sheets() const { return !sheets_.empty(); }
 
-    /// Returns the record of a packet, including the place of its fix on the sheets.
+    /// Returns the record of a packet. It includes the place of the fix on the sheets.
     Record record_of(const PosePacket& packet) const;
 
-    /// Updates the track. Returns nullopt if the packet was repeated or is older than the newest
+    /// Updates the track. Returns nullopt if the packet is repeated or is older than the newest
     /// packet. The times of the readings begin at 0 and always increase, even if the clock of the
-    /// device wraps or the device is restarted.
+    /// device wraps around or the device is restarted.
     std::optional<Reading> follow(const PosePacket& packet);
 
   private:

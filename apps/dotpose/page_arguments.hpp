@@ -1,4 +1,4 @@
-/// Command-line options of a page in the browser. dotpose-live serves the page.
+/// Command-line options of the web page that dotpose-live serves.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace dotpose::cli {
 
 struct PageArguments {
-    std::string address;     ///< "[ADDRESS:]PORT", or empty for no page
+    std::string address;     ///< "[ADDRESS:]PORT" of the page, or empty for no page
     std::string token_file;  ///< path of the token file, or empty for none
 
     /// Adds --web and --web-token-file.

@@ -19,8 +19,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the 90 % quantile of the grey levels. If the image shows any paper, this is the grey
-/// level of the paper.
+/// Returns the grey level of the paper, if any paper is visible. It is the 90 % quantile of all
+/// grey levels.
 int paper_level(ImageView image) {
     std::array<std::int64_t, 256> counts{};
     for (int v = 0; v < image.height_px; ++v) {
@@ -34,7 +34,7 @@ int paper_level(ImageView image) {
     return level;
 }
 
-/// Resamples an image to `width_px` x `height_px` with bilinear interpolation. `in_image(u, v)`
+/// Resamples an image to `width_px` x `height_px` by bilinear interpolation. `in_image(u, v)`
 /// returns the point of the original image for pixel (u, v) of the result. Points outside the image
 /// are moved to its border.
 template <typename InImage>
@@ -55,8 +55,8 @@ GreyImage resampled(const ImageView& image, int width_px, int height_px, InImage
     return result;
 }
 
-/// Returns the centre of an image, enlarged by the factor `by`. The centre is at most `side_px`
-/// wide and high before the enlargement.
+/// Returns the centre of an image, enlarged by the factor `by`. Before the enlargement, the centre
+/// is at most `side_px` wide and high.
 GreyImage enlarged_middle(const ImageView& image, int side_px, int by) {
     const int width_px = std::min(image.width_px, side_px) - 1;
     const int height_px = std::min(image.height_px, side_px) - 1;
@@ -68,7 +68,8 @@ GreyImage enlarged_middle(const ImageView& image, int side_px, int by) {
     });
 }
 
-/// Returns the spacing of the dots in px if the pattern can be read only in an enlarged image.
+/// Returns the spacing of the dots in px if the pattern can be read only in an enlarged image,
+/// otherwise none.
 std::optional<double> too_small_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {
     constexpr int kMiddle_px = 320;
@@ -86,7 +87,8 @@ std::optional<double> too_small_spacing_px(ImageView image, const DeviceOptions&
     return std::nullopt;
 }
 
-/// Stretch of the image along one direction. Compensates for the foreshortening of a tilted sheet.
+/// Enlarges an image along one direction by the factor `by`, to compensate for the foreshortening
+/// of a tilted sheet.
 struct Stretch {
     double angle_rad = 0;
     double by = 1;
@@ -101,8 +103,8 @@ struct Stretch {
     }
 };
 
-/// Returns the centre of the stretched image, a square with sides of at most `side_px`. The corners
-/// of this square may be outside the image.
+/// Returns the centre of the stretched image. It is a square with sides of at most `side_px`, whose
+/// corners may be outside the original image.
 GreyImage stretched_middle(const ImageView& image, int side_px, const Stretch& stretch) {
     const int side = std::min({image.width_px, image.height_px, side_px});
     return resampled(image, side, side, [&](int u, int v) {
@@ -112,7 +114,8 @@ GreyImage stretched_middle(const ImageView& image, int side_px, const Stretch& s
     });
 }
 
-/// Returns the tilt of the sheet in degrees if the pattern can be read in a stretched image.
+/// Returns the tilt of the sheet in degrees if the pattern can be read in a stretched image,
+/// otherwise none.
 std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& options,
                                          LargeMemory& scratch) {
     constexpr int kMiddle_px = 480;
@@ -126,7 +129,8 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
             const GreyImage straight = stretched_middle(image, kMiddle_px, stretch);
             const Fix fix = Locator(scratch, once).locate(straight.view());
             if (fix.status != Status::ok) continue;
-            // Maps pixels of the original image to cells: first the stretch, then the fitted plane.
+            // Maps a pixel of the original image to a cell. The stretch is applied first, then the
+            // fitted plane.
             const double c = std::cos(stretch.angle_rad);
             const double s = std::sin(stretch.angle_rad);
             const PlaneFromImage& plane = fix.pattern_from_image;
@@ -152,8 +156,9 @@ std::optional<double> large_tilt_degrees(ImageView image, const DeviceOptions& o
 }
 
 /// Returns the mean squared second difference of the grey levels. A second difference is the
-/// difference between a pixel and the mean of two opposite pixels at a distance of `step_px`. Noise
-/// contributes equally at all distances. A linear brightness gradient contributes nothing.
+/// difference between a pixel and the mean of two pixels at the distance `step_px` on opposite
+/// sides. Noise contributes equally at all distances, and a linear brightness gradient contributes
+/// nothing.
 double second_difference(ImageView image, int step_px) {
     std::int64_t squares = 0;
     for (int v = step_px; v + step_px < image.height_px; ++v) {
@@ -168,11 +173,12 @@ double second_difference(ImageView image, int step_px) {
     return static_cast<double>(squares) / (4 * samples);
 }
 
-/// Returns true if the image contains only coarse details. Compares the second difference over 2 px
-/// with the larger of the second differences over 8 and 16 px. Subtracts the second difference over
-/// 1 px, an estimate of the noise, from each. In a focused picture, the ratio is at least 1/6, even
-/// at a tilt of 70 degrees. If the dots are too blurred to be read, the ratio is less than 1/20.
-/// Returns false if the image is too small for this comparison.
+/// Returns true if the image contains only coarse details. Computes the ratio of the fine details,
+/// which are measured by the second difference over 2 px, to the coarse details, which are measured
+/// by the larger of those over 8 and 16 px. The second difference over 1 px estimates the noise and
+/// is subtracted from both. In a focused picture, the ratio is at least 1/6, even at a tilt of 70
+/// degrees. If the dots are too blurred to be read, the ratio is less than 1/20. Returns false if
+/// the image is too small for this comparison.
 bool is_out_of_focus(ImageView image) {
     constexpr double kMinDetail = 0.4;
     constexpr double kFocused = 0.06;
@@ -184,7 +190,7 @@ bool is_out_of_focus(ImageView image) {
     return detail > kMinDetail && second_difference(image, 2) - noise < kFocused * detail;
 }
 
-/// Reduces the image by the factor `by`. Each pixel is the mean of a square of pixels.
+/// Reduces the image by the factor `by`, by averaging squares of `by` x `by` pixels.
 GreyImage reduced_by(ImageView image, int by) {
     GreyImage small{{}, image.width_px / by, image.height_px / by};
     for (int v = 0; v < small.height_px; ++v) {
@@ -198,17 +204,16 @@ GreyImage reduced_by(ImageView image, int by) {
     return small;
 }
 
-/// Returns the spacing of the dots in px if this spacing is too large. The dots of the reduced
-/// image must form a grid.
+/// Returns the spacing of the dots in px if it is too large, and the dots of the reduced image form
+/// a grid. Otherwise, returns none.
 std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {
     constexpr double kMaxSpacing_px = 60;
-    // Minimum number of dots of the grid. The number is small, because few dots are visible if the
-    // camera is too near.
+    // Minimum number of dots of the grid. A camera that is too near shows only few dots.
     constexpr int kMinDots = 16;
     DeviceOptions blobs;
     blobs.code = options.code;
-    blobs.effort = Effort::device;  // stores the grid of its blobs in the trace
+    blobs.effort = Effort::device;  // this effort stores the grid of its blobs in the trace
     blobs.lattice.min_dots = kMinDots;
     for (const int by : {2, 4, 8, 16}) {
         if (std::min(image.width_px, image.height_px) / by < kMinFrameSide_px) break;
@@ -228,7 +233,7 @@ std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions&
     return std::nullopt;
 }
 
-/// Returns true if the dots are white on black, that is, if the inverted image can be located.
+/// Returns true if the inverted image can be located, which means that the dots are white on black.
 bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     GreyImage inverted = reduced_by(image, 1);
     for (std::uint8_t& grey : inverted.pixels)
@@ -238,8 +243,8 @@ bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scr
     return Locator(scratch, once).locate(inverted.view()).status == Status::ok;
 }
 
-/// Returns advice if a position is not certain only because the code is not given. Such a position
-/// is certain if the places in the other codes are excluded.
+/// Returns advice if a position would be certain with a given code. Without one, the position may
+/// be uncertain only because places in other codes are possible.
 std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     for (const CodeVariant code :
          {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {
@@ -255,7 +260,6 @@ std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeM
     return {};
 }
 
-/// Returns advice on the distance of the camera from the sheet.
 std::string advice_on_distance(ImageView image, const DeviceOptions& options,
                                LargeMemory& scratch) {
     if (const auto spacing_px = too_small_spacing_px(image, options, scratch)) {
@@ -281,8 +285,9 @@ std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeM
             "the sheet is tilted too much, by about {:.0f} degrees: look straight down on it",
             *tilt_degrees);
     }
-    // Bits per pixel below which a video counts as compressed too much. In videos of sharp frames,
-    // H.264 and HEVC begin to lose dots at 0.1 bits per pixel (docs/live.md).
+    // Minimum bits per pixel of a video. Videos with fewer are reported as compressed too much. In
+    // videos of sharp frames, H.264 and HEVC begin to lose dots at 0.1 bits per pixel
+    // (docs/live.md).
     constexpr double kTooFewBits_per_px = 0.15;
     if (facts.bits_per_px > 0 && facts.bits_per_px < kTooFewBits_per_px) {
         return fmt::format(
@@ -316,8 +321,8 @@ std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& s
     if (is_inverted(image, options, scratch)) {
         return "the dots are white on black: locate with --inverted";
     }
-    // Paper level below which the image is too dark. Blur may reduce the contrast of dots to a
-    // quarter, and the remaining contrast must be at least min_contrast.
+    // Minimum grey level of the paper. Blur may reduce the contrast of dots to a quarter, and the
+    // remaining contrast must be at least min_contrast.
     const int darkest_paper = 4 * options.threshold.min_contrast;
     if (const int level = paper_level(image); level < darkest_paper) {
         return fmt::format(

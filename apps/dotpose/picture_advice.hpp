@@ -1,4 +1,4 @@
-/// Diagnoses why a picture of a sheet cannot be located, and suggests a remedy.
+/// Finds out why a picture of a sheet cannot be located, and suggests a remedy.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace dotpose::cli {
 
-/// Result for a picture, and the settings on which the advice depends.
+/// The result of `locate` for a picture, and the settings that the advice depends on.
 struct PictureFacts {
     Status status = Status::ok;  ///< result of `locate` with `options`
     DeviceOptions options;
@@ -19,7 +19,7 @@ struct PictureFacts {
     double bits_per_px = 0;
 };
 
-/// Returns advice as a sentence without a full stop, or an empty string if no reason is found.
+/// Returns advice as a sentence without a full stop, or an empty string if no reason was found.
 /// Overwrites `scratch`.
 std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& scratch);
 

@@ -12,20 +12,20 @@
 
 namespace dotpose::cli {
 
-/// Returns true if a path is the name of a picture, NAME.svg, rather than a folder.
+/// Returns true if a path is the name of a picture, NAME.svg, and not of a folder.
 bool is_picture_name(const std::filesystem::path& path);
 
 class PictureFolder {
   public:
     /// Creates the folder, unless `path` is the name of a picture. The parent folder must exist.
-    /// Throws Error if the folder cannot be created. `files` is used to check that no picture
-    /// overwrites a file of the same run.
+    /// `files` contains the files of the run, which no picture may overwrite. Throws Error if the
+    /// folder cannot be created.
     PictureFolder(std::filesystem::path path, const RunFiles& files);
 
-    /// Writes a picture. In a folder, the name of the picture is STEM.svg. STEM is the name of the
-    /// image without its file extension, or drive-17 for the frame drive.mp4#17. If an earlier
-    /// image had the same stem, the name is STEM-2.svg and so on. The name of the image replaces
-    /// the title in the options. Throws Error if the picture cannot be written.
+    /// Writes a picture. In a folder, the picture is STEM.svg, where STEM is the name of the image
+    /// without its file extension, or drive-17 for drive.mp4#17. If an earlier image had the same
+    /// stem, the picture is STEM-2.svg, and so on. The title in the options is replaced by the name
+    /// of the image. Throws Error if the picture cannot be written.
     void add(const std::string& image_name, ImageView image, const Trace& trace,
              DrawOptions options);
 

@@ -46,7 +46,7 @@ PlanePose pattern_pose(const Fix& fix, double spacing_mm) {
 }
 
 PlanePose with_other_y(const PlanePose& pose) {
-    // An angle of pi is not negated. -pi is the same direction but outside (-pi, pi].
+    // An angle of pi is kept, because -pi is the same direction but outside (-pi, pi].
     const double angle_rad =
         pose.theta_rad == std::numbers::pi ? std::numbers::pi : -pose.theta_rad;
     return {pose.x_mm, -pose.y_mm, angle_rad, world_covariance(pose.covariance, 0)};

@@ -28,7 +28,7 @@ struct PlanePose {
 /// Returns the pose of a fix in the pattern frame. The fix must be ok.
 PlanePose pattern_pose(const Fix& fix, double spacing_mm);
 
-/// Returns the pose with y and angle negated. Converts between y down and y up.
+/// Returns the pose with y and angle negated, to convert between y down and y up.
 PlanePose with_other_y(const PlanePose& pose);
 
 /// Field names of a pose and its covariance, such as x_mm, y_mm, theta_deg and covariance_mm_deg.
@@ -39,14 +39,15 @@ struct PoseNames {
     std::string covariance;
 };
 
-/// Returns the field names of poses in the pattern frame, in the sheet frame or of the track.
+/// Return the field names of a pose in the pattern frame, of a pose in the sheet frame, and of a
+/// track.
 PoseNames pattern_names(Units units);
 PoseNames sheet_names(Units units);
 PoseNames track_names(Units units);
 
-/// Returns the three fields of a pose, or the nine fields of its covariance in row-major order. All
-/// fields are empty if there is no pose. The covariance is also empty if it is unknown. Converts
-/// units to mm and degrees or to metres and radians, but does not change the axes.
+/// Return the three fields of a pose, or the nine fields of its covariance in row-major order. All
+/// fields are empty if there is no pose, and the fields of the covariance also if it is unknown.
+/// The values are converted to the units of `units`, but not to its axes.
 std::vector<Field> pose_fields(const PoseNames& names, Units units,
                                const std::optional<PlanePose>& pose);
 std::vector<Field> covariance_fields(const PoseNames& names, Units units,
@@ -55,10 +56,9 @@ std::vector<Field> covariance_fields(const PoseNames& names, Units units,
 /// Returns the fields x_m, y_m, yaw_rad and covariance_m_rad.
 std::vector<Field> world_fields(const std::optional<WorldPlace>& place);
 
-/// Formats a length in metres. `mm` is the length in mm.
+/// Formats a length, given in mm, in metres.
 std::string metres(double mm);
 
-/// Appends `more` to `fields`.
 void append(std::vector<Field>& fields, std::vector<Field> more);
 
 }  // namespace dotpose::cli

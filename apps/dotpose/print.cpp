@@ -75,15 +75,13 @@ bool has_resolution(PrintFormat format) {
     return format != PrintFormat::text && format != PrintFormat::svg;
 }
 
-/// Returns the title of the document.
 std::string title_of(const PrintArguments& arguments) {
     if (arguments.entries.given()) return arguments.entries.name();
     if (arguments.out == kStandardOutput) return "sheet";
     return system::path_of(arguments.out).stem().string();
 }
 
-/// Returns the print settings of a page. The settings are stored in the entry of the page in the
-/// sheet file.
+/// Returns the print settings of a page for its entry in the sheet file.
 SheetPrint print_of(const PrintArguments& arguments) {
     SheetPrint print;
     print.title = title_of(arguments);

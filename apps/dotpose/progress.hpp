@@ -7,40 +7,39 @@
 
 namespace dotpose::cli {
 
-/// Ignores SIGPIPE. If the reader of an output closes it, the write fails but the program
-/// continues.
+/// Ignores SIGPIPE, so that writing to a closed output fails without ending the program.
 void ignore_broken_pipes();
 
-/// Makes SIGINT, SIGTERM and SIGHUP set `interrupted` instead of ending the program, so the program
-/// can remove its temporary files. A second signal ends the program if it arrives more than half a
-/// second after the first.
+/// Makes SIGINT, SIGTERM and SIGHUP set `interrupted` instead of ending the program, so that the
+/// program can remove its temporary files. A second signal ends the program if it arrives more than
+/// half a second after the first.
 void catch_interrupts();
 bool interrupted();
 
-/// Returns true if Ctrl-C was pressed (SIGINT only), and resets `interrupted`. The next signal then
-/// counts as the first signal.
+/// Returns true if Ctrl-C was pressed (SIGINT only), and resets `interrupted`. The next signal is
+/// then treated as the first.
 bool take_ctrl_c();
 
 /// Formats a duration with at most two units, such as "12 s", "3 min 05 s" or "2 h 10 min". Rounds
 /// up.
 std::string duration_text(double seconds);
 
-/// A progress line on standard error, such as "printing sheet.png: 42 %, 12 s left". The line
-/// appears if standard error is a terminal and the work takes more than a second. The line is
-/// removed at the end. A message written by `tell` hides the line until the next update. There can
-/// be only one progress line at a time.
+/// A progress line on standard error, such as "printing sheet.png: 42 %, 12 s left". It appears
+/// only on a terminal, after a second of work, and is removed at the end. A message written by
+/// `tell` hides the line until the next update. There can be only one progress line at a time.
 class ProgressLine {
   public:
     /// `out` is the file to which the work writes lines. Empty or "-" means standard output. If
-    /// this output is a terminal, the lines already show the progress, so the progress line is not
-    /// shown.
+    /// standard output is a terminal, the progress line is not shown, because the lines of output
+    /// already show the progress.
     ProgressLine(std::string what, const std::string& out);
     explicit ProgressLine(std::string what);
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    /// Shows the number of finished items, and the percentage unless `total` is 0 (unknown).
+    /// Shows the number of finished items, and the percentage if `total` is not 0, which means
+    /// unknown.
     void update(std::int64_t done, std::int64_t total);
 
   private:

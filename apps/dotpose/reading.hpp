@@ -1,4 +1,4 @@
-/// Result of `dotpose watch` for one frame: the fix of the frame, and the track up to the frame.
+/// Result of `dotpose watch` for one frame: the record of the frame, and the track up to the frame.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace dotpose::cli {
 
-/// Plane of the coordinates of a track: the pattern, or the world frame of a sheet file.
+/// Plane of the coordinates of a track: the pattern frame, or the world frame of a sheet file.
 enum class Plane { pattern, sheet_world };
 Plane plane_of(const Follower& follower);
 
 struct Reading {
     std::int64_t index = 0;
     std::int64_t time_us = 0;
-    /// Result of the frame. Its `p_wrong` includes the prior of the tracker if the fix was accepted
-    /// only because of this prior.
+    /// Result of the frame. If the fix was accepted only because of the prior of the tracker,
+    /// `p_wrong` includes this prior.
     Record record;
     Track track;
     Plane plane = Plane::pattern;

@@ -27,8 +27,8 @@ PlanePose plane_pose(const TrackedPose& pose) {
     return result;
 }
 
-/// Returns the fields of velocities and standard deviations. `is_flipped` is true if the y axis
-/// points up in the output but down in the track.
+/// Returns the fields of velocities and standard deviations. `is_flipped` is true if y points down
+/// in the track but up in the output.
 std::vector<Field> motion_fields(const TrackedPose& pose, Units units, bool is_flipped) {
     const double sign = is_flipped ? -1 : 1;
     const double vx_mm_s = static_cast<double>(pose.vx_mm_s);

@@ -12,7 +12,7 @@ void add_robot_option(Command& command, std::string& robot, const std::string& h
         ->type_name("NAME")
         ->capture_default_str()
         ->check([](const std::string& name) {
-            constexpr std::size_t kMaxBytes = 128;  // maximum length; `fleet` ignores longer names
+            constexpr std::size_t kMaxBytes = 128;  // `fleet` ignores longer names
             const bool is_bad = name.empty() || name.find_first_of("/+#") != std::string::npos ||
                                 name.size() > kMaxBytes || printable(name) != name;
             return is_bad ? "the name of a robot must not be empty, must not contain / + #, and "

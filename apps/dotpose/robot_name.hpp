@@ -1,4 +1,5 @@
-/// Options for robot names. These names are part of MQTT and ROS topics.
+/// Options for the name of a robot and for its frames, which are part of MQTT topics and of ROS
+/// names.
 #pragma once
 
 #include <string>
@@ -10,7 +11,8 @@ class Command;
 /// Adds --robot NAME. The option rejects names that are not valid in topics.
 void add_robot_option(Command& command, std::string& robot, const std::string& help);
 
-/// Adds --frame-prefix PREFIX. ros::with_prefix rejects prefixes that are not valid in ROS.
+/// Adds --frame-prefix PREFIX. The value is not checked here, because ros::with_prefix rejects
+/// prefixes that are not valid in ROS.
 void add_frame_prefix_option(Command& command, std::string& prefix);
 
 }  // namespace dotpose::cli

@@ -1,4 +1,4 @@
-/// Records the messages of a robot in an MCAP file, with the topics of ROS.
+/// Records the messages of a robot in an MCAP file, with the topic names that ROS uses.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,6 @@
 
 namespace dotpose::cli {
 
-/// Names of the topics of one robot.
 struct RobotTopics {
     explicit RobotTopics(const std::string& robot);
 
@@ -21,7 +20,7 @@ struct RobotTopics {
     static constexpr const char* kTfStatic = "/tf_static";
 };
 
-/// Converts the name of a robot to a valid name in ROS topics. The result consists of letters,
+/// Converts the name of a robot to a name that is valid in ROS topics. It consists of letters,
 /// digits and underscores, and does not begin with a digit.
 std::string ros_name(const std::string& robot);
 
@@ -30,13 +29,13 @@ class RobotRecording {
     /// Throws Error if the file cannot be created.
     RobotRecording(const std::string& path, const std::string& robot);
 
-    /// Records the messages of a frame. Throws Error.
+    /// Records the messages of a frame. Throws Error on failure.
     void take(const ros::RobotMessages& messages, std::int64_t time_ns);
-    /// Records the mount of the camera or an image.
+    /// Record the mount of the camera, and an image.
     void take_mount(const ros::TransformStamped& mount, std::int64_t time_ns);
     void take_image(const ros::CompressedImage& image, std::int64_t time_ns);
 
-    /// Writes the end of the file and closes it. Throws Error.
+    /// Completes and closes the file. Throws Error on failure.
     void finish() { file_.finish(); }
 
   private:

@@ -18,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Descriptors of the standard streams.
 constexpr int kInputDescriptor = 0;
 constexpr int kOutputDescriptor = 1;
 

@@ -1,5 +1,5 @@
-/// Checks the files of one run. An output must not be one of the inputs, and two outputs must not
-/// be the same file. Every command registers its files before it opens any of them.
+/// Checks the files of one run: no output may be one of the inputs, and no two outputs may be the
+/// same file. Every command registers its files before it opens any of them.
 ///
 ///     RunFiles files;
 ///     files.reads("--sheets", arguments.sheets);
@@ -18,14 +18,15 @@
 
 namespace dotpose::cli {
 
-/// Kind of data in an output file. If `own`, the file extension selects the format.
+/// Kind of data in an output file. For `own`, the file extension determines the kind.
 enum class Content { json, csv, yaml, svg, packets, mcap, text, own };
 
 Content content_of(RecordFormat format);
 Content content_of(const ReportArguments& report);
 
 /// Identity of a file. Two paths have equal identities if they refer to the same file, even through
-/// links or different folders. Names of new files that differ only in case have equal identities.
+/// links or different folders. New files whose names differ only in case have equal identities,
+/// because some file systems ignore case.
 struct FileIdentity {
     std::uint64_t device = 0;
     std::uint64_t file = 0;  ///< number of the file, or of its folder if the file does not exist
@@ -36,8 +37,8 @@ struct FileIdentity {
 /// Returns the identity of a file, or none for a device, a pipe, or a name in a nonexistent folder.
 std::optional<FileIdentity> identity_of(const std::string& path);
 
-/// The files of one run. An empty path means that there is no file. If a file is rejected, the
-/// functions throw BadArgument with the names of both options.
+/// The files of one run. An empty path means that there is no file. The functions throw BadArgument
+/// if a file is rejected. The message contains the names of both options.
 class RunFiles {
   public:
     /// Registers an input. `option` is the flag, or empty for a positional argument. The path "-"
@@ -46,23 +47,23 @@ class RunFiles {
     void reads(const std::string& option, const std::vector<std::string>& paths);
 
     /// Registers an output. Rejects a file extension of an image or video that does not match
-    /// `content`. For example, in `-o frames/*.png` the name of the output is missing, and the
-    /// first frame would be overwritten. The path "-" is standard output for `-o` and is rejected
-    /// for other options.
+    /// `content`. For example, if the name of the output is missing in `-o frames/*.png`, the first
+    /// frame would be overwritten. The path "-" is standard output for `-o`, and is rejected for
+    /// other options.
     void writes(const std::string& option, const std::string& path, Content content);
 
-    /// Registers the output of lines: the file given by `-o`, or standard output if there is none.
+    /// Registers the output of lines: the file given by `-o`, or standard output without `-o`.
     void writes_lines(const std::string& path, Content content);
 
-    /// Registers a file that is read, changed and rewritten. A file that does not exist is created.
+    /// Registers a file that is read, changed and rewritten, or created if it does not exist.
     void updates(const std::string& option, const std::string& path, Content content);
 
     /// Checks an input like `reads`, but does not store its name, because a run may have any number
     /// of inputs.
     void require_not_written(const std::string& path) const;
 
-    /// Checks an output like `writes`, but does not store its name. Used for generated names, which
-    /// are all different.
+    /// Checks an output like `writes`, but does not store its name. Meant for generated names,
+    /// because all of them are different.
     void require_free(const std::string& option, const std::string& path) const;
 
   private:

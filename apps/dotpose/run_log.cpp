@@ -20,8 +20,8 @@ namespace {
 
 using csv::cells_of;
 
-/// Converts a whole number below 2^53 to an integer. A double represents these numbers exactly.
-/// Throws Error for other numbers.
+/// Converts a number to an integer. Throws Error unless it is a whole number of at least 0 and
+/// below 2^53, the range in which a double represents all whole numbers exactly.
 std::int64_t whole(double value, const char* column) {
     if (!(value >= 0 && value < 9007199254740992.0) || value != std::floor(value)) {
         throw Error(fmt::format("{} is not a whole number of at least 0", column));
@@ -121,8 +121,8 @@ std::optional<LogCells> LogReader::next_row() {
     return LogCells(columns_, std::move(cells));
 }
 
-/// Converts a JSON line to the cells of a CSV row. The elements of a 3 x 3 matrix become cells
-/// whose names end with the row and column index.
+/// Converts a JSON line to the cells of a CSV row. Each element of a 3 x 3 matrix becomes a cell,
+/// whose name ends with the row and column of the element.
 LogCells LogReader::row_of_json(const std::string& line) {
     const nlohmann::json object = files::parse_json(line);
     if (!object.is_object()) throw Error("it is not an object");
@@ -194,7 +194,7 @@ RunStatistics statistics_of(const std::vector<LogRow>& rows) {
         const double step_s = row.t_s - before.t_s;
         if (row.state == "stationary") {
             run.stationary_s += step_s;
-            continue;  // motion of a stationary robot is noise
+            continue;  // motion of a stationary robot is only noise
         }
         moving_s += step_s;
         run.distance_mm += std::hypot(*row.x_mm - *before.x_mm, *row.y_mm - *before.y_mm);

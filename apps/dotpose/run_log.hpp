@@ -20,10 +20,10 @@
 
 namespace dotpose::cli {
 
-/// A row of a log, with access to the cells by column name.
+/// A row of a log, whose cells are accessed by column name.
 class LogCells {
   public:
-    /// Maps column names to indices in a row.
+    /// Maps column names to indices of cells in a row.
     using Columns = std::map<std::string, std::size_t, std::less<>>;
 
     LogCells(const Columns& columns, std::vector<std::string> cells)
@@ -46,7 +46,7 @@ class LogCells {
 /// number. An incomplete last line, which may be caused by a power failure, is ignored.
 class LogReader {
   public:
-    /// Columns of a log of `watch --log` that `log_row` needs.
+    /// Columns that `log_row` needs. A log of `watch --log` contains them.
     static constexpr std::array<const char*, 13> kWatchColumns = {
         "frame",   "t_s",   "status",     "dots_seen",  "p_wrong", "state",  "events",
         "verdict", "plane", "track_x_mm", "track_y_mm", "vx_mm_s", "vy_mm_s"};
@@ -55,8 +55,8 @@ class LogReader {
     explicit LogReader(const std::filesystem::path& path,
                        std::span<const char* const> needed = kWatchColumns);
 
-    /// Returns `parse(next row)`, or none at the end of the file. Adds the line number to errors
-    /// thrown by `parse`.
+    /// Returns `parse(next row)`, or none at the end of the file. If `parse` throws an Error, adds
+    /// the line number to it.
     template <typename Parse>
     auto next(Parse parse) -> std::optional<decltype(parse(std::declval<const LogCells&>()))> {
         try {
@@ -91,8 +91,8 @@ struct LogRow {
     std::string plane;  ///< pattern or world, or empty while the robot is lost
     int dots_seen = 0;
     std::optional<double> p_wrong;
-    // Pose of the track in mm and degrees, and its speed in mm/s. There is no pose while the robot
-    // is lost.
+    // Pose of the track in mm and degrees, and its speed in mm/s. The pose is missing while the
+    // robot is lost.
     std::optional<double> x_mm;
     std::optional<double> y_mm;
     double speed_mm_s = 0;
@@ -103,7 +103,6 @@ struct LogRow {
 /// Reads a whole log. Throws Error like LogReader.
 std::vector<LogRow> read_log(const std::filesystem::path& path);
 
-/// Statistics of a run.
 struct RunStatistics {
     std::int64_t frames = 0;
     std::int64_t fixes = 0;
@@ -111,10 +110,10 @@ struct RunStatistics {
     std::map<std::string, std::int64_t> without_fix;  ///< number of frames by status
     std::map<std::string, std::int64_t> events;       ///< number of events by name
     std::map<std::string, std::int64_t> verdicts;
-    std::int64_t gaps = 0;  ///< number of sequences of frames without a fix
+    std::int64_t gaps = 0;  ///< number of gaps. A gap is a sequence of frames without a fix
     double longest_gap_s = 0;
     double stationary_s = 0;
-    double distance_mm = 0;      ///< length of the path, excluding jumps
+    double distance_mm = 0;      ///< length of the path without jumps
     double mean_speed_mm_s = 0;  ///< mean over the frames in which the robot is moving
     double largest_speed_mm_s = 0;
     double largest_p_wrong = 0;
@@ -123,8 +122,8 @@ struct RunStatistics {
 
 RunStatistics statistics_of(const std::vector<LogRow>& rows);
 
-/// Draws an SVG with the path, and with plots of speed, dots and certainty over time. The plots
-/// mark the gaps.
+/// Draws an SVG of the path and of plots of speed, dots and certainty over time. Gaps are marked in
+/// the plots.
 std::string draw_run(const std::vector<LogRow>& rows, const std::string& title);
 
 }  // namespace dotpose::cli

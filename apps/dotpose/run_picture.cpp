@@ -25,7 +25,8 @@ bool jumps(const LogRow& row) {
            row.events.find("fix") != std::string::npos;
 }
 
-/// Returns the path. NaN points interrupt the path where the robot was lost or was moved by hand.
+/// Returns the points of the path. A NaN point interrupts the path where the robot was lost or was
+/// moved by hand.
 std::vector<Point> path_of(const std::vector<LogRow>& rows) {
     std::vector<Point> path;
     for (const LogRow& row : rows) {
@@ -36,8 +37,8 @@ std::vector<Point> path_of(const std::vector<LogRow>& rows) {
 }
 
 /// Returns the offset in mm to subtract from the coordinates of an axis. Coordinates in the pattern
-/// frame are large, and their labels would differ only in their last digits. In this case, the
-/// offset is the centre of the axis in whole mm. Otherwise, the offset is 0.
+/// frame are so large that their labels would differ only in the last digits. In this case, the
+/// offset is the centre of the axis in whole mm, otherwise 0.
 double offset_mm(double middle_mm, double reach_mm) {
     constexpr double kMaxReaches = 1000;
     return std::abs(middle_mm) > kMaxReaches * reach_mm ? std::round(middle_mm) : 0;
@@ -48,7 +49,7 @@ std::string axis_label(const char* name, double offset_mm) {
     return fmt::format("{} {} {:.0f} [mm]", name, offset_mm < 0 ? '+' : '-', std::abs(offset_mm));
 }
 
-/// Draws the path. Both axes have the same scale.
+/// Draws the path, with the same scale on both axes.
 void draw_path(Svg& svg, const std::vector<LogRow>& rows) {
     std::vector<Point> path = path_of(rows);
     Point low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
@@ -74,7 +75,7 @@ void draw_path(Svg& svg, const std::vector<LogRow>& rows) {
     axes.curve(path, {.colour = draw::colour::kWindow, .has_marks = false});
 }
 
-/// Draws red stripes over the times without a fix.
+/// Draws a red stripe over each period without a fix.
 void draw_gaps(const Axes& axes, const std::vector<LogRow>& rows, double low, double high) {
     for (std::size_t i = 0; i < rows.size();) {
         std::size_t end = i;

@@ -1,5 +1,5 @@
-/// Changes of an entry of a sheet file, in the units of the user: mm and degrees. `dotpose sheets`
-/// and the page of `dotpose watch --web` use them.
+/// Changes an entry of a sheet file, with lengths and angles in the units of the user: mm and
+/// degrees. Used by `dotpose sheets` and by the page of `dotpose watch --web`.
 #pragma once
 
 #include <optional>
@@ -19,13 +19,14 @@ struct PagePose {
     double yaw_deg = 0;  ///< direction of the upper edge, counter-clockwise
 };
 
-/// Returns the entry with a pose in the world, or without one.
+/// Returns the entry with this pose in the world. If `pose` is none, the entry has no pose in the
+/// world.
 SheetEntry placed(SheetEntry entry, const std::optional<PagePose>& pose);
 
 /// Returns the pose of an entry in the world, or none if it is not known.
 std::optional<PagePose> page_pose(const SheetEntry& entry);
 
-/// Names of directions in which a length is measured on a page.
+/// Names of the directions in which a length on a page can be measured.
 inline const std::vector<std::string> kDirections = {"x", "y", "both"};
 
 /// A length that was measured on a printed page.
@@ -35,10 +36,10 @@ struct MeasuredLength {
     std::string along = "both";  ///< one of `kDirections`
 };
 
-/// Returns the entry with the print scale of a measured length.
+/// Returns the entry with the print scale that follows from a measured length.
 SheetEntry scaled(SheetEntry entry, const MeasuredLength& length);
 
-/// Returns the entry with all dots moved, so that the first intersection is at (`right_mm`,
+/// Returns the entry with all dots shifted so that the first intersection is at (`right_mm`,
 /// `below_mm`) from the top left corner of the page.
 SheetEntry with_offset(SheetEntry entry, double right_mm, double below_mm);
 

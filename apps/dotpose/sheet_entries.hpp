@@ -1,5 +1,5 @@
-/// The options --sheets FILE --name NAME --wait SECONDS of commands that print pages and add them
-/// to a sheet file.
+/// The options --sheets FILE, --name NAME and --wait SECONDS of commands that print pages and add
+/// them to a sheet file.
 #pragma once
 
 #include <functional>
@@ -17,12 +17,11 @@ class SheetEntryArguments {
     /// Adds the options. The command must already have the option --origin.
     void add_to(Command& command);
 
-    /// Returns true if a sheet file was given. The functions below require a sheet file.
+    /// Returns true if a sheet file is given. The functions below require a sheet file.
     bool given() const { return !path_.empty(); }
     const std::string& path() const { return path_; }
     const std::string& name() const { return name_; }
 
-    /// A page of the document.
     struct Page {
         int number = 1;  ///< page number, counted from 1
         bool is_only = true;
@@ -36,16 +35,16 @@ class SheetEntryArguments {
     void reserve(const std::function<void(SheetFile&)>& enter_all,
                  std::optional<SheetReservation>& reservation) const;
 
-    /// Adds a page to the file, with its print settings. If the user did not give --origin, the
-    /// page is placed in the next free region. `print.command` must not contain --origin, because
-    /// this function adds --origin. Returns the sheet with its new origin.
+    /// Adds a page and its print settings to the file. If the user did not give --origin, the page
+    /// is placed in the next free region. `print.command` must not contain --origin, because this
+    /// function adds it. Returns the sheet with its new origin.
     Sheet enter(SheetFile& file, const Sheet& sheet, Page page, SheetPrint print) const;
 
-    /// Appends --origin to `command`. The result is a command that prints the dots of one page.
+    /// Appends --origin to `command`, so that the command prints the dots of one page.
     static std::string with_origin(const std::string& command, Cell origin);
 
-    /// Returns the options that must be omitted from a command that reprints a page. The page
-    /// already has its region, and the sheet file would reject the name.
+    /// Returns the options to omit from a command that reprints a page. The page already has a
+    /// region, and the sheet file would reject the name because it is in use.
     static std::set<std::string> options_of_entering();
 
     /// Marks the reserved pages as written to `out`. Throws Error if the file cannot be changed.

@@ -20,7 +20,7 @@ Sheet layout_of(const NewPage& page) {
     return make_sheet(options);
 }
 
-/// Returns a command without --origin that prints the same page.
+/// Returns a command that prints the same page, without --origin.
 std::string command_of(const NewPage& page) {
     std::string command = fmt::format("dotpose print -o {} --paper {}", pdf_name(page.name),
                                       quoted_for_shell(page.paper));

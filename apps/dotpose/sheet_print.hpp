@@ -1,4 +1,4 @@
-/// New pages of a sheet file, with the settings of `dotpose print`.
+/// Adds new pages to a sheet file, with the settings of `dotpose print`.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace dotpose::cli {
 
-/// Returns the default margin in mm. The margin of a PDF is wider than the unprintable margin of a
-/// printer, because it contains labels and rulers.
+/// Returns the default margin in mm. A PDF has a wider margin than the printer requires, because
+/// the margin contains labels and rulers.
 double default_margin_mm(PrintFormat format, const Paper& paper);
 
-/// Returns a file name without special characters for the PDF of a sheet.
+/// Returns the file name for the PDF of a sheet. It contains no special characters.
 std::string pdf_name(const std::string& sheet);
 
 /// A page to be printed as PDF.
@@ -23,8 +23,8 @@ struct NewPage {
     double spacing_mm = kDefaultSpacing_mm;
 };
 
-/// Adds a page to a sheet file, in a free region and with its print settings. Returns the new
-/// entry. Throws BadArgument like `make_sheet` and `SheetFile::allocate`.
+/// Adds a page with its print settings to a free region of a sheet file. Returns the new entry.
+/// Throws BadArgument like `make_sheet` and `SheetFile::allocate`.
 SheetEntry enter_page(SheetFile& file, const NewPage& page);
 
 }  // namespace dotpose::cli

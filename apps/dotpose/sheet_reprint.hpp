@@ -13,9 +13,9 @@ namespace dotpose::cli {
 /// because the entry does not contain the document.
 PrintOptions reprint_options(const SheetEntry& entry);
 
-/// Reprints the page of a sheet from its entry alone. If the entry was written by an earlier
-/// version, reports the print options that it does not contain. Throws like `reprint_options`
-/// and `write_sheet`.
+/// Reprints the page of a sheet from its entry. If the entry was written by an earlier version,
+/// reports the print options that the entry does not contain. Throws like `reprint_options` and
+/// `write_sheet`.
 void reprint_sheet(const SheetEntry& entry, const std::string& out);
 
 }  // namespace dotpose::cli

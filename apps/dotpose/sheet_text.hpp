@@ -1,4 +1,4 @@
-/// Describes the sheets of a sheet file in text that is safe to print on a terminal.
+/// Describes the sheets of a sheet file in text that can be printed safely on a terminal.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ const SheetEntry& named_sheet(const std::vector<SheetEntry>& sheets, const std::
 std::optional<CodeVariant> common_code(const std::string& file,
                                        const std::vector<SheetEntry>& sheets);
 
-/// Returns the pose of the page in the world, in mm and degrees.
+/// Returns the pose of the page in the world as text, in mm and degrees.
 std::string world_text(const SheetEntry& entry);
 
 /// Returns a table with one line for each sheet.

@@ -72,7 +72,7 @@ struct SheetsArguments {
     SheetFileWait wait() const { return {wait_s, tell, interrupted}; }
 };
 
-/// Throws Error if the sheet file does not exist, because a change would create a new file.
+/// Throws Error if the sheet file does not exist, because SheetFile would create it.
 void require_there(const SheetsArguments& arguments) {
     std::error_code error;
     if (std::filesystem::exists(system::path_of(arguments.sheets), error)) return;
@@ -189,7 +189,7 @@ Command& add_command(Command& sheets, const Arguments& arguments, const char* na
     return *command;
 }
 
-/// Adds a subcommand that operates on one sheet, given by name.
+/// Adds a subcommand that operates on one sheet, whose name is an argument.
 Command& add_command_of_one(Command& sheets, const Arguments& arguments, const char* name,
                             const char* what, void (*run)(const SheetsArguments&)) {
     Command& command = add_command(sheets, arguments, name, what, run);

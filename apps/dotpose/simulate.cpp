@@ -40,7 +40,7 @@ constexpr const char* kSimulateExamples =
     "  dotpose simulate -o foreign --scene plain_grid\n"
     "  dotpose simulate -o drive.mp4 --drive --sheets sheets.json --speed 200 --size 320x240\n";
 
-// A numeric imperfection with its own option.
+// A numeric imperfection and its option.
 struct NumberOption {
     const char* flag;
     const char* unit;
@@ -103,7 +103,7 @@ Vec2 to_vec(const Pair& pair) {
     return {pair.values[0], pair.values[1]};
 }
 
-// Returns the shot of a frame. Values from the command line override the random values.
+// Returns the shot of a frame. Values given on the command line replace the random values.
 Shot shot_of(const SimulateArguments& arguments, int index) {
     Shot shot = draw_shot(arguments.setup, static_cast<std::uint64_t>(index));
     Imperfections& seen = shot.imperfections;
@@ -119,7 +119,7 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
 
     CameraPose& pose = shot.pose;
     if (arguments.angle_deg) {
-        // Normalizes the angle to (-180, 180] degrees.
+        // Converts the angle to (-180, 180] degrees.
         pose.theta_rad = -std::remainder(-*arguments.angle_deg, 360) / kDegrees;
     }
     if (arguments.tilt_deg.given()) {
@@ -148,7 +148,7 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
 
 /// True pose and pattern of a simulated frame.
 struct Truth {
-    std::optional<CameraPose> pose;  ///< none for scenes and the table
+    std::optional<CameraPose> pose;  ///< none for scenes and for the table between the sheets
     Pattern pattern;
 };
 
@@ -187,7 +187,7 @@ MadeFrame make_frame(const SimulateArguments& arguments, const std::optional<Sim
     return {render_scene(*arguments.scene, shot, arguments.density), {{}, shot.page.pattern}};
 }
 
-/// Renders frames `first` to `end` - 1 on all cores.
+/// Renders the frames from `first` to `end` - 1 on all cores.
 std::vector<MadeFrame> make_frames(const SimulateArguments& arguments,
                                    const std::optional<SimulatedDrive>& drive, int first, int end) {
     std::vector<MadeFrame> frames(static_cast<std::size_t>(end - first));
@@ -216,8 +216,8 @@ std::vector<MadeFrame> make_frames(const SimulateArguments& arguments,
     return frames;
 }
 
-/// Returns the drive over the sheets of the file, or none without --drive. All frames have the
-/// imperfections of the first shot.
+/// Returns the drive over the sheets of the file, or none if --drive is not given. All frames have
+/// the imperfections of the first shot.
 std::optional<SimulatedDrive> drive_of(SimulateArguments& arguments, bool has_length) {
     if (!arguments.drives) return std::nullopt;
     const std::vector<SheetEntry> sheets = read_sheets(system::path_of(arguments.sheets));
@@ -228,8 +228,8 @@ std::optional<SimulatedDrive> drive_of(SimulateArguments& arguments, bool has_le
     return drive;
 }
 
-/// Sets the size of the images and of the pixels to those of a mouse sensor: 36 x 36 px, and 6 px
-/// per spacing. Keeps sizes that the command line specifies.
+/// Sets the image size and the scale to those of a mouse sensor: 36 x 36 px, and 6 px per spacing.
+/// A value given on the command line is kept.
 void use_mouse_sensor(const Command& command, Setup& setup) {
     constexpr int kSide_px = 36;
     constexpr double kSpacing_px = 6;
@@ -266,8 +266,7 @@ void run(SimulateArguments& arguments, const Command& command, int& exit_code) {
     int done = 0;
     {
         ProgressLine line("simulating " + arguments.out);
-        // Uses small batches. Ctrl-C then takes effect quickly, and the file of true poses is up to
-        // date.
+        // Small batches keep the file of true poses up to date, and let Ctrl-C take effect quickly.
         const int batch = 4 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
         while (done < arguments.frames && truth && !interrupted()) {
             const int end = std::min(arguments.frames, done + batch);
@@ -312,7 +311,7 @@ void add_camera_options(Command& command, CameraModel& camera) {
         ->capture_default_str();
 }
 
-// Adds options for all values that are otherwise random in each frame.
+// Adds an option for each value that is otherwise random in each frame.
 void add_overrides(Command& command, SimulateArguments& arguments) {
     command.add_option("--angle", arguments.angle_deg, "Angle of the camera on the page")
         ->type_name("DEG");

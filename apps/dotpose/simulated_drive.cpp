@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMm_per_m = 1000;
 constexpr double kExposure_s = 1e-4;
-constexpr int kSteps = 4096;  ///< number of phase steps along the path
+constexpr int kSteps = 4096;  ///< number of steps into which the phase of the path is divided
 
 /// Converts a point of the world to page coordinates: mm from the top left corner, with y down.
 Vec2 on_page(const SheetEntry& entry, Vec2 world_mm) {
@@ -29,7 +29,7 @@ Vec2 in_world(const SheetEntry& entry, Vec2 page_mm) {
             pose.y_m * kMm_per_m + s * page_mm.x - c * page_mm.y};
 }
 
-/// Returns the distance of a point from the page in mm. The distance is 0 on the page.
+/// Returns the distance of a point from the page in mm, or 0 if the point is on the page.
 double distance_mm(const Sheet& sheet, Vec2 page_mm) {
     return std::hypot(std::max({-page_mm.x, page_mm.x - sheet.width_mm, 0.0}),
                       std::max({-page_mm.y, page_mm.y - sheet.height_mm, 0.0}));
@@ -50,7 +50,7 @@ PageArea page_area(const SheetEntry& entry) {
             (last.x - first.x) / 2, (last.y - first.y) / 2, 0};
 }
 
-/// Returns the radius, in mm, of a circle around the image centre that contains the whole view.
+/// Returns the radius, in mm, of the circle around the image centre that encloses the view.
 double reach_mm(const CameraModel& camera) {
     return std::hypot(camera.width_px, camera.height_px) / 2 * camera.mm_per_px;
 }
@@ -68,14 +68,14 @@ SimulatedDrive::SimulatedDrive(const std::vector<SheetEntry>& sheets, const Driv
         sheets_.push_back(sheets.front());
         sheets_.front().world = WorldPose{};
     }
-    // The scene moves against the direction of travel, the x axis of the image.
+    // In the image, the scene moves against the direction of travel, which is the x axis.
     imperfections_.motion_px = {-options.speed_mm_s * kExposure_s / camera.mm_per_px, 0};
     lay_path();
 }
 
 void SimulatedDrive::lay_path() {
     constexpr double kMargin_mm = 5;
-    constexpr double kMinFraction = 0.25;  // fraction of the width or height
+    constexpr double kMinFraction = 0.25;  // minimum amplitude, relative to the width or height
     Vec2 low{1e9, 1e9};
     Vec2 high{-1e9, -1e9};
     for (const SheetEntry& entry : sheets_) {
@@ -160,7 +160,7 @@ GreyImage SimulatedDrive::image(int frame) const {
     for (const SheetEntry& entry : sheets_) {
         const Vec2 place = on_page(entry, {now.x_mm, now.y_mm});
         if (&entry == main.entry || distance_mm(entry.sheet, place) > reach_mm(camera_)) continue;
-        // Copies the pixels that show another page from the view of that page.
+        // Pixels that show another page are copied from the view of that page.
         const Vec2 offset = from_origin(entry, place);
         CameraPose its_pose = main.pose;
         its_pose.cell = entry.sheet.origin;

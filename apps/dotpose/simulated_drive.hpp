@@ -1,4 +1,4 @@
-/// A simulated robot that drives over the sheets of a sheet file, and the view of its camera.
+/// A simulated robot with a camera that drives over the sheets of a sheet file.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,20 @@ struct DriveOptions {
     double fps = 50;
 };
 
-/// Pose of the camera on a sheet.
 struct PoseOnSheet {
     const SheetEntry* entry = nullptr;
     CameraPose pose;          ///< pose in the pattern frame of the sheet
-    bool is_on_page = false;  ///< false if the image centre shows the table
+    bool is_on_page = false;  ///< false if the image centre shows the table beside the page
 };
 
-/// A robot that repeatedly drives a figure of eight at constant speed. Its camera is aligned with
-/// the direction of travel. The path fills the bounding rectangle of all sheets with a world pose.
-/// If no sheet has a world pose, the path fills the first sheet. The table between the sheets is
-/// dark. Frames are independent of each other and may be rendered in several threads.
+/// A robot that repeatedly drives a figure of eight at constant speed. The x axis of its camera is
+/// the direction of travel. The path fills the bounding rectangle of all sheets with a world pose
+/// or, if there are none, the first sheet. The table between the sheets is dark. Frames are
+/// independent of each other and may be rendered in several threads.
 class SimulatedDrive {
   public:
-    /// `imperfections` applies to all frames. The motion blur is computed from the speed. Throws
-    /// BadArgument if there are no sheets.
+    /// `imperfections` applies to all frames, except that the motion blur is computed from the
+    /// speed. Throws BadArgument if there are no sheets.
     SimulatedDrive(const std::vector<SheetEntry>& sheets, const DriveOptions& options,
                    const CameraModel& camera, const Imperfections& imperfections,
                    std::uint64_t seed);
@@ -40,7 +39,7 @@ class SimulatedDrive {
     GreyImage image(int frame) const;
 
   private:
-    /// A point of the path in mm, y up, and the direction of travel in rad.
+    /// A point of the path in mm, with y up, and the direction of travel in rad.
     struct Waypoint {
         double x_mm = 0;
         double y_mm = 0;
@@ -60,7 +59,7 @@ class SimulatedDrive {
     Vec2 centre_mm_;
     Vec2 amplitude_mm_;
     bool is_upright_ = false;         ///< true if the path is higher than wide
-    std::vector<double> lengths_mm_;  ///< path length from the start to each phase step
+    std::vector<double> lengths_mm_;  ///< path length from the start of the path to each step
 };
 
 }  // namespace dotpose::cli

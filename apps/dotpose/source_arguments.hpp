@@ -1,4 +1,4 @@
-/// Arguments for the sources of frames, shared by all commands that read frames.
+/// Arguments for the sources of frames, used by all commands that read frames.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,12 @@ inline constexpr const char* kSourcesHelp =
 
 struct SourceArguments {
     std::vector<std::string> names;
-    std::string list;  ///< file with additional names, "-" for standard input, or empty for none
+    std::string list;  ///< file of further names, "-" for standard input, or empty for none
     capture::SourceOptions options;
 
     bool is_given() const { return !names.empty() || !list.empty(); }
 
-    /// Returns how many times standard input is used, for the list or for raw frames.
+    /// Returns how often standard input is used, for the list or for raw frames.
     std::int64_t reads_of_standard_input() const;
 
     /// Adds the sources, --list, and the options for cameras, videos and raw frames.
@@ -35,22 +35,23 @@ struct SourceArguments {
     /// Adds only --size, --fps, --exposure, --gain, --flip and --roi.
     void add_frame_options(Command& command);
 
-    /// Enables flipping if the camera file requires it. Clears the flag in `camera`, because the
-    /// source then delivers flipped frames.
+    /// Enables flipping if the camera file requires it, and clears the flag in `camera`, because
+    /// the source then delivers flipped frames.
     void flip_as(std::optional<Camera>& camera);
 
     /// Calls `flip_as`. If --roi is given and the camera file describes whole frames, restricts
-    /// `camera` to the region and returns true. Throws BadArgument if the region exceeds the image.
+    /// `camera` to the region and returns true. Throws BadArgument if the region is not within the
+    /// image.
     bool fit_to(std::optional<Camera>& camera);
 };
 
 /// All sources of one run.
 class Sources {
   public:
-    /// If this program cannot read one of the sources (a camera or a video), replaces this process
-    /// with dotpose-live (live_sources.hpp). No output may therefore be open yet. Throws
-    /// BadArgument if no source is given, or if standard input is given twice. Throws Error if the
-    /// list, a folder or a glob cannot be read.
+    /// Collects the sources. If one of them is a camera or a video, which only dotpose-live can
+    /// read, `dotpose` replaces this process with dotpose-live (live_sources.hpp). Therefore no
+    /// output may be open yet. Throws BadArgument if no source is given, or if standard input is
+    /// given twice. Throws Error if the list, a folder or a glob cannot be read.
     explicit Sources(const SourceArguments& arguments);
 
     /// Returns true if a pipe may still deliver names.
@@ -59,14 +60,15 @@ class Sources {
     /// Registers the list file and all input files whose names are already known.
     void add_files(RunFiles& files) const;
 
-    /// Returns all names, including names from a pipe.
+    /// Returns all names. Waits for all names from a pipe.
     std::vector<std::string> all_names();
 
-    /// Returns the paths of all images, including names from a pipe. Throws Error if a folder or
-    /// glob cannot be read, and BadArgument if a source is not an image.
+    /// Returns the paths of all images. Waits for all names from a pipe. Throws Error if a folder
+    /// or glob cannot be read, and BadArgument if a source is not an image.
     std::vector<std::string> all_images();
 
-    /// Returns the number of images, or 0 if there are other sources or a pipe.
+    /// Returns the number of images. Returns 0 if it is unknown, because there are other sources or
+    /// a pipe.
     std::int64_t number_of_images() const;
 
     /// Opens all sources as one sequence of frames. This object must outlive the result.

@@ -9,12 +9,12 @@
 
 namespace dotpose::cli {
 
-/// Returns names one by one. The first names are from the command line and a list file, and are
-/// known immediately. Names from a pipe follow as they arrive.
+/// Returns names one by one: first the names that are known immediately, from the command line and
+/// a list file, and then names from a pipe as they arrive.
 class SourceNames {
   public:
-    /// `list` is a file with one name per line. "-" means standard input, and empty means no list.
-    /// Throws Error if the list cannot be read or contains a line that is too long.
+    /// `list` is a file with one name per line. "-" means standard input, and an empty string means
+    /// no list. Throws Error if the list cannot be read or contains a line that is too long.
     SourceNames(std::vector<std::string> names, const std::string& list);
 
     const std::vector<std::string>& known() const { return known_; }
@@ -22,8 +22,8 @@ class SourceNames {
     /// Returns true if a pipe may still deliver names.
     bool has_pipe() const { return is_pipe_; }
 
-    /// Returns the next name, or none after the last name. Throws Error like the constructor. After
-    /// an error, there are no more names.
+    /// Returns the next name, or none after the last name or after an error. Throws Error like the
+    /// constructor.
     std::optional<std::string> next();
 
   private:

@@ -13,7 +13,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Axes whose fields have the names of the position in space.
+/// Axes of the position in space, as in the names of its fields.
 constexpr std::array kAxes = {"x", "y", "z"};
 constexpr std::array kComponents = {"x", "y", "z", "w"};
 
@@ -25,14 +25,14 @@ constexpr std::array<std::string_view, 19> kBrief = {
     "camera_x_sheet_m",   "camera_y_sheet_m",  "camera_z_sheet_m",   "camera_x_m",
     "camera_y_m",         "camera_z_m",        "camera_is_ambiguous"};
 
-/// A pose in the frame and the units of the output.
+/// A pose in the frame of reference and the units of the output.
 struct OutputPose {
     std::array<double, 3> position{};
     Quaternion rotation;
     SpaceCovariance covariance{};
 };
 
-/// Returns a pose in mm, with the axes unchanged, or in metres with y up and z out of the paper,
+/// Returns a pose in mm with unchanged axes, or in metres with y up and z out of the paper,
 /// depending on `units`.
 OutputPose in_units(Units units, const CameraInSpace& camera, const SpaceCovariance& covariance) {
     if (units == Units::mm)
@@ -71,7 +71,7 @@ void append_covariance(const std::string& name, double angle, const SpaceCovaria
     }
 }
 
-/// Returns the fields. Clears their values if `is_known` is false.
+/// Returns the fields, without values if `is_known` is false.
 std::vector<Field> if_known(bool is_known, std::vector<Field> fields) {
     if (is_known) return fields;
     for (Field& field : fields)
@@ -79,7 +79,6 @@ std::vector<Field> if_known(bool is_known, std::vector<Field> fields) {
     return fields;
 }
 
-/// Returns the fields of the pose in the pattern frame.
 std::vector<Field> pattern_fields(const SpacePose& space, Units units) {
     std::vector<Field> fields;
     const OutputPose pose = in_units(units, space.camera, space.covariance);
@@ -99,14 +98,12 @@ std::vector<Field> pattern_fields(const SpacePose& space, Units units) {
     return fields;
 }
 
-/// Returns the fields of the evidence for the pose.
 std::vector<Field> evidence_fields_of(const SpacePose& space) {
     return {{"camera_dots", fmt::format("{}", space.dots)},
             {"camera_residual_px", decimal(space.residual_px, 4)},
             {"camera_is_ambiguous", space.is_ambiguous() ? "true" : "false"}};
 }
 
-/// Returns the fields of the second pose.
 std::vector<Field> second_fields(const SecondPose& second, Units units) {
     const bool is_ros = units == Units::ros;
     const OutputPose pose = in_units(units, second.camera, {});
@@ -118,7 +115,6 @@ std::vector<Field> second_fields(const SecondPose& second, Units units) {
     return fields;
 }
 
-/// Returns the fields of the position on a sheet.
 std::vector<Field> sheet_fields_of(const CameraInSpace& camera, Units units) {
     std::vector<Field> fields;
     append_position("camera_", units == Units::ros ? "_sheet_m" : "_sheet_mm", units,
@@ -126,7 +122,6 @@ std::vector<Field> sheet_fields_of(const CameraInSpace& camera, Units units) {
     return fields;
 }
 
-/// Returns the fields of the pose in the world.
 std::vector<Field> world_fields_of(const CameraInWorld& world) {
     std::vector<Field> fields;
     append_position("camera_", "_m", Units::ros, {{world.x_m, world.y_m, world.z_m}, {}, {}},
@@ -164,7 +159,7 @@ bool is_brief_space_field(const std::string& name) {
 std::string space_text(const SpacePose& pose, const std::optional<SheetPlace>& place, Units units) {
     const bool is_ros = units == Units::ros;
     const CameraInSpace camera = place ? on_sheet(pose.camera, *place->entry) : pose.camera;
-    const double sign = is_ros ? -1 : 1;  // y and z change their directions
+    const double sign = is_ros ? -1 : 1;  // y and z have the opposite directions in the output
     const std::array values = {camera.x_mm, sign * camera.y_mm, sign * camera.z_mm};
     const double per_mm = is_ros ? 1e-3 : 1;
     std::string text = "camera";

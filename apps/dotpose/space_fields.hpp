@@ -12,9 +12,9 @@
 
 namespace dotpose::cli {
 
-/// Returns the fields of a pose in space and of its second solution. Their names begin with
-/// `camera_`. If `has_sheets` is true, also returns the fields of the sheet and the world. The
-/// fields are empty if there is no pose.
+/// Returns the fields of a pose in space and of its second solution, whose names begin with
+/// `camera_`. If `has_sheets` is true, also returns the fields of the pose on the sheet and in the
+/// world. The fields have no values if there is no pose.
 std::vector<Field> space_fields(const std::optional<SpacePose>& space,
                                 const std::optional<SheetPlace>& place, bool has_sheets,
                                 Units units);
@@ -22,7 +22,7 @@ std::vector<Field> space_fields(const std::optional<SpacePose>& space,
 /// Returns true if the brief CSV format contains the field.
 bool is_brief_space_field(const std::string& name);
 
-/// Returns position and angles as text, such as "camera x 65.61 ± 0.002 mm, ...".
+/// Returns the position and the angles as text, such as "camera x 65.61 ± 0.002 mm, ...".
 std::string space_text(const SpacePose& pose, const std::optional<SheetPlace>& place, Units units);
 
 }  // namespace dotpose::cli

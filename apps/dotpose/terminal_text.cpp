@@ -17,7 +17,7 @@ constexpr std::string_view kYellow = "\033[33m";
 constexpr std::string_view kGreen = "\033[32m";
 constexpr std::string_view kPlain = "\033[0m";
 
-/// Beginning of a report line, and its colour.
+/// A beginning of report lines, and the colour in which it is printed.
 struct Beginning {
     std::string_view text;
     std::string_view colour;
@@ -33,7 +33,7 @@ constexpr std::array kBeginnings = {
     Beginning{"verdict", kRed},
 };
 
-/// Returns the line with its beginning in colour, if it matches an element of kBeginnings.
+/// Returns the line. Its beginning is coloured if it is an element of kBeginnings.
 std::string coloured(std::string_view line) {
     for (const Beginning& beginning : kBeginnings) {
         if (!line.starts_with(beginning.text)) continue;

@@ -1,5 +1,5 @@
 /// Messages and colour on the terminal. Messages may contain untrusted text from files, file names
-/// or networks.
+/// or networks, so unprintable characters are replaced.
 #pragma once
 
 #include <cstdio>
@@ -13,24 +13,24 @@ namespace dotpose::cli {
 using base::printable;
 using base::with_escaped_controls;
 
-/// Flushes standard output and writes to standard error. Unlike fmt::print, does not throw if the
+/// Flushes standard output, then writes to standard error. Unlike fmt::print, does not throw if the
 /// stream is closed.
 void write_to_stderr(const std::string& text);
 
 /// Writes "dotpose: MESSAGE" to standard error as one printable line.
 void tell(std::string_view message);
 
-/// Writes the reason why the program ends. Like `tell`, but in red if colour is enabled.
+/// Writes the reason for which the program ends. Like `tell`, but in red if colour is enabled.
 void tell_failure(std::string_view message);
 
-/// Returns true if the stream is a terminal with colours and the user has not disabled them.
-/// NO_COLOR (no-color.org) and the TERM "dumb" disable colours.
+/// Returns true if the stream is a terminal with colours, unless NO_COLOR (no-color.org) is set or
+/// TERM is "dumb".
 bool wants_colour(std::FILE* stream);
 
-/// Colours the beginning of each line that reports a fault, a note or a good result.
+/// Colours the beginning of each line of a report that states a fault, a note or a good result.
 std::string in_colour(const std::string& report);
 
-/// Returns `in_colour(report)` if standard output supports colour, otherwise `report`.
+/// Returns the report, in colour if standard output supports it.
 std::string for_standard_output(const std::string& report);
 
 }  // namespace dotpose::cli

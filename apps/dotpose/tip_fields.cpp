@@ -7,7 +7,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Formats a place in the pattern or on a sheet. y points up in the units of ROS.
+/// Formats a length in mm, or in metres for ROS.
 std::string length(double mm, Units units) {
     return units == Units::ros ? metres(mm) : decimal(mm, 6);
 }
@@ -16,7 +16,8 @@ TipPose tip_on(const TipPose& tip, const std::optional<SheetPlace>& place) {
     return place ? on_sheet(tip, *place->entry) : tip;
 }
 
-/// Returns x and y in the world, in metres, or empty texts if the page has no place in the world.
+/// Returns x and y in the world, in metres. The texts are empty if the page has no place in the
+/// world.
 std::array<std::string, 2> world_texts(const TipPose& tip, const std::optional<SheetPlace>& place) {
     if (!place || !place->entry->world) return {};
     const TipPose on_page = tip_on(tip, place);

@@ -13,13 +13,13 @@
 namespace dotpose::cli {
 
 struct TipRecord {
-    std::optional<TipPose> tip;  ///< in the pattern frame
+    std::optional<TipPose> tip;  ///< position in the pattern frame, or none if there is no tip
     bool is_down = false;
 };
 
-/// Returns the fields of the tip: its place and height with their standard deviations, and
-/// `pen_down`. If `has_sheets` is true, also returns the place on the sheet and in the world. The
-/// fields are empty if there is no tip.
+/// Returns the fields of the tip: its place, its height, their standard deviations, and `pen_down`.
+/// If `has_sheets` is true, also returns the place on the sheet and in the world. The fields have
+/// no values if there is no tip.
 std::vector<Field> tip_fields(const TipRecord& record, const std::optional<SheetPlace>& place,
                               bool has_sheets, Units units);
 

@@ -1,4 +1,4 @@
-/// Common part of the `main` functions of dotpose and dotpose-live.
+/// The common part of the `main` functions of dotpose and dotpose-live.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@ namespace dotpose::cli {
 
 using AddCommands = std::function<void(Command& app, int& exit_code)>;
 
-/// Parses the command line with the subcommands registered by `add`, and runs the given subcommand.
-/// Converts exceptions to a message and an exit status.
+/// Runs the subcommand given on the command line. `add` registers all subcommands. Converts
+/// exceptions to a message and an exit status.
 int tool_main(int argc, char** argv, const AddCommands& add) noexcept;
 
 }  // namespace dotpose::cli

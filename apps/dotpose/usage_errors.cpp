@@ -36,7 +36,7 @@ std::vector<std::string> long_options(const Command& command) {
     return names;
 }
 
-/// Returns the unknown words of a command line. Words that look like options come first.
+/// Returns the unknown words of a command line, first those that look like options.
 std::vector<std::string> unknown_words(const Command& command) {
     std::vector<std::string> words = command.remaining();
     std::erase(words, "--");
@@ -66,8 +66,8 @@ std::string parsed_commands(const Command& app) {
     return words;
 }
 
-/// Describes an unknown word before or in place of a command. `parent` is the program or a command
-/// with subcommands.
+/// Returns the message for an unknown word where a command is expected. `parent` is the program, or
+/// a command with subcommands.
 std::string unknown_before_command(const Command& app, const Command& parent,
                                    const std::string& word) {
     if (!is_option(word)) {

@@ -10,13 +10,13 @@ namespace dotpose::cli {
 /// Name of the command that prints the help of another command.
 inline constexpr const char* kHelpCommand = "help";
 
-/// Returns the message for an error that `app` threw while parsing. Reports unknown words first,
-/// because a misspelt `--out` would otherwise be reported as "--out is required".
+/// Returns the message for an error that `app` threw while parsing. Unknown words are reported
+/// first, because a misspelt `--out` would otherwise be reported as "--out is required".
 std::string usage_error(const Command& app, const UsageError& error);
 
-/// Throws UsageError if an option that has a short form is written with a single hyphen, for
-/// example `-out sheet.pdf`. The parser would read this as the option `-o` with the file name "ut".
-/// `argc` and `argv` are the arguments of `main`.
+/// Throws UsageError if an option that has a short form is written with a single hyphen. For
+/// example, `-out sheet.pdf` would be parsed as the option `-o` with the file name "ut". `argc` and
+/// `argv` are the arguments of `main`.
 void require_two_hyphens(const Command& command, int argc, const char* const* argv);
 
 /// Returns "dotpose COMMAND --help" for the parsed command, or "dotpose --help" if there is none.

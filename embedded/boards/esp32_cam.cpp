@@ -2,10 +2,10 @@
 // espressif/esp32-camera 2. The port was reviewed, but neither compiled nor run.
 //
 // The driver delivers whole frames by DMA to two buffers. The port reads the central 188 x 120 px
-// of each frame (or the size set in board.hpp). Turn the lens to about 19 mm (docs/hardware.md).
-// Packets are sent at 115200 baud on the UART that is also used for programming, so logging must be
-// disabled: CONFIG_LOG_DEFAULT_LEVEL_NONE. The main task needs a larger stack:
-// CONFIG_ESP_MAIN_TASK_STACK_SIZE=8192.
+// of each frame (or the size set in board.hpp). Focus the lens at a distance of about 19 mm
+// (docs/hardware.md). Packets are sent at 115200 baud on the UART that is also used for
+// programming, so logging must be disabled: CONFIG_LOG_DEFAULT_LEVEL_NONE. The main task needs a
+// larger stack: CONFIG_ESP_MAIN_TASK_STACK_SIZE=8192.
 #include <driver/uart.h>
 #include <esp_camera.h>
 #include <esp_timer.h>
@@ -56,12 +56,12 @@ void set_up() {
     config.fb_count = 2;
     // QVGA frames fit into the internal RAM, which is faster than external PSRAM.
     config.fb_location = CAMERA_FB_IN_DRAM;
-    // After a pause, takes the newest frame instead of the oldest queued frame.
+    // After a pause, the newest frame is returned, and not the oldest queued frame.
     config.grab_mode = CAMERA_GRAB_LATEST;
     while (esp_camera_init(&config) != ESP_OK)
         vTaskDelay(pdMS_TO_TICKS(500));
     sensor_t* sensor = esp_camera_sensor_get();
-    // A short, fixed exposure, in sensor rows, avoids motion blur of the dots. Try 20 to 200.
+    // A short, fixed exposure avoids motion blur. Its unit is sensor rows. Try 20 to 200.
     sensor->set_exposure_ctrl(sensor, 0);
     sensor->set_aec_value(sensor, 60);
 }
@@ -80,7 +80,7 @@ Frame start_frame(std::int64_t not_before_us) {
         const std::int64_t left_us = not_before_us - esp_timer_get_time();
         if (left_us > 0) vTaskDelay(pdMS_TO_TICKS(left_us / 1000));
         frame = esp_camera_fb_get();
-        // The time stamp of the driver is the start of the frame, on the clock of esp_timer.
+        // The driver's time stamp is the start of the frame, on the clock of esp_timer.
         if (frame != nullptr)
             time_us = frame->timestamp.tv_sec * std::int64_t{1'000'000} + frame->timestamp.tv_usec;
     } while (frame == nullptr || time_us < not_before_us);
@@ -100,7 +100,7 @@ void send(const std::uint8_t* bytes, std::size_t count) {
 
 }  // namespace board
 
-// ESP-IDF calls app_main instead of main, so main.cpp must not be compiled.
+// ESP-IDF calls app_main. It replaces main.cpp, which must not be compiled.
 extern "C" void app_main() {
     static PoseSender sender;
     for (;;)

@@ -2,9 +2,9 @@
 // optical mouse with 30 x 30 px, which is read by SPI. The port was compiled against replacements
 // of the SDK, but never run.
 //
-// The sensor sees about 5 x 5 cells. This is sufficient for a fix on known sheets only, and a
-// single frame is rarely sufficient. Add `locator_.set_known(kSheets, OtherSheets::impossible)` to
-// PoseSender, with the regions of your sheets as constants. Build with -DDOTPOSE_FRAME_WIDTH_PX=36
+// The sensor sees about 5 x 5 cells. This is enough for a fix only on known sheets, and rarely in a
+// single frame. Add `locator_.set_known(kSheets, OtherSheets::impossible)` to PoseSender, with the
+// regions of your sheets as constants. Build with -DDOTPOSE_FRAME_WIDTH_PX=36
 // -DDOTPOSE_FRAME_HEIGHT_PX=36. A lens must show the pattern at 5 to 6 px per spacing
 // (docs/hardware.md). Link with pico_stdlib hardware_spi.
 //
@@ -30,7 +30,7 @@ constexpr uint kTx = 0;
 constexpr int kSide_px = 30;
 static_assert(kSide_px <= board::kMaxWidth_px);
 
-// Registers and times of the data sheet.
+// Registers and times from the data sheet.
 constexpr std::uint8_t kConfiguration = 0x0A;
 constexpr std::uint8_t kFrameCapture = 0x13;
 constexpr std::uint8_t kPixelBurst = 0x40;
@@ -39,8 +39,8 @@ constexpr std::uint8_t kCapture = 0x83;
 constexpr std::uint64_t kReadDelay_us = 50;
 constexpr std::uint64_t kWriteDelay_us = 50;
 constexpr std::uint64_t kBetweenPixels_us = 10;
-/// Time from the command to the end of the capture: three frames at the lowest rate, 2000 per
-/// second.
+/// Time from the command to the end of the capture. It is the time of three frames at the lowest
+/// rate, 2000 per second.
 constexpr std::uint64_t kCapture_us = 1510;
 
 std::uint8_t pixels[kSide_px][kSide_px];
@@ -80,8 +80,8 @@ void set_up() {
 }
 
 /// Reads the pixels of the captured frame, column by column from the lower left corner. Each byte
-/// contains six bits of the grey level. The order was not verified on a sensor. If frames have the
-/// status `mirrored`, reverse the columns.
+/// contains six bits of the grey level. The order of the pixels was not verified on a sensor. If
+/// frames have the status `mirrored`, reverse the columns.
 void read_pixels() {
     gpio_put(kSelect, false);
     transfer(kPixelBurst);
@@ -108,7 +108,8 @@ Frame start_frame(std::int64_t not_before_us) {
         sleep_until(from_us_since_boot(static_cast<std::uint64_t>(not_before_us)));
     write(kFrameCapture, kCapture);
     sleep_us(kCapture_us);
-    // The sensor captures the third frame after the command, whose exposure ends about here.
+    // The sensor captures the third frame after the command. The exposure of this frame ends about
+    // here.
     const auto time_us = static_cast<std::int64_t>(time_us_64());
     read_pixels();
     next = 0;

@@ -3,7 +3,8 @@
 //
 // A PIO state machine samples the bytes of the camera. Every second byte is a grey value (YUYV).
 // Two DMA channels write the grey values to two row buffers in turn. Link with pico_stdlib
-// hardware_pio hardware_dma hardware_i2c. Turn the lens to about 27 mm (docs/hardware.md).
+// hardware_pio hardware_dma hardware_i2c. Focus the lens at a distance of about 27 mm
+// (docs/hardware.md).
 //
 //     camera   D0..D7      PCLK  HREF  VSYNC  XCLK  SIOD  SIOC  RESET  PWDN   line   TX
 //     Pico     GP6..GP13   GP14  GP15  GP16   GP21  GP4   GP5   3V3    GND           GP0
@@ -31,12 +32,12 @@ constexpr int kCameraWidth_px = 320;
 constexpr int kCameraHeight_px = 240;
 constexpr int kWidth_px = board::kMaxWidth_px;
 constexpr int kHeight_px = board::kMaxHeight_px;
-constexpr int kLeft = 64;  // a multiple of 4, because word-aligned rows are copied by words
+constexpr int kLeft = 64;  // a multiple of 4, so that rows can be copied in words
 constexpr int kTop = (kCameraHeight_px - kHeight_px) / 2;
 
 alignas(4) std::uint8_t rows[2][kCameraWidth_px];
 int channels[2];
-int newest = 0;  // index of the row buffer that next_row() returns next
+int newest = 0;  // index of the row buffer that the next call of next_row() returns
 uint machine = 0;
 uint program = 0;
 
@@ -45,14 +46,14 @@ struct Setting {
     std::uint8_t value;
 };
 
-// Settings for QVGA as YUYV with 15 frames per second at 12.5 MHz (OV7670 implementation guide,
-// "QVGA"), and for a short, fixed exposure.
+// Settings from the OV7670 implementation guide for QVGA as YUYV with 15 frames per second at 12.5
+// MHz, and for a short, fixed exposure.
 constexpr Setting kSettings[] = {
     {0x12, 0x10},                                            // COM7: QVGA, YUV
-    {0x0C, 0x04}, {0x3E, 0x19}, {0x70, 0x3A}, {0x71, 0x35},  // scaling by 2, also of PCLK
+    {0x0C, 0x04}, {0x3E, 0x19}, {0x70, 0x3A}, {0x71, 0x35},  // scaling by 2, which also halves PCLK
     {0x72, 0x11}, {0x73, 0xF1}, {0xA2, 0x02}, {0x17, 0x16}, {0x18, 0x04}, {0x32, 0x80},  // window
     {0x19, 0x02}, {0x1A, 0x7A}, {0x03, 0x0A}, {0x13, 0x84},  // COM8: automatic gain, fixed exposure
-    {0x10, 0x08}, {0x07, 0x00},                              // exposure, in rows times 4
+    {0x10, 0x08}, {0x07, 0x00},                              // exposure in rows, times 4
 };
 
 void write(const Setting& setting) {
@@ -75,8 +76,8 @@ void set_up_camera() {
     sleep_ms(300);
 }
 
-/// Sets up a state machine that writes each grey byte to the FIFO and drops the following colour
-/// byte.
+/// Sets up a state machine that writes each grey byte to the FIFO and drops the colour byte after
+/// it.
 void set_up_pio() {
     static std::uint16_t instructions[] = {
         static_cast<std::uint16_t>(pio_encode_wait_gpio(true, kHref)),
@@ -101,12 +102,11 @@ void set_up_pio() {
     pio_sm_init(pio0, machine, program, &config);
 }
 
-/// Sets up the two DMA channels. Channel 0 fills row buffer 0 and then starts channel 1, and vice
-/// versa.
+/// Sets up the two DMA channels. When one of them has filled its row buffer, it starts the other.
 void set_up_dma() {
     for (int& channel : channels)
         channel = dma_claim_unused_channel(true);
-    // The state machine shifts to the right, so the byte is the most significant byte of the FIFO
+    // The state machine shifts to the right, so each byte is the most significant byte of a FIFO
     // word.
     const volatile void* source = reinterpret_cast<volatile std::uint8_t*>(&pio0->rxf[machine]) + 3;
     for (int i = 0; i < 2; ++i) {
@@ -131,11 +131,11 @@ void set_up() {
     set_up_dma();
 }
 
-/// Stops the previous frame and discards its remaining data.
+/// Stops the previous frame and discards the rest of its data.
 void stop() {
     pio_sm_set_enabled(pio0, machine, false);
-    // Aborting one channel may start the other channel. Therefore aborts both channels together,
-    // and twice.
+    // Aborting one channel may start the other. Therefore both channels are aborted together, and
+    // twice.
     const std::uint32_t both = 1U << channels[0] | 1U << channels[1];
     for (int i = 0; i < 2; ++i) {
         dma_hw->abort = both;
@@ -161,7 +161,7 @@ Frame start_frame(std::int64_t not_before_us) {
         dma_channel_set_write_addr(static_cast<uint>(channels[i]), rows[i], false);
     if (not_before_us > 0)
         sleep_until(from_us_since_boot(static_cast<std::uint64_t>(not_before_us)));
-    // The frame begins at the falling edge of VSYNC.
+    // The frame begins when VSYNC falls.
     while (!gpio_get(kVsync))
         tight_loop_contents();
     while (gpio_get(kVsync))
@@ -170,8 +170,8 @@ Frame start_frame(std::int64_t not_before_us) {
     pio_sm_set_enabled(pio0, machine, true);
     for (int row = 0; row < kTop; ++row)
         next_row();
-    // A row arrives at about the end of its exposure. The middle row, which defines the
-    // time of the frame, arrives half the frame height later.
+    // A row arrives at about the end of its exposure. The time of the frame is that of the middle
+    // row, which arrives half a frame later.
     constexpr std::int64_t kRow_us = 66'667 / 510;
     return {kWidth_px, kHeight_px,
             static_cast<std::int64_t>(time_us_64()) + kRow_us * kHeight_px / 2};
@@ -180,8 +180,8 @@ Frame start_frame(std::int64_t not_before_us) {
 const std::uint8_t* next_row() {
     const auto channel = static_cast<uint>(channels[newest]);
     dma_channel_wait_for_finish_blocking(channel);
-    // Resets the write address of the channel. The channel is used again when the other row buffer
-    // is full.
+    // The write address is reset, because the channel starts again when the other row buffer is
+    // full.
     dma_channel_set_write_addr(channel, rows[newest], false);
     const std::uint8_t* row = rows[newest] + kLeft;
     newest = 1 - newest;

@@ -1,6 +1,6 @@
 // Port for STM32F4 with DCMI and the STM32Cube HAL, and a monochrome 8-bit camera such as the
-// MT9V034 or OV9281. The port was reviewed, but neither compiled nor run. Other code must have
-// configured the camera by I2C.
+// MT9V034 or OV9281. The port was reviewed, but neither compiled nor run. The camera must already
+// have been configured by I2C.
 //
 // DCMI crops the frame to its central part and writes it by DMA to two row buffers in turn.
 // Settings in CubeMX: DCMI with 8 bits and its interrupt enabled; circular DMA of DCMI, words to
@@ -23,17 +23,17 @@ constexpr std::uint32_t kCameraWidth_px = 376;
 constexpr std::uint32_t kCameraHeight_px = 240;
 constexpr std::uint32_t kWidth_px = board::kMaxWidth_px;
 constexpr std::uint32_t kHeight_px = board::kMaxHeight_px;
-/// Time from the end of VSYNC to the middle of the exposure. Negative for global shutters, because
-/// the readout follows the exposure.
+/// Time from the end of VSYNC to the middle of the exposure. It is negative for global shutters,
+/// because their exposure is before the readout.
 constexpr std::int64_t kMiddleOfExposure_us = -500;
 
 alignas(4) std::uint8_t rows[2][kWidth_px];
-volatile std::uint32_t rows_filled = 0;  // number of rows filled so far, counted by the interrupt
+volatile std::uint32_t rows_filled = 0;  // counted by the interrupt
 volatile bool has_begun = false;
 std::uint32_t rows_read = 0;
 
-/// Returns the time on a 64-bit clock in µs. Must be called at least every 71 minutes, before TIM2
-/// wraps.
+/// Returns the time on a 64-bit clock in µs. Must be called at least every 71 minutes, because TIM2
+/// wraps around after this time.
 std::int64_t now_us() {
     static std::uint32_t last = 0;
     static std::int64_t total_us = 0;
@@ -44,7 +44,7 @@ std::int64_t now_us() {
 }
 
 void set_up() {
-    // The registers contain sizes minus one.
+    // The HAL expects sizes minus one.
     HAL_DCMI_ConfigCrop(&hdcmi, (kCameraWidth_px - kWidth_px) / 2,
                         (kCameraHeight_px - kHeight_px) / 2, kWidth_px - 1, kHeight_px - 1);
     HAL_DCMI_EnableCrop(&hdcmi);

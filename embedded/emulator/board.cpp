@@ -1,8 +1,8 @@
-// Port for an emulated board: qemu-system-arm -M microbit (nRF51822) with its serial line. A file
-// of frames, which the emulator opens for the program, replaces the camera.
+// Port for an emulated board: qemu-system-arm -M microbit (nRF51822) with its serial line. The
+// camera is replaced by a file of frames that the emulator opens for the program.
 //
 // The file is a sequence of binary PGM images (P5, 8 bits, no comments). The simulated camera
-// delivers one frame every 20 ms, whether or not the program reads the frame.
+// delivers a frame every 20 ms, even if the program does not read it.
 #include "board.hpp"
 
 #include <array>
@@ -22,7 +22,7 @@ std::int32_t camera = -1;
 std::int64_t frames_taken = 0;
 int width_px = 0;
 
-// Two row buffers, as required for DMA. One is read while the other is filled.
+// Two row buffers, as with DMA: one is read while the other is filled.
 alignas(4) std::array<std::array<std::uint8_t, board::kMaxWidth_px>, 2> rows;
 int filled = 0;
 
@@ -56,7 +56,7 @@ bool read(void* bytes, std::size_t count) {
     return semihosting::transfer(semihosting::Call::read, camera, bytes, count) == 0;
 }
 
-/// Reads a number of a header and the byte after it.
+/// Reads a number of a header and the character after it.
 int read_number() {
     int number = 0;
     for (char byte = '0'; byte >= '0' && byte <= '9';) {
@@ -66,8 +66,8 @@ int read_number() {
     return number;
 }
 
-/// Reads the header of the next frame of the simulated camera. Ends the program at the end of the
-/// file or if the header is invalid.
+/// Reads the header of the next frame. Ends the program at the end of the file, or if the header is
+/// invalid.
 board::Frame next_frame() {
     std::array<char, 3> magic;
     if (!read(magic.data(), 1)) end(nullptr);

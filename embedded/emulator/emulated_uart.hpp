@@ -10,7 +10,7 @@ inline volatile std::uint32_t& at(std::uint32_t offset) {
     return *reinterpret_cast<volatile std::uint32_t*>(kUart0 + offset);
 }
 
-/// Sends a byte, after the previous byte has been sent.
+/// Sends a byte. Waits until the previous byte has been sent.
 inline void put(std::uint8_t byte) {
     constexpr std::uint32_t kStartTx = 0x008;
     constexpr std::uint32_t kTxReady = 0x11C;

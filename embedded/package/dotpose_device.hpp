@@ -1,5 +1,5 @@
-/// All parts of dotpose that a microcontroller needs, for C++20: locating frames row by row,
-/// tracking, packets and pacing. `dotpose.h` is the equivalent for C.
+/// All parts of dotpose that a microcontroller needs, in C++20: locating frames row by row,
+/// tracking, packets and the pacing of frames. `dotpose.h` is the equivalent in C.
 ///
 ///     static dotpose::DeviceMemory memory;
 ///     static dotpose::DeviceLocator locator(memory);
@@ -8,8 +8,8 @@
 /// `DeviceMemoryFor<160, 120>` or `DeviceMemoryFor<320, 240>`, or `DeviceMemoryFor<36, 36>` with
 /// known sheets.
 ///
-/// Include this header before all other dotpose headers, because Arduino finds the library by the
-/// name of this header.
+/// Include this header before all other dotpose headers, because Arduino finds the library only by
+/// the name of this header.
 #pragma once
 
 #include "dotpose/frame_pacer.hpp"

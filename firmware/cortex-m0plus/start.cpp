@@ -1,5 +1,5 @@
-// Start-up code for all Cortex-M targets. After a reset, it runs the program and then returns to
-// the emulator.
+// Start-up code for all Cortex-M targets. After a reset, runs the program and then returns to the
+// emulator.
 #include <array>
 #include <cstdint>
 
@@ -18,7 +18,8 @@ namespace {
 
 extern "C" [[noreturn]] void reset() {
 #ifdef __ARM_FP
-    // Enables the FPU. Code compiled for an FPU may use its registers even for integers.
+    // The FPU is enabled even for integer programs, because code compiled for an FPU may use its
+    // registers for integers.
     *reinterpret_cast<volatile std::uint32_t*>(0xE000ED88) |= 0xFU << 20;
     asm volatile("dsb\n isb" ::: "memory");
 #endif

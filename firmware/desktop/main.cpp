@@ -1,5 +1,6 @@
-// Runs the firmware program on a desktop. Devices must print the same lines. With --predict, adds
-// predictions to a file of frames, for the tracked attempt on the devices.
+// Runs the firmware program on a desktop, as the reference for the devices, which must print the
+// same lines. With --predict, adds predictions to a file of frames, for the tracked attempt on the
+// devices.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -36,13 +37,13 @@ void print(const char* text) {
 
 namespace {
 
-/// Locates frames without a prediction, and writes each located frame after a prediction for it.
+/// Locates frames without a prediction. Writes a prediction before each frame that was located.
 class Predictor {
   public:
     explicit Predictor(std::uint64_t seed) : rng_(seed) {}
 
     /// Locates `image`. On success, writes a prediction with an error of up to half a spacing and 4
-    /// degrees, followed by the image.
+    /// degrees, and then the image.
     void write(const dotpose::GreyImage& image) {
         using namespace dotpose;
         const DeviceOptions options = program_options();

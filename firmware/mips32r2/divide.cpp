@@ -1,5 +1,6 @@
-// 64-bit division, the only libgcc function that the core calls. Debian's libgcc is compiled as
-// plain MIPS32 code, which short calls from microMIPS code cannot reach.
+// 64-bit division, which is the only libgcc function that the core calls. Debian's libgcc cannot be
+// used, because it is compiled as plain MIPS32 code, which short calls from microMIPS code cannot
+// reach.
 #include <algorithm>
 #include <bit>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Start-up code: runs the program and returns to the emulator.
+// Start-up code. Runs the program and returns to the emulator.
 #include "linux.hpp"
 #include "program.hpp"
 #include "stack.hpp"

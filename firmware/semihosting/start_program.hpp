@@ -1,4 +1,4 @@
-/// Start of the program. Start-up code calls start_program() after it has set up the stack.
+/// Start of the program, which the start-up code calls after it has set up the stack.
 #pragma once
 
 #include <array>
@@ -41,7 +41,6 @@ inline const char* path_of_frames() {
 
 }  // namespace start
 
-/// Runs the program and returns to the emulator.
 [[noreturn, gnu::always_inline]] inline void start_program() {
     stack::paint();
     start::copy(data_load, data_begin, data_end);

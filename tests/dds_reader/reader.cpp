@@ -1,11 +1,11 @@
-// Reads topics with eProsima Fast DDS, the DDS implementation of another vendor, in the same way as
-// a ROS 2 node with Fast DDS. Prints each sample as a line: topic, ROS type, and the received bytes
-// in hexadecimal.
+// Reads topics with eProsima Fast DDS, a DDS implementation of another vendor, as a ROS 2 node with
+// Fast DDS does. Prints each sample as a line: topic, ROS type, and the received bytes in
+// hexadecimal.
 //
 //   dotpose_dds_reader best-effort|reliable NAME TOPIC TYPE [TOPIC TYPE]...
 //
-// TOPIC is a ROS topic, TYPE a type such as nav_msgs/Odometry. The program creates the file NAME
-// when all topics have writers. It ends when the writers have left, or after five minutes.
+// TOPIC is a ROS topic, and TYPE a type such as nav_msgs/Odometry. The program creates the file
+// NAME when all topics have writers. It ends when the writers have left, or after five minutes.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -34,7 +34,7 @@ using namespace eprosima::fastdds::dds;
 using eprosima::fastrtps::rtps::InstanceHandle_t;
 using eprosima::fastrtps::rtps::SerializedPayload_t;
 
-/// Type support that keeps the received bytes of samples.
+/// Type support that stores samples as the bytes that were received.
 class RawType : public TopicDataType {
   public:
     explicit RawType(const std::string& name) {
@@ -101,8 +101,8 @@ class Printer : public DataReaderListener {
     std::atomic<bool> has_gone_ = false;
 };
 
-/// With ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST, uses no multicast and searches for participants at
-/// the ports of this computer, as ROS nodes do.
+/// If ROS_AUTOMATIC_DISCOVERY_RANGE is set, searches for participants only at the ports of this
+/// computer and without multicast, as ROS nodes do with the value LOCALHOST.
 DomainParticipantQos participant_quality() {
     DomainParticipantQos qos = PARTICIPANT_QOS_DEFAULT;
     if (std::getenv("ROS_AUTOMATIC_DISCOVERY_RANGE") == nullptr) return qos;
@@ -119,7 +119,7 @@ DomainParticipantQos participant_quality() {
     return qos;
 }
 
-/// Reports writers of ROS topics without a type hash in their user data.
+/// Reports writers of ROS topics whose user data contains no type hash.
 class HashCheck : public DomainParticipantListener {
   public:
     void on_publisher_discovery(DomainParticipant*,

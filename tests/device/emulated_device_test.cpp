@@ -1,7 +1,7 @@
-// Runs the device program of embedded/ in an emulator, from the frames of a drive to the lines of
-// `dotpose listen`. The packets must be bit-identical to the packets of the desktop program, and
-// the poses equal to the poses of the device attempt on the desktop. All frames must be on time,
-// and no frame may be lost.
+// Tests the whole way from the frames of a drive to the lines of `dotpose listen`, with the device
+// program of embedded/ in an emulator. The packets must be bit-identical to those of the desktop
+// program, and the poses close to those of the device attempt on the desktop. All frames must be on
+// time, and no frame may be lost.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -38,14 +38,14 @@ constexpr std::int64_t kFrameTime_us = 20'000;
 constexpr double kFps = 50;
 constexpr double kSpacing_mm = 0.508;
 
-/// A robot that rests, drives half a circle at up to 170 mm/s, and rests again. The final rest is
-/// long enough for the pacer to take one frame per second.
+/// A robot that rests, drives half a circle at up to 170 mm/s, and rests again. The second rest is
+/// long enough that the pacer reduces the rate to one frame per second.
 constexpr double kStart_s = 0.2;
 constexpr double kStop_s = 2.2;
 constexpr double kEnd_s = 10;
 constexpr double kRadius_mm = 60;
 
-/// Returns the angle on the circle, with smooth start and end.
+/// Returns the angle on the circle. The motion starts and ends smoothly.
 double angle_at(double t_s) {
     const double u = std::clamp((t_s - kStart_s) / (kStop_s - kStart_s), 0.0, 1.0);
     return 3.0 * u * u * u * (10 - 15 * u + 6 * u * u);
@@ -63,7 +63,7 @@ CameraPose pose_at(double t_s) {
     return pose;
 }
 
-/// Returns the frames of the drive. The frames of the final rest are all equal.
+/// Returns the frames of the drive. All frames of the second rest are equal.
 std::vector<GreyImage> drive() {
     Setup setup;
     setup.seed = 27;
@@ -82,7 +82,7 @@ std::vector<GreyImage> drive() {
     return frames;
 }
 
-// Board of the desktop program. Its camera delivers the frames, and its serial line stores all
+// The board of the desktop program. Its camera delivers the frames, and its serial line stores all
 // bytes.
 struct EndOfFrames {};
 std::vector<GreyImage> camera;
@@ -138,8 +138,8 @@ class EmulatedDevice : public testing::Test {
         return {std::istreambuf_iterator<char>(in), {}};
     }
 
-    /// Runs the emulator, with its serial line connected to a terminal that `dotpose listen` reads.
-    /// Returns the exit code of the emulator.
+    /// Runs the emulator with its serial line connected to a terminal. `dotpose listen` reads this
+    /// terminal. Returns the exit code of the emulator.
     int emulate() const {
         std::ofstream out(directory_.path() / "drive.frames", std::ios::binary);
         for (const GreyImage& image : camera) {
@@ -149,8 +149,8 @@ class EmulatedDevice : public testing::Test {
         }
         out.close();
         const SerialLine serial;
-        // Bytes that arrive before the line is configured would be changed. Bytes still in transit
-        // when listening ends are lost.
+        // Waits until the line is configured, because bytes that arrive earlier would be changed.
+        // Waits until all bytes have arrived, because bytes in transit at the end would be lost.
         const std::string commands =
             "cd " + directory_.path().string() + "; " + test::tool_path() + " listen " +
             serial.name() +
@@ -168,12 +168,11 @@ class EmulatedDevice : public testing::Test {
     }
 
   private:
-    /// A pseudo-terminal. Bytes that shells write to kDescriptor can be read from the terminal
-    /// `name`.
+    /// A pseudo-terminal. Bytes written to kDescriptor can be read from the terminal `name`.
     class SerialLine {
       public:
         static constexpr int kDescriptor =
-            9;  ///< one digit, because shells support no larger descriptors
+            9;  ///< one digit, because shells do not support larger descriptors
         SerialLine() {
             int master = -1;
             std::array<char, 256> name{};
@@ -206,8 +205,8 @@ class EmulatedDevice : public testing::Test {
     test::TemporaryDirectory directory_;
 };
 
-/// Compares the sending loop on the desktop with the true poses. The emulated loop must send the
-/// same packets.
+/// Compares the packets of the desktop program with the true poses. The packets of the emulator
+/// must be the same.
 TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
     PacketReader reader;
     DeviceMemory memory;
@@ -223,7 +222,7 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
         const bool was_missed = is_missed;
         is_missed = packet.status != Status::ok;
         if (is_missed) {
-            // The rows of the frame are lost. The next frame is located without a prediction.
+            // The rows of this frame are lost, and the next frame is located without a prediction.
             EXPECT_EQ(packet.status, Status::not_tracked);
             EXPECT_FALSE(was_missed) << packet.time_us;
             ++missed;
@@ -232,7 +231,7 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
         const CameraPose truth = pose_at(packet.time_us / 1e6);
         EXPECT_NEAR(packet.x_grid(), x_grid(truth), 0.012) << packet.time_us;
         EXPECT_NEAR(packet.y_grid(), y_grid(truth), 0.012) << packet.time_us;
-        // Compares with the device attempt on the desktop, which has no prediction.
+        // Compares the pose with that of the device attempt without a prediction.
         const Fix fix =
             alone.locate(camera[static_cast<std::size_t>(packet.time_us / kFrameTime_us)].view());
         ASSERT_EQ(fix.status, Status::ok);
@@ -240,10 +239,11 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
         EXPECT_NEAR(packet.y_grid(), fix.y_grid(), 0.012) << packet.time_us;
     }
     EXPECT_EQ(reader.damaged(), 0U);
-    // docs/firmware.md: 99.6 % of the frames are tracked.
+    // 99.6 % of the frames are tracked (docs/firmware.md).
     EXPECT_LE(missed, 3);
     ASSERT_GT(times_us.size(), 300U);
-    // Every frame is taken during the drive and for 5 s after its end, then one frame per second.
+    // During the drive and for 5 s after it, every frame is processed. Later, one frame per second
+    // is processed.
     for (std::size_t i = 0; i < 300; ++i)
         ASSERT_EQ(times_us[i], static_cast<std::int64_t>(i) * kFrameTime_us);
     EXPECT_EQ(times_us.back() - times_us[times_us.size() - 2], 1'000'000);

@@ -1,4 +1,4 @@
-/// A real mosquitto broker on a free port of the loopback interface.
+/// Runs a mosquitto broker on a free port of the loopback interface.
 #pragma once
 
 #include <chrono>
@@ -35,7 +35,7 @@ inline int free_port() {
 
 class Broker {
   public:
-    /// `users` is a password file of mosquitto_passwd. If it is empty, anonymous clients are
+    /// `users` is a password file of mosquitto_passwd. If `users` is empty, anonymous clients are
     /// allowed. With TLS, the broker uses a self-signed certificate, cert.pem in `directory`.
     /// `more` is appended to the configuration.
     explicit Broker(const std::filesystem::path& directory, const std::string& users = {},
@@ -70,7 +70,7 @@ class Broker {
             const int nowhere = open("/dev/null", O_RDWR);
             dup2(nowhere, STDOUT_FILENO);
             dup2(nowhere, STDERR_FILENO);
-            // Debian installs mosquitto in /usr/sbin, which is in the PATH of root only.
+            // Debian installs mosquitto in /usr/sbin, which is only in the PATH of root.
             setenv("PATH", (std::string(std::getenv("PATH")) + ":/usr/sbin").c_str(), 1);
             execlp("mosquitto", "mosquitto", "-c", file.c_str(), nullptr);
             _exit(127);

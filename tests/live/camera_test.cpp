@@ -1,5 +1,5 @@
-// Tests `dotpose watch` on two cameras: a fake V4L2 camera (tests/fake_camera), and a network
-// camera. Each camera is disconnected and reconnected during the run.
+// Tests `dotpose watch` with a fake V4L2 camera (tests/fake_camera) and with a network camera. Each
+// camera is disconnected and reconnected during the run.
 #include <algorithm>
 #include <fstream>
 #include <set>
@@ -22,13 +22,12 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// Shell functions that wait until a number of lines of a file contain a word, while the tool is
-/// running.
+/// Shell functions that wait until `$3` lines of a file contain a word, while the tool is running.
 constexpr const char* kWaiting =
     "has() { until [ $(grep -c \"$2\" $1) -ge $3 ]; do kill -0 $watch; sleep 0.05; done; }\n"
     "set -e; touch lines told; trap 'kill $camera $watch 2>/dev/null || true' EXIT\n";
-/// Runs the tool from the first frames to the end, with a camera that `unplug` and `plug_in`
-/// control.
+/// Runs the tool from the first frames to the end. The commands `unplug` and `plug_in` control the
+/// camera.
 constexpr const char* kRun =
     "has lines '\"ok\"' 30; unplug\n"
     "has told 'does not answer; waiting for it' 1; has lines '\"lost\"' 2\n"
@@ -58,8 +57,8 @@ class Cameras : public ToolCommand {
         return lines;
     }
 
-    /// Expects that the robot was located, lost while the camera was disconnected, and located
-    /// again, each time at its true pose.
+    /// Expects that the robot was located, was lost while the camera was disconnected, and was
+    /// located again. All its poses must be correct.
     void expect_seen_lost_and_seen() {
         std::string events;
         std::int64_t last_frame = -1;
@@ -107,13 +106,13 @@ TEST_F(Cameras, AtThisComputer) {
         if (what == "time") times_us.insert(value);
         settings.insert(fmt::format("{} {}", what, value));
     }
-    // The settings are applied again after the camera has been reconnected.
+    // The settings must be applied again after the camera has been reconnected.
     for (const char* setting : {"width 188", "fps 100", "exposure_auto 1", "exposure 50", "gain 3"})
         EXPECT_EQ(settings.count(setting), 2U) << setting;
     for (const json& line : lines()) {
         const auto time_us = std::llround(line["t_s"].get<double>() * 1e6);
-        // The tool gets the driver's times as doubles in milliseconds. Rounding may change them by
-        // 1 µs.
+        // The tool gets the times of the driver in milliseconds as doubles, so rounding may change
+        // them by 1 µs.
         const auto at = times_us.lower_bound(time_us - 1);
         const bool is_of_driver = at != times_us.end() && *at <= time_us + 1;
         EXPECT_EQ(is_of_driver, line["status"] == "ok") << line;
@@ -121,7 +120,7 @@ TEST_F(Cameras, AtThisComputer) {
 }
 
 /// In /proc/net/tcp, the socket of the camera is in state 0A (listening) until a client connects,
-/// and then in state 01. A client may connect immediately.
+/// which may be immediately, and then in state 01.
 TEST_F(Cameras, InTheNetwork) {
     ASSERT_EQ(
         shell(fmt::format("port={}\n", free_port()) + kWaiting +
@@ -179,7 +178,7 @@ TEST_F(Cameras, CalibrateTakesItsFramesUntilTheUserEndsIt) {
                     "kill -INT $tool; wait $tool; echo $? > status"),
               0)
         << errors_;
-    // The camera is at rest.
+    // The camera is at rest, so all frames show the same place.
     EXPECT_THAT(file("told"), HasSubstr("frames located; 1 that show new places are used"));
     EXPECT_THAT(file("told"), HasSubstr("a single frame"));
     EXPECT_EQ(file("status"), "1\n");
@@ -202,7 +201,7 @@ TEST_F(Window, ShowsTheFramesAndEndsWithAKey) {
     GTEST_SKIP() << "the libraries of the window keep memory to the end";
 #endif
     if (shell("command -v Xvfb && command -v xdotool") != 0) GTEST_SKIP() << "no Xvfb, no xdotool";
-    // Without the key press, the program would not end.
+    // Without the key press, the program would run forever.
     ASSERT_EQ(shell(std::string(kWaiting) +
                     "mkfifo display frames; Xvfb -displayfd 1 > display 2>/dev/null & camera=$!\n"
                     "read number < display; export DISPLAY=:$number QT_LOGGING_RULES='*=false'\n"
@@ -213,7 +212,7 @@ TEST_F(Window, ShowsTheFramesAndEndsWithAKey) {
                     "wait $watch"),
               0)
         << errors_ << file("told");
-    // The recording consists of the frame, 800 px wide, and a panel of 400 px.
+    // The recording shows the frame, 800 px wide, and a panel of 400 px beside it.
     EXPECT_THAT(output_, HasSubstr("Geometry: 1200x"));
 }
 

@@ -1,5 +1,5 @@
-// Tests that `dotpose fleet` shows and reports robots that are killed, silent, lost or removed,
-// with a real broker and on a terminal.
+// Tests that `dotpose fleet` shows and reports robots that are killed, silent, lost or removed.
+// Uses a mosquitto broker and a terminal.
 #include <atomic>
 #include <mutex>
 #include <string>
@@ -25,7 +25,7 @@ namespace {
 using publish::MqttPublisher;
 using testing::HasSubstr;
 
-/// `dotpose fleet` on a terminal of 24 rows and 80 columns.
+/// Runs `dotpose fleet` on a terminal of 24 rows and 80 columns.
 class TerminalFleet {
   public:
     TerminalFleet(const fs::path& directory, const std::string& arguments) {
@@ -57,7 +57,7 @@ class TerminalFleet {
         const std::size_t begin = output_.rfind("\033[H", end) + 3;
         return output_.substr(begin, end - begin);
     }
-    /// Presses keys that end the program, and returns its exit status.
+    /// Sends keys that end the program, and returns its exit status.
     int finish(const std::string& keys) {
         press(keys);
         int status = 0;
@@ -84,7 +84,7 @@ class TerminalFleet {
     std::string output_;
 };
 
-/// Collects the alerts of a broker.
+/// Collects the alerts that are published to a broker.
 class Alerts {
   public:
     explicit Alerts(publish::MqttOptions options)
@@ -108,7 +108,7 @@ class Alerts {
     publish::MqttSubscriber subscriber_;
 };
 
-/// A robot that publishes a state every 100 ms.
+/// A simulated robot that publishes a state every 100 ms.
 class Driving {
   public:
     Driving(const publish::MqttOptions& options, std::string name)
@@ -147,7 +147,7 @@ class Driving {
 
 class FleetAlert : public Mqtt {
   protected:
-    /// Starts a program that is connected with the last will of a robot. Returns its process.
+    /// Starts a process that connects with the last will of a robot. Returns its process ID.
     pid_t connect_with_will(const Broker& broker, const std::string& robot) {
         const pid_t process = fork();
         if (process == 0) {
@@ -203,7 +203,7 @@ TEST_F(FleetAlert, KilledSilentLostAndRemovedRobotsAreShownWithinTwoSeconds) {
     EXPECT_EQ(output_, "removed killed\n");
     wait_until([&] { return alerts.has("killed removed (); "); }, kLimit);
     wait_until([&] { return !shows("killed"); }, kLimit);
-    // The broker must have removed the robot, too.
+    // The broker must also have removed the robot.
     EXPECT_EQ(run("fleet remove killed --mqtt " + broker.url()), 1);
     EXPECT_THAT(errors_, HasSubstr("knows no robot killed"));
     EXPECT_EQ(fleet.finish("q"), 0);

@@ -1,5 +1,4 @@
-// Tests the metrics of `dotpose fleet` and the files for Prometheus and Grafana, with the real
-// promtool.
+// Tests the metrics of `dotpose fleet`, and the files for Prometheus and Grafana, with promtool.
 #include "fleet_metrics.hpp"
 
 #include <fstream>
@@ -33,7 +32,7 @@ std::string metrics_of(const Receiver& r, const cli::FleetMap& map = {},
     return cli::metrics_text(r.fleet, r.fleet.robots(r.now()), map, services);
 }
 
-/// Checks a text with promtool, and returns its findings.
+/// Checks a text with promtool. Returns the reported problems.
 std::string findings_in(const std::string& metrics) {
     const TemporaryDirectory directory;
     std::ofstream(directory.path() / "metrics") << metrics;
@@ -111,9 +110,9 @@ TEST(FleetMetrics, CountFramesSinceTheFirstReportOfARobot) {
         r.receive({.robot = "anna", .camera = camera});
         r.pass(1);
     };
-    report(1'000'000, 500);  // the robot was started earlier than the fleet
+    report(1'000'000, 500);  // the robot started before the fleet
     report(1'000'030, 510);
-    report(30, 1);  // restarted
+    report(30, 1);  // the robot was restarted
     report(60, 3);
     const std::string text = metrics_of(r);
     EXPECT_THAT(text, HasSubstr("\ndotpose_fleet_frames_total 60\n"));
@@ -169,9 +168,9 @@ TEST_F(FleetMetricsFile, ContainsTheCameraOfAWatchedRobot) {
     const Broker broker(directory_);
     const DriveCamera camera(188, 120);
     const Drive drive;
-    // 10 frames per second. The robot reports after 1, 2 and 3 s. The fleet starts to count at the
-    // first report. Between the first and the last report, there are 20 frames, of which 5 are
-    // blank.
+    // The robot processes 10 frames per second and reports after 1, 2 and 3 s. The fleet counts
+    // from the first report. There are 20 frames between the first and the last report, of which 5
+    // are blank.
     for (int i = 0; i < 35; ++i) {
         GreyImage image = camera.frame(drive, 240 + i);
         if (i >= 14 && i < 19) std::ranges::fill(image.pixels, std::uint8_t{200});

@@ -1,4 +1,4 @@
-/// A fleet that receives messages at given times, without a broker.
+/// A fleet that receives messages at simulated times, without a broker.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ inline constexpr std::int64_t kEpoch_us = 1'795'000'000 * kSecond;  // 2026-11-1
 
 class Receiver {
   public:
-    /// Receives a state at the current time. The robot sent the state `delay_us` ago, and its clock
-    /// is `skew_us` ahead.
+    /// Receives a state at the current time. The robot sent it `delay_us` ago, with a clock that is
+    /// `skew_us` ahead.
     void receive(Message message, std::int64_t delay_us = 0, std::int64_t skew_us = 0) {
         message.header_id = number_++;
         message.time = timestamp(now().system_us - delay_us + skew_us);
@@ -27,8 +27,8 @@ class Receiver {
                    connection_json(state, timestamp(now().system_us - sent_ago_us)), now());
     }
     void pass(double seconds) { elapsed_us_ += static_cast<std::int64_t>(seconds * 1e6); }
-    /// Passes time in which the broker is not available. `Now::watched_us` does not advance in this
-    /// time.
+    /// Advances the time while the broker is not available, which does not advance
+    /// `Now::watched_us`.
     void pass_blind(double seconds) {
         pass(seconds);
         blind_us_ += static_cast<std::int64_t>(seconds * 1e6);

@@ -1,5 +1,5 @@
-// Tests `dotpose fleet` with many robots, with shared subscriptions, with bridged brokers, and when
-// the program is stopped.
+// Tests `dotpose fleet` with many robots, with shared subscriptions, with bridged brokers, and with
+// interruptions.
 #include <array>
 #include <csignal>
 #include <filesystem>
@@ -25,7 +25,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A state in the log of a fleet: the name of the robot and the number of the state.
+/// A state in the log of a fleet: the name of the robot, and the number of the message.
 using Logged = std::pair<std::string, int>;
 
 class FleetScale : public Mqtt {
@@ -35,8 +35,8 @@ class FleetScale : public Mqtt {
         return directory_ / name;
     }
 
-    /// Publishes `states` of each robot, 20 per second. Returns when the broker has received all
-    /// states.
+    /// Publishes `states` states of each robot, 20 per second. Returns when the broker has received
+    /// all of them.
     void publish(const Broker& broker, int robots, int states, int first = 0) {
         const ShellOutcome outcome = run_shell(fmt::format(
             "'{}' --port {} --robots {} --hz 20 --seconds {} --first {}",
@@ -44,7 +44,7 @@ class FleetScale : public Mqtt {
         EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     }
 
-    /// Returns the states in the logs of some fleets, including repeated states.
+    /// Returns the states in the logs of several fleets. A state occurs as often as it was logged.
     std::multiset<Logged> logged(const std::vector<fs::path>& folders) {
         std::multiset<Logged> states;
         for (const fs::path& folder : folders) {
@@ -65,7 +65,7 @@ class FleetScale : public Mqtt {
         wait_until([&] { return logged(folders).size() >= count; }, 60s);
     }
 
-    /// Returns the states 0 to `states` - 1 of the robots 0 to `robots` - 1, each once.
+    /// Returns the states 0 to `states` - 1 of the robots 0 to `robots` - 1, once each.
     static std::multiset<Logged> states_of(int robots, int states) {
         std::multiset<Logged> all;
         for (int robot = 0; robot < robots; ++robot) {
@@ -102,13 +102,12 @@ TEST_F(FleetScale, AGroupSharesTheStates) {
     const std::string arguments = "--qos 1 --share group --log log.csv --mqtt " + broker.url();
     WatchedFleet a(folders[0], arguments);
     WatchedFleet b(folders[1], arguments);
-    // The broker alternates between the members. With an odd number of robots, each member receives
-    // every other state of each robot.
+    // The broker sends states to both members in turn. Because the number of robots is odd, each
+    // member receives every other state of each robot.
     publish(broker, 51, 40);
     wait_for_states(folders, 51 * 40);
     for (WatchedFleet* fleet : {&a, &b}) {
-        // A member does not receive the states of the other member, and must not report them as
-        // missing.
+        // The states that the other member received must not be reported as missing.
         EXPECT_THAT(fleet->table(),
                     testing::ContainsRegex("\n51 robots, [0-9]+ states, 0 bad, 0 repe"));
     }
@@ -146,7 +145,7 @@ TEST_F(FleetScale, BridgedBrokersPassOnEachStateOnce) {
                                   west.port()));
     WatchedFleet in_east(folders[0], "--qos 1 --log log.csv --mqtt " + east.url());
     WatchedFleet in_west(folders[1], "--qos 1 --log log.csv --mqtt " + west.url());
-    // The bridge is ready when a state has passed through it.
+    // The bridge is ready when it has forwarded a state.
     wait_until([&] {
         publish(west, 1, 1, 1000);
         std::this_thread::sleep_for(200ms);
@@ -159,7 +158,7 @@ TEST_F(FleetScale, BridgedBrokersPassOnEachStateOnce) {
     for (const fs::path& folder : folders) {
         wait_until([&] { return logged({folder}).size() >= before + 100 * 60; }, 60s);
     }
-    std::this_thread::sleep_for(500ms);  // waits for repeated states
+    std::this_thread::sleep_for(500ms);  // repeated states would arrive in this time
     for (WatchedFleet* fleet : {&in_east, &in_west}) {
         const std::string table = fleet->table();
         EXPECT_THAT(table, HasSubstr("101 robots, "));

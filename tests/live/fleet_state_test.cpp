@@ -1,4 +1,4 @@
-// Tests the conditions of robots, their alerts, the order and the pages of the table, with given
+// Tests the conditions of robots, their alerts, and the order and pages of the table, at simulated
 // times and without a broker.
 #include "fleet_state.hpp"
 
@@ -60,7 +60,8 @@ TEST(FleetConditions, FollowTheConnection) {
     r.connect("anna", "OFFLINE");
     EXPECT_EQ(r.condition("anna"), Condition::gone);
     EXPECT_EQ(r.robot("anna").reason, "disconnected");
-    // The broker delivers retained messages of robots that have not sent a state since.
+    // The broker delivers retained messages of robots that have sent no state since the fleet was
+    // started.
     r.connect("bert", "ONLINE");
     EXPECT_EQ(r.condition("bert"), Condition::lost);
     EXPECT_EQ(r.robot("bert").reason, "no state yet");
@@ -96,7 +97,7 @@ TEST(FleetConditions, AClockThatIsSetBackOrDriftsDoesNotSilenceARobot) {
     r.pass(0.1);
     r.receive({.robot = "anna"}, 0, -3600 * kSecond);
     EXPECT_EQ(r.condition("anna"), Condition::moving);
-    // A clock that is slow by 1 %, which is 18 s in half an hour.
+    // A clock that is slow by 1 % lags by 18 s after half an hour.
     Receiver slow;
     for (int i = 0; i < 1800; ++i) {
         slow.receive({.robot = "anna"}, 0, -i * kSecond / 100);
@@ -126,7 +127,7 @@ TEST(FleetConditions, AnEmptyConnectionMessageRemovesTheRobot) {
     EXPECT_EQ(r.fleet.bad(), 0);
 }
 
-/// Returns the alerts as words, such as "anna lost (moving)".
+/// Returns the changes of conditions as text, such as "anna lost (moving)".
 std::vector<std::string> words(AlertWatch& watch, const Receiver& r) {
     std::vector<std::string> words;
     for (const auto& alert : watch.changes(r.fleet.robots(r.now()), r.now())) {
@@ -181,10 +182,10 @@ TEST(NaturalOrder, ComparesNumbersByValue) {
         for (std::size_t j = 0; j < sorted.size(); ++j)
             EXPECT_EQ(less(sorted[i], sorted[j]), i < j) << sorted[i] << " " << sorted[j];
     }
-    EXPECT_NE(less("a01", "a1"), less("a1", "a01"));  // different names are not equivalent
+    EXPECT_NE(less("a01", "a1"), less("a1", "a01"));  // different names are never equal
 }
 
-/// Returns the page of 24 rows and 80 columns.
+/// Returns the lines of the page on a terminal of 24 rows and 80 columns.
 std::vector<std::string> page_of(cli::FleetPage& page, const Receiver& r,
                                  const cli::FleetMap& map = {}) {
     return page.lines(r.fleet, r.fleet.robots(r.now()), map, cli::Delivery::all, {80, 24});
@@ -221,7 +222,7 @@ TEST(FleetPage, FiveHundredRobotsInTwentyFourRows) {
     lines = page_of(page, r);
     for (int i = 0; i < 20; ++i)
         EXPECT_THAT(lines[static_cast<std::size_t>(i) + 1], StartsWith(fmt::format("robot{} ", i)));
-    lines.erase(lines.begin() + 22);  // the counts of messages are cut off
+    lines.erase(lines.begin() + 22);  // the line of message counts is longer
     for (const std::string& line : lines)
         EXPECT_LE(line.size(), 80U) << line;
 }

@@ -1,4 +1,5 @@
-// Tests `dotpose fleet --store` and `dotpose fleet history` with a real broker and real databases.
+// Tests `dotpose fleet --store` and `dotpose fleet history` with a mosquitto broker and with
+// databases.
 #include <string>
 #include <thread>
 
@@ -22,14 +23,14 @@ using testing::StartsWith;
 
 class FleetStore : public Mqtt {
   protected:
-    /// Publishes the states of robots, 20 per second and robot.
+    /// Publishes `states` states of each robot, 20 per second.
     void publish(const Broker& broker, int robots, int states, int first = 0) {
         const ShellOutcome outcome = run_shell(fmt::format(
             "'{}' --port {} --robots {} --hz 20 --seconds {} --first {}",
             test::built("dotpose_fleet_load"), broker.port(), robots, states / 20.0, first));
         EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     }
-    /// Publishes these states with QoS 1, and waits until a fleet has logged them.
+    /// Publishes the messages with QoS 1, and waits until a fleet has logged them.
     void publish_messages(const Broker& broker, const std::vector<Message>& messages) {
         publish::MqttOptions mqtt = options(broker);
         mqtt.qos = 1;
@@ -69,7 +70,7 @@ TEST_F(FleetStore, HistoryOfAFile) {
                             .is_localized = false,
                             .reason = "no_grid"});
         messages.push_back({.robot = "'; DROP TABLE states; --", .time = time_now()});
-        // The clock of this robot is a year behind. The database stores the time of arrival.
+        // The clock of this robot is a year behind, but the database stores the time of arrival.
         messages.push_back({.robot = "old", .time = "2025-11-24T16:00:00Z"});
         publish_messages(broker, messages);
         fleet.table();

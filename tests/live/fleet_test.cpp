@@ -1,4 +1,4 @@
-// Tests `dotpose fleet` with the states that robots publish to a real broker.
+// Tests `dotpose fleet` with states that are published to a mosquitto broker.
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -68,7 +68,7 @@ TEST_F(Fleet, TwoHundredRobots) {
     }
     for (const auto& robot : robots)
         EXPECT_TRUE(robot->flush(20s));
-    // The last state of each robot reports that the robot is lost.
+    // The last state of each robot has the condition `lost`.
     const auto are_all_lost = [&] {
         const std::string map = file("fleet.svg");
         int lost = 0;
@@ -97,7 +97,7 @@ TEST_F(Fleet, TopicsTellWhoARobotIsAndTextsDoNotActOnTheTerminal) {
                    Message{"\x1b[2J", 1, time, "\x1b]0;OWNED\x07\nroot moving"}.json());
     for (const char* bad : {"2026-11-24T16:00:nanZ", "2026-11-24T16:00:00", "", "now"})
         sender.publish(state_topic("carl"), Message{"carl", 1, bad}.json());
-    sender.publish(state_topic("\x1b[31mred"), "{}");  // the publisher refuses this topic
+    sender.publish(state_topic("\x1b[31mred"), "{}");  // the publisher rejects this topic
     sender.publish(state_topic("dora"), std::string(1'000'000, '['));
     EXPECT_TRUE(sender.flush(20s));
     EXPECT_EQ(sender.dropped(), 1);
@@ -121,17 +121,17 @@ TEST_F(Fleet, ASenderWhoseClockWasSetBackIsFollowed) {
         sender.publish(state_topic(robot), message.json());
         EXPECT_TRUE(sender.flush(20s));
     };
-    // The clock was set back, but the message numbers continue.
+    // The clock was set back, but the message numbers continue, so the sender was not restarted.
     send("anna", 7, "2026-11-24T16:00:00Z");
     send("anna", 8, "2026-11-24T15:00:00Z");
-    // The sender restarted with its clock set back, so its message numbers restart too.
+    // The sender was restarted with its clock set back, so its message numbers begin again.
     send("bert", 700, "2026-11-24T16:00:00Z");
     for (int i = 0; i < 6; ++i)
         send("bert", i, fmt::format("2026-11-24T15:00:0{}Z", i).c_str());
-    // A single late message does not replace the newest state.
+    // A single late message must not replace the newest state.
     send("carl", 9, "2026-11-24T16:00:01Z");
     send("carl", 8, "2026-11-24T16:00:00Z");
-    // One message is missing, and one is repeated.
+    // Number 3 is missing, and number 2 is repeated.
     for (const int number : {1, 2, 2, 4})
         send("dora", number, fmt::format("2026-11-24T16:00:0{}Z", number).c_str());
     std::this_thread::sleep_for(500ms);
@@ -157,7 +157,7 @@ TEST_F(Fleet, SubscribesWithTls) {
         sender.publish(state_topic("anna"), Message{"anna", i, time_now()}.json());
     EXPECT_TRUE(sender.flush(20s));
     std::this_thread::sleep_for(500ms);
-    // Some states arrive late, because the newest queued states are sent first.
+    // Some states arrive late, because the newest states in the queue are sent first.
     EXPECT_THAT(fleet.table(), HasSubstr("1 robots, 200 states, 0 bad, 0 missed, "));
 }
 

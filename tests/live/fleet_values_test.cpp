@@ -1,4 +1,4 @@
-// Tests the values that `dotpose fleet --web` sends to its page, with given times and without a
+// Tests the values that `dotpose fleet --web` sends to its page, at simulated times and without a
 // broker.
 #include "fleet_values.hpp"
 
@@ -47,7 +47,7 @@ json table_of(const Receiver& r, Command request) {
     return json::parse(table_value(snapshot_of(r), hall(), Delivery::all, request));
 }
 
-/// Four robots, of which one is silent, one is lost and one is on an unknown sheet.
+/// Receives the states of four robots. One is silent, one is lost, and one is on an unknown sheet.
 void receive_four(Receiver& r) {
     r.receive({.robot = "silent1", .x_m = 0.5, .map = "hall"});
     r.pass(6);
@@ -102,7 +102,7 @@ TEST(FleetValues, PagesOfTheTable) {
     };
     EXPECT_THAT(names_in(page(8, 3)["rows"]), ElementsAre("r8", "r9", "r10"));
     EXPECT_EQ(page(8, 3)["matching"], 30);
-    // A page beyond the end is the last page.
+    // A page beyond the last page is replaced by the last page.
     EXPECT_THAT(names_in(page(1e300, 3)["rows"]), ElementsAre("r27", "r28", "r29"));
     EXPECT_EQ(page(1e300, 3)["first"], 27);
     EXPECT_EQ(page(-5, 1e300)["rows"].size(), 30U);
@@ -157,7 +157,7 @@ TEST(FleetValues, OneRobotWithItsPathAndAlerts) {
     EXPECT_EQ(value(77), nullptr);
 }
 
-/// A message of the map: the head, and the records as bytes.
+/// A message of the map: its head in JSON, and its records as bytes.
 struct MapMessage {
     explicit MapMessage(const std::string& bytes) {
         std::uint32_t size = 0;
@@ -193,7 +193,7 @@ TEST(FleetMapValues, PositionsInTheWindow) {
     EXPECT_FLOAT_EQ(message.at<float>(24), 0);
     EXPECT_EQ(message.at<std::int16_t>(28), 0);
     EXPECT_EQ(message.at<std::uint8_t>(30), 0);  // moving
-    EXPECT_EQ(message.at<std::uint8_t>(31), 1);  // with a heading, on a known sheet
+    EXPECT_EQ(message.at<std::uint8_t>(31), 1);  // has a heading, and is on a known sheet
     EXPECT_EQ(MapMessage(positions_value(snapshot_of(r), {}, {})).head["count"], 5);
 }
 
@@ -215,7 +215,7 @@ TEST(FleetMapValues, TrailsAreLimitedInTotal) {
     const MapMessage message(trails_value(snapshot_of(r), r.fleet, {}, {}));
     EXPECT_EQ(message.head["count"], 150);
     const auto points = message.at<std::uint32_t>(4);
-    EXPECT_EQ(points, 100U);  // every second of the newest 200
+    EXPECT_EQ(points, 100U);  // every second of the newest 200 points
     EXPECT_LE(150 * points, cli::kMaxTrailPoints);
     EXPECT_EQ(message.records.size(), 150 * (8 + 8 * points));
     const double origin_mm = message.head["origin_mm"][0];

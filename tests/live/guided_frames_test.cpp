@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
 
-/// A robot whose frames are 100 ms apart.
+/// A simulated robot whose frames are 100 ms apart.
 class Robot {
   public:
     GuidedFrame frame(double x_grid, double y_grid, double theta_rad = 0) {
@@ -65,7 +65,7 @@ TEST(GuidedFrames, AnUnfinishedTurnIsNotComplete) {
 TEST(GuidedFrames, ADriveTakesFramesAtEqualDistances) {
     Robot robot;
     DriveFrames frames;
-    // The robot rests, then drives by 0.1 mm per frame.
+    // The robot rests, and then drives 0.1 mm per frame.
     for (int i = 0; i < 50; ++i)
         frames.take(robot.frame(100, 100));
     EXPECT_EQ(frames.images().size(), 1U);

@@ -1,4 +1,5 @@
-// Tests that the packets of a device become a log and states of a robot, as with `dotpose watch`.
+// Tests that `dotpose listen` writes the log and publishes the states of a device as `dotpose
+// watch` does.
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -24,7 +25,7 @@ using testing::HasSubstr;
 
 class ListenFleet : public Mqtt {
   protected:
-    /// Writes packets.bin and watch.csv of a drive over two sheets, and table.json.
+    /// Writes packets.bin and watch.csv for a drive over two sheets, and the sheet file table.json.
     void watch_drive(int frames) {
         const DriveCamera camera(188, 120);
         const Drive drive;
@@ -38,7 +39,7 @@ class ListenFleet : public Mqtt {
                   0)
             << errors_;
     }
-    /// Returns the rows of a CSV file, as maps from columns to cells.
+    /// Returns the rows of a CSV file. Each row maps the names of columns to cells.
     std::vector<std::map<std::string, std::string>> rows(const std::string& name) const {
         std::istringstream lines(file(name));
         std::vector<std::string> columns;
@@ -83,7 +84,7 @@ TEST_F(ListenFleet, TheLogIsThatOfWatch) {
     for (std::size_t i = 0; i < watched.size(); ++i) {
         for (const char* column : {"sheet", "state", "plane", "status"})
             EXPECT_EQ(watched[i][column], listened[i][column]) << i << column;
-        // A packet has steps of 1/65536 spacing (8 nm) and 0.0055 degrees.
+        // The pose in a packet has steps of 1/65536 spacing (8 nm) and 0.0055 degrees.
         EXPECT_LT(difference(i, "x_sheet_mm"), 1e-4);
         EXPECT_LT(difference(i, "theta_sheet_deg"), 0.006);
         EXPECT_LT(difference(i, "track_x_mm"), 0.005);
@@ -125,7 +126,7 @@ TEST_F(ListenFleet, ClocksThatWrapAndDevicesThatRestart) {
         const PacketBytes encoded = encode(packet);
         bytes.append(encoded.begin(), encoded.end());
     };
-    send(65535, 4294957296);  // 10 ms before the clock wraps
+    send(65535, 4294957296);  // 10 ms before the clock wraps around
     send(0, 10'000);
     send(0, 10'000);          // repeated
     send(65535, 4294957296);  // late
@@ -156,8 +157,7 @@ TEST_F(ListenFleet, AStatusOfANewerVersionIsReportedAsOther) {
     std::ofstream(directory_ / "packets.bin", std::ios::binary) << bytes;
     WatchedFleet fleet(directory_, "--qos 1 --metrics fleet.prom --mqtt " + broker.url());
     ASSERT_EQ(run("listen packets.bin --robot m0 --qos 1 --mqtt " + broker.url()), 0) << errors_;
-    // The first report of the camera is the beginning of the count, and the second one has one more
-    // frame.
+    // Counting begins with the first report of the camera. The second report has one more frame.
     wait_until([&] {
         return file("fleet.prom").find("refused_frames_total{reason=\"other\"} 1\n") !=
                std::string::npos;

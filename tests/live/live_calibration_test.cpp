@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 class LiveCalibration : public ToolCommand {
   protected:
-    /// Writes the frames of a camera that rests at 30 places, three frames at each, to camera.raw.
+    /// Writes camera.raw. Its camera rests at 30 places, with three frames at each.
     void SetUp() override {
         ToolCommand::SetUp();
         ASSERT_EQ(run("simulate -o frames --seed 5 --k -8.7e-6 --frames 30"), 0) << errors_;
@@ -29,7 +29,7 @@ TEST_F(LiveCalibration, OfACameraEndsByItself) {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "the sanitizer must be loaded first";
 #endif
-    // The camera repeats its frames.
+    // After the last frame, the camera begins again.
     ASSERT_EQ(shell("export FAKE_CAMERA=$PWD/camera.raw FAKE_CAMERA_SIZE=188x120 "
                     "FAKE_CAMERA_LOG=$PWD/log\n"
                     "LD_PRELOAD='" +
@@ -49,7 +49,7 @@ TEST_F(LiveCalibration, HasAWindowAndEndsWithAKey) {
     GTEST_SKIP() << "the libraries of the window keep memory to the end";
 #endif
     if (shell("command -v Xvfb && command -v xdotool") != 0) GTEST_SKIP() << "no Xvfb, no xdotool";
-    // The camera shows only 2 places. Without the key press, the program would not end.
+    // The camera shows only 2 places, so the program would run forever without the key press.
     ASSERT_EQ(
         shell("mkfifo display frames.raw; Xvfb -displayfd 1 > display 2>/dev/null & server=$!\n"
               "trap 'kill $server' EXIT; head -c $((188 * 120 * 6)) camera.raw > two.raw\n"

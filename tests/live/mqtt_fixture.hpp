@@ -1,4 +1,4 @@
-/// Helpers shared by the tests with a real broker.
+/// Helpers for tests with a mosquitto broker.
 #pragma once
 
 #include <chrono>
@@ -25,7 +25,7 @@ inline void wait_until(const std::function<bool()>& condition,
     ASSERT_TRUE(condition());
 }
 
-/// Collects messages from any thread.
+/// Collects messages. Its listener may be called from any thread.
 class News {
   public:
     std::function<void(const std::string&)> listener() {

@@ -1,5 +1,5 @@
-// Tests publishing to a real broker. Checks which messages arrive and which messages are dropped,
-// including when the broker disconnects.
+// Tests publishing to a mosquitto broker: which messages arrive and which are dropped, even if the
+// broker disconnects.
 #include "publish/mqtt.hpp"
 
 #include <algorithm>
@@ -47,8 +47,7 @@ TEST_F(Mqtt, ReadsUrls) {
 
 TEST_F(Mqtt, BrokerThatIsStoppedInMidRun) {
     Broker broker(directory_);
-    // Creates a persistent session with the broker, which then queues all accepted messages in
-    // order.
+    // Creates a persistent session, in which the broker queues all accepted messages in order.
     const std::string reader =
         fmt::format("mosquitto_sub -h 127.0.0.1 -p {} -c -i reader -q 1 -t t ", broker.port());
     shell(reader + "-E");
@@ -88,7 +87,8 @@ TEST_F(Mqtt, BrokerThatIsStoppedInMidRun) {
     EXPECT_EQ(numbers, expected);
 }
 
-/// Returns the numbers of the states that a broker kept for a session, in the order of arrival.
+/// Returns the message numbers of the states that a broker kept for a session, in the order of
+/// arrival.
 std::vector<int> header_ids(const std::string& lines) {
     std::istringstream stream(lines);
     std::vector<int> ids;
@@ -98,8 +98,8 @@ std::vector<int> header_ids(const std::string& lines) {
 }
 
 TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
-    // Publishes at 50 frames/s, or at the maximum rate of a slow machine. The broker stops and
-    // restarts at given frames.
+    // Publishes 50 frames per second, or fewer on a slow machine. The broker is stopped and
+    // restarted at given frames.
     constexpr int kFrames = 700;
     constexpr auto kFrame = 20ms;
     constexpr int kGone = 100;
@@ -113,8 +113,8 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
     shell("mkfifo frames");
     std::thread camera([&] {
         const GreyImage image = DriveCamera(188, 120).frame(Drive(), 0);
-        // The pipe is closed on exec. Otherwise, a broker that starts in the meantime would keep
-        // the pipe open.
+        // The pipe is closed on exec, because otherwise the broker that starts in the meantime
+        // would keep it open.
         std::FILE* pipe = std::fopen((directory_ / "frames").c_str(), "wbe");
         const auto begun = std::chrono::steady_clock::now();
         for (int i = 1; i <= kFrames; ++i) {
@@ -148,22 +148,23 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
         << errors_;
     std::printf("%d states sent, %d dropped\n", sent, dropped);
     EXPECT_EQ(sent + dropped, kFrames);
-    // The limit accounts for the 50 states in the queue, and for states published before the
-    // publisher detects the loss of the broker.
+    // The limit allows for the 50 states in the queue, and for states that are published before the
+    // publisher notices that the broker has stopped.
     EXPECT_GT(dropped, kBack - kGone - 100);
 
-    // A state in transit when the broker was stopped may arrive twice.
+    // A state that is in transit when the broker stops may arrive twice.
     const std::vector<int> ids = header_ids(shell(reader + "-W 5 || true"));
     EXPECT_EQ(std::set<int>(ids.begin(), ids.end()).size(), static_cast<std::size_t>(sent));
-    // After the gap, the newest states come first. A busy machine may add small gaps.
+    // After the gap, the newest states arrive first. On a busy machine, there may be further small
+    // gaps.
     ASSERT_GT(ids.size(), 22U);
     auto before = ids.begin();
     for (auto i = ids.begin(); i + 1 != ids.end(); ++i) {
         if (i[1] - i[0] > before[1] - before[0]) before = i;
     }
     EXPECT_GT(before[1] - before[0], kBack - kGone - 100);
-    // The newest 50 states were kept. States in transit when the broker was stopped, and states of
-    // new frames, may arrive in between.
+    // The newest 50 states were kept and arrive from the newest to the oldest. In between, other
+    // states may arrive: those in transit when the broker stopped, and those of new frames.
     std::vector<int> waited;
     std::copy_if(before + 1, ids.end(), std::back_inserter(waited),
                  [&](int id) { return id > before[1] - 50 && id <= before[1]; });
@@ -195,7 +196,8 @@ TEST_F(Mqtt, FindsItsBrokerAgainAsFastWithTls) {
     wait_until([&] { return !publisher.is_connected(); });
     std::this_thread::sleep_for(1500ms);  // some failing attempts
     broker.start();
-    // The publisher retries every half second. The library's own delay is ten seconds.
+    // The publisher retries every half second, whereas the library alone would wait for ten
+    // seconds.
     wait_until([&] { return publisher.is_connected(); }, 4s);
 }
 
@@ -221,7 +223,7 @@ TEST_F(Mqtt, TellsThatTheUserIsRefused) {
     EXPECT_THAT(errors_, HasSubstr("refuses the connection"));
 }
 
-/// Returns options of a publisher that announces its presence with a word on the topic `presence`.
+/// Returns options of a publisher that publishes its presence as a word, on the topic `presence`.
 MqttOptions with_presence(MqttOptions options) {
     options.presence_topic = "presence";
     options.presence = [](publish::Presence presence) -> std::string {
@@ -238,10 +240,10 @@ MqttOptions with_presence(MqttOptions options) {
     return options;
 }
 
-/// A subscriber that concatenates the payloads it receives, each followed by a space.
+/// A subscriber that appends each received payload and a space to a string.
 class Heard {
   public:
-    /// Returns after the broker has accepted the subscription.
+    /// The constructor returns after the broker has accepted the subscription.
     explicit Heard(const MqttOptions& options)
         : subscriber_(options, {"presence", "probe"},
                       [this](std::string_view topic, std::string_view payload) {

@@ -1,4 +1,4 @@
-/// Runs a PostgreSQL cluster for the test, on a free port of the loopback interface.
+/// Runs PostgreSQL for a test, on a free port of the loopback interface.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 
 namespace dotpose::test {
 
-/// A PostgreSQL cluster. PostgreSQL refuses to run as root. If the test runs as root, the cluster
-/// belongs to the user `postgres` of Debian's package.
+/// A PostgreSQL cluster. If the test runs as root, the cluster belongs to the user `postgres` of
+/// Debian's package, because PostgreSQL does not run as root.
 class Postgres {
   public:
     Postgres() : port_(free_port()) {
@@ -37,7 +37,7 @@ class Postgres {
         checked(as_user(fmt::format("pg_ctl -D data -w -l log -o '-p {} -k {} -h 127.0.0.1' start",
                                     port_, directory_)));
     }
-    /// Ends all processes without a checkpoint, as in a crash.
+    /// Ends all processes without a checkpoint, as a crash does.
     void crash() { checked(as_user("pg_ctl -D data -w stop -m immediate")); }
 
     std::string url() const { return fmt::format("postgresql://robots@127.0.0.1:{}/fleet", port_); }

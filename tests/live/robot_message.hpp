@@ -10,7 +10,6 @@
 
 namespace dotpose::test {
 
-/// State message of a robot.
 struct Message {
     std::string robot = {};
     int header_id = 0;
@@ -49,7 +48,7 @@ inline std::string connection_topic(const std::string& robot) {
     return "uagv/v2/dotpose/" + robot + "/connection";
 }
 
-/// Returns a time in microseconds since 1970 in the format of messages.
+/// Converts a time in microseconds since 1970 to the format of messages.
 inline std::string timestamp(std::int64_t us) {
     const std::time_t seconds = us / 1'000'000;
     char text[40];

@@ -34,7 +34,7 @@ class SheetEditing : public testing::Test {
         };
     }
 
-    /// Changes the file as another program does.
+    /// Changes the file as if by another program.
     void change_outside(const std::string& name, double x_m) {
         SheetFile file(path_);
         SheetEntry entry = file.sheets().at(name == "left" ? 0 : 1);
@@ -78,7 +78,7 @@ TEST_F(SheetEditing, EditsAreUndoneAndDoneAgain) {
     EXPECT_TRUE(std::isnan(x_of(0)));
     edits.redo();
     EXPECT_EQ(x_of(0), 1);
-    // A new edit ends what could be done again.
+    // After a new edit, the undone edits can no longer be redone.
     edits.change(seen(edits, "left"), "place", at(3));
     EXPECT_EQ(edits.redo_text(), "");
     EXPECT_THAT(failure([&] { edits.redo(); }), HasSubstr("nothing to redo"));
@@ -94,7 +94,7 @@ TEST_F(SheetEditing, AnEditOfAnOldStateIsRefused) {
                 HasSubstr("was changed by someone else"));
     EXPECT_EQ(x_of(0), 7);
     EXPECT_EQ(edits.undo_text(), "");
-    // The other sheet is as it was.
+    // Edits of the other sheet are not affected.
     edits.change(seen(edits, "right"), "place", at(2));
     edits.change(seen(edits, "left"), "place", at(1));
     EXPECT_EQ(x_of(0), 1);
@@ -141,7 +141,7 @@ TEST_F(SheetEditing, ChangesByOtherProgramsAreRead) {
     EXPECT_TRUE(edits.refresh());
     EXPECT_EQ(edits.sheets().at(1).world->x_m, 4);
     EXPECT_GT(edits.version(), version);
-    // While the file is invalid, the earlier sheets remain.
+    // As long as the file is invalid, the earlier sheets are kept.
     const std::int64_t valid = edits.version();
     std::ofstream(path_) << "{";
     EXPECT_TRUE(edits.refresh());
@@ -162,7 +162,7 @@ TEST_F(SheetEditing, MeasuredPlacesAreOneEdit) {
     EXPECT_EQ(read_sheets(path_).at(1).print_scale_y, 0.99);
     edits.undo();
     EXPECT_TRUE(std::isnan(x_of(0)) && std::isnan(x_of(1)));
-    // A sheet is changed after the measurement began.
+    // A sheet is changed between the measurement and the edit.
     const std::vector<SheetEdits::Target> later = {seen(edits, "left"), seen(edits, "right")};
     change_outside("right", 5);
     EXPECT_THAT(failure([&] { edits.change_all(later, measured, "measured places"); }),

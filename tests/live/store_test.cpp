@@ -1,4 +1,5 @@
-// Tests the databases of states (SQLite and PostgreSQL), and the queue that writes to them.
+// Tests the databases of states (SQLite and PostgreSQL) and the queue from which states are written
+// to them.
 #include <atomic>
 #include <filesystem>
 #include <fstream>
@@ -56,7 +57,6 @@ auto values_of(const State& s) {
 
 enum class Kind { sqlite, postgres };
 
-/// Tests that both databases must pass.
 class Databases : public testing::TestWithParam<Kind> {
   protected:
     static void SetUpTestSuite() { cluster_ = std::make_unique<Postgres>(); }
@@ -182,7 +182,7 @@ TEST_P(Databases, RemoveOldDays) {
     EXPECT_THAT(numbers(*database, {"anna"}), ElementsAre(3, 4));
     EXPECT_THAT(numbers(*database, {"old"}), ElementsAre());
     EXPECT_EQ(database->robots().size(), 1U);
-    database->write(states);  // the database accepts states of removed days
+    database->write(states);  // states of removed days can be written again
     EXPECT_EQ(numbers(*database, {"anna"}).size(), 5U);
 }
 
@@ -199,7 +199,7 @@ TEST_P(Databases, TwoProgramsWriteAtTheSameTime) {
                 try {
                     database->write(states);
                 } catch (const Error& error) {
-                    // If two transactions wait for each other, PostgreSQL may abort one of them.
+                    // PostgreSQL may abort one of two transactions that wait for each other.
                     ++failures;
                     database->write(states);
                 }
@@ -249,7 +249,7 @@ TEST(DatabaseFiles, OtherFilesAreRefused) {
                 HasSubstr("the URL of the database is not valid"));
 }
 
-/// A database in memory that can be made unavailable.
+/// A database in memory that can be made to fail.
 class FakeDatabase : public store::Database {
   public:
     struct Contents {

@@ -1,5 +1,5 @@
 // Checks the messages of `dotpose watch --mqtt` against VDA 5050, version 2.0.0. The schemas
-// contain the required fields, types and ranges of its tables, sections 6.11 and 6.14.
+// contain the required fields, types and ranges from its tables in sections 6.11 and 6.14.
 #include <algorithm>
 #include <sstream>
 #include <string>
@@ -55,7 +55,7 @@ JsonSchema connection() {
     return JsonSchema({{"type", "object"}, {"required", required}, {"properties", properties}});
 }
 
-/// Time in UTC according to ISO 8601.
+/// Regular expression of a time in UTC according to ISO 8601.
 constexpr const char* kTimestamp =
     "^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}\\.[0-9]+Z$";
 
@@ -76,8 +76,7 @@ class Vda5050 : public Mqtt {
 
 TEST_F(Vda5050, MessagesAreValid) {
     const Broker broker(directory_);
-    // Creates a persistent session with the broker, which then queues the messages until the next
-    // call.
+    // Creates a persistent session, in which the broker queues the messages until the next call.
     const std::string reader = fmt::format(
         "mosquitto_sub -h 127.0.0.1 -p {} -c -i reader -q 1 -v -t 'uagv/v2/#' ", broker.port());
     shell(reader + "-E");
@@ -102,7 +101,7 @@ TEST_F(Vda5050, MessagesAreValid) {
     EXPECT_EQ(std::ranges::count(subjects, "connection"), 2);
     EXPECT_EQ(std::ranges::count(subjects, "visualization"), 10);
     EXPECT_GE(poses, 5);
-    EXPECT_LT(poses, 10);  // a lost robot has no pose
+    EXPECT_LT(poses, 10);  // a lost robot publishes no pose
 }
 
 TEST_F(Vda5050, ASubscriberThatComesLateLearnsThatTheRobotHasLeft) {
@@ -111,7 +110,7 @@ TEST_F(Vda5050, ASubscriberThatComesLateLearnsThatTheRobotHasLeft) {
     const json message = json::parse(shell(
         fmt::format("mosquitto_sub -h 127.0.0.1 -p {} -t 'uagv/v2/#' -C 1 -W 5", broker.port())));
     EXPECT_EQ(message["connectionState"], "OFFLINE");
-    EXPECT_EQ(message["headerId"], 2);  // after the last will and ONLINE
+    EXPECT_EQ(message["headerId"], 2);  // number 0 is the last will, and number 1 is ONLINE
 }
 
 }  // namespace

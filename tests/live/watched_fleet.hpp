@@ -10,8 +10,8 @@
 
 namespace dotpose::test {
 
-/// `dotpose fleet`, running in the background in a separate directory. The constructor waits until
-/// it has subscribed.
+/// Runs `dotpose fleet` in the background, in a separate directory. The constructor returns when
+/// the fleet has subscribed.
 class WatchedFleet {
   public:
     WatchedFleet(const fs::path& directory, const std::string& arguments)

@@ -1,5 +1,5 @@
 // Tests the CDR encoding of messages against the bytes of another serialiser (golden.txt), and the
-// message types against their definitions in ROS 2.
+// message types against the definitions of ROS 2.
 #include <fstream>
 #include <map>
 #include <string>
@@ -25,7 +25,7 @@ std::string hex(const std::vector<std::uint8_t>& bytes) {
     return text;
 }
 
-/// Returns the bytes of a type written by the other serialiser (golden.mjs).
+/// Returns the bytes that the other serialiser (golden.mjs) wrote for a type.
 std::string golden(const std::string& wanted) {
     std::ifstream file(test::source_dir() + "/tests/robots/golden.txt");
     std::string type;
@@ -69,8 +69,8 @@ TEST(Cdr, HasTheBytesOfAnotherSerialiser) {
 }
 
 TEST(Cdr, CountsTheBytesOfATextAndItsEnd) {
-    // The other serialiser counts characters instead of bytes. The expected bytes therefore follow
-    // the standard: 2 bytes of UTF-8, and the terminating 0.
+    // The expected bytes follow the standard, because the other serialiser counts characters
+    // instead of bytes: 2 bytes of UTF-8 and the terminating 0.
     const std::string bytes = hex(to_cdr(CompressedImage{{{1, 2}, "\u00e4"}, "", {}}));
     EXPECT_EQ(bytes,
               "00010000"

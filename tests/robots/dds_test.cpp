@@ -25,8 +25,8 @@ constexpr const char* kTopics =
     "/anna/pose geometry_msgs/PoseWithCovarianceStamped /anna/odom nav_msgs/Odometry "
     "/anna/status diagnostic_msgs/DiagnosticArray /tf tf2_msgs/TFMessage";
 
-/// Commands for a network that consists of the loopback interface only, with the multicast that DDS
-/// needs.
+/// Commands that set up a network with only the loopback interface, including the multicast that
+/// DDS needs.
 constexpr const char* kNetwork =
     "ip link set lo up multicast on; ip route add 239.0.0.0/8 dev lo; ";
 
@@ -34,19 +34,19 @@ class Dds : public WatchCommand {
   protected:
     using ToolCommand::shell;
 
-    /// Returns true if network namespaces can be created here. In most containers, they cannot.
+    /// Returns true if network namespaces can be created, which is impossible in most containers.
     static bool has_networks() {
         return run_shell(std::string("unshare -rn sh -c '") + kNetwork + "' 2>&1").exit_code == 0;
     }
 
-    /// Starts a reader of messages, and then runs `dotpose watch` on the frames that the shell
-    /// command `frames` writes. Returns the messages received by the reader.
+    /// Starts a reader of messages. Then runs `dotpose watch` on the frames that the shell command
+    /// `frames` writes. Returns the messages that the reader received.
     std::vector<json> read_drive(const std::string& frames, const std::string& reliability,
                                  const std::string& options, const std::string& environment = "") {
         const std::string watch = "'" + test::tool_path() + "' watch - " + kRaw + " " + kTrack +
                                   " --units ros --dds --robot anna -o lines " + options;
-        // The reader signals when it and the writers have discovered each other. The frames start
-        // then.
+        // The frames start when the reader reports that it and the writers have discovered each
+        // other.
         const std::string ready =
             "until [ -e ready ] || ! kill -0 $reader; do sleep 0.1; done; sleep 1; ";
         std::ofstream(directory_ / "run.sh")
@@ -73,7 +73,7 @@ class Dds : public WatchCommand {
 TEST_F(Dds, HasThePosesOfTheLines) {
     DOTPOSE_NEEDS_DDS();
     put_raw(drive_.frames());
-    // The frames are not paced, and no message may be lost.
+    // The frames arrive as fast as possible, and no message may be lost.
     const auto messages = read_drive("cat drive.raw", "reliable", "--dds-reliable");
     expect_messages_of(parsed(file("lines")), messages, "anna", kAsWatched);
 }
@@ -85,7 +85,7 @@ TEST_F(Dds, SendsSensorDataAsRosDoes) {
         "ffmpeg -v error -readrate 0.5 -f rawvideo -pix_fmt gray -s 320x240 -r 200 -i drive.raw "
         "-f rawvideo -",
         "best-effort", "");
-    // A quiet loopback interface loses nothing, but this is not guaranteed.
+    // A quiet loopback interface usually loses nothing, but this is not guaranteed.
     EXPECT_GT(of_topic(messages, "/anna/pose").size(), 150U);
     EXPECT_EQ(of_topic(messages, "/tf").size(), 200U);
 }
@@ -93,7 +93,7 @@ TEST_F(Dds, SendsSensorDataAsRosDoes) {
 TEST_F(Dds, IsFoundOnThisComputerAloneIfRosSaysSo) {
     DOTPOSE_NEEDS_DDS();
     put_raw(20);
-    // With LOCALHOST, programs do not use multicast to discover each other. The reader must not
+    // With LOCALHOST, programs discover each other without multicast, and the reader must not
     // receive any multicast packets.
     const auto messages = read_drive("cat drive.raw", "reliable", "--dds-reliable",
                                      "export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; ");

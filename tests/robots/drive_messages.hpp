@@ -1,5 +1,5 @@
-/// Compares decoded messages with the JSON lines that `dotpose watch --units ros` writes in the
-/// same run. The messages are decoded by independent readers (npm_readers.hpp).
+/// Compares messages with the JSON lines that `dotpose watch --units ros` writes in the same run.
+/// Independent readers have decoded the messages (npm_readers.hpp).
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace dotpose::test {
 
-/// Maximum differences between messages and lines, which are rounded to nanometres and 1e-8 rad.
+/// Maximum differences between messages and lines. Lines are rounded to nanometres and 1e-8 rad.
 struct MessageTolerance {
     double length_m = 0.6e-9;
     double angle_rad = 1e-8;
@@ -23,7 +23,8 @@ struct MessageTolerance {
     double turn_rad_s = 0.6e-6;
 };
 inline constexpr MessageTolerance kAsWatched;
-/// The log has degrees with six decimals, and velocities in mm/s and degrees/s with three decimals.
+/// For logs, which contain degrees with six decimals, and velocities in mm/s and degrees/s with
+/// three decimals.
 inline constexpr MessageTolerance kAsLogged = {2e-9, 2e-8, 2e-6, 1e-5};
 
 inline double yaw_of(const nlohmann::json& rotation) {
@@ -41,7 +42,7 @@ inline std::int64_t time_us(const nlohmann::json& line) {
     return std::llround(line["t_s"].get<double>() * 1e6);
 }
 
-/// Expects that each pose equals the corresponding line with a fix, and has the same time.
+/// Expects one pose for each line with a fix, with the values and the time of the line.
 inline void expect_poses_of(const std::vector<nlohmann::json>& lines,
                             const std::vector<nlohmann::json>& poses,
                             const MessageTolerance& tolerance) {
@@ -104,8 +105,8 @@ inline void expect_messages_of(const std::vector<nlohmann::json>& lines,
     EXPECT_EQ(next, odometry.size());
 }
 
-/// Expects that the composed transforms equal the pose of the tracker, and that odom to base_link
-/// is continuous where the robot jumps.
+/// Expects that the product of the transforms is the pose of the tracker, and that the transform
+/// from odom to base_link is continuous even when the robot jumps.
 inline void expect_odometry_of(const std::vector<nlohmann::json>& lines,
                                const std::vector<nlohmann::json>& messages,
                                const std::string& robot) {
@@ -130,7 +131,7 @@ inline void expect_odometry_of(const std::vector<nlohmann::json>& lines,
         EXPECT_NEAR(
             map["translation"]["y"].get<double>() + std::sin(angle) * x + std::cos(angle) * y,
             line["track_y_m"].get<double>(), 1e-9);
-        // The maximum speed is 300 mm/s, at 5 ms per frame.
+        // At the maximum speed of 300 mm/s, the robot moves by 1.5 mm between frames.
         EXPECT_LT(std::hypot(x - before_x, y - before_y), 0.003);
         if (map != map_before) ++jumps;
         map_before = map;
@@ -138,7 +139,7 @@ inline void expect_odometry_of(const std::vector<nlohmann::json>& lines,
         before_y = y;
     }
     EXPECT_EQ(next, transforms.size());
-    // The robot was found at the start, after it was put down, and after it was moved aside.
+    // The robot was found at the start, after it was put down, and after it was moved to the side.
     EXPECT_EQ(jumps, 3);
 }
 

@@ -1,4 +1,4 @@
-// Tests MCAP files with two independent readers, which check all checksums.
+// Tests MCAP files with two independent readers that check all checksums.
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -27,7 +27,7 @@ PoseWithCovarianceStamped pose(int number) {
 
 class Mcap : public testing::Test {
   protected:
-    /// Writes poses, and a status with every tenth pose.
+    /// Writes poses, and a status after every tenth pose.
     void write(McapFile& file, int poses) {
         const McapChannel channel = file.add_channel("/anna/pose", type_of(pose(0)));
         std::optional<McapChannel> states;
@@ -60,7 +60,7 @@ class Mcap : public testing::Test {
 TEST_F(Mcap, IsReadByOthers) {
     DOTPOSE_NEEDS_NPM();
     McapFile file(path_);
-    write(file, 1234);  // 12 s, with one chunk per second
+    write(file, 1234);  // 12 s, in chunks of one second
     file.finish();
     const auto messages = read_mcap(path_);
     expect_poses(messages, 1234, 1234);
@@ -77,7 +77,8 @@ TEST_F(Mcap, IsCompleteAtEveryMoment) {
     DOTPOSE_NEEDS_NPM();
     McapFile file(path_);
     write(file, 456);
-    // The file is not finished, as if the program was killed. The last second may be missing.
+    // The file is not finished, as if the program had been killed, so the last second may be
+    // missing.
     expect_poses(read_mcap(path_), 456 - 101, 456);
     file.finish();
     expect_poses(read_mcap(path_), 456, 456);
@@ -88,8 +89,8 @@ TEST_F(Mcap, CutOffAnywhereItHasAllFinishedChunks) {
     McapFile file(path_);
     write(file, 456);
     file.finish();
-    // The file is cut in the middle of the data, as on a full disk. The file has neither an end nor
-    // an index.
+    // The file is cut in the middle of the data, as on a full disk, so it has neither an end nor an
+    // index.
     std::filesystem::resize_file(path_, std::filesystem::file_size(path_) / 2);
     const auto messages = read_mcap(path_, "--stream");
     EXPECT_GT(messages.size(), 100U);
@@ -103,7 +104,7 @@ TEST_F(Mcap, LargeMessagesEndTheirChunk) {
     const McapChannel channel = file.add_channel("/image", type_of(image));
     for (int i = 0; i < 5; ++i)
         file.write(channel, i, to_cdr(image));
-    // Two images of each of the two topics are written.
+    // Two images were written for each of two topics.
     EXPECT_EQ(read_mcap(path_).size(), 4U);
     file.finish();
     EXPECT_EQ(read_mcap(path_).size(), 5U);
@@ -113,9 +114,9 @@ TEST_F(Mcap, TheIndexStaysSmallerThanTheData) {
     McapFile file(path_, {.chunk_ns = 1});
     write(file, 20'000);
     file.finish();
-    // Chunks grow with the index. Rewriting the index with each chunk therefore writes no more
-    // bytes than writing the data.
-    constexpr std::size_t kRecord = 420;  // per pose: headers of 9 + 22 bytes, CDR of 4 + 384 bytes
+    // The chunks grow with the index, so that writing the index again with each chunk takes no more
+    // bytes than the data.
+    constexpr std::size_t kRecord = 420;  // bytes per pose: headers of 9 + 22, CDR of 4 + 384
     EXPECT_LT(std::filesystem::file_size(path_), 20'000 * kRecord * 3 / 2);
 }
 

@@ -1,4 +1,4 @@
-/// Independent readers of messages, from npm.
+/// Reads messages with independent programs from npm.
 #pragma once
 
 #include <sstream>
@@ -13,8 +13,8 @@
 
 namespace dotpose::test {
 
-/// Returns the folder with the readers, which is filled in the first call. Returns an empty string
-/// if there is no npm or no network.
+/// Returns the folder with the readers, which the first call installs. Returns an empty string if
+/// there is no npm or no network.
 inline std::string npm_folder() {
     static const ShellOutcome installed =
         run_shell("'" + source_dir() + "/tests/robots/npm_packages' '" DOTPOSE_NPM_FOLDER "'");
@@ -30,7 +30,7 @@ inline ShellOutcome run_node(const std::string& command) {
     return run_shell("node '" + npm_folder() + "'/" + command);
 }
 
-/// Reads all messages of an MCAP file, with both readers and all checksums.
+/// Reads all messages of an MCAP file with both readers, which check all checksums.
 inline std::vector<nlohmann::json> read_mcap(const std::string& path,
                                              const std::string& option = "") {
     const ShellOutcome read = run_node("read_mcap.mjs '" + path + "' " + option + " 2>&1");

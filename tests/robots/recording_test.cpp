@@ -1,5 +1,5 @@
-// Tests recording and replaying a simulated drive over two sheets. The messages are compared with
-// the lines of the same run.
+// Tests recording and replaying a simulated drive over two sheets. Compares the messages with the
+// lines of the same run.
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -37,8 +37,8 @@ class Recording : public WatchCommand {
     }
 };
 
-// A single test checks the poses, the odometry and the replayed log, because locating the drive and
-// reading its recording take seconds.
+// The poses, the odometry and the replayed log are checked in one test, because locating the drive
+// and reading its recording take seconds.
 TEST_F(Recording, HasThePosesAndTheOdometryOfTheLines) {
     DOTPOSE_NEEDS_NPM();
     put_raw(drive_.frames());
@@ -53,7 +53,7 @@ TEST_F(Recording, HasThePosesAndTheOdometryOfTheLines) {
     expect_messages_of(lines, messages, "anna", kAsWatched);
     expect_odometry_of(lines, messages, "anna");
 
-    // The log has rounded numbers, and only a part of the covariances of the velocities.
+    // The log has rounded numbers, and contains the covariances of the velocities only in part.
     ASSERT_EQ(run("replay run.csv -o again.mcap --robot anna"), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("frames with a fix "));
     expect_messages_of(lines, recorded("again.mcap"), "anna", kAsLogged);
@@ -87,7 +87,7 @@ TEST_F(Recording, HasTheFramesIfAskedFor) {
     const json& message = images[3]["message"];
     EXPECT_EQ(message["format"], "png");
     EXPECT_EQ(message["header"]["frame_id"], "camera_optical");
-    // The image is decoded by another program, and has the same pixels as the frame.
+    // The image must have the same pixels as the frame after another program has decoded it.
     const auto bytes = message["data"].get<std::vector<std::uint8_t>>();
     std::ofstream(directory_ / "frame.png", std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()),
@@ -113,8 +113,8 @@ TEST_F(Recording, TellsWhereTheCameraSits) {
     const json& mount = mounts[0]["message"]["transforms"][0];
     EXPECT_EQ(mount["child_frame_id"], "camera_optical");
     EXPECT_NEAR(mount["transform"]["translation"]["x"], 0.00458, 1e-9);
-    // `ros2 bag play` publishes the topic with the recorded quality of service, transient local,
-    // which listeners of transforms accept.
+    // `ros2 bag play` publishes the topic with the recorded quality of service. It must be
+    // transient local, because listeners of transforms require it.
     EXPECT_THAT(mounts[0]["offered"], HasSubstr("\n  durability: 1\n"));
     const auto poses = of_topic(recorded("run.mcap"), "/robot/pose");
     EXPECT_THAT(poses.at(0)["offered"], HasSubstr("\n  durability: 2\n"));
@@ -145,8 +145,8 @@ TEST_F(Recording, KilledItIsStillReadable) {
     DOTPOSE_NEEDS_NPM();
     put_raw(400);
     ASSERT_EQ(stop_after(400, "KILL"), 128 + 9);
-    // 2 s were watched. The last chunk, of at most a second, may be missing. Both readers can read
-    // the file.
+    // The tool processed 2 s of frames. The last chunk, of at most a second, may be missing, but
+    // both readers must be able to read the file.
     const auto poses = of_topic(recorded("run.mcap"), "/robot/pose");
     EXPECT_GE(poses.size(), 199U);
     EXPECT_LE(poses.size(), 400U);

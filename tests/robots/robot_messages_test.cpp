@@ -1,5 +1,5 @@
-// Tests the conversion of fixes and tracks to messages: frames of reference, units and covariances,
-// compared with values computed by hand.
+// Tests the conversion of fixes and tracks to messages. Frames of reference, units and covariances
+// are compared with values computed by hand.
 #include "dotpose/tools/robot_messages.hpp"
 
 #include <cmath>
@@ -20,8 +20,8 @@ double yaw(const ros::Quaternion& rotation) {
     return 2 * std::atan2(rotation.z, rotation.w);
 }
 
-/// Returns the motion of a robot at (2 m, 1 m) and 90 degrees. The robot drives at 0.3 m/s along
-/// the y axis of the world, and turns.
+/// Returns the motion of a robot at (2 m, 1 m) with a yaw of 90 degrees. The robot drives at 0.3
+/// m/s along the y axis of the world and turns.
 PlanarMotion northwards() {
     PlanarMotion motion;
     motion.pose = {2, 1, kRightAngle};
@@ -108,8 +108,7 @@ TEST(RobotMessages, OdometryBeginsWhereTheRobotIsFirstSeen) {
     expect_transform(start.tf->transforms[0], 2, 1, kRightAngle);
     expect_transform(start.tf->transforms[1], 0, 0, 0);
 
-    // The robot is 0.1 m farther north, which is forwards, and 0.2 m farther west, which is to the
-    // left.
+    // The robot has moved 0.1 m north, which is forwards, and 0.2 m west, which is to its left.
     PlanarMotion next = first;
     next.pose = {1.8, 1.1, kRightAngle + 0.25};
     const RobotMessages then = messenger.messages(update(next));
@@ -119,7 +118,8 @@ TEST(RobotMessages, OdometryBeginsWhereTheRobotIsFirstSeen) {
     EXPECT_EQ(then.odometry->child_frame_id, "base_link");
     EXPECT_NEAR(then.odometry->pose.pose.position.x, 0.1, 1e-12);
     EXPECT_NEAR(then.odometry->pose.pose.position.y, 0.2, 1e-12);
-    // The axes of odom are the axes of the world rotated by 90 degrees, so x and y are exchanged.
+    // The axes of odom are those of the world rotated by 90 degrees, so the variances of x and y
+    // are exchanged.
     EXPECT_NEAR(then.odometry->pose.covariance[0], 2, 1e-12);
     EXPECT_NEAR(then.odometry->pose.covariance[7], 1, 1e-12);
     EXPECT_NEAR(then.odometry->pose.covariance[35], 3, 1e-12);
@@ -131,11 +131,12 @@ TEST(RobotMessages, OdometryGoesOnWhenTheRobotIsPutElsewhere) {
     PlanarMotion next = northwards();
     next.pose.y_m += 0.5;
     messenger.messages(update(next));
-    // The robot is lifted and put down 10 m away, turned around.
+    // The robot is lifted, turned, and put down 10 m away.
     next.pose = {10, -3, 0};
     const RobotMessages again = messenger.messages(update(next, true));
     expect_transform(again.tf->transforms[1], 0.5, 0, 0);
-    // The transform from map to odom to base_link is the pose of the robot.
+    // The product of the transforms from map to odom and from odom to base_link is the pose of the
+    // robot.
     expect_transform(again.tf->transforms[0], 9.5, -3, 0);
     next.pose.x_m += 0.25;
     const RobotMessages then = messenger.messages(update(next));
@@ -161,8 +162,8 @@ TEST(RobotMessages, VelocitiesAreThoseOfTheRobot) {
     EXPECT_NEAR(twist.twist.linear.x, 0.3, 1e-12);
     EXPECT_NEAR(twist.twist.linear.y, 0, 1e-12);
     EXPECT_EQ(twist.twist.angular.z, -0.5);
-    // The forward direction is the y axis of the world. An angle error of 1 rad adds 0.3 m/s
-    // sideways. The variance of the angle is 3.
+    // The robot drives along the y axis of the world. With an angle error of 1 rad, 0.3 m/s of its
+    // speed are sideways. The variance of the angle is 3.
     EXPECT_NEAR(twist.covariance[0], 5, 1e-12);
     EXPECT_NEAR(twist.covariance[7], 4 + 0.3 * 0.3 * 3, 1e-12);
     EXPECT_NEAR(twist.covariance[35], 6, 1e-12);
@@ -187,7 +188,7 @@ TEST(RobotMessages, StatusSaysWhatIsWrong) {
     EXPECT_EQ(state(seen).values.at(0).value, "lost");
 }
 
-/// Returns a track in the pattern frame, with y down and clockwise angles.
+/// Returns a track in the pattern frame, in which y points down and angles are clockwise.
 Followed followed_in_pattern() {
     Followed followed;
     Fix& fix = followed.located.fix;
@@ -223,7 +224,7 @@ TEST(RobotUpdates, ThePatternHasYUp) {
     const PlanarCovariance& covariance = *seen.fix->covariance;
     EXPECT_DOUBLE_EQ(covariance[0][0], 4 * 0.25e-6);
     EXPECT_DOUBLE_EQ(covariance[0][1], -0.25e-6);
-    EXPECT_DOUBLE_EQ(covariance[1][2], 0.5 * 0.5e-3);  // both signs are reversed
+    EXPECT_DOUBLE_EQ(covariance[1][2], 0.5 * 0.5e-3);  // y and the angle both change their sign
     EXPECT_DOUBLE_EQ(covariance[2][2], 16);
     ASSERT_TRUE(seen.motion);
     EXPECT_DOUBLE_EQ(seen.motion->pose.y_m, -1);
@@ -269,7 +270,7 @@ TEST(CameraMount, IsWhereTheImageCentreIsSeenFromTheRobot) {
     camera.centre_px = {100, 50};
     camera.paper = PaperScale{.mm_per_px_x = 0.05, .mm_per_px_y = 0.05};
     camera.focal_px = 400;
-    // The robot's centre is 10 mm behind the image centre, along the image x axis.
+    // The centre of the robot is 10 mm behind the image centre, along the image x axis.
     camera.reference_px = PixelPoint{-100, 50};
     const auto ahead = camera_mount(camera);
     ASSERT_TRUE(ahead);
@@ -278,13 +279,12 @@ TEST(CameraMount, IsWhereTheImageCentreIsSeenFromTheRobot) {
     EXPECT_NEAR(ahead->transform.translation.x, 0.01, 1e-12);
     EXPECT_NEAR(ahead->transform.translation.y, 0, 1e-12);
     EXPECT_NEAR(ahead->transform.translation.z, 0.02, 1e-12);
-    // The camera is rotated by half a turn about x. The image's y axis points to the right, and z
-    // points down.
+    // The camera is rotated by half a turn about x, so its y axis points to the right and its z
+    // axis down.
     EXPECT_NEAR(ahead->transform.rotation.x, 1, 1e-12);
 
-    // The robot's heading is the image's y axis, which points down in the image. The image's x axis
-    // therefore points to the left of the robot, so the camera is 10 mm to the left of the robot's
-    // centre.
+    // The heading of the robot is the image y axis. The image x axis therefore points to the left
+    // of the robot, and the camera is 10 mm to the left of the robot's centre.
     camera.theta_offset_rad = kRightAngle;
     const auto left = camera_mount(camera);
     EXPECT_NEAR(left->transform.translation.x, 0, 1e-12);

@@ -1,4 +1,4 @@
-// Writes a day of states of many robots to a database, as `dotpose fleet --store` does, but faster
+// Writes a day of states of many robots to a database as `dotpose fleet --store` does, but faster
 // than real time. Then reads all states, checks that none is missing, and prints rates and times.
 // docs/fleet.md contains the results.
 #include <chrono>
@@ -29,7 +29,7 @@ struct Arguments {
     int robots = 200;
     int hz = 10;
     int hours = 24;
-    int period_s = 5;  ///< time span of the states in one transaction
+    int period_s = 5;  ///< seconds of states in one transaction
     bool only_reads = false;
 };
 
@@ -43,7 +43,7 @@ std::string name_of(int robot) {
     return fmt::format("robot{}", robot);
 }
 
-/// Robots that drive in circles.
+/// Simulated robots that drive in circles.
 class Robots {
   public:
     explicit Robots(int count) {
@@ -84,7 +84,7 @@ void write_all(const Arguments& arguments) {
         std::vector<State> batch;
         for (std::int64_t second = 0; second < seconds; second += arguments.period_s) {
             batch.clear();
-            // Sorts the states by robot and time, as the queue does in its transactions.
+            // The states are sorted by robot and time, as the queue sorts them.
             for (int robot = 0; robot < arguments.robots; ++robot) {
                 for (int i = 0; i < arguments.period_s * arguments.hz; ++i)
                     batch.push_back(robots.state(robot, second * arguments.hz + i, arguments.hz));
@@ -98,8 +98,8 @@ void write_all(const Arguments& arguments) {
     std::fflush(stdout);
 }
 
-/// Reads a part of the history of a robot. Returns the number of states, or -1 if their numbers are
-/// not consecutive.
+/// Reads the states of a robot between two times. Returns their number, or -1 if the message
+/// numbers are not consecutive.
 std::int64_t count_states(store::Database& database, int robot, std::int64_t from_s,
                           std::int64_t to_s, int hz) {
     std::int64_t count = 0;

@@ -1,4 +1,4 @@
-"""A client of the pages of dotpose for tests, which speaks HTTP and WebSocket as badly as they demand."""
+"""A client of the pages of dotpose that can violate the protocols HTTP and WebSocket, for tests."""
 
 import json
 import socket
@@ -8,7 +8,7 @@ PATIENCE_S = 60
 
 
 class Client:
-    """A TCP connection that speaks HTTP and WebSocket as badly as the test demands."""
+    """A TCP connection that speaks HTTP and WebSocket, and violates them if a test requires it."""
 
     def __init__(self, port):
         self.socket = socket.create_connection(("127.0.0.1", port), PATIENCE_S)
@@ -58,7 +58,7 @@ class Client:
             head += bytes([0x80 | 126]) + struct.pack(">H", size)
         else:
             head += bytes([0x80 | 127]) + struct.pack(">Q", size)
-        self.send(head + bytes(4) + payload)  # the mask 0 leaves the payload as it is
+        self.send(head + bytes(4) + payload)  # a mask of 0 does not change the payload
 
     def command(self, **arguments):
         self.send_frame(json.dumps(arguments).encode())
@@ -91,7 +91,7 @@ class Client:
                     return data
 
     def topic(self, name):
-        """Returns the next value of a topic to which the client has subscribed."""
+        """Returns the next value of a topic that the client has subscribed to."""
         while True:
             topic, _, value = self.message().partition(b"\n")
             self.command(do="next", topic=topic.decode())
@@ -109,7 +109,7 @@ class Client:
             return False
 
     def is_closed(self):
-        """Waits for the end of the connection. Returns false if it remains open."""
+        """Waits until the connection is closed. Returns false if it remains open."""
         try:
             while self.socket.recv(65536):
                 pass

@@ -1,9 +1,10 @@
-// Writes frames and the exact bits of their fixes. Tests compare the wrappers with these files.
+// Writes frames and the exact bits of their fixes. Tests compare the fixes of the wrappers with
+// them.
 //
 //   dotpose_golden_files DIRECTORY [TIMES]
 //
-// For each set, `nominal` (200 frames), `hard` (150 frames) and `vga` (40 frames), each multiplied
-// by TIMES, writes
+// Writes two files for each set. The sets are `nominal` (200 frames), `hard` (150 frames) and `vga`
+// (40 frames). TIMES multiplies their numbers of frames.
 //
 //   SET.frames  a sequence of binary PGM images: each frame, followed by its next frame
 //   SET.csv     a line for each frame and method of locating; wrappers/golden/README.md
@@ -64,8 +65,8 @@ void write(const GreyImage& image, std::FILE* file) {
     std::fwrite(image.pixels.data(), 1, image.pixels.size(), file);
 }
 
-/// Numbers in the order of the columns. Floating-point numbers are written as their bits, in
-/// hexadecimal digits.
+/// Numbers in the order of the columns. Floating-point numbers are stored as the hexadecimal digits
+/// of their bits.
 class Numbers {
   public:
     template <std::integral Int>
@@ -95,8 +96,8 @@ class Numbers {
         }
         put(plane.lens_q40);
     }
-    /// Writes the covariance with lengths in another unit. `unit` is the length of a spacing in
-    /// this unit.
+    /// Stores the covariance with lengths in another unit, in which a spacing has the length
+    /// `unit`.
     void put_covariance(const Fix& fix, double unit) {
         const double units[] = {unit, unit, 1};
         for (int i = 0; i < 9; ++i) {
@@ -123,7 +124,6 @@ std::string numbers_of(const Fix& fix) {
     return all.joined();
 }
 
-/// Writes the lines of one frame.
 class Lines {
   public:
     Lines(std::FILE* file, std::uint64_t index) : file_(file), index_(index) {}
@@ -139,7 +139,8 @@ class Lines {
     std::uint64_t index_;
 };
 
-/// Locates a frame with every method, and the next frame with a prediction from the first fix.
+/// Locates a frame by every method, and locates the next frame with a prediction from the first
+/// fix.
 void locate(const GreyImage& image, const GreyImage& next, Lines lines) {
     const auto memory = std::make_unique<LargeMemory>();
     Locator locator(*memory, DeviceOptions{});

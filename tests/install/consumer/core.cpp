@@ -3,7 +3,7 @@
 
 #include <dotpose/locate.hpp>
 
-// Passes a blank frame through the whole public interface. Prints the reason why there is no fix.
+// Locates a blank frame through the public interface. Prints the reason why there is no fix.
 int main() {
     static dotpose::SmallMemory memory;
     const std::vector<std::uint8_t> pixels(188 * 120, 200);

@@ -10,7 +10,7 @@ namespace {
 
 using namespace dotpose;
 
-/// Computes the place of a fix on a sheet, and in the world frame of the sheet.
+/// Computes the place of a fix on a sheet and in the world.
 bool place(const std::filesystem::path& folder) {
     std::ofstream(folder / "sheets.json")
         << R"({"format": "dotpose-sheets", "version": 1, "sheets": [{"name": "table", "page": 1,
@@ -46,7 +46,7 @@ bool keep_camera(const std::filesystem::path& folder) {
 
 }  // namespace
 
-// The program only reads camera and sheet files, and links neither printing nor calibration.
+// The program only reads camera and sheet files, so it needs neither printing nor calibration.
 int main() {
     const std::filesystem::path folder = "consumer-out";
     std::filesystem::create_directories(folder);

@@ -14,7 +14,7 @@ namespace {
 
 using namespace dotpose;
 
-/// Writes a small sheet in three formats, and overlays the PDF with dots.
+/// Writes a small sheet in three formats, and prints dots over the PDF.
 void print(const std::filesystem::path& folder) {
     SheetOptions options;
     options.paper = {20, 20};
@@ -25,7 +25,7 @@ void print(const std::filesystem::path& folder) {
     std::printf("%d x %d dots on %zu page\n", sheet.columns, sheet.rows, report.pages.size());
 }
 
-/// Simulates a frame, writes and reads it, locates it, and draws the result.
+/// Simulates a frame, writes and reads its image, locates it, and draws the result.
 bool locate_simulated(const std::filesystem::path& folder) {
     const Shot shot = draw_shot(Setup{}, 0);
     write_png(folder / "frame.png", render(shot).view());
@@ -49,7 +49,7 @@ bool calibrate(const std::filesystem::path& folder) {
 
 }  // namespace
 
-// Uses each library on which the tools depend, to check that the library is found, links and runs.
+// Uses each library on which the tools depend, to check that it is found, links and runs.
 int main() {
     const std::filesystem::path folder = "consumer-out";
     std::filesystem::create_directories(folder);

@@ -12,7 +12,7 @@ from gi.repository import Gst  # noqa: E402
 
 
 def say(line):
-    """Writes a line in a single call, because frames and messages arrive in different threads."""
+    """Writes a line by a single call, because frames and messages arrive in different threads."""
     sys.stdout.write(line + "\n")
 
 

@@ -1,4 +1,4 @@
-// The functions that GStreamer calls: C functions and types around a Stream. They do not throw.
+// The functions that GStreamer calls. They are C functions that use a Stream, and do not throw.
 #include "element.hpp"
 
 #include <memory>
@@ -45,7 +45,7 @@ class Lock {
     GstObject* object_;
 };
 
-/// A frame whose planes are mapped into memory. The destructor unmaps the frame.
+/// A frame whose planes are mapped into memory until the destructor is called.
 class MappedFrame {
   public:
     MappedFrame(const GstVideoInfo& info, GstBuffer* buffer, bool is_written) {
@@ -61,7 +61,7 @@ class MappedFrame {
     MappedFrame& operator=(const MappedFrame&) = delete;
 
     bool is_mapped() const { return is_mapped_; }
-    /// Returns the first plane. This plane is the luma in all formats that the element supports.
+    /// Returns the first plane, which is the luma in all formats that the element supports.
     Luma luma() const {
         return {static_cast<std::uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame_, 0)),
                 GST_VIDEO_FRAME_WIDTH(&frame_), GST_VIDEO_FRAME_HEIGHT(&frame_),
@@ -73,9 +73,9 @@ class MappedFrame {
     bool is_mapped_;
 };
 
-/// Returns the running time of a buffer, in µs. If there is no time stamp, computes the time from
-/// the frame number and the frame rate. If there is no frame rate either, returns the time of
-/// arrival.
+/// Returns the running time of a buffer, in µs. If the buffer has no time stamp, the time is
+/// computed from the frame number and the frame rate. If there is no frame rate either, it is the
+/// time of arrival.
 std::int64_t time_us(DotposeLocate* self, GstBuffer* buffer) {
     const GstClockTime pts = GST_BUFFER_PTS(buffer);
     const GstSegment& segment = GST_BASE_TRANSFORM(self)->segment;
@@ -124,7 +124,7 @@ void tell(DotposeLocate* self, GstBuffer* buffer, const Reading& reading,
     }
 }
 
-/// Locates the pattern in the luma of the frame, and draws the overlay if it is enabled.
+/// Locates the pattern in the luma of the frame. Draws the overlay if it is enabled.
 Reading read(DotposeLocate* self, const Luma& luma, std::int64_t time, const Switches& switches) {
     Stream& stream = *self->state->stream;
     const ImageView image = {luma.pixels, luma.width_px, luma.height_px, luma.stride_bytes};
@@ -141,8 +141,8 @@ GstFlowReturn transform_ip(GstBaseTransform* base, GstBuffer* buffer) {
     }();
     std::optional<Reading> reading;
     try {
-        // Maps the frame for reading only unless the overlay is drawn. This avoids a copy of memory
-        // that is shared with other elements.
+        // Without the overlay, the frame is mapped only for reading, because mapping for writing
+        // would copy memory that is shared with other elements.
         const MappedFrame frame(self->parent.in_info, buffer, self->state->stream->has_overlay());
         if (!frame.is_mapped()) {
             GST_ELEMENT_ERROR(self, STREAM, FORMAT, ("A frame cannot be mapped"), (nullptr));
@@ -213,7 +213,7 @@ void init(GTypeInstance* instance, gpointer /*locate_class*/) {
     self->state = new State;
     GstBaseTransform* base = GST_BASE_TRANSFORM(self);
     gst_base_transform_set_in_place(base, TRUE);
-    // Frames that are too late for display are also located.
+    // Frames are located even if they are too late for display.
     gst_base_transform_set_qos_enabled(base, FALSE);
 }
 
@@ -242,8 +242,8 @@ void init_class(gpointer locate_class, gpointer /*data*/) {
     GstBaseTransformClass* transform_class = GST_BASE_TRANSFORM_CLASS(locate_class);
     transform_class->start = start;
     transform_class->stop = stop;
-    // Replaces the function of GstVideoFilter. That function maps all frames for writing and
-    // therefore copies shared memory.
+    // Replaces the function of GstVideoFilter, because that function maps all frames for writing
+    // and therefore copies shared memory.
     transform_class->transform_ip = transform_ip;
     GST_VIDEO_FILTER_CLASS(locate_class)->set_info = set_info;
 }

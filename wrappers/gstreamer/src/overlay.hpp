@@ -1,4 +1,4 @@
-/// Draws dots and pose on the luma of a frame.
+/// Draws the dots and the pose on the luma of a frame.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace dotpose::gstreamer {
 
-/// A modifiable luma plane.
+/// The luma plane of a frame, which can be modified.
 struct Luma {
     std::uint8_t* pixels = nullptr;
     int width_px = 0;

@@ -1,4 +1,4 @@
-// The plugin descriptor. GStreamer reads it from the shared library.
+// The plugin descriptor, which GStreamer reads from the shared library.
 #include <array>
 
 #include <gst/gst.h>
@@ -10,7 +10,7 @@
 namespace {
 
 gboolean register_all(GstPlugin* plugin) {
-    // A meta without tags is kept when the frame is scaled or converted.
+    // A meta without tags is kept if another element scales or converts the frame.
     std::array<const char*, 1> no_tags = {nullptr};
     if (gst_meta_register_custom(dotpose::gstreamer::kPoseName, no_tags.data(), nullptr, nullptr,
                                  nullptr) == nullptr) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// Sets the fields of a structure, by type.
+/// Sets the fields of a structure. There is a function for each type.
 class Fields {
   public:
     explicit Fields(GstStructure* structure) : structure_(structure) {}
@@ -39,13 +39,13 @@ class Fields {
     void evidence(const char* key, Enum value) const {
         text(key, name(value));
     }
-    /// Sets an angle in degrees, in (-180, 180].
+    /// Sets an angle, which is converted to degrees in (-180, 180].
     void angle(const char* name, double value_rad) const {
         const double value_deg = value_rad * kDegrees;
         number(name, value_deg <= -180 ? value_deg + 360 : value_deg);
     }
-    /// Sets nine numbers, row by row. Each row and column is multiplied by its factor. Sets no
-    /// numbers if the covariance is unknown.
+    /// Sets nine numbers, row by row. `factors` multiplies the rows and the columns. If the
+    /// covariance is unknown, sets nothing.
     template <typename Matrix>
     void covariance(const char* name, const Matrix& matrix,
                     const std::array<double, 3>& factors) const {
@@ -105,15 +105,14 @@ void put_evidence(const Fields& fields, const Fix& fix) {
     if (is_known) fields.evidence(#name, fix.name);
 #include "dotpose/fix_fields.def"
     if (!fix) return;
-    // Lower limit of the reported probability. The model of paper, ink and camera does not justify
+    // Minimum reported probability, because the model of paper, ink and camera does not justify
     // smaller values.
     constexpr double kMin_p_wrong = 1e-30;
     fields.number("p_wrong", std::max(fix.p_wrong(), kMin_p_wrong));
     fields.number("spacing_px", fix.spacing_px());
 }
 
-/// Sets the code of the sheet and, if there is one, the alternative code that also explains the
-/// frame.
+/// Sets the code of the sheet. If another code also explains the frame, sets it as the alternative.
 void put_code(const Fields& fields, const Located& located) {
     const CodeReading& reading = located.reading;
     const bool is_ok = located.fix.status == Status::ok;

@@ -9,7 +9,7 @@
 
 namespace dotpose::gstreamer {
 
-/// Properties that may change between frames.
+/// Properties that may be changed between frames.
 struct Switches {
     bool is_inverted = false;    ///< true if dots are white on black
     bool posts_messages = true;  ///< true to post a message on the bus for each frame
@@ -19,7 +19,7 @@ struct Switches {
 struct Settings {
     std::string sheets;        ///< path of the sheet file, or empty for none
     std::string camera;        ///< path of the camera file, or empty for none
-    FollowerOptions options;   ///< options, without the contents of the files
+    FollowerOptions options;   ///< options of the follower, without the contents of the files
     bool is_tracked = true;    ///< false to locate each frame independently
     bool has_overlay = false;  ///< true to draw dots and pose on the frames
     Switches switches;

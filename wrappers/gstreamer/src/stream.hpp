@@ -1,4 +1,4 @@
-/// Locates the frames of a stream in sequence.
+/// Locates the frames of a stream, one after the other.
 #pragma once
 
 #include <cstdint>
@@ -23,10 +23,10 @@ class Stream {
     /// Reads the sheet and camera files. Throws Error if a file cannot be read.
     explicit Stream(const Settings& settings);
 
-    /// Throws BadArgument if the camera file is for a different frame size.
+    /// Throws BadArgument if the camera file belongs to another frame size.
     void require_size(int width_px, int height_px) const;
 
-    /// Locates the next frame. A backward jump in time restarts tracking. The image must remain
+    /// Locates the next frame. If the time goes back, tracking starts again. The image must remain
     /// valid as long as `follower` is used to access it.
     Reading read(ImageView image, bool is_inverted, std::int64_t time_us);
 

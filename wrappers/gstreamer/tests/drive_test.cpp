@@ -1,5 +1,5 @@
 // Passes the simulated drive over two sheets through the element, in all supported formats. The
-// poses must equal those of `dotpose watch`, no frame may be lost, and times and pixels must not
+// poses must be those of `dotpose watch`, no frame may be lost, and times and pixels must not
 // change.
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@
 namespace dotpose::test {
 namespace {
 
-/// Skips a test if the element that parses raw video is missing.
+/// Skips a test if there is no element that parses raw video.
 #define DOTPOSE_NEEDS_PARSER() \
     if (!has_element("rawvideoparse")) GTEST_SKIP() << "without GStreamer's plugins-base"
 
@@ -22,8 +22,8 @@ class GstreamerDrive : public WatchCommand {
   protected:
     static void SetUpTestSuite() { start_gstreamer(); }
 
-    /// Writes the frames of drive.raw to another file, each followed by chroma planes of neutral
-    /// colour.
+    /// Writes the frames of drive.raw to another file. After each frame, adds chroma planes of a
+    /// neutral colour.
     void put_colours() {
         const std::string grey = file("drive.raw");
         const std::size_t size = std::size_t{kWidth} * kHeight;
@@ -32,7 +32,7 @@ class GstreamerDrive : public WatchCommand {
             stream << grey.substr(at, size) << std::string(size / 2, '\x80');
     }
 
-    /// Reads a file of frames in `format` at 200 frames/s and passes the frames through the
+    /// Reads a file of frames in `format` at 200 frames per second, and passes them through the
     /// element.
     Outcome run_element(const std::string& frames, const std::string& format,
                         const std::string& properties) {
@@ -49,7 +49,7 @@ class GstreamerDrive : public WatchCommand {
     }
 };
 
-/// Expects that messages, metas and times agree with the lines, one by one.
+/// Expects that the messages, metas and times of all frames agree with the lines.
 void expect_lines(const std::vector<json>& lines, const Outcome& outcome) {
     ASSERT_EQ(outcome.error, "");
     ASSERT_EQ(outcome.messages.size(), lines.size());
@@ -113,7 +113,7 @@ TEST_F(GstreamerDrive, WithoutSheetsTheCodeIsFoundOut) {
     expect_lines(watch(""), run_element("drive.raw", format, ""));
     expect_lines(watch("--code anoto --spacing 0.5"),
                  run_element("drive.raw", format, "code=anoto spacing-mm=0.5"));
-    // No frame can be located in another code. The messages must report this.
+    // The messages must report that no frame can be located in another code.
     expect_lines(watch("--code microdots"), run_element("drive.raw", format, "code=microdots"));
 }
 
@@ -175,7 +175,7 @@ TEST_F(GstreamerDrive, OverlayIsDrawnOnTheLumaAlone) {
         const std::string& drawn = outcome.frames[i].bytes;
         const std::string before = frames.substr(i * kLuma * 3 / 2, kLuma * 3 / 2);
         EXPECT_TRUE(drawn.substr(kLuma) == before.substr(kLuma));
-        // Rings around 600 dots cover about 12,000 pixels. Many of these pixels are already dark.
+        // Rings around 600 dots cover about 12,000 pixels, many of which are already dark.
         std::size_t changed = 0;
         for (std::size_t at = 0; at < kLuma; ++at)
             changed += drawn[at] != before[at] ? 1 : 0;

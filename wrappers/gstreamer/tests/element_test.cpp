@@ -1,4 +1,4 @@
-// Tests the element in isolation, buffer by buffer: memory, times, states.
+// Tests the element alone, buffer by buffer: its use of memory, its times, and its states.
 #include <cstring>
 #include <string>
 #include <vector>
@@ -22,7 +22,7 @@ class GstreamerElement : public testing::Test {
   protected:
     static void SetUpTestSuite() { start_gstreamer(); }
 
-    /// Returns a new element. The caller must unreference it.
+    /// Returns a new element, which the caller must unreference.
     static GstElement* element(const std::string& properties) {
         GstElement* made = gst_parse_launch(("dotposelocate " + properties).c_str(), nullptr);
         return GST_ELEMENT(gst_object_ref_sink(made));
@@ -40,14 +40,14 @@ class GstreamerElement : public testing::Test {
     }
     void TearDown() override { stop(); }
 
-    /// Returns a frame of the drive as a buffer.
+    /// Returns a frame of the drive in a buffer.
     GstBuffer* frame(int index, GstClockTime pts) const {
         const GreyImage image = camera_.frame(drive_, index);
         GstBuffer* buffer = gst_buffer_new_memdup(image.pixels.data(), image.pixels.size());
         GST_BUFFER_PTS(buffer) = pts;
         return buffer;
     }
-    /// Passes the buffer through the element and returns the meta of the output buffer.
+    /// Passes the buffer through the element. Returns the meta of the output buffer.
     nlohmann::json locate(GstBuffer* buffer) {
         GstBuffer* out = gst_harness_push_and_pull(harness_, buffer);
         if (out == nullptr) return "no buffer";
@@ -63,7 +63,7 @@ class GstreamerElement : public testing::Test {
 
 TEST_F(GstreamerElement, DoesNotCopyMemory) {
     start("");
-    // The memory is shared, as it is after a tee.
+    // The memory is shared with another buffer, as after a tee.
     GstBuffer* buffer = frame(0, 0);
     GstMemory* memory = gst_buffer_get_memory(buffer, 0);
     GstBuffer* other = gst_buffer_copy(buffer);
@@ -94,8 +94,8 @@ TEST_F(GstreamerElement, FollowsAnewAfterAJumpBack) {
     start("");
     EXPECT_EQ(locate(frame(170, 10 * GST_SECOND))["events"], "fix");
     EXPECT_EQ(locate(frame(171, 10 * GST_SECOND + 5 * GST_MSECOND))["attempt"], "tracked");
-    // The time jumps back, as after a seek. Without a restart, the tracker would not follow the
-    // robot for the next ten seconds.
+    // The time goes back, as after a seek. If tracking did not start again, the tracker would not
+    // follow the robot for ten seconds.
     EXPECT_EQ(locate(frame(170, 0))["events"], "fix");
     EXPECT_EQ(locate(frame(171, 5 * GST_MSECOND))["verdict"], "accepted");
     EXPECT_EQ(locate(frame(172, 10 * GST_MSECOND))["frame"], 4);
@@ -103,7 +103,7 @@ TEST_F(GstreamerElement, FollowsAnewAfterAJumpBack) {
 
 TEST_F(GstreamerElement, WithoutTimesTheRateTellsThem) {
     constexpr int kFrames = 30;
-    constexpr int kFirst = 300;  // the robot has its full speed at this frame
+    constexpr int kFirst = 300;  // the robot drives at full speed in this frame
     std::vector<nlohmann::json> stamped;
     start("");
     for (int i = 0; i < kFrames; ++i)
@@ -119,7 +119,7 @@ TEST_F(GstreamerElement, WithoutTimesTheRateTellsThem) {
         EXPECT_EQ(meta["vx_mm_s"], stamped[static_cast<std::size_t>(i)]["vx_mm_s"]);
         EXPECT_EQ(meta["turn_deg_s"], stamped[static_cast<std::size_t>(i)]["turn_deg_s"]);
     }
-    // If there is no frame rate, the time is the clock time at arrival.
+    // Without a frame rate, the time is that of the arrival.
     start("", "0/1");
     EXPECT_EQ(locate(frame(0, GST_CLOCK_TIME_NONE))["events"], "fix");
     EXPECT_EQ(locate(frame(1, GST_CLOCK_TIME_NONE))["verdict"], "accepted");

@@ -1,5 +1,5 @@
-/// Compares the fields of the element's messages with the output line of `dotpose watch` for the
-/// same frame.
+/// Compares the fields of the element's messages with the lines that `dotpose watch` writes for the
+/// same frames.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace dotpose::test {
 
-/// Returns the maximum rounding error of a number in a line.
+/// Returns the maximum rounding error of a number in a line of output.
 inline double rounding_of(std::string_view key, double value) {
     constexpr double kHalf = 0.501;
     if (key.starts_with("covariance") || key.starts_with("track_covariance")) {
@@ -27,8 +27,8 @@ inline double rounding_of(std::string_view key, double value) {
     return kHalf * 1e-6;
 }
 
-/// Returns true for fields that occur only in lines. The element reports their values in other
-/// units or fields.
+/// Returns true for fields that only lines contain. The element reports these values in other units
+/// or in other fields.
 inline bool is_only_in_lines(std::string_view key) {
     constexpr std::array<std::string_view, 7> kKeys = {"schema", "t_s",        "x_grid", "y_grid",
                                                        "file",   "elapsed_us", "warning"};
@@ -43,7 +43,7 @@ inline void expect_value_of(const std::string& key, const nlohmann::json& line,
         for (std::size_t i = 0; i < line.size(); ++i)
             expect_value_of(key, line[i], told[i]);
     } else if (line.is_string()) {
-        // The message in the line gives a more detailed reason for a missing fix.
+        // The reason for a missing fix is more detailed in lines than in messages.
         if (key != "message") {
             EXPECT_EQ(line, told) << key;
         }
@@ -55,7 +55,8 @@ inline void expect_value_of(const std::string& key, const nlohmann::json& line,
     }
 }
 
-/// Expects the same fields and values as in the line. The only additional fields may be times.
+/// Expects that the message has the fields and values of the line. It may contain additional fields
+/// only for times.
 inline void expect_told(const nlohmann::json& line, nlohmann::json told) {
     for (const auto& [key, value] : line.items()) {
         if (is_only_in_lines(key)) continue;

@@ -9,7 +9,8 @@
 
 namespace dotpose::test {
 
-/// Initialises GStreamer with the plugin of this build and a separate registry.
+/// Initialises GStreamer with the plugin of this build, and with a registry that no other program
+/// uses.
 inline void start_gstreamer() {
     g_setenv("GST_PLUGIN_PATH", DOTPOSE_GSTREAMER_FOLDER, TRUE);
     g_setenv("GST_REGISTRY", DOTPOSE_REGISTRY, TRUE);
@@ -23,7 +24,7 @@ inline bool has_element(const char* name) {
     return true;
 }
 
-/// Returns a value of a structure with full precision.
+/// Returns a value of a structure as JSON, without rounding.
 inline nlohmann::json json_of(const GValue* value) {
     if (G_VALUE_HOLDS_STRING(value)) return g_value_get_string(value);
     if (G_VALUE_HOLDS_DOUBLE(value)) return g_value_get_double(value);
@@ -58,7 +59,7 @@ inline std::string bytes_of(GstBuffer* buffer) {
     return bytes;
 }
 
-/// A buffer received at the end of a pipeline.
+/// A buffer that arrived at the end of a pipeline.
 struct Arrived {
     GstClockTime pts = GST_CLOCK_TIME_NONE;
     GstClockTime duration = GST_CLOCK_TIME_NONE;
@@ -69,7 +70,7 @@ struct Arrived {
 struct Outcome {
     std::vector<nlohmann::json> messages;  ///< messages of the element, in order
     std::vector<Arrived> frames;
-    std::string error;  ///< first error, or empty if there was none
+    std::string error;  ///< first error, or empty if there is none
 };
 
 namespace pipeline_detail {
@@ -99,7 +100,8 @@ inline bool take(GstMessage* message, Outcome& outcome) {
 
 }  // namespace pipeline_detail
 
-/// Runs a pipeline to its end. `description` has no sink. This function appends the sink.
+/// Runs a pipeline to its end. `description` must not contain a sink, because this function appends
+/// one.
 inline Outcome run_pipeline(const std::string& description) {
     Outcome outcome;
     GError* error = nullptr;

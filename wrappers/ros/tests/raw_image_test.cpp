@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Returns the grey levels of an image with one or more rows.
+/// Returns the grey levels of an image with `height` rows.
 Bytes grey(const std::string& encoding, std::uint32_t width, const Bytes& data,
            bool is_bigendian = false, std::uint32_t height = 1) {
     const auto step = static_cast<std::uint32_t>(data.size() / height);
@@ -54,7 +54,7 @@ TEST(RosRawImage, GreyIsNotCopied) {
 }
 
 TEST(RosRawImage, ColoursBecomeTheirLuma) {
-    // Luma of red, green, blue and white, with the weights of Rec. 601.
+    // Luma of red, green, blue and white according to Rec. 601.
     const auto expected = ElementsAre(76, 150, 29, 255);
     EXPECT_THAT(grey("rgb8", 4, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255}), expected);
     EXPECT_THAT(grey("bgr8", 4, {0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255}), expected);
@@ -88,7 +88,7 @@ TEST(RosRawImage, SaysWhatIsWrongAndWhatToDo) {
     const Bytes data(640 * 480);
     EXPECT_THAT(problem_of({"32FC1", 64, 64, 256, false, data}),
                 AllOf(HasSubstr("'32FC1'"), HasSubstr("set the camera's driver to mono8")));
-    // In each case, the row is longer than the step, or rows are missing.
+    // In each case, a row is longer than the step, or there are too few rows.
     const auto is_size = AllOf(HasSubstr("640 x 480 px in bgr8 need a step of 1920"),
                                HasSubstr("these have a step of"), HasSubstr("correct width"));
     EXPECT_THAT(problem_of({"bgr8", 640, 480, 640, false, data}), is_size);

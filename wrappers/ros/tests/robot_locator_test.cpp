@@ -1,4 +1,5 @@
-// Tests RobotLocator with ROS images and messages, but without ROS: stamps, lenses, diagnostics.
+// Tests RobotLocator without ROS, with the members of ROS images and messages: stamps, lenses and
+// diagnostics.
 #include "robot_locator.hpp"
 
 #include <map>
@@ -30,7 +31,7 @@ Settings settings_with(const std::string& name = "spacing_mm",
     return settings_of(values);
 }
 
-/// A camera at rest above the pattern, and a locator for its images.
+/// A camera at rest above the pattern, and a locator that processes its images.
 class RosLocator : public testing::Test {
   protected:
     static void SetUpTestSuite() {
@@ -45,15 +46,15 @@ class RosLocator : public testing::Test {
                 width,   false, grey_.pixels};
     }
 
-    /// Passes an image with the stamp of frame number `frame`. The image arrives 10 ms after the
-    /// previous image.
+    /// Passes an image with the stamp of frame number `frame` to the locator. Images arrive every
+    /// 10 ms.
     RobotLocator::Answer take(int frame, const RawImage& image = RosLocator::image()) {
         arrival_ns_ += kStep_ns;
         return locator_.take(image, kStart_ns + frame * kStep_ns, arrival_ns_);
     }
 
-    /// Passes images to the locator until it publishes a status, and returns this status. Fails if
-    /// there is none within one second.
+    /// Passes images to the locator until it publishes a status. Returns the status. Fails if there
+    /// is none within a second.
     dotpose::ros::DiagnosticStatus status_from(int frame,
                                                const RawImage& image = RosLocator::image()) {
         for (int i = 0; i <= 100; ++i) {
@@ -73,7 +74,7 @@ class RosLocator : public testing::Test {
 TEST_F(RosLocator, GivesPoseOdometryAndTransforms) {
     const auto answer = take(0);
     ASSERT_TRUE(answer.messages.pose);
-    // The camera is at cell (100,000, 200,000). Messages are in metres, with y up.
+    // The camera is at cell (100,000, 200,000), whereas messages are in metres with y up.
     EXPECT_NEAR(answer.messages.pose->pose.pose.position.x, 100'000 * 0.508e-3, 1e-5);
     EXPECT_NEAR(answer.messages.pose->pose.pose.position.y, -200'000 * 0.508e-3, 1e-5);
     EXPECT_EQ(answer.messages.pose->header.stamp.sec, 1000);
@@ -164,7 +165,7 @@ TEST_F(RosLocator, SaysWhatIsWrongWithImages) {
     EXPECT_EQ(answer.messages.status.status.front().level, kError);
     EXPECT_THAT(answer.messages.status.status.front().message,
                 AllOf(HasSubstr("'32FC1'"), HasSubstr("set the camera's driver to mono8")));
-    // The warning is logged only once, and the next status is due after a second.
+    // The warning is logged only once, and no status is due before a second has passed.
     const auto next = take(2, wrong);
     EXPECT_EQ(next.warning, "");
     EXPECT_TRUE(next.messages.status.status.empty());
@@ -186,7 +187,7 @@ TEST_F(RosLocator, ReadsColour) {
 }
 
 TEST_F(RosLocator, AMosaicLosesLittle) {
-    // Grey dots have the same level in every colour of the mosaic.
+    // The dots are grey, so they have the same level in every colour of the mosaic.
     RawImage mosaic = image();
     mosaic.encoding = "bayer_grbg8";
     const auto pose = take(0).messages.pose;

@@ -1,6 +1,6 @@
 /// Replacement for ROS 2, which Debian does not package. Declares the parts of rclcpp and of the
-/// messages that the node uses, according to their documentation. The node can be compiled with
-/// these declarations but not run. Each ROS header that the node includes is generated as a file
+/// messages that the node uses, according to their documentation. With these declarations, the node
+/// can be compiled but not run. For each ROS header that the node includes, a file is generated
 /// that includes this header.
 #pragma once
 
@@ -15,8 +15,7 @@
 
 #include <dotpose/tools/ros_messages.hpp>
 
-// The members of these messages are the same as in ROS. robots.Cdr.TypesAreDefinedAsInRos checks
-// this.
+// The members of these messages are those of ROS, which robots.Cdr.TypesAreDefinedAsInRos checks.
 namespace std_msgs::msg {
 using dotpose::ros::Header;
 }
@@ -143,7 +142,7 @@ class Node {
     template <typename Message, typename Callback>
     typename Subscription<Message>::SharedPtr create_subscription(const std::string&, const QoS&,
                                                                   Callback&& callback) {
-        // Checks that the callback has one of the types that rclcpp accepts.
+        // Checks that rclcpp would accept the callback.
         std::function<void(typename Message::ConstSharedPtr)> checked =
             std::forward<Callback>(callback);
         return nullptr;
@@ -156,10 +155,10 @@ bool shutdown();
 
 }  // namespace rclcpp
 
-/// Checks that the arguments match the format, as the macro of rclcpp does with printf.
+/// Checks that the arguments match the format, as the macro of rclcpp does.
 [[gnu::format(printf, 1, 2)]] void stand_in_log(const char* format, ...);
 #define RCLCPP_WARN(logger, ...) (static_cast<void>(logger), stand_in_log(__VA_ARGS__))
 
-/// Checks that the component can be constructed from options.
+/// Checks that the component can be constructed from NodeOptions.
 #define RCLCPP_COMPONENTS_REGISTER_NODE(type) \
     static_assert(std::is_constructible_v<type, const rclcpp::NodeOptions&>);

@@ -1,5 +1,5 @@
-// Receives pose packets of a device on a serial line and prints the poses. Uses the C interface,
-// dotpose.h.
+// Receives the pose packets of a device on a serial line and prints the poses. Uses the C
+// interface, dotpose.h.
 #include <dotpose.h>
 
 static dotpose_packet_reader reader;

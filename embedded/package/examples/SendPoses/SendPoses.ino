@@ -1,6 +1,5 @@
-// Sends the pose of every camera frame over the serial line. On a computer,
-// `dotpose listen /dev/ttyUSB0` prints the poses. board.cpp implements the three
-// functions of the board interface.
+// Sends the pose of every camera frame over the serial line. On a computer, `dotpose listen
+// /dev/ttyUSB0` prints the poses. board.cpp implements the three functions of the board.
 #include <dotpose_device.hpp>
 
 #include "pose_sender.hpp"

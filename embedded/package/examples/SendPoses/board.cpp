@@ -1,6 +1,6 @@
 // Board of the example. Replace this file with the port for your board. extras/boards contains
-// ports for ESP32-CAM, RP2040 and STM32. This board has no camera and delivers white frames, so
-// every packet has the status `no_contrast`. These packets show that everything except the camera
+// ports for ESP32-CAM, RP2040 and STM32. The board of this file has no camera and delivers white
+// frames. Packets with the status `no_contrast` therefore show that everything except the camera
 // works.
 #include "board.hpp"
 
@@ -13,8 +13,7 @@ constexpr int kWidth_px = board::kMaxWidth_px;
 constexpr int kHeight_px = board::kMaxHeight_px;
 std::uint8_t row[kWidth_px];
 
-// Returns the time on a 64-bit clock in µs. Unlike micros(), the clock does not wrap after 71
-// minutes.
+// Returns the time on a 64-bit clock in µs, because micros() wraps around after 71 minutes.
 std::int64_t now_us() {
     static std::uint32_t last = 0;
     static std::int64_t total_us = 0;

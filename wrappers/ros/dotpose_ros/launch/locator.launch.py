@@ -9,7 +9,7 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
-# Arguments that are strings even if they look like numbers.
+# Arguments that must be strings even if they look like numbers.
 TEXTS = {"sheets": "", "camera": "", "frame_prefix": ""}
 TOPICS = {"image": "image_raw", "camera_info": "camera_info"}
 

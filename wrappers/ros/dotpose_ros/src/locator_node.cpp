@@ -1,5 +1,5 @@
 // A ROS 2 component that subscribes to images and camera_info, and publishes poses, odometry,
-// transforms and diagnostics. All code that does not depend on ROS is in parameters.hpp and
+// transforms and diagnostics. Code that does not depend on ROS is in parameters.hpp and
 // robot_locator.hpp.
 #include "locator_node.hpp"
 
@@ -27,9 +27,9 @@ namespace {
 using sensor_msgs::msg::CameraInfo;
 using sensor_msgs::msg::Image;
 
-/// Declares a parameter and returns its value. The parameters are read-only, so `ros2 param set`
-/// refuses to change them. Dynamic typing allows numbers without a decimal point. settings_of
-/// checks the types.
+/// Declares a parameter and returns its value. Parameters are read-only, so that `ros2 param set`
+/// cannot change them. Their types are dynamic, so that numbers may be given without a decimal
+/// point. settings_of checks the types.
 Value declare(rclcpp::Node& node, const Parameter& parameter) {
     rcl_interfaces::msg::ParameterDescriptor descriptor;
     descriptor.description = parameter.description;
@@ -70,7 +70,7 @@ Settings declared_settings(rclcpp::Node& node) {
     return settings_of(values);
 }
 
-/// Returns the quality of service for sensor data. It is best effort, unless the parameter
+/// Returns the quality of service for sensor data, which is best effort unless the parameter
 /// `reliable` is set.
 rclcpp::QoS sensor_quality(const Settings& settings) {
     rclcpp::QoS quality = rclcpp::SensorDataQoS();
@@ -100,7 +100,7 @@ class LocatorNode : public rclcpp::Node {
             tf_ = create_publisher<tf2_msgs::msg::TFMessage>("/tf", rclcpp::QoS(100));
         status_ = create_publisher<diagnostic_msgs::msg::DiagnosticArray>("/diagnostics",
                                                                           rclcpp::QoS(10));
-        // Disables intra-process communication, because it does not deliver the message to
+        // Intra-process communication is disabled, because it would not deliver the message to
         // processes that start later.
         rclcpp::PublisherOptions kept;
         kept.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
@@ -113,8 +113,8 @@ class LocatorNode : public rclcpp::Node {
         image_ = create_subscription<Image>("image", quality,
                                             [this](Image::ConstSharedPtr image) { take(*image); });
         if (settings.has_camera_file) return;
-        // The subscription lasts as long as the node. If a callback destroys its own subscription,
-        // the executor of ROS Jazzy stops calling callbacks.
+        // The subscription is kept as long as the node exists, because the executor of ROS Jazzy
+        // stops calling callbacks if a callback destroys its own subscription.
         camera_info_ = create_subscription<CameraInfo>(
             "camera_info", quality, [this](CameraInfo::ConstSharedPtr info) { take(*info); });
     }

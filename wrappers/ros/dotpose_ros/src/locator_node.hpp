@@ -1,4 +1,4 @@
-/// Creates the node in programs. Component containers load it as dotpose_ros::LocatorNode.
+/// Creates the node for programs. Component containers load the node as dotpose_ros::LocatorNode.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace dotpose_ros {
 
-/// Throws std::exception if a parameter, or a file named by a parameter, cannot be used.
+/// Throws std::exception if a parameter, or a file that a parameter names, cannot be used.
 std::shared_ptr<rclcpp::Node> make_locator_node(const rclcpp::NodeOptions& options);
 
 }  // namespace dotpose_ros

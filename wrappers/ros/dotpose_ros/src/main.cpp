@@ -1,5 +1,5 @@
-// Runs the node as a program. If the node cannot start, prints the error and returns a nonzero exit
-// status.
+// Runs the node as a program. If the node cannot be started, prints the error and returns a nonzero
+// exit status.
 #include <cstdio>
 #include <exception>
 

@@ -1,4 +1,4 @@
-// Converts the messages of dotpose, which do not depend on ROS, to ROS messages with the same
+// Converts the messages of dotpose, which do not depend on ROS, to the ROS messages with the same
 // members.
 #pragma once
 
@@ -21,7 +21,6 @@ inline std_msgs::msg::Header to_ros(const dotpose::ros::Header& header) {
     return result;
 }
 
-/// Copies x, y and z of points and vectors.
 template <typename Xyz>
 void copy_xyz(const dotpose::ros::Vector3& from, Xyz& to) {
     to.x = from.x;

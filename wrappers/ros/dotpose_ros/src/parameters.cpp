@@ -11,7 +11,7 @@
 namespace dotpose_ros {
 namespace {
 
-/// Returns the values of parameters by type.
+/// Returns the values of parameters. There is a function for each type.
 class Values {
   public:
     explicit Values(const std::map<std::string, Value>& values) : values_(values) {}
@@ -21,7 +21,7 @@ class Values {
     }
     bool flag(const std::string& name) const { return get<bool>(name, "true or false"); }
 
-    /// Returns a number in [least, most], or none if the parameter is not set.
+    /// Returns a number in [least, most], or none if the parameter has no value.
     std::optional<double> number(const std::string& name, double least, double most) const {
         const Value& value = values_.at(name);
         if (std::holds_alternative<std::monostate>(value)) return std::nullopt;

@@ -22,10 +22,10 @@ struct Parameter {
     const char* description;
 };
 
-/// Returns all parameters of the node. Their values are read once, when the node starts.
+/// Returns all parameters of the node. Their values are read only once, when the node starts.
 std::span<const Parameter> parameters();
 
-/// Options that result from the parameters.
+/// Settings of the node that result from its parameters.
 struct Settings {
     dotpose::FollowerOptions follower;
     dotpose::ros::RobotFrames frames;

@@ -10,7 +10,7 @@
 namespace dotpose_ros {
 namespace {
 
-/// Conversion of the samples of a pixel to its grey level.
+/// The layout of a pixel in an encoding, and the weights that convert its samples to a grey level.
 struct Encoding {
     const char* name;
     std::size_t samples;                   ///< number of samples per pixel
@@ -26,7 +26,7 @@ constexpr Weights kSecond = {0, kWhole, 0, 0};
 constexpr Weights kRgb = {299, 587, 114, 0};
 constexpr Weights kBgr = {114, 587, 299, 0};
 
-/// In nv12 and similar planar encodings, the first plane is the luma.
+/// nv12 and similar planar encodings are treated as grey, because their first plane is the luma.
 constexpr std::array kEncodings = {
     Encoding{"mono8", 1, 1, kFirst},
     Encoding{"8UC1", 1, 1, kFirst},
@@ -94,9 +94,9 @@ class Levels {
         }
     }
 
-    /// Replaces each pixel with the mean over 3 x 3 pixels, with the weights 1 2 1 along both axes.
-    /// At every pixel of a mosaic, the total weight of green is one half, and the total weights of
-    /// red and blue are a quarter each.
+    /// Replaces each pixel with the weighted mean of 3 x 3 pixels, with the weights 1 2 1 along
+    /// both axes. Wherever the pixel is in a mosaic, half of the weight is on green pixels, and a
+    /// quarter each on red and blue pixels.
     void mix_colours() {
         std::vector<std::uint16_t> mixed(levels_.size());
         for (std::size_t v = 0; v < height_; ++v) {
@@ -126,7 +126,7 @@ class Levels {
     }
 
   private:
-    /// Reads one pixel and advances to the next.
+    /// Reads a pixel and advances `sample` to the next.
     static std::uint16_t level(const std::uint8_t*& sample, const Encoding& encoding,
                                bool is_bigendian) {
         std::uint32_t sum = kWhole / 2;
@@ -139,8 +139,8 @@ class Levels {
         return static_cast<std::uint16_t>(sum / kWhole);
     }
 
-    /// Returns the index of a neighbour of `place`. Beyond an edge, returns the neighbour on the
-    /// opposite side, because both neighbours have the same colour in a mosaic.
+    /// Returns the index of a neighbour of `place`. At an edge, returns the neighbour on the
+    /// opposite side, which has the same colour in a mosaic as the missing one.
     static std::size_t beside(std::size_t place, std::size_t size, int step) {
         if (size < 2) return place;
         const bool is_beyond = step < 0 ? place == 0 : place + 1 == size;

@@ -15,18 +15,18 @@ struct RawImage {
     std::string encoding;
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::uint32_t step = 0;  ///< distance between the starts of two rows, in bytes
+    std::uint32_t step = 0;  ///< distance between the starts of consecutive rows, in bytes
     bool is_bigendian = false;
     std::span<const std::uint8_t> data;
 };
 
-/// Returns the grey levels of an image: a view of its data if the encoding has 8-bit grey levels,
-/// otherwise a view of `buffer`. Colours are converted to luma (Rec. 601).
-/// Levels with more than 8 bits are divided by the smallest power of two that reduces the brightest
-/// pixel to 8 bits, because cameras with 10 and 12 bits use 16-bit encodings. In a Bayer mosaic,
-/// each pixel becomes the weighted mean of 3 x 3 pixels. Every colour has the same weight in every
-/// mean.
-/// Throws dotpose::Error with a remedy if the encoding is not supported, or if the data are shorter
+/// Returns the grey levels of an image. If the encoding has 8-bit grey levels, the result is a view
+/// of the data, otherwise a view of `buffer`.
+/// Colours are converted to luma (Rec. 601). Levels of more than 8 bits are divided by the smallest
+/// power of two that reduces the brightest pixel to 8 bits, because cameras with 10 and 12 bits use
+/// 16-bit encodings. In a Bayer mosaic, each pixel is replaced by a weighted mean of 3 x 3 pixels,
+/// in which each colour always has the same weight.
+/// Throws dotpose::Error with a remedy if the encoding is not supported, or if there are fewer data
 /// than the image size requires.
 dotpose::ImageView grey_view(const RawImage& image, dotpose::GreyImage& buffer);
 

@@ -14,10 +14,11 @@ namespace ros = dotpose::ros;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-/// Number of consecutive images without an increase of the stamp that causes an error message.
+/// Number of consecutive images whose stamps do not increase, after which this is reported as an
+/// error.
 constexpr int kStandstill = 3;
 
-/// Formats a lens as the text of a camera_info file. Reading this text applies all checks.
+/// Formats a lens as the text of a camera_info file, because reading the text applies all checks.
 std::string camera_info_text(const Lens& lens) {
     std::ostringstream text;
     text.precision(17);
@@ -87,7 +88,7 @@ bool RobotLocator::is_status_due(const std::string& status, std::int64_t arrival
     return true;
 }
 
-/// Compares the time of an image with the times of previous images.
+/// Compares the time of an image with those of earlier images.
 RobotLocator::Order RobotLocator::order_of(std::int64_t time_us) {
     const bool is_newer_than_last = time_us > std::exchange(last_us_, time_us);
     if (time_us <= newest_us_ && !is_newer_than_last) return Order::left_out;
@@ -108,7 +109,7 @@ ros::RobotMessages RobotLocator::locate(const RawImage& image, std::int64_t time
     return messages;
 }
 
-/// Returns the status message for an image that cannot be used.
+/// Returns the status message for an image that cannot be used because of `problem`.
 ros::RobotMessages RobotLocator::without_image(std::int64_t time_ns, const std::string& problem) {
     ros::RobotUpdate update;
     update.time_ns = time_ns;

@@ -1,5 +1,5 @@
-/// RobotLocator computes the messages of a robot from the images of its camera. It contains all
-/// processing of the node between its subscriptions and its publishers.
+/// RobotLocator computes the messages of a robot from the images of its camera. It contains
+/// everything that the node does between its subscriptions and its publishers.
 ///
 ///     RobotLocator locator(settings_of(values), "anna");
 ///     const RobotLocator::Answer answer = locator.take(image, stamp_ns, arrival_ns);
@@ -21,8 +21,8 @@
 
 namespace dotpose_ros {
 
-/// Converts a stamp to nanoseconds. Accepts negative stamps, for which rclcpp::Time throws an
-/// exception.
+/// Converts a stamp to nanoseconds. Stamps may be negative, unlike those of rclcpp::Time, which
+/// throws an exception.
 std::int64_t nanoseconds(std::int32_t sec, std::uint32_t nanosec);
 
 /// Members of a sensor_msgs/CameraInfo that describe the lens.
@@ -39,10 +39,10 @@ struct Lens {
 class RobotLocator {
   public:
     struct Answer {
-        /// Messages to publish. A status is due when it changes, and once per second. The status is
-        /// empty unless it is due.
+        /// Messages to publish. They contain a status only if it has changed or a second has
+        /// passed.
         dotpose::ros::RobotMessages messages;
-        /// New warning about the images, for the log. Empty if there is none.
+        /// New warning about the images, to be logged. Empty if there is none.
         std::string warning;
     };
 
@@ -50,16 +50,16 @@ class RobotLocator {
 
     /// Processes the next image. `stamp_ns` is the stamp of the camera, and `arrival_ns` is the
     /// arrival time on a steady clock. An image that is not newer than the previous images is
-    /// skipped. If the stamps increase again after the skipped image, the time was set back, for
-    /// example because a bag or simulation was restarted. Tracking then restarts.
+    /// skipped. If the next stamp is later than that of the skipped image, the time was set back,
+    /// for example because a bag or simulation was restarted, and tracking starts again.
     Answer take(const RawImage& image, std::int64_t stamp_ns, std::int64_t arrival_ns);
 
-    /// Uses the lens of a camera_info message, unless a camera file or an earlier message contained
-    /// a lens. If the lens cannot be used, returns the reason for the log when it first occurs.
-    /// Otherwise returns an empty string.
+    /// Uses the lens of a camera_info message, unless the lens is already known from a camera file
+    /// or an earlier message. If the lens cannot be used, returns the reason, to be logged, the
+    /// first time that it occurs. Otherwise, returns an empty string.
     std::string take(const Lens& lens);
 
-    /// Returns the mount of the camera, or none if the camera file does not contain it.
+    /// Returns the mount of the camera, or none if it is not in the camera file.
     std::optional<dotpose::ros::TransformStamped> mount(std::int64_t time_ns) const;
 
   private:
@@ -76,11 +76,11 @@ class RobotLocator {
     std::int64_t half_exposure_ns_;
     bool has_lens_;
     std::optional<Lens> refused_lens_;
-    std::string lens_problem_;  ///< appended to each status
+    std::string lens_problem_;  ///< why the lens cannot be used, appended to each status
     std::optional<dotpose::Follower> follower_;
     dotpose::ros::RobotMessenger messenger_;
     dotpose::GreyImage grey_;
-    // Times of the newest processed image and of the last received image.
+    // Times of the newest processed image, and of the last received image.
     std::int64_t newest_us_ = std::numeric_limits<std::int64_t>::min();
     std::int64_t last_us_ = std::numeric_limits<std::int64_t>::max();
     int left_out_ = 0;  ///< number of images skipped since the newest processed image

@@ -1,4 +1,4 @@
-// A core without a board. It is compiled and linked, but never run.
+// An Arduino core without a board. It is compiled and linked, but never run.
 #include <Arduino.h>
 
 SerialLine Serial;
