@@ -33,7 +33,7 @@ struct RemoveArguments {
 std::string check_level(const std::string& name) {
     const bool is_bad = name.empty() || name.find_first_of("/+#") != std::string::npos ||
                         name.size() > kMaxNameBytes;
-    return is_bad ? "the name of a robot must not be empty and must not contain / + #"
+    return is_bad ? "the name of a robot must have 1 to 128 bytes and must not contain / + #"
                   : std::string();
 }
 

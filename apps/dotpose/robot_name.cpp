@@ -15,8 +15,8 @@ void add_robot_option(Command& command, std::string& robot, const std::string& h
             constexpr std::size_t kMaxBytes = 128;  // `fleet` ignores longer names
             const bool is_bad = name.empty() || name.find_first_of("/+#") != std::string::npos ||
                                 name.size() > kMaxBytes || printable(name) != name;
-            return is_bad ? "the name of a robot must not be empty, must not contain / + #, and "
-                            "must be printable"
+            return is_bad ? "the name of a robot must have 1 to 128 bytes, must not contain / + #, "
+                            "and must be printable"
                           : std::string();
         });
 }

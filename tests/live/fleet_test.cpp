@@ -211,6 +211,8 @@ TEST_F(Fleet, NeedsABroker) {
     EXPECT_THAT(errors_, HasSubstr("'nonsense' is not mqtt://HOST or mqtts://HOST"));
     EXPECT_EQ(run("watch nowhere.mp4 --robot a/b"), 2);
     EXPECT_THAT(errors_, HasSubstr("must not contain / + #"));
+    EXPECT_EQ(run("watch nowhere.mp4 --robot " + std::string(129, 'a')), 2);
+    EXPECT_THAT(errors_, HasSubstr("must have 1 to 128 bytes"));
 }
 
 }  // namespace
