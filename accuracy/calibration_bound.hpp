@@ -1,5 +1,6 @@
-// Lower bounds of the errors of a calibration. They are the residual with the true parameters, and
-// the Cramer-Rao bounds that follow from the jitter of the printed dots.
+// Reference values for the errors of a calibration: the errors of the dots with the true
+// parameters, and the Cramer-Rao bounds of the parameters that follow from the jitter of the
+// printed dots.
 #pragma once
 
 #include <map>

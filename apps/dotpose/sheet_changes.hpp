@@ -16,7 +16,7 @@ inline constexpr double kMmPerM = 1000;
 struct PagePose {
     double x_mm = 0;
     double y_mm = 0;
-    double yaw_deg = 0;  ///< direction of the upper edge, counter-clockwise
+    double yaw_deg = 0;  ///< direction of the upper edge, counter-clockwise from x
 };
 
 /// Returns the entry with this pose in the world. If `pose` is none, the entry has no pose in the

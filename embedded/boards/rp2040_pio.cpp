@@ -171,7 +171,7 @@ Frame start_frame(std::int64_t not_before_us) {
     for (int row = 0; row < kTop; ++row)
         next_row();
     // A row arrives at about the end of its exposure. The time of the frame is that of the middle
-    // row, which arrives half a frame later.
+    // row, which arrives half a frame after the first row.
     constexpr std::int64_t kRow_us = 66'667 / 510;
     return {kWidth_px, kHeight_px,
             static_cast<std::int64_t>(time_us_64()) + kRow_us * kHeight_px / 2};

@@ -113,7 +113,7 @@ TEST_F(GstreamerDrive, WithoutSheetsTheCodeIsFoundOut) {
     expect_lines(watch(""), run_element("drive.raw", format, ""));
     expect_lines(watch("--code anoto --spacing 0.5"),
                  run_element("drive.raw", format, "code=anoto spacing-mm=0.5"));
-    // The messages must report that no frame can be located in another code.
+    // The frames are not in this code. The messages must report the same failures as `watch`.
     expect_lines(watch("--code microdots"), run_element("drive.raw", format, "code=microdots"));
 }
 
