@@ -101,7 +101,8 @@ void SourceList::put_in_order(Frame& frame) {
     constexpr double kDefaultRate = 30;
     frame.index += first_index_;
     frame.time_us += offset_us_;
-    // Shifted times continue the times of the previous source. They are not on the monotonic clock.
+    // The times of this source are shifted to follow those of the previous source, so they are no
+    // longer on the monotonic clock.
     if (offset_us_ != 0) frame.is_live = false;
     next_index_ = frame.index + 1;
     next_time_us_ = frame.time_us + time_of(1, rate() > 0 ? rate() : kDefaultRate);

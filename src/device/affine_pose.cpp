@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum sample size for measuring displacement and scatter. The sampled dots are evenly spaced
-/// in the list of observations.
+/// Maximum number of dots from which displacement and scatter are measured. These dots are evenly
+/// spaced in the list of observations.
 constexpr int kSample = 64;
 
 /// Returns a vector of the given length in the direction of each symbol.
@@ -32,7 +32,7 @@ std::int32_t squared_q16(FixedVec a_q16) {
     return (a_q16.x >> 8) * (a_q16.x >> 8) + (a_q16.y >> 8) * (a_q16.y >> 8);
 }
 
-/// Adds one point. Not inlined, because inlining needs more registers than small processors have.
+/// Not inlined, because inlining needs more registers than small processors have.
 [[gnu::noinline]] void add(AffineFitInt32& fit, FixedVec p, FixedVec target) {
     fit.add(p, target);
 }
@@ -74,8 +74,9 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
                                    }) +
                                    1;
 
-    // Number of fractional bits in the targets. A target is the printed place of a dot, in 1/64
-    // cell. Its coordinates are less than 2^15 in magnitude.
+    // Number of fractional bits of the targets, which are the printed places of the dots. With 6
+    // bits, the coordinates of targets are less than 2^15 in magnitude, as `AffineFitInt32`
+    // requires.
     constexpr int kTargetBits = 6;
     const auto targets = displacements(shift_rounded(displacement_q16, 16 - kTargetBits));
     AffineFitInt32 fit;

@@ -1,4 +1,5 @@
-// Locate: implements `DeviceLocator` in integer arithmetic, with the given memory and options.
+// Locate: the parts of `DeviceLocator`. They work in integer arithmetic and in the memory of the
+// caller.
 #pragma once
 
 #include "device/workspace.hpp"

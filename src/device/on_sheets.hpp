@@ -7,8 +7,8 @@ namespace dotpose::core {
 
 struct DeviceWorkspace;
 
-/// The functions for known sheets. DeviceWorkspace has a pointer to them, so a program that does
-/// not set known sheets does not contain these functions.
+/// Functions for known sheets. DeviceWorkspace calls them through a pointer, so that a program
+/// without known sheets does not contain them.
 struct SheetFunctions {
     /// Finds the place of the grid of a fresh frame, and its turn. Returns false if no place on the
     /// sheets is certain.

@@ -9,7 +9,7 @@
 
 namespace dotpose::core {
 
-/// Number of new rows collected before their dots are read.
+/// Number of rows that are collected before the dots in them are read.
 inline constexpr int kRowsAtOnce = 12;
 
 /// Sets the corner, the cells, and the members of `tracking` that depend on the spacing. The memory

@@ -8,8 +8,8 @@
 
 namespace dotpose::draw {
 
-/// Smallest axis-aligned box that contains all added points. `low` is above `high` while the box is
-/// empty.
+/// Smallest axis-aligned box that contains all added points. If no point was added, `low` is above
+/// `high`.
 struct Bounds {
     Point low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
     Point high{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};

@@ -49,7 +49,7 @@ class TruthReader {
         throw Error(fmt::format("{}, line {}: {}", name_, line_number_, what));
     }
 
-    /// Reads the next non-empty line into `cells_`. Returns false at the end of the file.
+    /// Reads the next non-empty line into `cells_`. Returns false if there is none.
     bool next_line() {
         std::string line;
         while (std::getline(stream_, line)) {
@@ -83,7 +83,7 @@ class TruthReader {
 
     bool has(const std::string& column) const { return columns_.contains(column); }
 
-    /// Returns a cell of the current line, or an empty string if the column or the cell is missing.
+    /// Returns a cell of the current line, or an empty string if the line has no such cell.
     std::string text(const std::string& column) const {
         const auto found = columns_.find(column);
         return found != columns_.end() && found->second < cells_.size() ? cells_[found->second]

@@ -1,5 +1,5 @@
-/// Labels in the margins of a PDF page: text below the dots, rulers above and to the left of the
-/// dots.
+/// Labels in the margins of a PDF page: text below the dots, and rulers above and to the left of
+/// them.
 #pragma once
 
 #include <string>
@@ -16,9 +16,9 @@ struct PageNumber {
 };
 
 /// Returns the labels as PDF content, in points from the bottom left corner of the page. The
-/// content requires the font resource /Label, which is Helvetica, and the forms of `script`.
-/// `script` draws the lines with letters that Helvetica lacks. Labels that do not fit into the
-/// margins are omitted, beginning with the command. Therefore no label touches a dot.
+/// content requires the font resource /Label, which is Helvetica, and the forms of `script`, which
+/// draw lines with letters that Helvetica lacks. Labels that do not fit into the margins are
+/// omitted, so no label touches a dot. The command is the first to be omitted.
 std::string label_content(const Sheet& sheet, PageNumber page, const PrintOptions& options,
                           ScriptText& script);
 

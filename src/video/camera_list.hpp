@@ -17,15 +17,15 @@ struct FoundCamera {
     std::string device;  ///< for example "/dev/video0"
     std::string name;    ///< name reported by the driver
     std::vector<CameraSize> sizes;
-    /// Reason why the device could not be queried, or empty if it was queried.
+    /// why the device could not be queried, or empty
     std::string problem;
 };
 
 /// Returns the cameras among /dev/video0 to /dev/video63, or an empty list if there are none.
 std::vector<FoundCamera> find_cameras();
 
-/// Returns the cameras as a sentence without a full stop: "cameras are /dev/video0 (name), ...".
-/// Without cameras, the sentence states that none was found.
+/// Returns the cameras as a sentence without a full stop: "cameras are /dev/video0 (name), ...". If
+/// there are none, the sentence states this.
 std::string in_one_line(const std::vector<FoundCamera>& cameras);
 
 }  // namespace dotpose::video

@@ -1,4 +1,4 @@
-// Writes pictures to a video file: H.264 or MPEG-4, or Motion JPEG if the name ends in .avi.
+// Writes pictures to a video file as H.264 or MPEG-4, or as Motion JPEG if the name ends in .avi.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@ namespace dotpose::video {
 
 class Recording : public GreyVideo {
   public:
-    /// The file is created with the first picture. `tell` receives messages for the user.
+    /// Creates no file until the first picture. `tell` receives messages for the user.
     Recording(std::string path, double fps, Tell tell);
 
-    /// Append a BGR or a grey picture. Throw Error, for example if the disk is full or the pictures
-    /// differ in size.
+    /// Append a BGR or a grey picture. Throw Error if that fails, for example because the disk is
+    /// full or the pictures differ in size.
     void write(const cv::Mat& picture);
     void write(ImageView image) override;
 
-    /// Closes the file and verifies its number of frames, because OpenCV reports neither a full
-    /// disk nor an incomplete file. Throws Error if frames are missing.
+    /// Closes the file. Throws Error if frames are missing. The frames are counted, because OpenCV
+    /// reports neither a full disk nor an incomplete file.
     void finish() override;
 
   private:
