@@ -56,8 +56,8 @@ class FrameSource {
 };
 
 struct SourceOptions {
-    /// Size of raw frames, for which it is required, or size requested from a camera. 0 if not
-    /// given.
+    /// Size of raw frames, or size requested from a camera. 0 if not given. Raw frames require a
+    /// size.
     int width_px = 0;
     int height_px = 0;
     /// Frame rate requested from a camera. For other sources, the times of frames are computed from

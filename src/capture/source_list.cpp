@@ -43,8 +43,8 @@ bool SourceList::open() {
     return true;
 }
 
-/// Returns the path of the next image in a sequence of images, folders and globs. Returns an empty
-/// optional if the next source is of another kind, or if there are no more names.
+/// Returns the path of the next image in images, folders and globs. Returns an empty optional if
+/// the next source is of another kind or there is none.
 std::optional<std::string> SourceList::next_image() {
     while (next_image_ == images_.size()) {
         auto name = take_name();

@@ -15,8 +15,8 @@ class AffineFitInt32 {
         Int xx = 0, xy = 0, yy = 0;
         Int ix = 0, iy = 0, jx = 0, jy = 0;
 
-        /// Adds the products of a point p and its target, with a weight of 1 or -1. `weighted` and
-        /// `target` are already multiplied by the weight, but `p` is not.
+        /// Adds the products of a point p and its target. `weighted` is p multiplied by its weight,
+        /// which is 1 or -1. `target` must already be multiplied by the same weight.
         [[gnu::always_inline]] void add(const FixedVec& p, const FixedVec& weighted,
                                         const FixedVec& target) {
             xx += weighted.x * p.x;

@@ -68,7 +68,7 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
         return squared_q16(offset - displaced_q16[static_cast<std::size_t>(symbol)]);
     };
     // For a two-dimensional Gaussian, the median squared residual is 1.39 sigma^2. A limit of 12
-    // medians corresponds to 4.1 sigma. One dot in 4,000 exceeds the limit by chance.
+    // times the median corresponds to 4.1 sigma, which one dot in 4,000 exceeds by chance.
     const std::int32_t limit_q16 = 12 * sampled_median([&](const Offset& offset) {
                                        return squared_residual_q16(offset.q16, offset.symbol);
                                    }) +

@@ -86,7 +86,6 @@ Status find_place(const DeviceOptions& options, DeviceWorkspace& w) {
     return status == Status::ok ? verify_position(options, w) : status;
 }
 
-/// Fits the pose to the dots, each at its printed place in the code.
 Status measure_pose(const DeviceOptions& options, Workspace& w) {
     const Nominal nominal(w.grid, options.code, w.decoding);
     w.pattern_from_image =

@@ -20,14 +20,13 @@ inline ComparedLine& row_of(const Tracking& tracking, int j) {
 
 int dots_seen(const Tracking& tracking);
 
-/// Returns the coded symbol of a cell.
 inline Symbol coded_symbol(const Tracking& tracking, int i, int j) {
     return make_symbol(static_cast<int>(column_of(tracking, i).code >> j & 1),
                        static_cast<int>(row_of(tracking, j).code >> i & 1));
 }
 
-/// Displacement of a dot, projected onto its two bit directions, in 2^-12 spacings (paper, eq.
-/// 7-8). A bit is 1 if its component is positive.
+/// Displacement of a dot in the directions of its x bit and its y bit (paper, eq. 7-8), in 2^-12
+/// spacings. A bit is 1 if its component is positive.
 struct Projections {
     std::int32_t x_q12;
     std::int32_t y_q12;

@@ -1,5 +1,5 @@
-// Hard block: the bits of a block of cells as words, one word per line, in any orientation. The
-// roll of a line is the index in the main sequence at which the line starts
+// Hard block: stores the bits of a block of cells in one word per line, and provides them in any
+// orientation. The roll of a line is the index in the main sequence at which the line starts
 // (docs/position-code.md).
 #pragma once
 
@@ -36,9 +36,9 @@ struct HardLines {
     /// Returns the number of bits that contradict the code if line i starts at index `rolls[i] +
     /// added`, modulo 63, of the main sequence. May stop counting when the number exceeds `limit`.
     int wrong_with(const std::uint8_t* rolls, std::uint32_t added, int limit) const;
-    /// Returns the number of bits that contradict the code if the first line is at `position`.
-    /// `added` is added to the rolls that the lines have in section 0. May stop counting when the
-    /// number exceeds `limit`.
+    /// Returns the number of bits that contradict the code if the first line is at `position`. The
+    /// roll of each line is its roll in section 0 plus `added`. May stop counting when the number
+    /// exceeds `limit`.
     int wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added, int limit) const;
 };
 

@@ -14,10 +14,10 @@
 
 namespace dotpose::core {
 
-/// Half sides of the squares of pixels in which dots are read, in px: a square has 2 n + 1 px per
-/// side. The squares of kHalf_px and kFineHalf_px are around an intersection and contain the dot at
-/// any of its four places. kHalf_px is for spacings of 7 to 13 px, and kFineHalf_px is for smaller
-/// spacings. The square of kDotHalf_px is around the centre of a dot.
+/// Half sides of the squares in which dots are read, in px. A square with the half side n has 2 n +
+/// 1 px per side. The squares of kHalf_px and kFineHalf_px are around an intersection and contain
+/// the dot at any of its four places. kHalf_px is for spacings of 7 to 13 px, and kFineHalf_px is
+/// for smaller spacings. The square of kDotHalf_px is around the centre of a dot.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kFineHalf_px = 2;
 inline constexpr int kDotHalf_px = 2;
@@ -96,16 +96,14 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
     }
     const std::int32_t paper = paper_around(tracking, at);
     const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
-    // A dot darkens the four pixels at its own place by about 6 times `depth` in total, and those
-    // at adjacent places by about 2 times `depth`. A dot is clear if its darkness is at least a
-    // third of the expected 6, and the difference between the places at least a quarter of the
-    // expected 4.
+    // A clear dot is darker than the paper by at least 2 times `depth`, and darker than each other
+    // place by at least `depth`. The expected values are about 6 and 4 times `depth`, because a dot
+    // also darkens the adjacent places by about 2 times `depth`.
     const bool is_clear =
         paper * 4 - (darkest >> 2) >= 2 * depth && (second >> 2) - (darkest >> 2) >= depth;
     return is_clear ? ReadSymbol(darkest & 3, paper - depth) : ReadSymbol::unclear();
 }
 
-/// The measurement of one dot.
 struct NearDot {
     /// Offset of the centroid from the point around which the dot was measured, in 2^-8 px.
     FixedVec offset_q8;

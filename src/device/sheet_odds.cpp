@@ -30,8 +30,8 @@ struct PlacedLines {
     int wrong;  ///< number of bits that contradict the code
 };
 
-/// Returns the number that section and position add to the rolls of an axis: the section plus the
-/// position on the other axis, modulo 63.
+/// Returns the difference between the rolls of an axis and its rolls in section 0: the section plus
+/// the position on the other axis, modulo 63.
 std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_across) {
     return code::modulo_sections(section + code::modulo_sections(position_across));
 }

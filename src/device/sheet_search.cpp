@@ -135,8 +135,7 @@ class SheetSearch {
     void test_pair(const KnownRegion& region, const PairsOfLines& pairs, int quarters,
                    const Rolls& rolls, std::uint32_t position, std::uint32_t step);
     /// Tests the places at which the first line of an axis is at `position`. `wrong` bits of this
-    /// axis contradict the code there. `added` is added to the rolls that the lines have in section
-    /// 0.
+    /// axis contradict the code there. The roll of each line is its roll in section 0 plus `added`.
     void test_crossing(const KnownRegion& region, Axis axis, int quarters, std::uint32_t position,
                        std::uint32_t added, int wrong);
 

@@ -18,8 +18,8 @@ struct SheetPlace {
     std::array<int, 2> wrong{};  ///< numbers of x bits and of y bits that contradict the place
 };
 
-/// Finds the place, in any orientation of the block, that the fewest bits contradict. At most
-/// `max_wrong` bits of both axes together may contradict it. Tries a few pairs of adjacent lines,
+/// Finds the place and the orientation of the block that the fewest bits contradict. At most
+/// `max_wrong` bits of both axes together may contradict them. Tries a few pairs of adjacent lines,
 /// and tests only places at which all bits of a pair agree with the code. Ignores regions in other
 /// codes. Returns nullopt if there is no such place.
 std::optional<SheetPlace> find_on_sheets(const HardBlock& block, CodeVariant code,

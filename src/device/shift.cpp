@@ -99,8 +99,8 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 }
 
 void Shifts::divide_by_dots() {
-    // Minimum divisor of a sum of darkness. A mean over a few dots could be large by chance, so it
-    // is reduced by dividing by more than the number of dots.
+    // Minimum number by which a sum of darkness is divided. If there are fewer dots, this reduces
+    // their mean, because a mean over a few dots may be large by chance.
     constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);

@@ -12,8 +12,8 @@ namespace {
 
 /// Maximum number of rings of cells that are measured around the middle cell.
 constexpr int kRounds = 4;
-/// The dots that agree with the code must be at least kMinDots, and at least kMinFraction_q3 / 8 of
-/// the measured dots.
+/// At least kMinDots dots must agree with the code, and at least the fraction kMinFraction_q3 / 8
+/// of the measured dots.
 constexpr int kMinDots = 12;
 constexpr int kMinFraction_q3 = 6;
 /// Number of measured dots from which the fraction is tested.
@@ -61,8 +61,8 @@ class SimilarityFit {
     std::int32_t across_ = 0;
 };
 
-/// Returns the change of v by a similarity. Not inlined, because 64-bit products need a lot of
-/// code.
+/// Returns the change of v under a similarity transform. Not inlined, because 64-bit products need
+/// a lot of code.
 [[gnu::noinline]] FixedVec change(const SimilarityFit::Similarity& s, FixedVec v) {
     const auto part = [](std::int64_t a_q20) { return static_cast<std::int32_t>(a_q20 >> 20); };
     return {part(std::int64_t{s.stretch_q20} * v.x - std::int64_t{s.turn_q20} * v.y),
@@ -85,7 +85,6 @@ class Rounds {
     /// Shifts the cells by the mean offset of the dots nearest to the middle. These dots need not
     /// agree with the code.
     void recentre(FixedVec middle);
-    /// Measures the dot of a cell and, if it agrees with the code, adds it to the fit.
     void measure(int i, int j);
     /// Moves the cells to the fitted place.
     void lay_cells() {

@@ -33,8 +33,7 @@ struct DeviceWorkspace : Workspace {
 /// dots and of other data of the stages.
 struct DeviceCapacity {
     int width_px = 0;
-    /// Maximum height of a frame. Set to kMaxSideWithLowTiles_px for a size that is wider than
-    /// this.
+    /// Maximum height of a frame. At most kMaxSideWithLowTiles_px if the width is larger than this.
     int height_px = kMaxFrameSide_px;
     int dots = 0;
     int grid_side = 0;

@@ -19,7 +19,6 @@ struct Bounds {
         high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
     bool is_empty() const { return low.x > high.x; }
-    /// Returns the longer side.
     double extent() const { return std::max(high.x - low.x, high.y - low.y); }
 };
 

@@ -22,7 +22,6 @@ double radius_of(const DetectedDot& dot, const FrameView& view) {
                             : std::sqrt(dot.area_px / std::numbers::pi) * view.scale();
 }
 
-/// Draws an axis with its name at the end.
 void draw_axis(Point from, Point to, std::string_view name, Svg& svg) {
     svg.arrow(from, to, 4.5, colour::kInk);
     const Point along = to - from;

@@ -251,7 +251,6 @@ Coordinate coordinate_of(int figure) {
     return {kAngleFigure, "the angle", [](const Station& s) { return s.theta; }, "°"};
 }
 
-/// Draws the pages side by side.
 void draw_figure(std::ostream& out, const Coordinate& coordinate, const Labels& labels,
                  std::span<const FigurePage> pages) {
     const bool is_rose = coordinate.figure == kAngleFigure;

@@ -14,8 +14,8 @@ std::span<const double> sweep_values(SweepKind kind);
 KnownFrame sweep_frame(SweepKind kind, double value, const Setup& setup, std::uint64_t index);
 
 /// Darkens the fraction `share` of the pixels. A straight edge separates the dark pixels from the
-/// others. They are on the side opposite to `direction_rad`, which is an angle in the image from +u
-/// towards +v.
+/// others. The dark pixels are on the side opposite to `direction_rad`, which is an angle in the
+/// image from +u towards +v.
 void cover(GreyImage& image, double share, double direction_rad);
 
 }  // namespace dotpose::evaluate_detail

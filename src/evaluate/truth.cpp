@@ -17,7 +17,6 @@
 namespace dotpose {
 namespace {
 
-/// Splits a line into cells and trims them.
 std::vector<std::string> trimmed_cells_of(const std::string& line) {
     std::vector<std::string> cells = csv::cells_of(line);
     for (std::string& cell : cells) {

@@ -10,7 +10,7 @@ namespace {
 /// A pixel between two adjacent points of `count` equidistant points along an axis.
 struct Between {
     std::size_t first;  ///< index of the point at or before the pixel, from 0 to `count` - 2
-    double part;        ///< distance from this point, as a fraction of the point distance
+    double part;        ///< fraction of the way from this point to the next
 };
 
 Between between(int px, int side_px, std::size_t count) {

@@ -110,7 +110,6 @@ Locator& Follower::locator(const DeviceOptions& options) {
     return locator_;
 }
 
-/// Applies the print map and the camera file to the fix of the latest image.
 Follower::Found Follower::by_camera_file(const Fix& seen, const std::optional<SheetPlace>& place,
                                          const CodeReading& reading) const {
     if (!options_.camera) {

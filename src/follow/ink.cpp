@@ -56,8 +56,8 @@ std::vector<AxisSample> along(const Axis& axis, Run run) {
 double fitted_noise(const std::vector<Run>& runs, std::initializer_list<Axis> axes) {
     double best = 0;
     double best_likelihood = -std::numeric_limits<double>::infinity();
-    // The range covers pens from resting to very fast. A factor of 3 in the noise changes the
-    // result little, so coarse steps are sufficient.
+    // The noise ranges from that of a resting pen to that of a very fast pen. A factor of 3 changes
+    // the result little, so coarse steps are sufficient.
     for (double noise = 1e3; noise < 1e13; noise *= std::sqrt(10)) {
         double likelihood = 0;
         for (const Run& run : runs) {

@@ -58,7 +58,6 @@ void Follower::remember(const Found& found, const std::optional<Sighting>& sight
     }
 }
 
-/// Returns the prediction for an image taken at `time_us`.
 std::optional<Prediction> Follower::predict(std::int64_t time_us) const {
     if (!seen_) return std::nullopt;
     if (!seen_->sighting) return Prediction::like(seen_->fix);

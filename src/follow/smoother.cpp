@@ -45,7 +45,6 @@ State predicted(const State& state, double dt, double noise) {
             by_state * state.covariance * by_state.transpose() + noise * added};
 }
 
-/// The states before and after each sample.
 struct Pass {
     std::vector<State> before;
     std::vector<State> after;

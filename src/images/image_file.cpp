@@ -46,7 +46,6 @@ std::string system_reason() {
     }
 }
 
-/// Appends the next `count` bytes of the file to `bytes`, or fewer at the end of the file.
 void append(std::FILE* file, std::size_t count, Bytes& bytes) {
     const std::size_t before = bytes.size();
     bytes.resize(before + count);

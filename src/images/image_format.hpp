@@ -69,7 +69,8 @@ int tiff_pages(Bytes file);
 GreyImage decode_webp(const ImageInput& input, std::string& note);
 ImageOrigin webp_origin(const ImageInput& input);
 
-/// Encode an image that is not empty as grey JPEG with a quality of 95, or as binary PGM.
+/// Encode an image as grey JPEG with a quality of 95, or as binary PGM. The image must not be
+/// empty.
 std::vector<std::uint8_t> encode_jpeg(ImageView image);
 std::vector<std::uint8_t> encode_pgm(ImageView image);
 

@@ -13,7 +13,6 @@ using link::Plain;
 
 static_assert(kFramedBytes + 1 == PacketBytes{}.size(), "a packet is a frame and its end mark");
 
-/// Writes little-endian integers.
 class Writer {
   public:
     void put(std::uint32_t value, int bytes) {

@@ -131,7 +131,7 @@ class McapFile::Writer {
     int descriptor_;
     Crc32 data_;
     std::uint64_t size_ = 0;  ///< number of bytes before the data end record
-    /// Number of bytes from the data end record to the end of the file, inclusive.
+    /// Size of the end of the file in bytes, beginning with the data end record.
     std::size_t end_bytes_ = 0;
     Contents contents_;
     std::map<std::string, std::uint16_t> schemas_;  ///< schema IDs by name

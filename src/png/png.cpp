@@ -14,8 +14,8 @@ namespace dotpose::png {
 namespace {
 
 constexpr double kInchesPerMetre = 1 / 0.0254;
-// Compression level of zlib. Pages are nearly empty. With the default level they are 20 % smaller,
-// but take 3.5 times as long. Noisy frames hardly become smaller with slower compression.
+// Compression level of zlib. The default level would make pages, which are nearly empty, 20 %
+// smaller, but take 3.5 times as long. Slower compression hardly makes noisy frames smaller.
 constexpr int kCompressionLevel = 4;
 
 /// Writes a PNG file. libpng reports errors with longjmp, so only `guarded` may call it, and no

@@ -209,7 +209,6 @@ class Overlay {
         report_.pages.push_back({number, sheet, document_page});
     }
 
-    /// Scans a page of the document and converts its colours.
     void prepare(int number) {
         QPDFPageObjectHelper original = page(number);
         if (print::has_dots(pdf_, original)) dotted_.push_back(number);
@@ -284,7 +283,6 @@ class Overlay {
         return content;
     }
 
-    /// Replaces all pages by pages of cards.
     void make_cards() {
         const Paper card = card_size();
         const print::CardGrid grid = print::card_grid(*options_.card_paper, card);

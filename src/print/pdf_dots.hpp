@@ -33,8 +33,8 @@ struct RowCount {
     std::exception_ptr stopped;
 };
 
-/// Returns true if glyphs draw the pattern exactly, because spacing, displacement and dot diameter
-/// are whole numbers of pixels.
+/// Returns true if spacing, displacement and dot diameter are whole numbers of pixels, so that
+/// glyphs draw the pattern exactly.
 bool is_whole_pixels(const Pattern& pattern, double dpi);
 
 /// Replaces `DotDrawing::automatic` by the best choice for this pattern. Throws BadArgument if

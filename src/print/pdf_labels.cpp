@@ -228,8 +228,8 @@ std::string ruler_content(const Sheet& sheet, Side side) {
     if (!has_ruler(sheet, side)) return {};
     const bool is_top = side == Side::top;
     const double away_from_mm = free_margin_mm(sheet, side);
-    // Returns a point of the page from the position along the ruler and the distance from the dots.
-    // The left ruler runs downwards.
+    // Returns the point of the page at a position along the ruler and a distance from the dots. The
+    // left ruler runs downwards.
     const auto at = [&](double along_mm, double away_mm) {
         return is_top ? point(sheet, along_mm, away_from_mm - away_mm)
                       : point(sheet, away_from_mm - away_mm, along_mm);

@@ -44,8 +44,8 @@ class UnpackedBytes {
     /// many filters or needs too much memory for a row of a predictor.
     void count(QPDFObjectHandle stream);
 
-    /// Counts the bytes of the object streams, which are streams that contain other objects. Each
-    /// of them may be as large as one page.
+    /// Counts the bytes of the object streams, which are streams that contain other objects. The
+    /// limit for one page also applies to each object stream.
     void count_object_streams(QPDF& pdf);
 
   private:

@@ -67,7 +67,6 @@ cairo_status_t append(void* document, const unsigned char* data, unsigned size) 
     return CAIRO_STATUS_SUCCESS;
 }
 
-/// Returns a PDF document with one page that contains the text.
 std::string document_of(const std::string& text, double size_pt, double width_pt) {
     const RsvgRectangle page{0, 0, width_pt, (kAscent + kDescent) * size_pt};
     const Drawing drawing = drawing_of(text, size_pt, width_pt);

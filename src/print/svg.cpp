@@ -49,7 +49,8 @@ void write_dots(const Sheet& sheet, const std::function<void(int)>& row_done,
         for (const Symbol symbol : symbols.row(j)) {
             const std::int64_t x = to_units(dot_x_mm(sheet, i, dx(symbol)));
             const std::int64_t y = to_units(dot_y_mm(sheet, j, dy(symbol)));
-            // Relative to the previous dot. The first step is relative to (0, 0).
+            // Each position is relative to the previous one. The first position is relative to (0,
+            // 0).
             fmt::format_to(std::back_inserter(line), "m{} {}h0", x - last_x, y - last_y);
             last_x = x;
             last_y = y;

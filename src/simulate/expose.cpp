@@ -29,8 +29,9 @@ class Sensor {
           border_(static_cast<std::size_t>(kernel.border_px)),
           kernel_(kernel),
           paper_(paper),
-          // A range may begin at any pixel, so rounding its length up to a multiple of kLanes may
-          // extend it beyond the row.
+          // A range may begin at any pixel, and its length is rounded up to a multiple of kLanes.
+          // The row has kLanes additional elements, because a range may therefore extend beyond the
+          // last pixel.
           row_(whole_lanes(width_ + 2 * border_ + kernel.taps) + kLanes),
           levels_(row_.size() * static_cast<std::size_t>(camera.height_px)) {
         collect_paper();
@@ -335,8 +336,8 @@ std::vector<float> expose(const PageImage& page, const View& view,
 
 namespace {
 
-/// Returns the offset of the grey level of a pixel of the simulated sensor, in standard deviations
-/// of all pixels.
+/// Returns the offset of the grey level of a pixel of the simulated sensor, in units of the
+/// standard deviation over all pixels.
 double offset_of_pixel(std::size_t index) {
     constexpr std::uint64_t kSensor = 0x5e4503;
     return Rng(kSensor, index).normal();

@@ -9,7 +9,6 @@
 
 namespace dotpose::simulate {
 
-/// The image of a round dot.
 struct InkEllipse {
     Vec2 centre_px;
     /// Outline: all p with (p - centre)^T M^-1 (p - centre) = 1, where M = [xx xy; xy yy].

@@ -37,7 +37,6 @@ double spacing_px(const Shot& shot) {
     return shot.page.pattern.spacing_mm / shot.camera.mm_per_px;
 }
 
-/// Estimates the number of grid intersections in view.
 double intersections(const Shot& shot) {
     return shot.camera.width_px * shot.camera.height_px / (spacing_px(shot) * spacing_px(shot));
 }

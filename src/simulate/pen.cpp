@@ -115,7 +115,6 @@ void lean(double t_s, std::uint64_t seed, PenPose& pose) {
     pose.turn_rad = 10 * kDegree_rad * std::sin(kTurn_rad * 0.3 * t_s);
 }
 
-/// Returns the sample at the time `t_s` of a stroke that begins at `begin_s`.
 PenSample sample_at(double t_s, double begin_s, const Stroke& stroke, const Vec2& next,
                     std::uint64_t seed) {
     PenSample sample;

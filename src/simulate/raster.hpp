@@ -34,7 +34,7 @@ class Raster {
         std::array<float, Kernel::kMaxPerPixel> darkness{};
     };
 
-    /// Returns each pixel with ink in a row of the band once, and clears the row.
+    /// Returns the pixels with ink in a row of the band, without duplicates, and clears the row.
     std::span<const Spot> take_row(int row_in_band);
 
   private:

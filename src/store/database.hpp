@@ -78,7 +78,7 @@ class Database {
     /// Returns the name of the database for messages, without a password.
     virtual std::string label() const = 0;
 
-    /// Opens the database, and creates missing tables. Throws Error.
+    /// Opens the database, and creates missing tables. Throws Error if this fails.
     virtual void prepare() = 0;
 
     /// Writes all states in one transaction. Skips states that are already stored. If the

@@ -13,7 +13,6 @@ namespace {
 
 using std::chrono::steady_clock;
 
-/// Maximum number of states in a transaction.
 constexpr std::size_t kMaxBatch = 50'000;
 constexpr auto kBetweenAttempts = std::chrono::seconds(1);
 

@@ -26,8 +26,8 @@ struct QueueOptions {
     /// sorted by robot, so with a longer period the states of one robot can be read faster.
     std::chrono::milliseconds period{5000};
     int keep_days = 0;  ///< number of days to keep, or 0 to keep all days
-    /// Called with messages for the user, for example that the database is not available. The
-    /// caller may be another thread.
+    /// Called with messages for the user, for example that the database is not available. May be
+    /// called in another thread.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 

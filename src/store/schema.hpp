@@ -1,4 +1,4 @@
-// Tables, which are the same in all databases, and the conversion between rows and states.
+// The tables of all databases, and the conversion between rows and states.
 #pragma once
 
 #include <array>

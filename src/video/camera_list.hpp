@@ -17,7 +17,7 @@ struct FoundCamera {
     std::string device;  ///< for example "/dev/video0"
     std::string name;    ///< name reported by the driver
     std::vector<CameraSize> sizes;
-    /// why the device could not be queried, or empty
+    /// Reason why the device could not be queried, or empty if it was queried.
     std::string problem;
 };
 

@@ -28,8 +28,8 @@ bool Screen::is_wanted() {
 
 bool has_display() {
     // Qt ends the program if it cannot connect to the X server, so the connection is tested before
-    // Qt opens the window. Qt depends on the X library. dotpose is not linked to it, so it is
-    // loaded here.
+    // Qt opens the window. The X library, on which Qt depends, is loaded at run time, so that
+    // dotpose need not be linked to it.
     void* library = dlopen("libX11.so.6", RTLD_LAZY);
     if (library == nullptr) return false;
     const auto connect = reinterpret_cast<void* (*)(const char*)>(dlsym(library, "XOpenDisplay"));

@@ -1,5 +1,5 @@
-// Stores states in a PostgreSQL database, in the schema `dotpose`. Each day is a partition of the
-// table.
+// Stores states in a PostgreSQL database, in the schema `dotpose`. The states of each day are in a
+// separate partition.
 #include <charconv>
 #include <map>
 #include <optional>
@@ -82,7 +82,7 @@ class Postgres : public Database {
             const std::string first_kept = partition_name(day_of(time_us));
             for (int i = 0; i < partitions.size(); ++i) {
                 const std::string name(partitions.text(i, 0));
-                // Names of equal length sort by day.
+                // Names of equal length are in alphabetical order if their days are in order.
                 if (name.size() != first_kept.size() || name >= first_kept) continue;
                 if (name.find_first_not_of("states_0123456789") != std::string::npos) continue;
                 connection_->run("DROP TABLE " + name);

@@ -77,7 +77,6 @@ class Statement {
                                               static_cast<int>(text.size()), SQLITE_STATIC));
         return *this;
     }
-    /// Advances to the next row. Returns false if there are no more rows.
     bool step() {
         const int code = sqlite3_step(statement_.get());
         connection_.require(code);

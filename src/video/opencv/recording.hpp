@@ -38,7 +38,7 @@ class Recording : public GreyVideo {
     std::unique_ptr<H264File> h264_;
     cv::VideoWriter writer_;  ///< open if the recording is not H.264
     cv::Size size_;
-    std::int64_t frames_ = 0;  ///< number of frames written
+    std::int64_t frames_ = 0;
 };
 
 }  // namespace dotpose::video

@@ -41,7 +41,6 @@ Owned<T> owned(T* pointer) {
     return Owned<T>(pointer);
 }
 
-/// Converts frames of any pixel format to grey.
 class GreyConverter {
   public:
     void operator()(const AVFrame& picture, GreyImage& image) {
@@ -278,7 +277,7 @@ class VideoFile : public capture::FrameSource {
     bool has_index_ = false;
     bool is_counted_ = false;  ///< true if times are computed from frame numbers
     bool waits_for_key_frame_ = false;
-    std::int64_t frames_ = 0;  ///< number of returned frames
+    std::int64_t frames_ = 0;
 };
 
 }  // namespace
