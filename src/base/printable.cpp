@@ -17,8 +17,8 @@ struct Character {
     std::size_t bytes = 0;
 };
 
-/// Decodes the first character of a text that is not empty. According to table 3-7 of the Unicode
-/// standard, overlong sequences, surrogates and code points above U+10FFFF are invalid.
+/// Decodes the first character of a text, which must not be empty. According to table 3-7 of the
+/// Unicode standard, overlong sequences, surrogates and code points above U+10FFFF are invalid.
 Character first_of(std::string_view text) {
     const auto byte = [&text](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
     if (byte(0) < 0x80) return {byte(0), 1};
@@ -48,7 +48,7 @@ bool acts_on_terminals(std::uint32_t code) {
 }
 
 /// Replaces every character of the text. `shown` appends the replacement of one character to the
-/// result. If a byte is invalid, it is passed to `shown` alone.
+/// result. Invalid bytes are passed to `shown` one at a time.
 template <typename Shown>
 std::string rewritten(std::string_view text, Shown shown) {
     std::string result;

@@ -23,7 +23,7 @@ void validate_paper(double width_mm, double height_mm);
 void validate_pattern(const Pattern& pattern);
 
 /// Throws BadArgument unless `count` rows or columns, beginning with `first`, are enough for a
-/// sheet and are inside the code plane. Messages name the rows or columns by `what` and `axis`.
+/// sheet and are inside the code plane. `what` and `axis` name the rows or columns in messages.
 /// `count` is a double because it is checked before it is converted to an integer.
 void validate_region(const char* what, char axis, std::uint32_t first, double count);
 

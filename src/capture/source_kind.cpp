@@ -39,7 +39,7 @@ bool has_ending(const fs::path& path, const Endings& endings) {
 }
 
 /// Returns true if the file has the signature of MP4, Matroska or AVI. Pipes are not examined,
-/// because bytes that are read from a pipe are lost for the reader of the video.
+/// because reading would consume their bytes.
 bool begins_like_video(const fs::path& name) {
     std::error_code failed;
     if (!fs::is_regular_file(name, failed)) return false;

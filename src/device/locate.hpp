@@ -1,5 +1,4 @@
-// Locate: the parts of `DeviceLocator`. They work in integer arithmetic and in the memory of the
-// caller.
+// Locate: implements `DeviceLocator` in integer arithmetic. All memory is provided by the caller.
 #pragma once
 
 #include "device/workspace.hpp"

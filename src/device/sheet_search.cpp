@@ -22,7 +22,7 @@ class AgreeingRolls {
         for (std::size_t roll = 0; roll < kSections; ++roll) {
             if (((code::kMainWords[roll] ^ line.bits) & line.seen) != 0) continue;
             if (count_ == rolls_.size()) {
-                // With so few bits, the line does not restrict the roll.
+                // The line has too few bits to restrict the roll.
                 count_ = 0;
                 return;
             }
@@ -48,9 +48,9 @@ struct LinePair {
     AgreeingRolls second;
 };
 
-/// Returns the first line of the pair of adjacent lines that has the most bits. Of each pair, only
-/// the line with fewer bits counts. Skips the lines in the bit set `tried`, and adds the pair to
-/// this set. Returns nullopt if no pair is left.
+/// Returns the first line of the pair of adjacent lines that has the most bits. The number of bits
+/// of a pair is that of its line with fewer bits. Skips the lines in the bit set `tried`, and adds
+/// the pair to this set. Returns nullopt if no pair is left.
 std::optional<int> longest_pair(const HardLines& lines, std::uint32_t& tried) {
     std::optional<int> longest;
     int most_bits = 0;

@@ -18,7 +18,8 @@ Shifts::Shifts(const Tracking& tracking) {
     // the prediction hardly changes the sums over them.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
-    // Sideways movement of the first rows by a rotation of 4 degrees (18/256 rad) about the centre.
+    // Sideways movement of the first rows if the frame rotates by 4 degrees (18/256 rad) about its
+    // centre.
     const int sideways_px = 18 * ((tracking.height_px - rows_) / 2) >> 8;
     const auto steps = [&](int reach_px) {
         return std::min((reach_px + step_px_ - 1) / step_px_, kMaxSteps);
@@ -36,8 +37,8 @@ Shifts::Shifts(const Tracking& tracking) {
     divide_by_dots();
 }
 
-/// Sets the paper level to the mean of the brighter sampled pixels, that is, of those not darker
-/// than the mean of all sampled pixels.
+/// Sets the paper level to the mean of all sampled pixels that are at least as bright as the mean
+/// sampled pixel.
 void Shifts::measure_paper(const Tracking& tracking) {
     int threshold = 0;
     for (int round = 0; round < 2; ++round) {

@@ -99,8 +99,9 @@ Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& op
     // Frames with lens distortion are not tracked, but located without the prediction.
     t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.code, t)
                                        : Status::not_tracked;
-    // If the workspace keeps every stage, the processor is fast enough to locate the whole frame
-    // without the prediction. This is more accurate than tracking only the middle of the frame.
+    // A workspace that keeps every stage is used on a processor that is fast enough to locate the
+    // whole frame without the prediction. This is more accurate than tracking only the middle of
+    // the frame.
     if (w.keeps_every_stage && t.left_out_px > 0) t.status = Status::not_tracked;
     t.rows_taken = -t.rows_above;
     if (t.status == Status::ok) lay_tracked_lines(options.code, t);

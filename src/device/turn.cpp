@@ -150,7 +150,7 @@ void Rounds::measure(int i, int j) {
 }
 
 /// Calls `use` for each cell of a ring around the middle cell, except cells that cannot be in view.
-/// `round` is the distance of the ring in cells.
+/// `round` is the distance of the ring from the middle cell, in cells.
 template <typename Use>
 void visit_round(const Tracking& tracking, FixedVec middle, int round, Use use) {
     const auto is_in = [&](int cell) {

@@ -16,8 +16,8 @@ using namespace dotpose::draw;
 constexpr double kMargin = 30;
 constexpr double kHead = 74;
 constexpr double kMaxSide = 520;
-/// Minimum residual that is drawn as an arrow of maximum length. It keeps the arrows short if the
-/// residuals are only noise.
+/// Minimum full scale of the arrows in px. It ensures that residuals of pure noise have short
+/// arrows.
 constexpr double kMinFullScale_px = 0.05;
 
 using Part = ResidualField::Part;

@@ -14,9 +14,9 @@ const DetectedDot& dot_of_seed(const Trace& trace, int seed) {
     return trace.dots[trace.seeds[static_cast<std::size_t>(seed)]];
 }
 
-/// Returns the radius of a dot in the drawing. Dots that were measured at their predicted places
-/// have no number of pixels. They are drawn with a diameter of a third of the spacing, like blurred
-/// dots.
+/// Returns the radius of a dot in the drawing. If the dot was measured at its predicted place, its
+/// number of pixels is unknown, so it is drawn with a diameter of a third of the spacing, like a
+/// blurred dot.
 double radius_of(const DetectedDot& dot, const FrameView& view) {
     return dot.area_px == 0 ? view.spacing() / 6
                             : std::sqrt(dot.area_px / std::numbers::pi) * view.scale();

@@ -89,8 +89,8 @@ class FrameView {
     Point reference_px_;
 };
 
-/// Returns the cell at a corner of the 8 x 8 window: the top left corner after the window is turned
-/// into the orientation of the pattern. Requires `Reached::place`.
+/// Returns the grid cell that is at the top left corner of the 8 x 8 window in the orientation of
+/// the pattern. Requires `Reached::place`.
 FixedVec window_corner(const Trace& trace);
 /// Returns the position of a grid cell in the code. Requires `Reached::place`.
 Place place_of(const Trace& trace, FixedVec grid_cell);

@@ -44,7 +44,7 @@ InkPage with_size(InkPage page) {
     return page;
 }
 
-/// Appends "x y" of a point, relative to the corner of the page.
+/// Appends "x y" of a point, in mm from the top left corner of the page.
 void append_place(std::string& text, const InkPage& page, const InkPoint& point) {
     fmt::format_to(std::back_inserter(text), "{:.4f} {:.4f}", point.x_mm - page.left_mm,
                    point.y_mm - page.top_mm);

@@ -1,4 +1,4 @@
-// Draws the offsets of a print map. Each component of the offsets is an image.
+// Draws the offsets of a print map as two images, one for each component.
 #include <algorithm>
 #include <array>
 #include <cmath>

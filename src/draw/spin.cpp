@@ -16,8 +16,8 @@ namespace {
 
 using namespace dotpose::draw;
 
-/// Minimum residual that fills the panel. It keeps the marks near the middle if there is only
-/// noise.
+/// Minimum full scale of the panel in mm. It ensures that residuals of pure noise fill only a small
+/// part of the panel.
 constexpr double kMinFullScale_mm = 0.001;
 
 class SpinPicture {

@@ -20,19 +20,18 @@ namespace {
 using namespace dotpose::draw;
 
 constexpr double kMaxArrow = 70;
-/// Minimum difference that is drawn as an arrow of maximum length. It keeps the arrows short if
-/// there is only noise.
+/// Minimum full scale of the arrows in mm. It ensures that pure noise has short arrows.
 constexpr double kMinArrowScale_mm = 0.002;
 
-/// Image centre of one frame and the difference between its positions on the two sheets, in mm of
-/// the world with y down.
+/// Image centre of one frame, and the difference between its positions on the two sheets. Both are
+/// in mm in the world frame, but with y down.
 struct Disagreement {
     Point at;
     Point off;
 };
 
-/// Converts a point of a sheet to mm of the world, with y down as in the drawing. The sheet must
-/// have a world pose.
+/// Converts a point of a sheet to mm in the world frame, but with y down as in the drawing. The
+/// sheet must have a world pose.
 Point in_world(const SheetEntry& entry, double x_mm, double y_mm) {
     const WorldPlace place = world_place({&entry, x_mm, y_mm, 0, {}}).value();
     return {1000 * place.x_m, -1000 * place.y_m};

@@ -12,7 +12,7 @@ namespace {
 
 using namespace evaluate_detail;
 
-/// The cell at the centre of the area. Any other cell would do.
+/// The cell at the centre of the area. The choice is arbitrary.
 constexpr Cell kMiddle{10'000, 20'000};
 
 /// Commanded pose of the device, and the page under it.
@@ -69,8 +69,8 @@ Station station_of(const Stand& stand, std::span<const Outcome> outcomes) {
         if (!outcome.is_fix() || outcome.is_wrong()) continue;
         ++station.located;
         const double spacing_mm = outcome.truth.spacing_mm;
-        // Whether a fix is wrong is determined relative to the printed pattern. The accuracy is
-        // measured relative to the commanded pose.
+        // The printed pattern determines whether a fix is wrong, but the accuracy is measured
+        // relative to the commanded pose.
         const Deviation off = deviation_of(outcome.fix, sent_to(stand, spacing_mm));
         x_mm.push_back(off.x_grid * spacing_mm);
         y_mm.push_back(off.y_grid * spacing_mm);

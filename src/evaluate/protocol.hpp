@@ -20,7 +20,7 @@ struct Step {
     friend constexpr bool operator==(const Step&, const Step&) = default;
 };
 
-/// Returns all positions of a square, whose side must be odd, in a spiral from the centre outwards.
+/// Returns the positions of a square in a spiral from the centre outwards. The side must be odd.
 /// The spiral starts to the right and turns clockwise as seen on the page.
 std::vector<Step> spiral(int side);
 

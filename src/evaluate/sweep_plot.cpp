@@ -20,7 +20,7 @@ constexpr double kHeight = 690;
 constexpr double kLeft = 80;
 constexpr double kPlotWidth = kWidth - kLeft - 40;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-/// Minimum number of fixes from which errors are drawn for a value of the condition.
+/// Errors are drawn only for values of the condition that have at least this number of fixes.
 constexpr int kMinFixes = 5;
 
 struct Words {

@@ -7,7 +7,7 @@
 namespace dotpose {
 namespace {
 
-/// A pixel between two adjacent points of `count` equidistant points along an axis.
+/// Position of a pixel between the two nearest of `count` equidistant points along an axis.
 struct Between {
     std::size_t first;  ///< index of the point at or before the pixel, from 0 to `count` - 2
     double part;        ///< fraction of the way from this point to the next

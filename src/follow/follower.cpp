@@ -93,7 +93,7 @@ void Follower::set_camera(const Camera& camera) {
     seen_.reset();
 }
 
-/// Returns the image after the flip and the correction by the flat field that the options require.
+/// Returns the image after the flip and the flat-field correction that the options require.
 ImageView Follower::as_located(ImageView image) {
     if (image.pixels == nullptr) return image;
     if (options_.flip || (options_.camera && options_.camera->flip)) {

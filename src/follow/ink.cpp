@@ -15,7 +15,7 @@ namespace {
 using follow::AxisPlace;
 using follow::AxisSample;
 
-/// Smoothed height above the paper from which a sample next to a lift belongs to the lift.
+/// A sample next to a lift belongs to the lift if its smoothed height exceeds this height.
 constexpr double kRest_mm = 0.02;
 
 /// Consecutive samples on one page.

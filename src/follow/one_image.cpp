@@ -25,7 +25,8 @@ Located Follower::locate(const GreyImage& image) {
 }
 
 /// Tries each code variant, and returns the first fix that is on a sheet of its variant. If there
-/// is none, returns the first other fix, or otherwise the result for the first variant.
+/// is none, returns the first fix in any variant. If there is no fix, returns the result for the
+/// first variant.
 Follower::Found Follower::read() {
     if (codes_.empty()) {
         const CodeReading reading = locator(used_).locate_in_any_code(image_, evidence_);

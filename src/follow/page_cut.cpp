@@ -53,8 +53,9 @@ std::uint8_t brightness_of(ImageView image) {
     return static_cast<std::uint8_t>(grey);
 }
 
-/// Sets all pixels outside `region` to the grey level of the paper. Returns an empty optional if
-/// `region` contains all corners of the image, because nothing need be masked then.
+/// Returns a copy of the image in which all pixels outside `region` have the grey level of the
+/// paper. Returns an empty optional if `region` contains all corners of the image, because no pixel
+/// is then outside it.
 template <typename Region>
 std::optional<GreyImage> cut_to(ImageView image, const Region& region) {
     const int right = image.width_px - 1;

@@ -33,7 +33,7 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
     const auto sighting = sighting_of(found, time_us);
     Followed result;
     result.track = tracker_.update(time_us, sighting ? &*sighting : nullptr);
-    // A fix that is not certain alone counts only if the tracker accepted it with its prior.
+    // A fix that is not certain on its own counts only if the tracker accepted it with its prior.
     const bool is_with_prior = result.track.verdict == Verdict::with_prior;
     const bool is_fix = strict.status == Status::ok || is_with_prior;
     if (is_fix) {
@@ -65,7 +65,8 @@ std::optional<Prediction> Follower::predict(std::int64_t time_us) const {
 }
 
 /// Tries each code variant, and returns the first fix that is on a sheet of its variant. If there
-/// is none, returns the first other fix, or otherwise the result for the last variant.
+/// is none, returns the first fix in any variant. If there is no fix, returns the result for the
+/// last variant.
 Follower::Found Follower::find(int max_p_wrong_log2, const std::optional<Prediction>& expected) {
     used_.integrity.max_p_wrong_log2 = max_p_wrong_log2;
     if (codes_.empty()) return look_in_any_code(expected);
@@ -110,8 +111,8 @@ Follower::Found Follower::look_in_any_code(const std::optional<Prediction>& expe
     return by_camera_file(reading.fix, {}, reading);
 }
 
-/// If an image shows more than one page, locates it again with everything outside its page masked.
-/// Returns `found` if the second attempt does not find the same sheet.
+/// If an image shows more than the page of the fix, masks everything outside this page and locates
+/// the image again. Returns `found` if the second attempt does not find the same sheet.
 Follower::Found Follower::without_neighbours(const Found& found) {
     Found guess = found;
     if (found.seen.status == Status::not_certain) {

@@ -26,7 +26,7 @@ struct ImageInput {
 };
 
 struct ImageFormat {
-    /// Returns true if a file that begins with `head` has the signature of this format.
+    /// Returns true if `head`, the first bytes of a file, contains the signature of this format.
     bool (*matches)(std::string_view head);
     /// Decodes an image. Sets `note` as `read_image` does, but without the name of the file.
     GreyImage (*decode)(const ImageInput& input, std::string& note);

@@ -42,8 +42,8 @@ std::string palette_bytes(QPDFObjectHandle table, UnpackedBytes& unpacked) {
     return {reinterpret_cast<const char*>(data->getBuffer()), data->getSize()};
 }
 
-/// Returns the colour space [/Indexed space last table] with the converted colours of another one.
-/// `bytes` contains the components of its `count` colours.
+/// Returns an indexed colour space, [/Indexed space last table], with `count` converted colours.
+/// `bytes` contains the components of the original colours.
 QPDFObjectHandle indexed(InkChange change, ColourKind from, const std::string& bytes,
                          std::size_t count) {
     const std::size_t size = components(from);

@@ -33,9 +33,9 @@ class CrossReferences {
     }
 
     void count() {
-        // Some files contain other data before and after the document. The header is therefore
-        // searched in this number of bytes at the beginning of the file, and `startxref` in this
-        // number at its end.
+        // Number of bytes to search for the header at the beginning of the file, and for
+        // `startxref` at its end. The search is needed because some files contain other data before
+        // and after the document.
         constexpr qpdf_offset_t kNear = 1100;
         const std::string begin = text(0, kNear);
         std::smatch header;

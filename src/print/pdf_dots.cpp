@@ -110,8 +110,8 @@ void write_glyph_rows(const Sheet& sheet, double dpi, int first_row, int end_row
 
 // --- strokes ------------------------------------------------------------------------------------
 
-/// Unit of length of which spacing and displacement are whole multiples. Renderers do not round
-/// whole numbers, and short numbers keep files small.
+/// Unit of length. Spacing and displacement are whole multiples of it, because whole numbers are
+/// short and renderers do not round them.
 struct WholeUnits {
     int spacing = 0;
     int displacement = 0;

@@ -80,8 +80,8 @@ std::optional<std::string> in_helvetica(const std::string& utf8) {
     return std::nullopt;
 }
 
-/// Breaks text into lines that `fits` accepts. Breaks lines between words, and words only if they
-/// are wider than a line.
+/// Breaks text into lines that `fits` accepts. Lines end between words, except that a word wider
+/// than a line is split.
 template <typename Fits>
 std::vector<std::string> wrap(const std::string& text, const Fits& fits) {
     std::vector<std::string> lines = {""};

@@ -1,4 +1,4 @@
-/// Finds out what a page paints, before dots are added above or below its content.
+/// Determines what a page paints, before dots are added above or below its content.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
-/// Typesets the labels of a PDF page that contain letters of any script. Helvetica, which is not
-/// embedded, has only Latin letters, so other letters are drawn with the fonts that are installed
-/// on the computer.
+/// Typesets labels with letters of any script for a PDF page. Helvetica, which is not embedded, has
+/// only Latin letters, so other letters are drawn with the fonts that are installed on the
+/// computer.
 #pragma once
 
 #include <map>

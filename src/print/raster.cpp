@@ -23,8 +23,9 @@ int diameter_px(const Sheet& sheet, double dpi) {
     return std::max(1, static_cast<int>(std::lround(sheet.pattern.dot_mm * dpi / kInch_mm)));
 }
 
-/// Returns the first pixel of a dot with a diameter of `dot_px` pixels. Its centre is as close as
-/// possible to `centre_mm`, but the dot must be on the page. Pixel k extends from k to k + 1.
+/// Returns the first pixel of a dot with a diameter of `dot_px` pixels. The centre of the dot is as
+/// close as possible to `centre_mm`, but the whole dot is on the page. Pixel k extends from k to k
+/// + 1.
 int first_px(double centre_mm, double dpi, int dot_px, int page_px) {
     const double first = centre_mm * dpi / kInch_mm - 0.5 * dot_px;
     return std::clamp(static_cast<int>(std::floor(first + 0.5 + kTie_px)), 0, page_px - dot_px);

@@ -8,8 +8,8 @@
 
 namespace dotpose::print {
 
-/// Computes the symbols of a sheet row by row. Stores the roll of each column, which is the offset
-/// of the main sequence in it, so that a symbol requires only two table look-ups.
+/// Computes the symbols of a sheet row by row. Stores the roll of each column (the offset of the
+/// main sequence in the column), so that a symbol requires only two table look-ups.
 class SymbolRows {
   public:
     explicit SymbolRows(const Sheet& sheet);

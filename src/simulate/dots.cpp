@@ -18,8 +18,8 @@ DotErrors errors_of(const Page& page, Cell cell) {
     const Section section = page.pattern.section;
     const std::uint64_t sheet = page.seed * 4096 + section.u * std::uint64_t{64} + section.v;
     Rng rng(sheet, (std::uint64_t{cell.x} << 32) | cell.y);
-    // All random numbers are drawn in any case, so that switching off one imperfection does not
-    // change the others.
+    // Draws all random numbers even if an imperfection is switched off, because the other
+    // imperfections must not change then.
     DotErrors errors{};
     errors.presence = rng.uniform();
     errors.jitter.x = rng.normal();
@@ -103,8 +103,8 @@ void add_disc(Ink& ink, const View& view, Vec2 offset_mm, double radius_mm, doub
     if (away_v > view.camera.height_px / 2.0 + reach_px) return;
 
     // Across the dot, the projection is approximated by a linear map, so the image of the dot is an
-    // ellipse. At 3 degrees of tilt and 60 px per spacing, this moves the centroid by less than
-    // 0.001 px.
+    // ellipse. At 3 degrees of tilt and 60 px per spacing, this approximation moves the centroid by
+    // less than 0.001 px.
     const auto half = [&](Vec2 step) {
         const Vec2 ahead =
             projection.pixel_from_offset({offset_mm.x + step.x, offset_mm.y + step.y});

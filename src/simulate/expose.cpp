@@ -162,7 +162,7 @@ class Sensor {
         const auto height = static_cast<std::size_t>(height_);
         const std::size_t reach = 2 * border_ + 1;
         const std::size_t stride = row_.size();
-        // At the first pixel, the taps to its left read zeros that precede the light.
+        // Zeros precede the light, because taps to the left of the first pixel read them.
         std::vector<float> light(2 * border_ + stride);
         std::vector<float> along_rows(stride * (height + 2 * border_));
         for (const Kernel::Moment& moment : kernel_.moments) {

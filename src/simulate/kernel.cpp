@@ -40,8 +40,8 @@ Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, 
     }
     Kernel::Weights result(per_pixel, std::vector<float>(kernel.taps));
     for (std::size_t i = 0; i < exact.size(); ++i) {
-        // The order is reversed, because light from a sub-pixel farther right contributes to a
-        // pixel farther left relative to the sub-pixel.
+        // The order is reversed: the farther right a sub-pixel is relative to a pixel, the farther
+        // left is the pixel relative to the sub-pixel.
         result[i % per_pixel][pixels - 1 - i / per_pixel] =
             static_cast<float>(exact[i] * share / sum);
     }

@@ -9,7 +9,7 @@
 namespace dotpose {
 namespace {
 
-/// Returns the places of evenly spaced pixels of the image on the page, in spacings.
+/// Returns the places on the page, in spacings, of evenly spaced pixels of the image.
 std::vector<Vec2> sample_points(const Shot& shot) {
     constexpr int kColumns = 64;
     constexpr int kRows = 48;
@@ -47,8 +47,8 @@ double draw_direction(const Shot& shot, Rng& rng) {
     return of_image + static_cast<double>(rng.below(4)) * std::numbers::pi / 2;
 }
 
-/// Returns half the side of a square, in spacings, that is so large that at most one of its corners
-/// is in view.
+/// Returns half the side, in spacings, of a square so large that at most one of its corners is in
+/// view.
 double endless(const Shot& shot) {
     return 8 * std::hypot(shot.camera.width_px, shot.camera.height_px) / spacing_px(shot);
 }

@@ -40,8 +40,8 @@ void move_to(double x_grid, double y_grid, CameraPose& pose) {
     pose.fraction_y = y_grid - std::floor(y_grid);
 }
 
-/// Returns the position at time t from 0 to 1 on a path from 0 to 1 with minimum jerk, which begins
-/// and ends at rest.
+/// Returns the position at time `t` on a path with minimum jerk that begins and ends at rest. Time
+/// and position are from 0 to 1.
 double smooth_step(double t) {
     return t * t * t * (10 + t * (6 * t - 15));
 }
@@ -105,7 +105,7 @@ std::vector<Stroke> strokes_of(const Handwriting& options) {
     return strokes;
 }
 
-/// Sets the angles of the pen to those of a pen in a writing hand.
+/// Sets the angles of the pen at the time `t_s` as in a writing hand.
 void lean(double t_s, std::uint64_t seed, PenPose& pose) {
     Rng rng(seed, 2);
     const double phase = rng.uniform(0, kTurn_rad);
@@ -156,7 +156,7 @@ Shot shot_of_pen(const Shot& shot, const PenTip& tip, const PenPose& pose) {
     const Vector normal{component({1, 0, 0}), component({0, 1, 0}), axis[2]};
     result.pose.tilt_y_rad = std::asin(normal[0]);
     result.pose.tilt_x_rad = std::atan2(-normal[1], normal[2]);
-    // Direction of the image x axis, at the image centre, on the paper.
+    // Direction on the paper of the image x axis, measured at the image centre.
     const Vector right = on_pattern(pose, {1, 0, -normal[0] / normal[2]});
     result.pose.theta_rad = std::atan2(right[1], right[0]);
     return result;

@@ -88,14 +88,14 @@ void Raster::draw_band(int top) {
     }
 }
 
-// Darkens each sub-pixel in proportion to the area of it that a convex shape covers. Along the row,
-// the area is exact. Across the row, it is approximated by Gauss quadrature with four chords, whose
-// error is below 0.1 % even at the round ends of a dot. `chord_at(y)` returns the left and the
-// right end of the chord at y.
+// Darkens each sub-pixel in proportion to the part of its area that a convex shape covers. Along
+// the row, this area is exact. Across the row, Gauss quadrature with four chords approximates it
+// with an error below 0.1 %, even at the round ends of a dot. `chord_at(y)` returns the left and
+// the right end of the chord at y.
 template <typename ChordAt>
 void Raster::fill(double top, double bottom, double darkness, const ChordAt& chord_at) {
     struct Line {
-        double at;      // position in the covered part of the row, 0 to 1
+        double at;      // position of the chord across the covered part of the row, 0 to 1
         double weight;  // the weights sum to 1
     };
     static constexpr Line kLines[] = {{0.06943184420297371, 0.17392742256872693},

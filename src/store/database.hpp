@@ -27,8 +27,8 @@ struct Place {
     auto operator<=>(const Place&) const = default;
 };
 
-/// A state of a robot. Texts must be valid UTF-8 without null characters. Names are shared objects,
-/// because many states belong to the same robot and place.
+/// A state of a robot. Texts must be valid UTF-8 without null characters. Many states belong to the
+/// same robot and place, so they share the objects with the names.
 struct State {
     std::shared_ptr<const std::string> robot;
     std::shared_ptr<const Place> place;

@@ -17,7 +17,8 @@ namespace dotpose::video {
 namespace {
 
 constexpr int kMaxDevices = 64;
-/// Maximum number of entries of each kind, because a faulty driver might return an endless list.
+/// Maximum number of entries of each kind. The limit is needed because a faulty driver might return
+/// entries endlessly.
 constexpr std::uint32_t kMaxEntries = 256;
 
 class Device {

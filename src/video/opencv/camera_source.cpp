@@ -164,7 +164,7 @@ class Camera : public capture::FrameSource {
         latest_.put(std::move(frame));
     }
 
-    /// Passes on an empty frame with the current time on the clock of the camera.
+    /// Delivers an empty frame with the current time on the clock of the camera.
     void put_empty() {
         using namespace std::chrono;
         put({}, newest_us_ + duration_cast<microseconds>(steady_clock::now() - read_at_).count());

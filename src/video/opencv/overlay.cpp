@@ -22,8 +22,8 @@ int even(double length) {
     return 2 * static_cast<int>(std::ceil(length / 2));
 }
 
-/// Draws the grid. If the grid is large, draws only every `step`-th line, and so at most a few
-/// hundred.
+/// Draws the grid. If the grid is large, draws only every `step`-th line, so that there are at most
+/// a few hundred lines.
 void draw_grid(const draw::FrameView& view, cv::Mat& picture) {
     const GridRegion& grid = view.trace().grid.region;
     const int step = std::max({1, grid.columns / 64, grid.rows / 64});
