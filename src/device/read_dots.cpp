@@ -93,8 +93,8 @@ DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
 }
 
 /// Adds the next dot of a row to the sums, if its mass is plausible and its centre is near the
-/// predicted place. Its symbol must agree with the code. Masses are below 2^12 and offsets at most
-/// 2 px, so the sums over a row of 32 dots are below 2^30.
+/// predicted place. The symbol of the dot must agree with the code. Masses are below 2^12 and
+/// offsets at most 2 px, so the sums over a row of 32 dots are below 2^30.
 DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& row) {
     const auto symbol = static_cast<std::size_t>(read.symbol());
     const FixedVec place_q16 = row.next_q16 + tracking.displaced_q16[symbol];

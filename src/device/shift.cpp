@@ -15,7 +15,7 @@ Shifts::Shifts(const Tracking& tracking) {
     const bool is_fine = tracking.half_px == kFineHalf_px;
     step_px_ = is_fine ? 1 : 2;
     // Only dots within two spacings of the middle column are used, because a rotation relative to
-    // the prediction hardly changes the sums over them.
+    // the prediction changes the sums over these dots only slightly.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
     // Sideways movement of the first rows if the frame rotates by 4 degrees (18/256 rad) about its
@@ -61,7 +61,8 @@ void Shifts::add_dots(const Tracking& tracking) {
     const int reach = step_px_ * steps_.y;
     // Maximum distance of the visited cells from the middle cell, in cells along each axis. At any
     // rotation of the grid, the visited cells contain all dots within two spacings of the middle
-    // column, including those outside the first rows that a shift may move into them.
+    // column. They also contain the dots outside the first rows that a shift may move into these
+    // rows.
     constexpr int kAround = 5;
     const FixedVec middle = middle_cell(tracking);
     const auto around = [&](int cell) {

@@ -71,7 +71,7 @@ double fitted_noise(const std::vector<Run>& runs, std::initializer_list<Axis> ax
     return best;
 }
 
-/// Returns true for each sample at which the pen is on the paper.
+/// Returns one value per sample, which is true if the pen is on the paper.
 std::vector<bool> contacts_of(Run run, double noise) {
     PenContact contact;
     std::vector<bool> is_down;

@@ -61,7 +61,7 @@ class HeifReader {
         const Owned<heif_decoding_options, heif_decoding_options_free> options(
             heif_decoding_options_alloc());
         if (!options) throw std::bad_alloc();
-        options->ignore_transformations = 1;  // as for all formats
+        options->ignore_transformations = 1;  // the orientation is ignored, as for all formats
         options->convert_hdr_to_8bit = 1;
         options->strict_decoding = 1;
         const bool has_opacity = heif_image_handle_has_alpha_channel(handle_.get()) != 0;

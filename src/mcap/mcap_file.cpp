@@ -15,9 +15,9 @@ using namespace mcap;
 namespace {
 
 /// Returns the QoS profiles that rosbag2 stores with a channel, as a YAML list. The policies are
-/// written as the numbers of rmw, because all versions of rosbag2 can read them: history 1 is keep
-/// last, reliability 1 is reliable, liveliness 1 is automatic, durability 1 is transient local, and
-/// durability 2 is volatile.
+/// written as the numbers of rmw, because all versions of rosbag2 can read these numbers. History 1
+/// is keep last, reliability 1 is reliable, and liveliness 1 is automatic. Durability 1 is
+/// transient local, and durability 2 is volatile.
 std::string offered_profiles(const McapQuality& quality) {
     const std::string durability = quality.is_transient_local ? "1" : "2";
     const std::string forever = "\n    sec: 9223372036\n    nsec: 854775807\n";

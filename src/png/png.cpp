@@ -14,8 +14,8 @@ namespace dotpose::png {
 namespace {
 
 constexpr double kInchesPerMetre = 1 / 0.0254;
-// Compression level of zlib. The default level would make pages, which are nearly empty, 20 %
-// smaller, but take 3.5 times as long. Slower compression hardly makes noisy frames smaller.
+// Compression level of zlib. Most of a page is empty, so the default level takes 3.5 times as long
+// for files that are only 20 % smaller. Slower compression does not make noisy frames much smaller.
 constexpr int kCompressionLevel = 4;
 
 /// Writes a PNG file. libpng reports errors with longjmp, so only `guarded` may call it, and no

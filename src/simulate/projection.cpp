@@ -51,8 +51,8 @@ Projection::Projection(const CameraModel& camera, const CameraPose& pose)
     const double c = std::cos(turn_rad);
     const double s = std::sin(turn_rad);
     for (std::size_t i = 0; i < 3; ++i) {
-        // An offset in the pattern is R(turn) * (s, t), so the axes of the pattern are the columns
-        // of R(-turn).
+        // An offset in the pattern is R(turn) * (s, t), where R is a rotation. The axes of the
+        // pattern are therefore the columns of R(-turn).
         x_axis_[i] = c * s_axis[i] - s * t_axis[i];
         y_axis_[i] = s * s_axis[i] + c * t_axis[i];
     }
