@@ -1,4 +1,3 @@
-// Reads a sequence of images.
 #include <filesystem>
 #include <utility>
 

@@ -11,7 +11,6 @@
 
 namespace dotpose::core {
 
-/// A place of a block on a known sheet.
 struct SheetPlace {
     int quarters = 0;            ///< quarter turns from the block to the pattern
     Place corner;                ///< place where the first column and the first row cross

@@ -21,7 +21,6 @@ struct MapRobot {
     std::string name;
     /// Path of the robot. Where the position jumps, a new stroke begins.
     std::vector<std::vector<Point>> strokes_mm;
-    /// The last known position.
     Point place_mm;
     std::optional<double> heading_rad;  ///< from +x towards +y of the plane, or empty if unknown
     std::string problem;  ///< shown after the name, such as "lost", or empty if there is none

@@ -1,4 +1,3 @@
-// Computes the statistics of outcomes.
 #include "dotpose/tools/score.hpp"
 
 #include <algorithm>

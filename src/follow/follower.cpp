@@ -122,7 +122,6 @@ Follower::Found Follower::by_camera_file(const Fix& seen, const std::optional<Sh
     return {seen, fix, place, reading, velocity, space_of(seen, place), map_use};
 }
 
-/// Returns the pose in space for the fix of the latest image.
 std::optional<SpacePose> Follower::space_of(const Fix& seen,
                                             const std::optional<SheetPlace>& place) const {
     if (!options_.fits_space_pose) return std::nullopt;
@@ -134,7 +133,7 @@ double Follower::spacing_mm(const std::optional<SheetPlace>& place) const {
     return place ? place->entry->sheet.pattern.spacing_mm : unplaced_spacing_mm_;
 }
 
-/// Sets the spacing of a fix to that of its sheet, or to 0 if the spacing is not known.
+/// Returns the fix with the spacing of its sheet. The spacing is 0 if it is not known.
 Fix Follower::with_spacing(const Fix& fix, const std::optional<SheetPlace>& place) const {
     Fix result = fix;
     const double mm = spacing_mm(place);

@@ -6,7 +6,6 @@
 
 namespace dotpose::follow {
 
-/// A measured place at a time.
 struct AxisSample {
     double t_s = 0;
     double place_mm = 0;

@@ -109,7 +109,7 @@ Header read_header(Reader& reader, int max_pixels) {
 }
 
 /// Returns the minimum number of bytes that encode the pixels. Memory is allocated only if the file
-/// has this size.
+/// has at least this size.
 std::size_t min_bytes(const Header& header) {
     const std::size_t samples = header.width_px * header.height_px * header.channels;
     if (header.is_bitmap) {

@@ -23,9 +23,9 @@ using Plain = std::array<std::uint8_t, kPlainBytes>;
 using Framed = std::array<std::uint8_t, kFramedBytes>;
 
 /// Returns the CRC-16 with the polynomial 0x5935 and the initial value 0xFFFF, most significant bit
-/// first. In up to 241 bits of data, it detects all errors of up to 4 bits, which no other 16-bit
-/// polynomial exceeds (Koopman and Chakravarty, DSN 2004). In the notation of this paper, the
-/// polynomial is 0xAC9A.
+/// first. No 16-bit polynomial detects more errors at this length: this one detects all errors of
+/// up to 4 bits in up to 241 bits of data (Koopman and Chakravarty, DSN 2004). In the notation of
+/// this paper, the polynomial is 0xAC9A.
 std::uint16_t crc16(std::span<const std::uint8_t> bytes);
 
 Framed frame(const Plain& plain);

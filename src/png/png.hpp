@@ -22,7 +22,6 @@ struct Header {
     double dpi = 0;       ///< resolution in dots per inch, or 0 if unknown
 };
 
-/// Receives one row of pixels.
 using RowSink = std::function<void(std::span<const std::uint8_t>)>;
 /// Calls a sink for each row of an image, from top to bottom.
 using RowSource = std::function<void(const RowSink&)>;

@@ -9,7 +9,6 @@
 
 namespace dotpose::print {
 
-/// Number of a page in its document.
 struct PageNumber {
     int number = 1;  ///< from 1
     int count = 1;

@@ -55,7 +55,6 @@ struct Query {
     std::int64_t to_us = std::numeric_limits<std::int64_t>::max();  ///< end of the time span
 };
 
-/// Times of the first and the last state of a robot.
 struct RobotSpan {
     std::string robot;
     std::int64_t first_us = 0;

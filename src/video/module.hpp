@@ -15,7 +15,6 @@ namespace dotpose::video {
 
 using Tell = std::function<void(const std::string&)>;
 
-/// An output video file.
 class GreyVideo {
   public:
     virtual ~GreyVideo() = default;

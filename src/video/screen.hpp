@@ -26,10 +26,9 @@ struct PathMark {
     bool is_jump = false;
 };
 
-/// Progress towards one goal.
 struct Gauge {
     std::string label;
-    std::string text;  ///< current value as text
+    std::string text;
     double share = 0;  ///< reached fraction of the goal, at most 1
     bool is_reached = false;
 };
@@ -48,7 +47,7 @@ struct CalibrationScene {
 /// Contents of the picture of one frame.
 struct Scene {
     ImageView image;
-    Trace trace;                             ///< trace of this image
+    Trace trace;
     bool is_good = false;                    ///< if false, captions and place have a warning colour
     std::vector<std::string> lines;          ///< captions: pose, rate, quality
     std::span<const PathMark> path;          ///< the path up to this frame
