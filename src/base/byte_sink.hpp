@@ -1,4 +1,4 @@
-/// Destination for the bytes of a file, on any medium.
+/// Interface for writing the bytes of a file, for example to disk or to memory.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ class ByteSink {
   public:
     virtual ~ByteSink() = default;
 
-    /// Appends bytes. Never throws, because C libraries call this function. Stores the first
-    /// failure for `require_good`, and ignores all later bytes.
+    /// Appends bytes. Never throws, because C libraries call this function. After a failed write,
+    /// all further bytes are ignored and `require_good` reports the first failure.
     virtual void write(const void* data, std::size_t size_bytes) noexcept = 0;
     void write(std::string_view text) noexcept { write(text.data(), text.size()); }
 

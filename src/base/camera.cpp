@@ -15,8 +15,8 @@ namespace dotpose {
 namespace {
 
 constexpr double kMaxCentre_px = 1000;
-/// Maximum distance of the reference point from the image centre. This distance is far outside any
-/// image, and well within the range of the fixed-point pose.
+/// Maximum distance of the reference point from the image centre. The limit is larger than any
+/// image, but small enough for the range of the fixed-point pose.
 constexpr double kMaxReference_px = 10'000;
 constexpr double kMaxFocal_px = 1e6;
 constexpr double kMinStretch = 0.5;
@@ -53,7 +53,7 @@ void require_lens(const Camera& camera) {
 }
 
 void require_paper(const PaperScale& paper, const Camera& camera) {
-    // The limits cover microscopes as well as cameras below the ceiling of a hall.
+    // The limits allow microscopes as well as cameras under the ceiling of a hall.
     const auto is_length = [](double mm) { return mm >= 1e-6 && mm <= 1e3; };
     require(is_length(paper.mm_per_px_x) && is_length(paper.mm_per_px_y), "mm_per_px",
             "must be from 0.000001 to 1000");
@@ -152,7 +152,7 @@ PixelPoint undistorted(const Camera& camera, PixelPoint pixel) {
 PixelPoint distorted(const Camera& camera, PixelPoint point) {
     const double du = point.u - camera.centre_px.u;
     const double dv = point.v - camera.centre_px.v;
-    // Solves eq. 2 for r_d. The chosen root approaches r_u as k approaches 0.
+    // Solves eq. 2 of the paper for r_d. Of the two roots, only this one equals r_u if k is 0.
     const double root = std::sqrt(std::max(1 - 4 * camera.k_per_px2 * (du * du + dv * dv), 0.0));
     const double stretch = 2 / (1 + root);
     return {camera.centre_px.u + stretch * du, camera.centre_px.v + stretch * dv};
@@ -174,8 +174,8 @@ CameraPoint on_paper(const Camera& camera, PixelPoint point) {
 
 PixelPoint on_image(const Camera& camera, CameraPoint point) {
     const PaperScale& paper = camera.paper.value();
-    // (a, b) = divisor * (flat_a, flat_b). The divisor is linear in a and b. Its substitution gives
-    // two linear equations.
+    // `on_paper` divides (a, b) by `divisor` to get (flat_a, flat_b). Because the divisor is linear
+    // in a and b, it can be computed from flat_a and flat_b.
     const double flat_b = point.y_mm / paper.mm_per_px_y;
     const double flat_a = point.x_mm / paper.mm_per_px_x - paper.skew * flat_b;
     const double divisor = 1 / (1 - paper.perspective_u * flat_a - paper.perspective_v * flat_b);
@@ -228,8 +228,8 @@ Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int 
     if (camera.pinhole) part.pinhole->centre_px = moved(camera.pinhole->centre_px);
     part.reference_px = moved(camera.reference_px.value_or(image_centre(camera)));
     if (camera.paper) {
-        // The heading is relative to the image x axis at the image centre, and the cropped image
-        // has a different centre.
+        // The heading is relative to the image x axis at the image centre. The cropped image has a
+        // different centre, so the offset changes.
         part.theta_offset_rad +=
             image_axis_rad(camera, image_centre(camera)) - image_axis_rad(part, image_centre(part));
     }
@@ -247,7 +247,7 @@ void use_camera(const Camera& camera, int width_px, int height_px, DeviceOptions
     options.lens = FixedLens::from_k(camera.k_per_px2);
     options.lens.centre_dx_q8 = q8(camera.centre_px.u - middle.u);
     options.lens.centre_dy_q8 = q8(camera.centre_px.v - middle.v);
-    if (camera.paper) options.show_stages = true;  // with_camera fits the dots in the trace
+    if (camera.paper) options.show_stages = true;  // with_camera needs the dots of the trace
     if (camera.reference_px) {
         options.reference_dx_q8 = q8(camera.reference_px->u - middle.u);
         options.reference_dy_q8 = q8(camera.reference_px->v - middle.v);

@@ -27,8 +27,8 @@ OutputFile::OutputFile(const fs::path& target) : target_(without_links(target)) 
     if (fs::exists(status) && !fs::is_regular_file(status)) {
         throw Error(fmt::format("cannot write {}: it is not a regular file", target_.string()));
     }
-    // Rejects a read-only target here, because renaming a file onto the target does not require
-    // write permission for the target.
+    // Renaming a file onto the target does not require write permission for the target, so a
+    // read-only target must be rejected here.
     if (fs::exists(status) && !system::is_writable(target_)) {
         throw_system("write", target_, errno);
     }

@@ -12,12 +12,13 @@ constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
 struct Character {
     std::uint32_t code = 0;
-    /// Length of the UTF-8 encoding. 0 if the text does not start with a valid UTF-8 sequence.
+    /// Length of the UTF-8 encoding in bytes, or 0 if the text does not start with a valid UTF-8
+    /// sequence.
     std::size_t bytes = 0;
 };
 
-/// Decodes the first character of a text. The text must not be empty. Accepts the sequences of
-/// table 3-7 of the Unicode standard: no overlong sequences, no surrogates, nothing above U+10FFFF.
+/// Decodes the first character of a text, which must not be empty. According to table 3-7 of the
+/// Unicode standard, overlong sequences, surrogates and code points above U+10FFFF are invalid.
 Character first_of(std::string_view text) {
     const auto byte = [&text](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
     if (byte(0) < 0x80) return {byte(0), 1};
@@ -46,8 +47,8 @@ bool acts_on_terminals(std::uint32_t code) {
     return code < 0x20 || is_del_or_c1(code) || breaks_line || turns_direction;
 }
 
-/// Returns the text with every character replaced. `shown` appends the replacement of one character
-/// to the result. Invalid bytes are passed to `shown` one at a time.
+/// Replaces every character of the text. `shown` appends the replacement of one character to the
+/// result. Invalid bytes are passed to `shown` one at a time.
 template <typename Shown>
 std::string rewritten(std::string_view text, Shown shown) {
     std::string result;

@@ -1,4 +1,4 @@
-/// Makes text from files, file names and networks safe to display on a terminal.
+/// Makes text from files, file names and the network safe to display on a terminal.
 #pragma once
 
 #include <string>
@@ -11,15 +11,14 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::base {
 
-/// Returns the text with U+FFFD in place of unsafe bytes and characters. These are all bytes that
-/// are not valid UTF-8, and all characters that move the cursor, start a terminal command, break
-/// the line or change the writing direction. The result can neither control a terminal nor imitate
-/// another line of output.
+/// Replaces unsafe bytes and characters with U+FFFD. Bytes are unsafe if they are not valid UTF-8.
+/// Characters are unsafe if they move the cursor, start a terminal command, break the line or
+/// change the writing direction. The result can neither control a terminal nor imitate another line
+/// of output.
 std::string printable(std::string_view text);
 
-/// Returns JSON text in which \u escapes replace the control characters U+007F to U+009F. JSON
-/// allows these characters unescaped, but a terminal may interpret them. The JSON value does not
-/// change.
+/// Replaces the control characters U+007F to U+009F in JSON text with \u escapes, because a
+/// terminal may interpret them. The escapes do not change the JSON value.
 std::string with_escaped_controls(std::string_view json);
 
 }  // namespace dotpose::base

@@ -11,19 +11,20 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::base {
 
-/// Tolerance for comparing lengths. Decimal lengths are not exact in binary. A tenth of a nanometre
-/// is far below the accuracy of any printer.
+/// Tolerance for comparing lengths, because decimal lengths are not exact in binary. A tenth of a
+/// nanometre is far below the accuracy of any printer.
 inline constexpr double kTolerance_mm = 1e-7;
 
 /// Throws BadArgument unless each side of a page is in (0, kMaxPage_mm].
 void validate_paper(double width_mm, double height_mm);
 
-/// Throws BadArgument for lengths of 0 or less, touching dots, or an invalid section.
+/// Throws BadArgument if a length is not positive, if neighbouring dots may touch, or if the
+/// section is invalid.
 void validate_pattern(const Pattern& pattern);
 
 /// Throws BadArgument unless `count` rows or columns, beginning with `first`, are enough for a
-/// sheet and are inside the code plane. `what` and `axis` name the rows or columns in messages. The
-/// count is a double because it is checked before the conversion to an integer.
+/// sheet and are inside the code plane. `what` and `axis` name the rows or columns in messages.
+/// `count` is a double because it is checked before it is converted to an integer.
 void validate_region(const char* what, char axis, std::uint32_t first, double count);
 
 }  // namespace dotpose::base

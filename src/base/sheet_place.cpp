@@ -8,7 +8,7 @@ namespace dotpose {
 namespace {
 
 /// Returns the signed number of cells from `first` to `cell` along one axis, in the shorter
-/// direction. The code plane is cyclic: its last column is the left neighbour of its first column.
+/// direction. The code plane is cyclic, so both directions lead to the cell.
 std::int32_t steps(std::uint32_t first, std::uint32_t cell) {
     constexpr std::int64_t kPositions = kPositionsPerAxis;
     std::int64_t difference = std::int64_t{cell} - first;
@@ -33,8 +33,7 @@ std::optional<Offset> offset_on(const Sheet& sheet, const Fix& fix) {
     return Offset{dx + fix.fraction_x_q16 / 65536.0, dy + fix.fraction_y_q16 / 65536.0};
 }
 
-/// Returns true if a position is on the sheet, that is, within half a spacing of one of its
-/// intersections.
+/// Returns true if a position is within half a spacing of an intersection of the sheet.
 bool in_region(const Sheet& sheet, Offset offset) {
     return offset.x >= -0.5 && offset.x < sheet.columns - 0.5 && offset.y >= -0.5 &&
            offset.y < sheet.rows - 0.5;
@@ -46,7 +45,7 @@ double wrapped(double angle_rad) {
     return angle <= -std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
 }
 
-/// Returns the covariance after each coordinate is multiplied by its factor.
+/// Returns the covariance of the pose after each coordinate has been multiplied by its factor.
 PoseCovariance scaled(const auto& covariance, const std::array<double, 3>& factors) {
     PoseCovariance result{};
     for (std::size_t i = 0; i < 3; ++i) {

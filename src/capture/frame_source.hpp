@@ -17,9 +17,9 @@
 namespace dotpose::capture {
 
 struct Frame {
-    GreyImage image;           ///< empty while the camera delivers no frames
+    GreyImage image;           ///< empty if the camera delivers no frames
     std::int64_t time_us = 0;  ///< time on the clock of the source; increases from frame to frame
-    std::int64_t index = 0;    ///< number of the frame from 0, including dropped frames
+    std::int64_t index = 0;    ///< frame number from 0; dropped frames are counted too
     std::string file;          ///< path of an image, or empty for other sources
     bool is_live = false;      ///< true if `time_us` is on the monotonic clock of this computer
 };
@@ -47,7 +47,7 @@ class FrameSource {
     /// Returns the frame rate reported by the source, in frames per second, or 0 if unknown.
     virtual double rate() const { return 0; }
 
-    /// Returns the mean number of bits per pixel of the compressed frames so far. Returns 0 if the
+    /// Returns the mean number of bits per pixel of the compressed frames so far, or 0 if the
     /// number is unknown or the compression is lossless.
     virtual double bits_per_px() const { return 0; }
 
@@ -56,19 +56,20 @@ class FrameSource {
 };
 
 struct SourceOptions {
-    /// Size of raw frames (required), or size requested from a camera. 0 if not given.
+    /// Size of raw frames, or size requested from a camera. 0 if not given. Raw frames require a
+    /// size.
     int width_px = 0;
     int height_px = 0;
-    /// Frame rate requested from a camera. For other sources, the frame rate from which the times
-    /// of frames are computed. This rate overrides the times in a video file.
+    /// Frame rate requested from a camera. For other sources, the times of frames are computed from
+    /// this rate, even if a video file contains times.
     std::optional<double> fps;
     std::optional<double> exposure;  ///< in the unit of the driver
     std::optional<double> gain;      ///< in the unit of the driver
-    /// True to flip frames left to right. The flip precedes the crop to `region`.
+    /// True to flip frames left to right. Frames are flipped before they are cropped to `region`.
     bool flip = false;
     std::optional<Region> region;  ///< part of each frame to keep, or empty for the whole frame
-    /// Required size of frames before cropping. Set if `region` refers to the images of a camera
-    /// file.
+    /// Required size of frames before cropping. Set if a camera file defines the pixel coordinates
+    /// of `region`.
     std::optional<std::pair<int, int>> whole_size_px;
     /// Maximum number of pixels. A larger image throws ImageTooLarge before it is decoded.
     int max_pixels = kMaxFrameSide_px * kMaxFrameSide_px;
@@ -91,18 +92,18 @@ struct SourceOptions {
 GreyImage cropped(const GreyImage& image, const Region& region);
 
 /// Flips and crops a frame according to the options. Throws BadArgument if the region extends
-/// beyond the frame. Throws Error, with `name` in the message, if the size of the frame is not
+/// beyond the frame. Throws Error, with `name` in the message, if the frame does not have the size
 /// `whole_size_px`.
 void prepare(const SourceOptions& options, const std::string& name, GreyImage& image);
 
-/// Returns index / fps in microseconds.
+/// Returns the time of frame `index` in microseconds: index / fps.
 std::int64_t time_of(std::int64_t index, double fps);
 
 /// Opens raw 8-bit grey frames on standard input. Throws BadArgument if the options do not contain
 /// the size of the frames.
 std::unique_ptr<FrameSource> open_raw(const SourceOptions& options);
 
-/// Opens the images at the paths that `next_path` returns, until it returns an empty optional.
+/// Opens the images whose paths `next_path` returns, until it returns an empty optional.
 std::unique_ptr<FrameSource> open_images(std::function<std::optional<std::string>()> next_path,
                                          const SourceOptions& options);
 

@@ -1,4 +1,3 @@
-// Reads a sequence of images.
 #include <filesystem>
 #include <utility>
 
@@ -42,7 +41,7 @@ class ImageSource : public FrameSource {
 
   private:
     void tell_of_pages(const std::filesystem::path& path) const {
-        // Counts pages only in TIFF files, because files of other formats have a single page.
+        // Only TIFF files can have several pages.
         const std::string ending = path.extension().string();
         if (!ending.starts_with(".t") && !ending.starts_with(".T")) return;
         const int pages = count_pages(path);

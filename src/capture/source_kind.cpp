@@ -26,7 +26,6 @@ constexpr std::array<std::string_view, 24> kVideoEndings = {
     ".m2ts", ".mpg", ".mpeg", ".m2v",  ".wmv",  ".flv",  ".ogv", ".3gp",
     ".mjpg", ".nut", ".y4m",  ".h264", ".264",  ".hevc", ".gif", ".mjpeg"};
 
-/// Returns the file extension in lower case, with its dot.
 std::string ending_of(const fs::path& path) {
     std::string ending = path.extension().string();
     std::ranges::transform(ending, ending.begin(),
@@ -40,7 +39,7 @@ bool has_ending(const fs::path& path, const Endings& endings) {
 }
 
 /// Returns true if the file has the signature of MP4, Matroska or AVI. Pipes are not examined,
-/// because this would consume bytes.
+/// because reading would consume their bytes.
 bool begins_like_video(const fs::path& name) {
     std::error_code failed;
     if (!fs::is_regular_file(name, failed)) return false;

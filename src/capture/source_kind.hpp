@@ -22,8 +22,8 @@ bool is_url(const std::string& name);
 /// Returns true for cameras and videos, which only the layer `video` can open.
 bool needs_video_libraries(SourceKind kind);
 
-/// Returns the images in a folder or matching a glob, sorted by name. Throws Error if the folder
-/// cannot be read or there are no images.
+/// Returns the images that are in a folder or match a glob, sorted by name. Throws Error if the
+/// folder cannot be read or there are no images.
 std::vector<std::string> images_at(const std::string& name);
 
 /// Returns the files of a source: images, a video, or "-". Returns an empty list for a camera.

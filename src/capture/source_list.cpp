@@ -43,8 +43,8 @@ bool SourceList::open() {
     return true;
 }
 
-/// Returns the path of the next image in a sequence of images, folders and globs. Returns an empty
-/// optional if the next source is of another kind, or if there are no more names.
+/// Returns the path of the next image in images, folders and globs. Returns an empty optional if
+/// the next source is of another kind or there is none.
 std::optional<std::string> SourceList::next_image() {
     while (next_image_ == images_.size()) {
         auto name = take_name();
@@ -101,7 +101,8 @@ void SourceList::put_in_order(Frame& frame) {
     constexpr double kDefaultRate = 30;
     frame.index += first_index_;
     frame.time_us += offset_us_;
-    // Shifted times continue the times of the previous source. They are not on the monotonic clock.
+    // The times of this source are shifted to follow those of the previous source, so they are no
+    // longer on the monotonic clock.
     if (offset_us_ != 0) frame.is_live = false;
     next_index_ = frame.index + 1;
     next_time_us_ = frame.time_us + time_of(1, rate() > 0 ? rate() : kDefaultRate);

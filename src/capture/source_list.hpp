@@ -18,13 +18,13 @@ class SourceList : public FrameSource {
     /// after the last source.
     SourceList(std::function<std::optional<std::string>()> next_name, SourceOptions options);
 
-    /// Opens the first source, to make its rate available before the first frame. Without this
-    /// call, `next` opens the first source. Returns false if there are no names. Throws Error if
+    /// Opens the first source, so that its rate is available before the first frame. Optional,
+    /// because `next` also opens the source. Returns false if there are no names. Throws Error if
     /// the source does not exist or cannot be read, and BadArgument if the size of raw frames is
     /// missing.
     bool open();
 
-    /// Gets the next frame of all sources. Throws Error if a source fails. The following call then
+    /// Gets the next frame of all sources. Throws Error if a source fails, but the following call
     /// continues with the next source. Throws BadArgument if the region extends beyond the frame.
     bool next(Frame& frame) override;
     std::int64_t dropped() const override;
@@ -46,14 +46,14 @@ class SourceList : public FrameSource {
 
     std::function<std::optional<std::string>()> next_name_;
     SourceOptions options_;
-    /// Name already read from the list: the source that follows the images.
+    /// Name of the source after the images, if it was already taken from the list.
     std::optional<std::string> pending_name_;
     std::vector<std::string> images_;  ///< images of the newest folder or glob, or one image
     std::size_t next_image_ = 0;
     std::unique_ptr<FrameSource> source_;
-    std::string name_;        ///< name of the open source
+    std::string name_;
     Frame newest_;            ///< newest frame without its image; `index` is relative to its source
-    double bits_per_px_ = 0;  ///< value of the newest source that returned a frame
+    double bits_per_px_ = 0;  ///< value for the newest source that has returned a frame
     std::int64_t dropped_before_ = 0;
     std::int64_t next_index_ = 0;
     std::int64_t next_time_us_ = 0;

@@ -15,8 +15,8 @@ class AffineFitInt32 {
         Int xx = 0, xy = 0, yy = 0;
         Int ix = 0, iy = 0, jx = 0, jy = 0;
 
-        /// Adds a point p and its target. Both have a weight of 1 or -1. `weighted` is p times the
-        /// weight. The caller passes `target` already multiplied by the weight.
+        /// Adds the products of a point p and its target. `weighted` is p multiplied by its weight,
+        /// which is 1 or -1. `target` must already be multiplied by the same weight.
         [[gnu::always_inline]] void add(const FixedVec& p, const FixedVec& weighted,
                                         const FixedVec& target) {
             xx += weighted.x * p.x;
@@ -30,7 +30,7 @@ class AffineFitInt32 {
     };
 
     AffineFitInt32() = default;
-    /// Starts from sums computed elsewhere. `count` is the number of points, or the sum of their
+    /// Constructs the fit from existing sums. `count` is the number of points, or the sum of their
     /// weights.
     AffineFitInt32(std::int32_t count, const FixedVec& p, const FixedVec& target,
                    const Products<std::int32_t>& sums)
@@ -55,9 +55,9 @@ class AffineFitInt32 {
     bool solve(int bits, PlaneFromImage& plane);
 
   private:
-    /// Near points have coordinates from -kNear to kNear - 1. Product sums over kMaxRecent near
-    /// points and one far point fit in 32 bits. Small processors add 32-bit numbers three times as
-    /// fast as 64-bit numbers.
+    /// Coordinates of near points are from -kNear to kNear - 1. Their products are summed in 32
+    /// bits, because small processors add 32-bit numbers three times as fast as 64-bit numbers. The
+    /// sums over kMaxRecent near points and one far point do not overflow.
     static constexpr std::uint32_t kNear = 1024;
     static constexpr int kMaxRecent = 32;
     static std::uint32_t offset(std::int32_t a) { return static_cast<std::uint32_t>(a) + kNear; }
@@ -73,8 +73,8 @@ class AffineFitInt32 {
     }
     /// Adds the recent 32-bit sums to the 64-bit sums.
     void carry_over();
-    /// Returns n^2 times the covariance of two coordinates, for n points. `products` is the sum of
-    /// coordinate products. a and b are the coordinate sums.
+    /// Returns n^2 times the covariance of two coordinates of n points. `products` is the sum of
+    /// the products of the coordinates, and a and b are the sums of the coordinates.
     std::int64_t moment(std::int64_t products, std::int32_t a, std::int32_t b) const;
 
     std::int32_t changes_ = 0;

@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum sample size for measuring displacement and scatter. The sampled dots are evenly spaced
-/// in the list of observations.
+/// Maximum number of dots from which displacement and scatter are measured. These dots are evenly
+/// spaced in the list of observations.
 constexpr int kSample = 64;
 
 /// Returns a vector of the given length in the direction of each symbol.
@@ -32,7 +32,7 @@ std::int32_t squared_q16(FixedVec a_q16) {
     return (a_q16.x >> 8) * (a_q16.x >> 8) + (a_q16.y >> 8) * (a_q16.y >> 8);
 }
 
-/// Adds one point. Not inlined, because inlining needs more registers than small processors have.
+/// Not inlined, because inlining needs more registers than small processors have.
 [[gnu::noinline]] void add(AffineFitInt32& fit, FixedVec p, FixedVec target) {
     fit.add(p, target);
 }
@@ -68,14 +68,15 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
         return squared_q16(offset - displaced_q16[static_cast<std::size_t>(symbol)]);
     };
     // For a two-dimensional Gaussian, the median squared residual is 1.39 sigma^2. A limit of 12
-    // medians corresponds to 4.1 sigma. One dot in 4,000 exceeds the limit by chance.
+    // times the median corresponds to 4.1 sigma, which one dot in 4,000 exceeds by chance.
     const std::int32_t limit_q16 = 12 * sampled_median([&](const Offset& offset) {
                                        return squared_residual_q16(offset.q16, offset.symbol);
                                    }) +
                                    1;
 
-    // Number of fractional bits in the targets. A target is the printed place of a dot, in 1/64
-    // cell. Its coordinates are less than 2^15 in magnitude.
+    // Number of fractional bits of the targets, which are the printed places of the dots. With 6
+    // bits, the coordinates of targets are less than 2^15 in magnitude, as `AffineFitInt32`
+    // requires.
     constexpr int kTargetBits = 6;
     const auto targets = displacements(shift_rounded(displacement_q16, 16 - kTargetBits));
     AffineFitInt32 fit;

@@ -1,5 +1,5 @@
-// Affine pose: fits the pose to all dots in integer arithmetic. The camera must look straight at
-// the paper. The lens must have no distortion, or its distortion must be corrected.
+// Affine pose: fits the pose to all dots in integer arithmetic. Requires a camera that looks
+// straight at the paper, and dots without lens distortion.
 #pragma once
 
 #include "core/pose/observations.hpp"

@@ -16,22 +16,21 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of dots used to search for the grid. Bounds the duration of the search
+/// Maximum number of dots from which the grid is found. It bounds the time of the search
 /// (docs/firmware.md).
 constexpr int kSeeds = 64;
 
-/// Returns the point at which the search for the grid starts. This is the image centre, or the
-/// centroid of the dots if it is far from the image centre. The centroid is far away if, for
-/// example, the edge of a sheet is in view.
+/// Returns the point at which the search for the grid starts. Usually, this is the image centre. If
+/// the centroid of the dots is far from the image centre, for example because the edge of a sheet
+/// is in view, the search starts at the centroid.
 FixedVec start_q8(const Workspace& w) {
     const FixedVec centre_q8 = image_centre_q8(w.threshold);
     FixedVec sum_q4;
     for (const DetectedDot& dot : w.found_dots())
         sum_q4 = sum_q4 + FixedVec{dot.centre_q8.x >> 4, dot.centre_q8.y >> 4};
     const FixedVec mean_q8{sum_q4.x / w.dot_count * 16, sum_q4.y / w.dot_count * 16};
-    // The centroid is far from the image centre if, along an axis, the distance exceeds 1/kFar of
-    // half a side. If the pattern fills the view, the distance is at most a few hundredths of half
-    // a side.
+    // The centroid is far away if its distance along an axis exceeds 1/kFar of half the image side.
+    // If the pattern fills the view, the distance is only a few hundredths of half the side.
     constexpr int kFar = 4;
     const bool is_far = magnitude(mean_q8.x - centre_q8.x) * kFar > centre_q8.x ||
                         magnitude(mean_q8.y - centre_q8.y) * kFar > centre_q8.y;
@@ -47,21 +46,19 @@ Status find_grid(const DeviceOptions& options, Workspace& w) {
     find_origin(w.found_dots(), first(w.seeds, w.seed_count), start, w.lattice);
     const Status grown = grow_grid(w.found_dots(), options.lattice, start, w.lattice,
                                    w.grid_from_image);  // II-B.3
-    // All attempts use maps relative to the image centre.
+    // The later stages expect a map relative to the image centre.
     w.grid_from_image = affine_tangent(w.grid_from_image, image_centre_q8(w.threshold));
     return grown;
 }
 
-/// Minimum number of columns and of rows of a grid on a known sheet.
+/// Minimum number of columns and of rows in view, if sheets are known.
 constexpr int kMinKnownSide = 3;
 
-/// Reads the bits of the dots. Error: grid_too_small.
 Status read_bits(Workspace& w) {
     return assign_affine_likelihoods(w.found_dots(), w.grid_from_image, w.grid,
                                      w.known.any() ? kMinKnownSide : kWindowSide);  // II-B.4
 }
 
-/// Finds the position in the code from the bits.
 Status read_position(const DeviceOptions& options, Workspace& w) {
     // The decoder does not need the 8 x 8 window of the paper. The window is computed only for
     // display.
@@ -72,14 +69,13 @@ Status read_position(const DeviceOptions& options, Workspace& w) {
     return status == Status::ok ? status : refused(status, w);
 }
 
-/// Verifies the position with the bits of all dots in view.
 Status verify_position(const DeviceOptions& options, Workspace& w) {
     const Status status =
         verify_quickly(w.grid, options.code, w.decoding, options.integrity, w.line_scores, w.fix);
     return status == Status::ok ? status : refused(status, w);
 }
 
-/// Finds a certain place in the code, first on the known sheets.
+/// Finds the place in the code. Searches the known sheets first.
 Status find_place(const DeviceOptions& options, DeviceWorkspace& w) {
     if (w.on_sheets != nullptr) {
         if (w.on_sheets->read(options, w)) return Status::ok;
@@ -90,7 +86,6 @@ Status find_place(const DeviceOptions& options, DeviceWorkspace& w) {
     return status == Status::ok ? verify_position(options, w) : status;
 }
 
-/// Fits the pose to the dots, each at its printed place in the code.
 Status measure_pose(const DeviceOptions& options, Workspace& w) {
     const Nominal nominal(w.grid, options.code, w.decoding);
     w.pattern_from_image =

@@ -1,5 +1,5 @@
-// Coded cells: the bits of the code in the cells around the predicted place, and the bits read in a
-// tracked frame, one word per column or row.
+// Coded cells: the bits of the code around the predicted place, and the bits that were read in a
+// tracked frame. Each column and each row of cells is stored in one word.
 #pragma once
 
 #include "device/tracking.hpp"
@@ -7,8 +7,8 @@
 
 namespace dotpose::core {
 
-/// Sets the coded bits of each line of the block whose cell (0, 0) is at `Tracking::corner`. Marks
-/// all dots as not read.
+/// Sets the coded bits of each column and row. `Tracking::corner` is the place of cell (0, 0).
+/// Marks all dots as not read.
 void lay_tracked_lines(CodeVariant code, Tracking& tracking);
 
 inline ComparedLine& column_of(const Tracking& tracking, int i) {
@@ -18,17 +18,15 @@ inline ComparedLine& row_of(const Tracking& tracking, int j) {
     return tracking.lines[static_cast<std::size_t>(kMaxComparedLines + j)];
 }
 
-/// Returns the number of dots read so far.
 int dots_seen(const Tracking& tracking);
 
-/// Returns the coded symbol of a cell.
 inline Symbol coded_symbol(const Tracking& tracking, int i, int j) {
     return make_symbol(static_cast<int>(column_of(tracking, i).code >> j & 1),
                        static_cast<int>(row_of(tracking, j).code >> i & 1));
 }
 
-/// Displacement of a dot, projected onto its two bit directions, in 2^-12 spacings (paper, eq.
-/// 7-8). A bit is 1 if its component is positive.
+/// Displacement of a dot in the directions of its x bit and its y bit (paper, eq. 7-8), in 2^-12
+/// spacings. A bit is 1 if its component is positive.
 struct Projections {
     std::int32_t x_q12;
     std::int32_t y_q12;

@@ -24,15 +24,15 @@ struct Square {
     }
 };
 
-/// Returns the plane points within `limit` cells of cell (0, 0), in 2^-16 spacings. The cell of a
-/// point is its integer part.
+/// Returns the plane points whose cells are within `limit` cells of cell (0, 0), in 2^-16 spacings.
+/// The cell of a point is its integer part.
 Square cells_within(int limit) {
     return {static_cast<std::uint32_t>(-limit * 65536),
             static_cast<std::uint32_t>((2 * limit + 1) * 65536 - 1)};
 }
 
-/// Returns the offsets from an intersection that are at most `limit_q16` along both axes. An offset
-/// is encoded as the lower 16 bits of `rounding_plane_point_q16`, shifted left by 16 bits.
+/// Returns the set of offsets from an intersection that are at most `limit_q16` along both axes. An
+/// offset is encoded as the lower 16 bits of `rounding_plane_point_q16`, shifted left by 16 bits.
 Square offsets_within(std::int32_t limit_q16) {
     return {static_cast<std::uint32_t>(32768 - limit_q16) << 16,
             static_cast<std::uint32_t>(std::min<std::int32_t>(2 * limit_q16, 65535)) << 16};
@@ -47,7 +47,7 @@ bool is_near(FixedVec rounding_q16, const Square& offsets) {
 constexpr int kFarthest_cells = 500;
 
 /// Calls `use(dot, c, is_within_reach)` for each dot. c is `rounding_plane_point_q16` of the dot,
-/// and its integer part is the nearest cell. Returns the dot statistics, without
+/// and its integer part is the nearest cell. Returns the statistics of the dots except
 /// `near_intersections`.
 template <typename Use>
 Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const Cells& cells,
@@ -55,8 +55,8 @@ Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const
     int farthest_cell = 0;
     int beyond = 0;
     const Square reach = cells_within(reach_cells);
-    // Contains the cells that are within reach and not farther away than the farthest dot so far.
-    // Most dots are in these cells and need no further test.
+    // Cells that are within reach and not farther away than the farthest dot so far. Most dots are
+    // in these cells, so they need no further test.
     Square common = cells_within(0);
     for (const DetectedDot& dot : dots) {
         const FixedVec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));
@@ -90,7 +90,6 @@ FixedVec cell_of(Used used) {
     return {static_cast<std::int16_t>(both >> 16), static_cast<std::int16_t>(both & 0xFFFF)};
 }
 
-/// Returns the mean squared offset, from a sum of `squared_offset_q14`.
 std::int64_t mean_square_q20(std::int32_t squared_offsets_q14, int dots) {
     return squared_offsets_q14 / std::max(dots, 1) * 64;
 }
@@ -100,8 +99,8 @@ std::int32_t squared_offset_q14(FixedVec rounding_q16) {
     return (offset_q8.x * offset_q8.x + offset_q8.y * offset_q8.y) >> 2;
 }
 
-/// Successive fits of the grid. Most dots keep their cell from fit to fit, so each fit updates the
-/// sums only for dots whose cell has changed.
+/// Fits the grid several times. Most dots keep their cell from one fit to the next, so each fit
+/// updates the sums only for dots whose cell has changed.
 class Fits {
   public:
     Fits(std::span<const DetectedDot> dots, std::int32_t max_offset_q16)
@@ -170,7 +169,8 @@ class Fits {
     std::span<const DetectedDot> dots_;
     Square near_;
     AffineFitInt32 sums_;
-    /// Cell of each dot in the previous fit. Not used if there are more dots than elements.
+    /// Cell of each dot in the previous fit. Not used if there are more dots than elements, so each
+    /// fit then sums up all dots.
     std::array<Used, 384> before_;
 };
 

@@ -1,7 +1,8 @@
 // Grow: extends the first grid estimate to all dots (paper, section II-B.3). Assumes no perspective
-// and no lens distortion. Unlike the paper, which uses eq. 6 and then median lengths between
-// neighbours, this stage fits all terms by least squares. The fit treats displacements as noise. It
-// starts near the origin and extends its reach from fit to fit.
+// and no lens distortion. The paper refines the origin by eq. 6, and then the grid vectors by
+// median lengths between neighbours. This stage instead fits all terms by least squares, with the
+// displacements of dots as noise. The first fit uses the dots near the origin, and each further fit
+// uses a larger area.
 #pragma once
 
 #include "dotpose/device_options.hpp"
@@ -11,8 +12,9 @@
 namespace dotpose::core {
 
 /// Sets the map from the image to the grid. Returns no_grid if the dots are not on a grid, and
-/// no_displacement if all dots are on intersections. Use `refine_grid` if the camera is tilted by
-/// more than a few degrees, or if the lens bends the grid by more than a third of a spacing.
+/// no_displacement if all dots are on intersections. If the camera is tilted by more than a few
+/// degrees, or if lens distortion moves dots by more than a third of a spacing, use `refine_grid`
+/// instead.
 Status grow_grid(std::span<const DetectedDot> dots, const LatticeOptions& options,
                  FixedVec image_centre_q8, const Lattice& first, PlaneFromImage& grid_from_image);
 

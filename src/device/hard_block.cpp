@@ -5,14 +5,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Minimum weight, in 1/127, of both bits of a clear cell.
+/// Minimum weight of each bit of a clear cell, in units of 1/127.
 constexpr int kMinWeight = 48;
 
 bool is_clear(const GridCell& cell) {
     return magnitude<int>(cell.x) >= kMinWeight && magnitude<int>(cell.y) >= kMinWeight;
 }
 
-/// Returns the lower `count` bits of a word in reverse order.
 std::uint32_t reversed(std::uint32_t word, int count) {
     std::uint32_t result = 0;
     for (int bit = 0; bit < count; ++bit, word >>= 1)
@@ -20,7 +19,7 @@ std::uint32_t reversed(std::uint32_t word, int count) {
     return result;
 }
 
-/// Sets `result` to the lines of a block turned by 180 degrees. Each line has `cells` cells. The
+/// Sets `result` to the lines of a block turned by 180 degrees, with `cells` cells per line. The
 /// turn reverses the order of the lines and of their cells, and inverts all bits.
 void turn_over(std::span<const HardLine> lines, int cells, std::span<HardLine> result) {
     HardLine* turned = &result[lines.size() - 1];
@@ -28,7 +27,7 @@ void turn_over(std::span<const HardLine> lines, int cells, std::span<HardLine> r
         *turned-- = {reversed(~line.bits & line.seen, cells), reversed(line.seen, cells)};
 }
 
-/// The range of the lines that have bits.
+/// The range from the first to the last line that contains bits.
 struct UsedLines {
     int first;
     int count;
@@ -112,7 +111,7 @@ TrackedBlock::TrackedBlock(std::span<const ComparedLine> lines, CodeVariant code
                 ((line.code ^ line.wrong) & line.seen) >> first_cell, line.seen >> first_cell};
         }
     };
-    // If there are no bits, there are no lines, and `first_cell` is not used.
+    // If no bits were read, `columns` and `rows` are empty, so `first_cell` is not used.
     take(all_columns, columns, rows.first, columns_);
     take(all_rows, rows, columns.first, rows_);
     column_count_ = columns.count;

@@ -1,5 +1,5 @@
-// Hard block: the bits of a block of cells as words, one word per line, in any orientation. The
-// roll of a line is the index in the main sequence at which the line starts
+// Hard block: stores the bits of a block of cells in one word per line, and provides them in any
+// orientation. The roll of a line is the index in the main sequence at which the line starts
 // (docs/position-code.md).
 #pragma once
 
@@ -20,7 +20,7 @@ struct HardLine {
     std::uint32_t bits = 0;
     std::uint32_t seen = 0;  ///< a bit is 1 if the bit of its cell was read
 
-    /// Returns the number of bits that contradict the main sequence if the first cell is at index
+    /// Returns the number of bits that contradict the main sequence if the line starts at index
     /// `roll` of the sequence.
     int wrong_at(std::size_t roll) const { return bits_in((code::kMainWords[roll] ^ bits) & seen); }
 };
@@ -28,13 +28,13 @@ struct HardLine {
 /// The lines of one axis of a block in one orientation, from the first to the last line.
 struct HardLines {
     const HardLine* first = nullptr;
-    int step = 1;  ///< distance between consecutive lines in memory: 1 or -1
+    int step = 1;  ///< index step from one line to the next in memory: 1 or -1
     int count = 0;
 
     const HardLine& operator[](int line) const { return first[line * step]; }
 
-    /// Returns the number of bits that contradict the code if the roll of line i is rolls[i] plus
-    /// `added`, modulo 63. May stop counting when the number exceeds `limit`.
+    /// Returns the number of bits that contradict the code if line i starts at index `rolls[i] +
+    /// added`, modulo 63, of the main sequence. May stop counting when the number exceeds `limit`.
     int wrong_with(const std::uint8_t* rolls, std::uint32_t added, int limit) const;
     /// Returns the number of bits that contradict the code if the first line is at `position`. The
     /// roll of each line is its roll in section 0 plus `added`. May stop counting when the number
@@ -42,9 +42,9 @@ struct HardLines {
     int wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added, int limit) const;
 };
 
-/// The bits of a block in all four orientations. Stores the block and the block turned by 180
-/// degrees. Each orientation reads the lines of one of these blocks, from the first or from the
-/// last line.
+/// The bits of a block in all four orientations. Only the block and the block turned by 180 degrees
+/// are stored. The lines of each orientation are lines of one of these two blocks, in forward or
+/// reverse order.
 class HardBlock {
   public:
     /// Reads the clear cells of a region of at most kMaxComparedLines columns and rows.
@@ -52,7 +52,8 @@ class HardBlock {
 
     /// Returns the number of clear cells, which is the number of bits per axis.
     int dots() const { return dots_; }
-    /// Returns the lines after `quarters` quarter turns, as for QuarterTurn.
+    /// Returns the lines of the block after `quarters` quarter turns in the direction of
+    /// QuarterTurn.
     HardLines lines(Axis axis, int quarters) const;
 
   private:
@@ -66,11 +67,11 @@ class HardBlock {
     std::array<Lines, 2> row_lines_{};
 };
 
-/// The bits read in a tracked frame, in the orientation of the pattern. The block extends from the
-/// first to the last column and row that contain bits.
+/// The bits read in a tracked frame, in the orientation of the pattern. The block contains all
+/// columns and rows from the first to the last one with bits.
 class TrackedBlock {
   public:
-    /// `lines` are the lines of Tracking, and `corner` is the place of cell (0, 0).
+    /// `lines` are Tracking::lines, and `corner` is the place of cell (0, 0).
     TrackedBlock(std::span<const ComparedLine> lines, CodeVariant code, const Place& corner);
 
     HardLines columns() const { return {columns_.data(), 1, column_count_}; }

@@ -1,4 +1,4 @@
-// Locate: implements `DeviceLocator` in integer arithmetic, with the given memory and options.
+// Locate: implements `DeviceLocator` in integer arithmetic. All memory is provided by the caller.
 #pragma once
 
 #include "device/workspace.hpp"

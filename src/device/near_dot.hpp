@@ -14,10 +14,10 @@
 
 namespace dotpose::core {
 
-/// Half sides of the squares of pixels that are read: distance from the middle pixel to the
-/// outermost pixels, in px. The squares of kHalf_px and kFineHalf_px are around an intersection,
-/// and contain the dot at any of its four places. kHalf_px is for spacings of 7 to 13 px, and
-/// kFineHalf_px for smaller spacings. The square of kDotHalf_px is around the centre of a dot.
+/// Half sides of the squares in which dots are read, in px. A square with the half side n has 2 n +
+/// 1 px per side. The squares of kHalf_px and kFineHalf_px are around an intersection and contain
+/// the dot at any of its four places. kHalf_px is for spacings of 7 to 13 px, and kFineHalf_px is
+/// for smaller spacings. The square of kDotHalf_px is around the centre of a dot.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kFineHalf_px = 2;
 inline constexpr int kDotHalf_px = 2;
@@ -35,8 +35,8 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
                static_cast<unsigned>(tracking.rows_taken - tracking.first_kept - 2 * half);
 }
 
-/// Returns the paper level around the pixel of an intersection: the mean of the corners of the
-/// square around this pixel. No dot reaches the corners.
+/// Returns the paper level around an intersection: the mean of the corner pixels of its square,
+/// which no dot reaches.
 [[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking,
                                                         const std::uint8_t* at) {
     const std::uint8_t* const top = at + tracking.corner_offset;
@@ -49,13 +49,12 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
 /// pixels is outside the square of the intersection.
 bool lay_dot_pixels(Tracking& tracking);
 
-/// The symbol that was read at an intersection, with the threshold of its dot, packed into one
+/// The symbol read at an intersection and the threshold of its dot. Both are packed into one
 /// register.
 class ReadSymbol {
   public:
     static constexpr ReadSymbol unclear() { return ReadSymbol(-1); }
-    /// Constructs a clear reading. `level`, from 0 to 255, is the level below which pixels belong
-    /// to the dot.
+    /// Constructs a clear reading. Pixels below `level`, from 0 to 255, belong to the dot.
     constexpr ReadSymbol(int symbol, std::int32_t level) : bits_(level * 4 + symbol) {}
 
     /// Returns true if one of the four places was clearly the darkest, and dark enough for a dot.
@@ -68,9 +67,9 @@ class ReadSymbol {
     std::int32_t bits_;
 };
 
-/// Reads the symbol of the dot at an intersection. The symbol is the darkest of the four places of
-/// the dot. Requires that the square around the intersection and a border of one pixel are stored.
-/// Not inlined, because small processors would otherwise not have enough registers.
+/// Reads the symbol of the dot at an intersection: the darkest of its four possible places.
+/// Requires that the square around the intersection and a border of one pixel are stored. Not
+/// inlined, because small processors would otherwise not have enough registers.
 DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
                                                const FixedVec& intersection_q16) {
     const std::int32_t stride = tracking.stride_px;
@@ -78,7 +77,8 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
         kept_row(tracking, intersection_q16.y >> 16) + (intersection_q16.x >> 16);
     const int quarter = (intersection_q16.x >> 15 & 1) + (intersection_q16.y >> 14 & 2);
     const std::int16_t* offset = tracking.dot_pixels[static_cast<std::size_t>(quarter)].data();
-    // `darkest` and `second` are four times a sum of four pixels, plus the symbol.
+    // `darkest` and `second` contain 4 * (sum of four pixels) + symbol, to keep each sum together
+    // with its symbol.
     std::int32_t darkest = INT32_MAX;
     std::int32_t second = INT32_MAX;
 #pragma GCC unroll 4
@@ -96,24 +96,23 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
     }
     const std::int32_t paper = paper_around(tracking, at);
     const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
-    // A dot darkens the sum of its own four pixels by about 6 times `depth`, and the sums of the
-    // adjacent places by about 2 times `depth`. A clear dot must reach a third of this darkness,
-    // and a quarter of the difference.
+    // A clear dot is darker than the paper by at least 2 times `depth`, and darker than each other
+    // place by at least `depth`. The expected values are about 6 and 4 times `depth`, because a dot
+    // also darkens the adjacent places by about 2 times `depth`.
     const bool is_clear =
         paper * 4 - (darkest >> 2) >= 2 * depth && (second >> 2) - (darkest >> 2) >= depth;
     return is_clear ? ReadSymbol(darkest & 3, paper - depth) : ReadSymbol::unclear();
 }
 
-/// The measurement of one dot.
 struct NearDot {
     /// Offset of the centroid from the point around which the dot was measured, in 2^-8 px.
     FixedVec offset_q8;
     std::int32_t mass = 0;
 };
 
-/// Measures the centroid of the pixels darker than `level` in a square of 2 Half + 1 px per side
-/// around a place. Returns false if the mass is not plausible for a dot, or if the square is not
-/// stored completely.
+/// Measures the centroid of the pixels darker than `level` in a square around a place. The square
+/// has 2 Half + 1 px per side. Returns false if the square is not stored completely, or if the mass
+/// is not plausible for a dot.
 template <int Half>
 [[gnu::always_inline]] inline bool measure_square(const Tracking& tracking, FixedVec place_q16,
                                                   std::int32_t level, NearDot& dot) {
@@ -130,8 +129,7 @@ template <int Half>
 }
 
 /// Measures the dot in the whole square around an intersection, with the threshold
-/// `Tracking::cut_q8`. Returns false in the same cases as `measure_square`, or if the paper is
-/// black.
+/// `Tracking::cut_q8`. Returns false if `measure_square` returns false or if the paper is black.
 bool measure_around(const Tracking& tracking, FixedVec intersection_q16, NearDot& dot);
 
 }  // namespace dotpose::core

@@ -13,11 +13,11 @@ constexpr int stride_of(int width_px) {
 /// Stores a row. The memory must have room for the row.
 void keep_row(const std::uint8_t* pixels, Tracking& tracking);
 
-/// Makes room for `rows` more rows. If necessary, discards all but the newest
+/// Makes room for `rows` more rows. If the memory is full, discards all but the newest
 /// `Tracking::rows_needed` rows.
 void make_room(int rows, Tracking& tracking);
 
-/// Returns a stored row. Later rows follow at intervals of the stride.
+/// Returns row v of the image, which must be stored. Consecutive rows are one stride apart.
 inline const std::uint8_t* kept_row(const Tracking& tracking, int v) {
     return tracking.rows.data() + (v - tracking.first_kept) * tracking.stride_px;
 }

@@ -7,11 +7,11 @@ namespace dotpose::core {
 
 struct DeviceWorkspace;
 
-/// The functions for known sheets. DeviceWorkspace has a pointer to them, so a program that does
-/// not set known sheets does not contain these functions.
+/// Functions for known sheets. DeviceWorkspace calls them through a pointer, so that a program
+/// without known sheets does not contain them.
 struct SheetFunctions {
-    /// Finds the place of the grid of a fresh frame, and its turn. Returns false if no place on the
-    /// sheets is certain.
+    /// Finds the place and the orientation of the grid in a frame without a prediction. Returns
+    /// false if no place on the sheets is certain.
     bool (*read)(const DeviceOptions& options, DeviceWorkspace& w);
     /// Returns true if the predicted place of a tracked frame is certain as a place on the sheets.
     bool (*verify)(const DeviceOptions& options, DeviceWorkspace& w);

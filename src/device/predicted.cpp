@@ -8,9 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Range of grid spacings that can be tracked, in px. At these spacings, the square that is read
-/// around an intersection contains the dot. Spacings below kFine_px are tracked on known sheets
-/// only.
+/// Range of grid spacings that can be tracked, in px. The square in which a dot is read contains
+/// the dot only at these spacings. Spacings below kFine_px are tracked only on known sheets.
 constexpr int kFinest_px = 5;
 constexpr int kFine_px = 7;
 constexpr int kCoarsest_px = 13;
@@ -18,7 +17,7 @@ constexpr int kCoarsest_px = 13;
 constexpr std::int32_t kMinDisplacement_q16 = 65536 / 12;
 constexpr std::int32_t kMaxDisplacement_q16 = 65536 / 3;
 
-/// Returns true if no stage overflows with the values of the prediction.
+/// Returns true if the values of the prediction are small enough that no stage overflows.
 bool is_sane(const Prediction& prediction) {
     const PlaneFromImage& plane = prediction.pattern_from_image;
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
@@ -35,9 +34,9 @@ bool is_sane(const Prediction& prediction) {
            prediction.displacement_q16 <= kMaxDisplacement_q16;
 }
 
-/// Sets `cells` to the inverse of a plane. `at_q16` is the centre of the plane relative to cell (0,
-/// 0), in 2^-16 spacings, and `finest_px` is the minimum spacing. Returns false if the spacing of
-/// the cells cannot be tracked, or if the cells are not nearly square.
+/// Sets `cells` to the inverse of a plane. `at_q16` is the plane point at the image centre relative
+/// to cell (0, 0), in 2^-16 spacings. `finest_px` is the minimum spacing. Returns false if the
+/// spacing of the cells cannot be tracked, or if the cells are not nearly square.
 bool invert(const PlaneFromImage& plane, FixedVec at_q16, int finest_px, CellMap& cells) {
     const FixedVec du = plane.du_q24;
     const FixedVec dv = plane.dv_q24;
@@ -64,8 +63,8 @@ bool invert(const PlaneFromImage& plane, FixedVec at_q16, int finest_px, CellMap
     return true;
 }
 
-/// Crops the edges of a frame that contains too many cells for the memory. Returns the maximum
-/// distance of a cell from the middle of the remaining part, in cells.
+/// Crops the edges of a frame until the memory has room for its cells. Returns the maximum distance
+/// of a cell from the middle of the remaining part, in cells.
 int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
     int width_px = tracking.width_px;
     int height_px = tracking.height_px;
@@ -110,8 +109,8 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
 }
 
-/// Returns the maximum error of the predicted position that the search covers, in px at the image
-/// centre. The search covers three standard deviations, but at most 3/5 of the spacing.
+/// Returns the radius of the search for the predicted position, in px at the image centre. The
+/// radius is three standard deviations of the prediction, but at most 3/5 of the spacing.
 int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     const std::int64_t wanted_q16 = 3 * std::int64_t{prediction.sigma_q16};
     const auto shift_q16 =

@@ -9,7 +9,7 @@
 
 namespace dotpose::core {
 
-/// Number of new rows collected before their dots are read.
+/// Number of rows that are collected before the dots in them are read.
 inline constexpr int kRowsAtOnce = 12;
 
 /// Sets the corner, the cells, and the members of `tracking` that depend on the spacing. The memory
@@ -22,7 +22,7 @@ inline constexpr int kRowsAtOnce = 12;
 /// - the part of the image whose cells fit in the memory is too small.
 Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, Tracking& tracking);
 
-/// Index of the cell near the middle of the image, along both axes.
+/// Index, along both axes, of the cell near the middle of the image.
 inline constexpr int kMiddleCell = kMaxComparedLines / 2;
 
 /// Returns the image point of an intersection, in 2^-16 px.

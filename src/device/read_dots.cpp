@@ -27,9 +27,9 @@ TrackedView view_of(const Tracking& tracking) {
         displaced_q16 = std::max(displaced_q16, larger_component(displaced));
     // The square around the pixel of an intersection must be in the image.
     const int half_px = tracking.half_px;
-    // The place of a dot is rounded to a pixel, and kDotHalf_px pixels on each side of this pixel
-    // must also be in the image. In fine grids, bits are also read at places where the dot cannot
-    // be measured.
+    // The centre of a dot is rounded to a pixel, and kDotHalf_px pixels on each side of this pixel
+    // must also be in the image. This does not apply to fine grids, whose dots are read even if
+    // they cannot be measured.
     const std::int32_t of_dot_q16 =
         half_px == kHalf_px ? kDotHalf_px * 65536 - 32768 + displaced_q16 : 0;
     const std::int32_t min_q16 = std::max<std::int32_t>(half_px * 65536, of_dot_q16);
@@ -45,7 +45,7 @@ TrackedView view_of(const Tracking& tracking) {
 
 /// Finds the first visible cell of each row of cells, from row `j` in steps of `j_step`, until a
 /// row has no visible cell. The visible cells of a row are contiguous and close to those of the
-/// previous row. Each search therefore starts at the previous result.
+/// previous row, so each search starts at the result of the previous one.
 void lay_rows(Tracking& tracking, int j, int j_step) {
     const TrackedView view = tracking.view;
     const RowDirection direction = row_direction(tracking);
@@ -75,8 +75,8 @@ void lay_rows(Tracking& tracking, int j, int j_step) {
     }
 }
 
-/// Marks the bits of a cell as read in its column and row, and marks the bits of `symbol` that
-/// contradict the code as wrong. Returns true if both bits agree with the code.
+/// Marks both bits of a cell as read, and marks those that contradict the code as wrong. Returns
+/// true if both bits agree with the code.
 DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
     ComparedLine& column = column_of(tracking, i);
     ComparedLine& row = row_of(tracking, j);
@@ -93,8 +93,8 @@ DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
 }
 
 /// Adds the next dot of a row to the sums, if its mass is plausible and its centre is near the
-/// predicted place. The symbol of the dot must agree with the code. Masses are below 2^12, and
-/// offsets are at most 2 px. The sums over a row of 32 dots are therefore below 2^30.
+/// predicted place. The symbol of the dot must agree with the code. Masses are below 2^12 and
+/// offsets at most 2 px, so the sums over a row of 32 dots are below 2^30.
 DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& row) {
     const auto symbol = static_cast<std::size_t>(read.symbol());
     const FixedVec place_q16 = row.next_q16 + tracking.displaced_q16[symbol];
@@ -105,7 +105,6 @@ DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& r
     const DarkSums sums = dark_sums<kDotHalf_px>(first, tracking.stride_px, read.level());
     const std::int32_t mass = sums.mass;
     if (mass < tracking.min_mass || mass > tracking.max_mass) return;
-    // Returns the offset of a place from the middle of its pixel.
     const auto in_pixel_q8 = [](std::int32_t a_q16) {
         return static_cast<std::int16_t>(a_q16) >> 8;
     };
@@ -138,9 +137,9 @@ bool begin_reading(Tracking& tracking) {
 
 void read_ready_dots(Tracking& tracking) {
     const RowDirection direction = row_direction(tracking);
-    // The pixels of a dot may extend one row below the square around its intersection. One more row
-    // must therefore be stored. After the last row of the image, no further row is needed, because
-    // all pixels of visible dots are inside the image.
+    // The pixels of a dot may extend one row below the square around its intersection, so one more
+    // row must be stored. After the last row of the image this does not apply, because all pixels
+    // of visible dots are inside the image.
     const int ahead = tracking.rows_taken == tracking.height_px ? 1 : 2;
     const std::int32_t ready_q16 = (tracking.rows_taken - ahead - tracking.half_px) * 65536 + 32767;
     TrackedRow* row = &tracking.grid_rows[static_cast<std::size_t>(tracking.first_cell)];

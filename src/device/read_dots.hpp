@@ -5,11 +5,11 @@
 
 namespace dotpose::core {
 
-/// Starts reading. The cells must already be fitted. Returns false if the dots are displaced too
-/// far for the squares around intersections.
+/// Prepares the tracked cells for reading. The cells must already be fitted to the image. Returns
+/// false if the displacement of dots is too large for the squares around intersections.
 bool begin_reading(Tracking& tracking);
 
-/// Reads all dots that are complete in the rows so far. If a dot agrees with the code, adds its
+/// Reads all dots whose pixels have arrived completely. If a dot agrees with the code, adds its
 /// offset from the predicted centre to the sums.
 void read_ready_dots(Tracking& tracking);
 

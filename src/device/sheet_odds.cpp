@@ -30,22 +30,22 @@ struct PlacedLines {
     int wrong;  ///< number of bits that contradict the code
 };
 
-/// Returns the difference between the rolls of an axis and the rolls of this axis in section 0: the
-/// section plus the position on the other axis, modulo 63.
+/// Returns the difference between the rolls of an axis and its rolls in section 0: the section plus
+/// the position on the other axis, modulo 63.
 std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_across) {
     return code::modulo_sections(section + code::modulo_sections(position_across));
 }
 
-/// Sum of the odds of places that have, on one axis, the same lines and rolls as a given place.
-/// Only the lines of the other axis distinguish these places.
+/// Sum of the odds of the alternatives to a given place that agree with it on one axis. Only the
+/// lines of the other axis distinguish such an alternative from the given place.
 class OddsOfOthers {
   public:
     OddsOfOthers(CodeVariant code, int odds_per_bit_q8)
         : code_(code), odds_per_bit_q8_(odds_per_bit_q8) {}
 
-    /// Adds the places of a region that have the lines of the given place on the axis of `same`.
-    /// `same_section` and `same_range` are the section and the positions of the region along this
-    /// axis. `section` and `range` are those along the other axis.
+    /// Adds the alternatives in a region. They have the same lines as the given place on the axis
+    /// of `same`. Along this axis, the region has the section `same_section` and the positions
+    /// `same_range`. Along the other axis, it has `section` and `range`.
     void add(const PlacedLines& same, std::uint32_t same_section, const PositionRange& same_range,
              const PlacedLines& other, std::uint32_t section, const PositionRange& range) {
         if (!same_range.contains(same.position)) return;
@@ -71,10 +71,9 @@ class OddsOfOthers {
     int log2_q8_ = kNever_q8;
 };
 
-/// Returns log2 of the number of places that a view may show, in units of 2^-8. Counts all four
-/// orientations at each place of the regions in the code `code`. Also counts places at which the
-/// block extends beyond a region. Returns at least log2 of 2^10, because a tracked attempt tests
-/// only one place, but chooses among up to 2^10 planes.
+/// Returns log2 of the number of places that a view may show, in units of 2^-8. The number includes
+/// all four orientations and places at which the block extends beyond a region. It is at least
+/// 2^10, because a tracked attempt tests a single place but chooses among up to 2^10 planes.
 int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int rows) {
     std::uint64_t places = 0;
     for (const KnownRegion& region : sheets.regions) {
@@ -86,8 +85,8 @@ int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int
 }
 
 /// Returns log2 of an upper bound on the probability of an accidental match with an unknown sheet,
-/// in units of 2^-8. The unknown sheet has the same columns or rows as a known sheet, and agrees on
-/// the other axis by chance. Its rolls determine its position on the other axis modulo 63.
+/// in units of 2^-8. Such a sheet has the columns or the rows of a known sheet, and agrees on the
+/// other axis by chance. Its rolls determine its position on the other axis modulo 63.
 int unknown_sheet_log2_q8(const KnownSheets& sheets, CodeVariant code, const PlacedLines& x,
                           const PlacedLines& y, int bits, int odds_per_bit_q8) {
     std::uint32_t columns = 0;
@@ -109,8 +108,9 @@ int unknown_sheet_log2_q8(const KnownSheets& sheets, CodeVariant code, const Pla
 
 int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
                    const IntegrityOptions& options) {
-    // Maximum number of wrong bits to test. Only large views have certain places with more wrong
-    // bits. For these views, the function returns the number of all bits, which excludes no place.
+    // Maximum number of wrong bits to test. Only in large views can a place with more wrong bits be
+    // certain. For such views, the function returns the number of all bits, so that no place is
+    // excluded.
     constexpr int kMaxTested = 8;
     const int trials_q8 = trials_log2_q8(sheets, code, lines, lines);
     for (int wrong = 0; wrong <= std::min(kMaxTested, 2 * dots); ++wrong) {

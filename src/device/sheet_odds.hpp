@@ -11,9 +11,9 @@
 
 namespace dotpose::core {
 
-/// Returns the maximum number of wrong bits, in both axes together, of a place that may be certain.
-/// `dots` is the number of bits per axis. `lines` is the number of columns or rows, whichever is
-/// larger. Returns -1 if no place can be certain with this number of bits.
+/// Returns the maximum number of wrong bits, on both axes together, with which a place can be
+/// certain. `dots` is the number of bits per axis. `lines` is the larger of the numbers of columns
+/// and rows. Returns -1 if no place can be certain.
 int max_wrong_bits(const KnownSheets& sheets, CodeVariant code, int dots, int lines,
                    const IntegrityOptions& options);
 

@@ -13,8 +13,8 @@ constexpr int kTurns = 4;
 /// bit error affects only one pair of each axis.
 constexpr int kMaxPairs = 3;
 
-/// The rolls at which all bits of a line agree with the main sequence. A line with at least six
-/// correct bits in a row has one such roll.
+/// The rolls at which all bits of a line agree with the main sequence. If a line has six correct
+/// consecutive bits, there is at most one such roll.
 class AgreeingRolls {
   public:
     AgreeingRolls() = default;
@@ -48,9 +48,9 @@ struct LinePair {
     AgreeingRolls second;
 };
 
-/// Returns the first line of the pair of adjacent lines with the most bits. The number of bits of a
-/// pair is that of its line with fewer bits. Skips the lines in the bit set `tried`, and adds the
-/// lines of the pair to it. Returns nullopt if no pair is left.
+/// Returns the first line of the pair of adjacent lines that has the most bits. The number of bits
+/// of a pair is that of its line with fewer bits. Skips the lines in the bit set `tried`, and adds
+/// the pair to this set. Returns nullopt if no pair is left.
 std::optional<int> longest_pair(const HardLines& lines, std::uint32_t& tried) {
     std::optional<int> longest;
     int most_bits = 0;
@@ -70,7 +70,6 @@ class PairsOfLines {
   public:
     explicit PairsOfLines(Axis axis) : axis_(axis) {}
 
-    /// Takes the next pair in each orientation.
     void take_next(const HardBlock& block) {
         turns_ = {};
         for (int quarters = 0; quarters < kTurns; ++quarters) {
@@ -86,7 +85,7 @@ class PairsOfLines {
         }
     }
     Axis axis() const { return axis_; }
-    /// Returns a bit set of the orientations in which some agreeing rolls of the two lines differ
+    /// Returns the orientations, as a bit set, in which some agreeing rolls of the two lines differ
     /// by `step`.
     unsigned turns_with(std::uint32_t step) const { return turns_[step]; }
     const LinePair& operator[](int quarters) const {
@@ -112,7 +111,7 @@ struct RegionAxis {
           section(axis == Axis::x ? region.section.u : region.section.v) {}
 };
 
-/// Consecutive positions of an axis, with their rolls in section 0.
+/// Consecutive positions of an axis, with the rolls that they have in section 0.
 struct Rolls {
     std::uint32_t first;
     std::array<std::uint8_t, 128> all;
@@ -125,25 +124,25 @@ class SheetSearch {
     SheetSearch(const HardBlock& block, CodeVariant code, int max_wrong)
         : block_(block), code_(code), max_wrong_(max_wrong) {}
 
-    /// Tests the places on a region at which all bits of a pair of lines agree.
+    /// Tests each place on a region at which all bits of a pair of lines agree with the code.
     void search(const KnownRegion& region, const PairsOfLines& pairs);
 
     const std::optional<SheetPlace>& best() const { return best_; }
 
   private:
     /// Tests the places at which the first line of a pair is at `position` and has an agreeing
-    /// roll. `step` is the difference to the roll of the next line.
+    /// roll. `step` is the difference from this roll to that of the next line.
     void test_pair(const KnownRegion& region, const PairsOfLines& pairs, int quarters,
                    const Rolls& rolls, std::uint32_t position, std::uint32_t step);
-    /// Tests the places at which the first line of an axis is at `position`, and `wrong` bits of
-    /// this axis contradict the code. The roll of each line is its roll in section 0 plus `added`.
+    /// Tests the places at which the first line of an axis is at `position`. `wrong` bits of this
+    /// axis contradict the code there. The roll of each line is its roll in section 0 plus `added`.
     void test_crossing(const KnownRegion& region, Axis axis, int quarters, std::uint32_t position,
                        std::uint32_t added, int wrong);
 
     const HardBlock& block_;
     CodeVariant code_;
-    int max_wrong_;  ///< maximum number of wrong bits on both axes together; less than at the best
-                     ///< place so far
+    int max_wrong_;  ///< maximum number of wrong bits on both axes together; after a place is
+                     ///< found, one less than at that place
     std::optional<SheetPlace> best_;
 };
 
@@ -151,7 +150,7 @@ void SheetSearch::search(const KnownRegion& region, const PairsOfLines& pairs) {
     const RegionAxis along(region, pairs.axis());
     const auto margin = static_cast<std::uint32_t>(
         std::max(block_.lines(pairs.axis(), 0).count, block_.lines(pairs.axis(), 1).count));
-    // Positions of the first line of a pair for which part of the block is on the region.
+    // Positions of the first line of a pair at which a part of the block is on the region.
     const std::uint32_t begin = along.first < margin ? 0 : along.first - margin;
     const std::uint32_t end = along.first + along.size + margin;
     Rolls rolls;

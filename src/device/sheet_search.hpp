@@ -11,17 +11,16 @@
 
 namespace dotpose::core {
 
-/// A place of a block on a known sheet.
 struct SheetPlace {
     int quarters = 0;            ///< quarter turns from the block to the pattern
     Place corner;                ///< place where the first column and the first row cross
     std::array<int, 2> wrong{};  ///< numbers of x bits and of y bits that contradict the place
 };
 
-/// Finds the place with the fewest contradicting bits, in any orientation of the block. At most
-/// `max_wrong` bits on both axes together may contradict the place. Tests only places at which all
-/// bits of a pair of adjacent lines agree with the code. Tries a few pairs. Returns nullopt if
-/// there is no such place. Ignores regions in other codes.
+/// Finds the place and the orientation of the block that the fewest bits contradict. At most
+/// `max_wrong` bits of both axes together may contradict them. Tries a few pairs of adjacent lines,
+/// and tests only places at which all bits of a pair agree with the code. Ignores regions in other
+/// codes. Returns nullopt if there is no such place.
 std::optional<SheetPlace> find_on_sheets(const HardBlock& block, CodeVariant code,
                                          std::span<const KnownRegion> regions, int max_wrong);
 

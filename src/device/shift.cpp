@@ -14,30 +14,31 @@ namespace dotpose::core {
 Shifts::Shifts(const Tracking& tracking) {
     const bool is_fine = tracking.half_px == kFineHalf_px;
     step_px_ = is_fine ? 1 : 2;
-    // Only dots within two spacings of the middle column are used. A rotation relative to the
-    // prediction has little effect on the sums over these dots.
+    // Only dots within two spacings of the middle column are used, because a rotation relative to
+    // the prediction changes the sums over these dots only slightly.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
-    // Sideways movement of the first rows by a rotation of 4 degrees (18/256 rad) about the centre.
+    // Sideways movement of the first rows if the frame rotates by 4 degrees (18/256 rad) about its
+    // centre.
     const int sideways_px = 18 * ((tracking.height_px - rows_) / 2) >> 8;
     const auto steps = [&](int reach_px) {
         return std::min((reach_px + step_px_ - 1) / step_px_, kMaxSteps);
     };
     steps_ = {steps(tracking.reach_px + sideways_px), steps(tracking.reach_px)};
-    // The margin contains all shifts, and half a spacing for the displacement of dots.
+    // The margin is the largest shift, plus half a spacing for the displacement of dots.
     const int margin = step_px_ * steps_.x + (tracking.spacing_q8 >> 9) + 1;
     left_ = std::max(tracking.width_px / 2 - half, margin);
     right_ = std::min(tracking.width_px / 2 + half, tracking.width_px - margin);
     measure_paper(tracking);
-    // Pixels below this level count as dark. The level is close to the paper level in fine grids,
-    // because their dots are pale and hardly larger than a pixel.
+    // Pixels below this level count as dark. In fine grids the level is close to the paper level,
+    // because dots are pale and hardly larger than a pixel.
     cut_ = paper_ - paper_ / (is_fine ? 16 : 4);
     add_dots(tracking);
     divide_by_dots();
 }
 
-/// Sets the paper level to the mean of the sampled pixels that are not darker than the mean of all
-/// sampled pixels.
+/// Sets the paper level to the mean of all sampled pixels that are at least as bright as the mean
+/// sampled pixel.
 void Shifts::measure_paper(const Tracking& tracking) {
     int threshold = 0;
     for (int round = 0; round < 2; ++round) {
@@ -58,9 +59,10 @@ void Shifts::measure_paper(const Tracking& tracking) {
 
 void Shifts::add_dots(const Tracking& tracking) {
     const int reach = step_px_ * steps_.y;
-    // Maximum distance of the visited cells from the middle cell, along each axis. The visited
-    // cells contain all dots within two spacings of the middle column. They also contain all dots
-    // that a shift may move into the first rows, at any rotation of the grid.
+    // Maximum distance of the visited cells from the middle cell, in cells along each axis. At any
+    // rotation of the grid, the visited cells contain all dots within two spacings of the middle
+    // column. They also contain the dots outside the first rows that a shift may move into these
+    // rows.
     constexpr int kAround = 5;
     const FixedVec middle = middle_cell(tracking);
     const auto around = [&](int cell) {
@@ -99,8 +101,8 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 }
 
 void Shifts::divide_by_dots() {
-    // Minimum divisor of a sum of darkness. A mean over fewer dots is unreliable, so the minimum
-    // divisor reduces it.
+    // Minimum number by which a sum of darkness is divided. If there are fewer dots, this reduces
+    // their mean, because a mean over a few dots may be large by chance.
     constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);
@@ -111,8 +113,7 @@ void Shifts::divide_by_dots() {
     }
 }
 
-/// Clears the means around a shift that `next` returned, to exclude neighbouring shifts from
-/// further results.
+/// Clears the means around a shift that `next` returned, so that later results are not next to it.
 void Shifts::forget_around(FixedVec at) {
     constexpr int kFar = 2;
     for (int y = std::max<std::int32_t>(at.y - kFar, 0);
@@ -129,7 +130,7 @@ bool Shifts::next(FixedVec& shift_q8) {
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const std::uint16_t* here = row_of(y);
         for (int x = 0; x <= 2 * steps_.x; ++x, ++here) {
-            // The weighted sum of a value and its neighbours has less noise than the value alone.
+            // Smooths the mean with its four neighbours to reduce noise.
             const int around = 4 * here[0] + here[-1] + here[1] + here[-kPerRow] + here[kPerRow];
             if (around <= best) continue;
             best = around;
@@ -138,7 +139,7 @@ bool Shifts::next(FixedVec& shift_q8) {
     }
     if (best == 0) return false;
     const int step_q8 = step_px_ * 256;
-    // Interpolates the maximum between the steps, from its two neighbours.
+    // Interpolates the maximum between the steps, using the neighbours on both sides.
     const auto between = [step_q8](int before, int here, int after) {
         return (after - before) * step_q8 / std::max(before + here + after, 1);
     };

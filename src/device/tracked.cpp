@@ -16,11 +16,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of shifts to try. The correct shift is almost always the first or the second
-/// shift.
+/// Maximum number of shifts to try. Almost always, one of the first two is correct.
 constexpr int kMaxShifts = 4;
 
-/// Shifts and rotates the cells to fit the dots in the first rows. Error: not_tracked.
+/// Shifts and rotates the predicted cells to fit the dots in the first rows. Error: not_tracked.
 Status settle(Tracking& tracking) {
     Shifts shifts(tracking);
     const int paper = shifts.paper_level();
@@ -31,8 +30,8 @@ Status settle(Tracking& tracking) {
         if (!shifts.next(shift_q8) || shifts.depth() < tracking.min_contrast)
             return Status::not_tracked;
         tracking.cells.origin_q16 = predicted_q16 + FixedVec{shift_q8.x * 256, shift_q8.y * 256};
-        // Until `find_turn` measures the mass of dots, the threshold is midway between paper and
-        // ink, and the range of masses is wide.
+        // The mass of dots is not known until `find_turn` measures it. Until then, the threshold is
+        // midway between paper and ink, and the range of masses is wide.
         tracking.cut_q8 = 128 * shifts.depth() / paper;
         tracking.min_mass = tracking.half_px == kFineHalf_px ? paper / 16 : paper / 8 + 16;
         tracking.max_mass = INT16_MAX;
@@ -57,8 +56,8 @@ Status read_rows(DeviceWorkspace& w) {
     return Status::ok;
 }
 
-/// Verifies the predicted place with the bits of the dots, first as a place on the known sheets.
-/// Error: not_certain.
+/// Verifies the predicted place with the bits of the dots. Tries it as a place on the known sheets
+/// first. Error: not_certain.
 Status verify_place(const DeviceOptions& options, DeviceWorkspace& w) {
     const Tracking& t = w.tracking;
     if (w.on_sheets != nullptr) {
@@ -97,11 +96,12 @@ Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& op
     t.min_side_px = w.min_side_px;
     t.dots_measured = 0;
     t.offset_q8 = {};
-    // Frames with lens distortion are not tracked. They are located without the prediction.
+    // Frames with lens distortion are not tracked, but located without the prediction.
     t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.code, t)
                                        : Status::not_tracked;
-    // A locator with memory for every stage runs on a processor that is fast enough to locate the
-    // whole frame without the prediction. Tracking only the middle would be less accurate.
+    // A workspace that keeps every stage is used on a processor that is fast enough to locate the
+    // whole frame without the prediction. This is more accurate than tracking only the middle of
+    // the frame.
     if (w.keeps_every_stage && t.left_out_px > 0) t.status = Status::not_tracked;
     t.rows_taken = -t.rows_above;
     if (t.status == Status::ok) lay_tracked_lines(options.code, t);
@@ -113,7 +113,7 @@ Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w) {
     const bool is_tracked =
         static_cast<unsigned>(t.rows_taken) < static_cast<unsigned>(t.height_px);
     if (t.status != Status::ok || !is_tracked) {
-        // The row is above or below the tracked part, or tracking has failed.
+        // The row is outside the tracked part, or tracking has failed.
         if (t.rows_taken < 0) ++t.rows_taken;
         return t.status;
     }

@@ -1,5 +1,5 @@
-// Tracked: the tracked attempt on devices. Measures dots at predicted places while rows arrive, in
-// integer arithmetic and without a frame buffer.
+// Tracked: the tracked attempt on devices. Measures dots at their predicted places while rows
+// arrive. Uses integer arithmetic, and memory for only the newest rows.
 #pragma once
 
 #include "device/workspace.hpp"

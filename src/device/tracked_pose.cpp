@@ -10,9 +10,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the number of bits by which masses and mass-weighted sums must be shifted right to make
-/// the total mass less than 2^16. All sums are then less than 2^31, because offsets are at most
-/// 416/256 px, an eighth of the maximum spacing of 13 px.
+/// Returns the number of bits by which masses and mass-weighted sums must be shifted right so that
+/// the total mass is less than 2^16. All sums are then less than 2^31, because offsets are at most
+/// 416/256 px, which is an eighth of the maximum spacing of 13 px.
 int excess_bits(const Tracking& tracking) {
     std::uint32_t mass = 0;
     for (const TrackedRow& row : tracking.grid_rows)
@@ -20,8 +20,8 @@ int excess_bits(const Tracking& tracking) {
     return std::max(static_cast<int>(std::bit_width(mass)) - 16, 0);
 }
 
-/// Returns the sums for a least-squares fit of the dot offsets. The fit is affine in the cell
-/// coordinates, and weights each dot by its mass.
+/// Returns the sums for a least-squares fit of the offsets of dots as an affine function of the
+/// cell coordinates. Each dot is weighted by its mass.
 AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
     std::int32_t mass = 0;
     FixedVec cells;
@@ -48,10 +48,10 @@ AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
     return {mass, cells, offset_q8, sums};
 }
 
-/// Returns the cells, corrected by the fitted offsets.
+/// Adds the fitted offsets to the cells.
 CellMap corrected(const CellMap& cells, const PlaneFromImage& offsets) {
-    // `AffineFitInt32` expects coordinates in 1/8 px. Here, coordinates are whole cells, so the
-    // slopes are divided by 8.
+    // `AffineFitInt32` expects coordinates in 1/8 px, but here they are whole cells, so the slopes
+    // are divided by 8.
     constexpr int kShift = 24 + 3 - 16;
     const FixedVec du_q16{offsets.du_q24.x >> kShift, offsets.du_q24.y >> kShift};
     const FixedVec dv_q16{offsets.dv_q24.x >> kShift, offsets.dv_q24.y >> kShift};
@@ -65,8 +65,7 @@ bool invert(const CellMap& cells, FixedVec centre_q8, PlaneFromImage& plane) {
     const FixedVec x = cells.along_x_q16;
     const FixedVec y = cells.along_y_q16;
     const std::int64_t det_q24 = cross(x, y) >> 8;
-    // A fit to only a few dots may be arbitrarily wrong. This limit prevents overflow of the
-    // slopes.
+    // Prevents overflow of the slopes, because a fit to only a few dots may be arbitrarily wrong.
     if (det_q24 < 1 << 24) return false;
     const auto slope_q24 = [&](std::int32_t a_q16) {
         return short_quotient(std::int64_t{a_q16} << 32, det_q24);
@@ -87,8 +86,8 @@ bool invert(const CellMap& cells, FixedVec centre_q8, PlaneFromImage& plane) {
     return true;
 }
 
-/// Returns (measured - expected) / expected for the mean displacement, in 2^-12. The expected
-/// displacement is `Tracking::displacement_q12`.
+/// Returns (measured - expected) / expected for the mean displacement of dots, in units of 2^-12.
+/// The expected value is `Tracking::displacement_q12`.
 std::int32_t relative_excess_q12(const Tracking& tracking, int excess, std::int32_t mass) {
     std::int64_t along = 0;
     for (std::size_t s = 0; s < tracking.offset_q8.size(); ++s) {

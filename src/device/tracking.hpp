@@ -13,35 +13,35 @@
 
 namespace dotpose::core {
 
-/// Map from the cells of a grid to the image: cell (i, j) is at origin + i along_x + j along_y.
-/// Unlike a Lattice, the map refers to the upright pattern.
+/// Map from the cells of a grid to the image: cell (i, j) is at origin + i along_x + j along_y. The
+/// axes of the cells are those of the upright pattern, unlike the axes of a Lattice.
 struct CellMap {
     FixedVec origin_q16;  ///< in 2^-16 px
     FixedVec along_x_q16;
     FixedVec along_y_q16;
 };
 
-/// State of one row of cells in a tracked frame: the next cell to be read, and mass-weighted sums
-/// over the dots measured so far. Cells are read in the order of the image rows.
+/// State of one row of cells in a tracked frame: the next cell to read, and mass-weighted sums over
+/// the dots measured so far. The cells of a row are read in the order in which their image rows
+/// arrive.
 struct TrackedRow {
     static constexpr std::int32_t kNever_q16 = INT32_MAX;
 
-    /// Place of the next cell in the image, in units of 2^-16 px. y is kNever_q16 if there is no
-    /// next cell.
+    /// Place of the next cell in the image, in 2^-16 px. y is kNever_q16 if there is no next cell.
     FixedVec next_q16{0, kNever_q16};
     std::int32_t i = 0;  ///< column of the next cell
-    // Columns in the following sums are relative to the middle column.
+    // In the following sums, columns are relative to the middle column.
     std::int32_t mass = 0;
     std::int32_t mass_i = 0;
     std::int32_t mass_ii = 0;
-    /// Sum of the offsets of dots from their predicted places, multiplied by their masses, in 2^-8
-    /// px.
+    /// Sum of the offsets of dots from their predicted places, each in 2^-8 px and multiplied by
+    /// its mass.
     FixedVec offset_q8;
     FixedVec offset_i_q8;
 };
 
-/// Rectangle in the image, in units of 2^-16 px. If an intersection is in this rectangle, all
-/// pixels that are read for its dot are in the image.
+/// Rectangle in the image, in 2^-16 px. If an intersection is in this rectangle, all pixels that
+/// are read for its dot are in the image.
 struct TrackedView {
     FixedVec min_q16;
     std::uint32_t width_q16 = 0;
@@ -53,23 +53,23 @@ struct TrackedView {
     }
 };
 
-/// A frame whose dots are measured at predicted places while its rows arrive. If the frame contains
-/// too many cells, only its middle is tracked, and the stages treat this part as the image.
+/// A frame whose dots are measured at their predicted places while its rows arrive. If the frame
+/// contains too many cells, only its middle is tracked. All stages then use this part as the image.
 struct Tracking {
     Status status = Status::not_tracked;
     std::uint8_t min_contrast = 0;  ///< see DeviceOptions
-    // Small processors access the first members fastest, so the members that are used for every dot
-    // are first.
+    // The members that are used for every dot are first, because small processors access the first
+    // members fastest.
     int width_px = 0;
     int height_px = 0;
-    /// Number of rows taken. Negative before the first row of the tracked part.
+    /// Number of rows received. Negative before the first row of the tracked part.
     int rows_taken = 0;
     int first_kept = 0;  ///< index of the first stored image row
     int stride_px = 0;
     int half_px = 0;  ///< see kHalf_px
-    /// Offsets in `rows`, in bytes, in the square around an intersection. `corner_offset` is the
-    /// offset of the upper left corner from the middle pixel. `corners_apart` is the offset of a
-    /// lower corner from the upper corner above it.
+    /// Offsets in the square around an intersection, in bytes. `corner_offset` is the offset from
+    /// the middle pixel to the upper left corner. `corners_apart` is the offset from an upper to a
+    /// lower corner.
     std::ptrdiff_t corner_offset = 0;
     std::ptrdiff_t corners_apart = 0;
     std::span<std::uint8_t> rows;  ///< the newest rows of the image
@@ -81,20 +81,22 @@ struct Tracking {
     std::span<ComparedLine> lines;  ///< first half: columns; second half: rows
     /// Displacement of a dot from its intersection, in 2^-16 px, indexed by Symbol.
     std::array<FixedVec, 4> displaced_q16{};
-    /// Sum of the offsets of all dots, weighted by their masses, indexed by Symbol.
+    /// Sum of the offsets of all dots from their predicted places, each multiplied by its mass.
+    /// Indexed by Symbol.
     std::array<FixedVec, 4> offset_q8{};
     /// Offset from the pixel of an intersection to the first of the four pixels of its dot, in
-    /// bytes. Indexed by the quarter of the pixel that contains the intersection, and by Symbol.
+    /// bytes. Indexed by the quarter of the pixel in which the intersection is, and by Symbol.
     std::array<std::array<std::int16_t, 4>, 4> dot_pixels{};
     std::int16_t min_side_px = 0;  ///< minimum width and height of the tracked part
     std::int16_t left_out_px = 0;  ///< number of columns to the left of the tracked part
     std::int16_t rows_above = 0;   ///< number of rows above the tracked part
     CellMap cells;
-    /// Change of the pattern point per image px, in units of 2^-20 spacings per px.
+    /// Derivatives of the pattern point with respect to the image coordinates u and v, in 2^-20
+    /// spacings per px.
     FixedVec du_q20;
     FixedVec dv_q20;
     std::int32_t displacement_q12 = 0;
-    int rows_kept = 0;     ///< maximum number of rows in memory
+    int rows_kept = 0;     ///< number of rows for which there is memory
     int rows_needed = 0;   ///< number of newest rows still needed after dots were read; less than
                            ///< half of rows_kept
     int first_rows = 0;    ///< number of rows from which the error of the prediction is measured

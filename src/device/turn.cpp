@@ -10,17 +10,17 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of rings of cells around the middle cell that are measured.
+/// Maximum number of rings of cells that are measured around the middle cell.
 constexpr int kRounds = 4;
-/// Minimum number of dots that agree with the code, and minimum ratio of this number to the number
-/// of measured dots, in 1/8.
+/// At least kMinDots dots must agree with the code, and at least the fraction kMinFraction_q3 / 8
+/// of the measured dots.
 constexpr int kMinDots = 12;
 constexpr int kMinFraction_q3 = 6;
-/// Minimum number of measured dots at which the fraction is tested.
+/// Number of measured dots from which the fraction is tested.
 constexpr int kMinMeasured = 8;
 
 /// Least-squares fit of a shift, a rotation and a stretch: offset = shift + stretch p + turn J p,
-/// where J rotates by a quarter turn.
+/// where J is a rotation by 90 degrees.
 class SimilarityFit {
   public:
     /// Adds a dot. p is the predicted place of the dot, in px relative to the middle.
@@ -61,8 +61,8 @@ class SimilarityFit {
     std::int32_t across_ = 0;
 };
 
-/// Returns the change of v due to a similarity. Not inlined, because 64-bit products need a lot of
-/// code.
+/// Returns the change of v under a similarity transform. Not inlined, because 64-bit products need
+/// a lot of code.
 [[gnu::noinline]] FixedVec change(const SimilarityFit::Similarity& s, FixedVec v) {
     const auto part = [](std::int64_t a_q20) { return static_cast<std::int32_t>(a_q20 >> 20); };
     return {part(std::int64_t{s.stretch_q20} * v.x - std::int64_t{s.turn_q20} * v.y),
@@ -82,10 +82,9 @@ class Rounds {
     Rounds(Tracking& tracking, FixedVec middle_q16)
         : tracking_(tracking), before_(tracking.cells), middle_q16_(middle_q16) {}
 
-    /// Shifts the cells by the mean offset of the dots nearest to the middle, including dots that
-    /// contradict the code.
+    /// Shifts the cells by the mean offset of the dots nearest to the middle. These dots need not
+    /// agree with the code.
     void recentre(FixedVec middle);
-    /// Measures the dot of a cell and, if it agrees with the code, adds it to the fit.
     void measure(int i, int j);
     /// Moves the cells to the fitted place.
     void lay_cells() {
@@ -132,7 +131,7 @@ void Rounds::recentre(FixedVec middle) {
 
 void Rounds::measure(int i, int j) {
     const FixedVec at_q16 = place_q16(tracking_.cells, i, j);
-    // Skips cells that are outside the first rows, such as most cells of the outer rings.
+    // Skips cells outside the first rows, such as most cells of the outer rings.
     if (!is_kept(tracking_, pixel_at(at_q16), tracking_.half_px)) return;
     NearDot dot;
     if (!measure_around(tracking_, at_q16, dot)) return;
@@ -150,7 +149,8 @@ void Rounds::measure(int i, int j) {
     projections_q12_ += magnitude(p.x_q12) + magnitude(p.y_q12);
 }
 
-/// Calls `use` for each cell of ring `round` around the middle cell, if the cell may be in view.
+/// Calls `use` for each cell of a ring around the middle cell, except cells that cannot be in view.
+/// `round` is the distance of the ring from the middle cell, in cells.
 template <typename Use>
 void visit_round(const Tracking& tracking, FixedVec middle, int round, Use use) {
     const auto is_in = [&](int cell) {
@@ -165,9 +165,9 @@ void visit_round(const Tracking& tracking, FixedVec middle, int round, Use use) 
     }
 }
 
-/// Adapts the slopes of the plane to a small stretch s and rotation t of the cells. The plane is
-/// the inverse of the cell map. For each pattern coordinate, subtracts s du + t dv from du, and s
-/// dv - t du from dv.
+/// Updates the slopes du and dv of the plane, which is the inverse of the cell map, after the cells
+/// were stretched by s and rotated by t. Both are small, so to first order du changes by -(s du + t
+/// dv), and dv by -(s dv - t du).
 void turn_back(const SimilarityFit::Similarity& s, Tracking& tracking) {
     FixedVec& du = tracking.du_q20;
     FixedVec& dv = tracking.dv_q20;
@@ -190,8 +190,8 @@ bool find_turn(Tracking& tracking) {
         visit_round(tracking, middle, round, [&](int i, int j) { rounds.measure(i, j); });
         agree = rounds.seen() < kMinMeasured ||
                 8 * rounds.agreeing() >= kMinFraction_q3 * rounds.seen();
-        // Moves the cells after rings 1, 2 and 4. Ring 0 is the middle dot, which `recentre` has
-        // already used. Ring 3 adds few dots to ring 2.
+        // Moves the cells only after rings 1, 2 and 4. `recentre` has already used ring 0, the
+        // middle dot, and ring 3 adds few dots to ring 2.
         const bool moves_cells = round % 2 == 0 ? round > 0 : round == 1;
         if (moves_cells && rounds.agreeing() > before) rounds.lay_cells();
     }

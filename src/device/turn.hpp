@@ -5,9 +5,9 @@
 
 namespace dotpose::core {
 
-/// Measures the dots in the first rows, ring by ring from the middle outwards. Refits the cells
-/// after some of the rings. Sets the displacement and the mass limits for dots. Returns false if
-/// too many dots contradict the code, or if too few agree with it.
+/// Measures the dots in the first rows, ring by ring from the middle outwards, and fits the cells
+/// to them. Sets the displacement and the limits for the mass of dots. Returns false if too many
+/// dots contradict the code, or if too few agree with it.
 bool find_turn(Tracking& tracking);
 
 }  // namespace dotpose::core

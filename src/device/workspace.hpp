@@ -1,4 +1,4 @@
-// Device workspace: all memory of a DeviceLocator, for frames of several sizes.
+// Device workspace: the memory of a DeviceLocator.
 #pragma once
 
 #include <algorithm>
@@ -33,27 +33,27 @@ struct DeviceWorkspace : Workspace {
 /// dots and of other data of the stages.
 struct DeviceCapacity {
     int width_px = 0;
-    /// Maximum height of a frame. Reduced for frames that are wider than kMaxSideWithLowTiles_px.
+    /// Maximum height of a frame. At most kMaxSideWithLowTiles_px if the width is larger than this.
     int height_px = kMaxFrameSide_px;
     int dots = 0;
     int grid_side = 0;
-    /// Maximum number of lines of each axis that are compared with the whole code. The number is 0
-    /// if only known sheets are read, and -1 if all lines of the grid are compared.
+    /// Maximum number of lines per axis that are compared with the whole code. 0 if only known
+    /// sheets are read, and -1 if all lines of the grid are compared.
     int scored_lines = -1;
     /// Maximum number of dots from which the axes of the grid are found.
     int seeds = 64;
-    // Maximum numbers of runs and blobs in one row, far above the number of dots in a row. Runs and
-    // blobs beyond the maximum are noise or graphics.
+    // Maximum numbers of runs and blobs in one row. These are far above the number of dots in a
+    // row, so any further runs and blobs are noise or graphics.
     int runs = 0;
     int blobs = 0;
-    // Maximum number of runs of a whole frame. This number bounds the time. The dots of a frame of
-    // 188 x 120 px have about 500 runs. Noisy frames of this size had up to 1,900 runs and were
-    // still located.
+    // Maximum number of runs of a whole frame, which bounds the time. The dots of a frame of 188 x
+    // 120 px have about 500 runs. Noisy frames of this size were still located with up to 1,900
+    // runs.
     int max_runs = 0;
 };
 
-/// Capacities for each frame size, for a spacing of about 11 px, or 6 px for 36 x 36 px. Each size
-/// is also listed in dotpose/memory.hpp.
+/// Capacities for each frame size. They are sufficient for a spacing of about 11 px, or 6 px for 36
+/// x 36 px. Each size is also listed in dotpose/memory.hpp.
 template <int Width, int Height>
 inline constexpr DeviceCapacity kDeviceCapacity{};
 template <>
@@ -81,8 +81,8 @@ inline constexpr DeviceCapacity kDeviceCapacity<320, 240>{.width_px = 320,
                                                           .max_runs = 6800};
 
 /// Workspace of a DeviceLocator on a small microcontroller, for frames of one size: about 12 KB for
-/// 188 x 120 px. Stages share memory, so only the results of the last stage remain. Only this class
-/// depends on the size. The stages use spans and are compiled once for all sizes.
+/// 188 x 120 px. Stages share memory, so after a frame only the results of the last stage are left.
+/// The stages use spans, so they are compiled only once for all sizes.
 template <DeviceCapacity kCapacity>
 class DeviceWorkspaceOf : public DeviceWorkspace {
   public:
@@ -92,8 +92,8 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
                       kCapacity.height_px <= kMaxSideWithLowTiles_px,
                   "the workspace has memory for low tiles only");
 
-    // The braces clear all members in one call. Separate stores to each member take 800 bytes more
-    // code.
+    // With the braces, all members are cleared in one call. Separate stores would take 800 bytes
+    // more code.
     DeviceWorkspaceOf() : DeviceWorkspace{} {
         max_width_px = kCapacity.width_px;
         if constexpr (kCapacity.height_px != kMaxFrameSide_px) max_height_px = kCapacity.height_px;

@@ -8,8 +8,8 @@
 
 namespace dotpose::draw {
 
-/// Smallest axis-aligned box that contains all added points. `low` is above `high` while the box is
-/// empty.
+/// Smallest axis-aligned box that contains all added points. If no point was added, `low` is above
+/// `high`.
 struct Bounds {
     Point low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
     Point high{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
@@ -19,7 +19,6 @@ struct Bounds {
         high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
     bool is_empty() const { return low.x > high.x; }
-    /// Returns the longer side.
     double extent() const { return std::max(high.x - low.x, high.y - low.y); }
 };
 

@@ -16,8 +16,8 @@ using namespace dotpose::draw;
 constexpr double kMargin = 30;
 constexpr double kHead = 74;
 constexpr double kMaxSide = 520;
-/// Minimum residual that an arrow of maximum length represents. With this minimum, residuals of
-/// pure noise have short arrows.
+/// Minimum full scale of the arrows in px. It ensures that residuals of pure noise have short
+/// arrows.
 constexpr double kMinFullScale_px = 0.05;
 
 using Part = ResidualField::Part;
@@ -60,8 +60,8 @@ class CalibrationPicture {
                  at.x, at.y, width(), height(), colour::kFrame);
     }
 
-    /// Calls `use(part, middle)` for all parts with dots. `middle` is the centre of the part on the
-    /// drawing.
+    /// Calls `use(part, middle)` for each part of the image that has dots. `middle` is the centre
+    /// of the part in the drawing.
     template <typename Use>
     void visit(int panel, Use use) const {
         for (int j = 0; j < field_.rows; ++j) {

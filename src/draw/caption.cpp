@@ -22,14 +22,14 @@ struct Entry {
     std::string value;
 };
 
-/// Estimates the width of bold text without wide letters.
+/// Estimates the width of bold text. The estimate is too small for text with many wide letters.
 double text_width(const std::string& text, double size) {
     const auto is_first_byte = [](char c) { return (c & 0xC0) != 0x80; };
     return 0.72 * size * static_cast<double>(std::ranges::count_if(text, is_first_byte));
 }
 
-/// Draws entries in columns of equal width. All entries have the same font size. If an entry is
-/// wider than its column, the font size is reduced.
+/// Draws entries in columns of equal width and in one font size, which is reduced until each entry
+/// fits.
 void draw_entries(const std::vector<Entry>& entries, double y, double column, double size,
                   Svg& svg) {
     double font = size;
@@ -63,15 +63,15 @@ std::string probability(const Fix& fix) {
     return "≤ 10" + exponent;
 }
 
-/// Replaces a leading hyphen with a minus sign. The minus sign is as wide as a digit.
+/// Replaces a leading hyphen with a minus sign, because the minus sign is as wide as a digit.
 std::string with_minus(std::string text) {
     if (text.starts_with('-')) text.replace(0, 1, "−");
     return text;
 }
 
-/// Texts that the caption shows in large letters: the pose and its standard deviations.
+/// Texts in large letters: the pose and its standard deviations.
 struct Shown {
-    /// Name of the coordinate frame, used as a suffix in the labels of the coordinates.
+    /// Name of the coordinate frame. It is a suffix of the labels of the coordinates.
     const char* frame;
     std::string x;
     std::string y;
@@ -99,7 +99,7 @@ Shown in_pattern(const Fix& fix, double spacing_mm) {
             deviation(0), deviation(1),        sigma(fix.covariance, 2)};
 }
 
-/// Returns the pose in the world, or on the sheet if the world pose of the sheet is not known.
+/// Returns the pose in the world, or on the sheet if the sheet has no world pose.
 Shown on_sheet(const SheetPlace& place) {
     const auto shown = [](const char* frame, const char* format, double x, double y, double rad,
                           const PoseCovariance& covariance, double um) {
@@ -119,8 +119,7 @@ Shown on_sheet(const SheetPlace& place) {
                  place.covariance, 1e3);
 }
 
-/// Describes the pose in all coordinate frames except the frame whose coordinates are in large
-/// letters.
+/// Describes the pose in each coordinate frame except the one in large letters.
 std::string other_frames(const Fix& fix, const DrawOptions& options) {
     const SheetPlace& place = *options.place;
     std::string text = "on sheet " + place.entry->name;
@@ -184,7 +183,7 @@ std::string message_of(const Fix& fix, const DeviceOptions& options) {
 }
 
 void draw_failure(const Fix& fix, const std::string& reason, double width, Svg& svg) {
-    constexpr double kLineHeight = 46;  // height of a line; five lines fit above the legend
+    constexpr double kLineHeight = 46;  // five lines fit above the legend
     svg.text({0, 70}, kBigSize, fmt::format("no fix: {}", name(fix.status)),
              R"(fill="#c0392b" font-weight="bold")");
     const auto max_bytes = static_cast<std::size_t>(width / (0.6 * kSmallSize));

@@ -14,15 +14,14 @@ const DetectedDot& dot_of_seed(const Trace& trace, int seed) {
     return trace.dots[trace.seeds[static_cast<std::size_t>(seed)]];
 }
 
-/// Returns the radius of a dot on the drawing. The number of pixels is not known for dots that were
-/// measured at their predicted places. These dots are drawn with a diameter of a third of the
-/// spacing, like blurred dots.
+/// Returns the radius of a dot in the drawing. If the dot was measured at its predicted place, its
+/// number of pixels is unknown, so it is drawn with a diameter of a third of the spacing, like a
+/// blurred dot.
 double radius_of(const DetectedDot& dot, const FrameView& view) {
     return dot.area_px == 0 ? view.spacing() / 6
                             : std::sqrt(dot.area_px / std::numbers::pi) * view.scale();
 }
 
-/// Draws an axis with its name at the end.
 void draw_axis(Point from, Point to, std::string_view name, Svg& svg) {
     svg.arrow(from, to, 4.5, colour::kInk);
     const Point along = to - from;
@@ -37,7 +36,8 @@ void draw_connections(const FrameView& view, Svg& svg) {
     svg.add(R"(<g class="connections" stroke="{}" stroke-width="{:.2f}" )"
             R"(stroke-linecap="round" stroke-opacity="0.85">)",
             colour::kEdge, 3.5 * view.stroke());
-    // Draws no edges if the dots were measured again, because the edges refer to the earlier dots.
+    // The edges refer to the first measurement of the dots, so they are not drawn if the dots were
+    // measured again.
     if (view.reached().edges && !trace.seeds.empty() && !view.is_dense()) {
         for (const SeedEdge& edge : trace.edges) {
             svg.line(view.at_dot(dot_of_seed(trace, edge.from)),
@@ -96,7 +96,7 @@ void draw_edges(const FrameView& view, double side, Svg& svg) {
     const double scale = side / 2 / (1.7 * view.spacing() / view.scale());
     svg.add(R"(<g class="edges" fill="{0}" stroke="{0}" stroke-width="1" stroke-opacity="0.25">)",
             colour::kEdge);
-    // Maximum number of edges to draw. A subset of many edges shows the same clusters.
+    // Maximum number of edges to draw. If there are more, a subset shows the same clusters.
     constexpr std::size_t kMaxEdges = 1000;
     const std::span<const SeedEdge> edges = view.trace().edges;
     const std::size_t step = 1 + edges.size() / kMaxEdges;

@@ -1,4 +1,4 @@
-// Draws the distortion of a print as a map. Each part of the page has one enlarged arrow.
+// Draws the distortion of a print as a map with one enlarged arrow for each part of the page.
 #include <algorithm>
 #include <cmath>
 #include <ostream>
@@ -16,12 +16,11 @@ using namespace dotpose::draw;
 constexpr double kMapMargin = 40;
 constexpr double kMapHead = 110;
 constexpr double kMaxMapSide = 1000;
-/// Maximum lengths of an arrow, in drawing units and relative to the distance between the arrows.
-/// The smaller maximum applies.
+/// Maximum length of an arrow: the smaller of kMaxArrow, in drawing units, and the fraction
+/// kMaxStep of the distance between arrows.
 constexpr double kMaxArrow = 45;
 constexpr double kMaxStep = 0.95;
-/// Minimum distortion that an arrow of maximum length represents. With this minimum, noise alone
-/// has short arrows.
+/// Minimum full scale of the arrows in mm. It ensures that pure noise has short arrows.
 constexpr double kMinMapScale_mm = 0.01;
 
 /// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most `value`.

@@ -1,5 +1,5 @@
-// Draws a frame in two panels side by side, with the plot of the edges, the pose and the legend
-// below the panels.
+// Draws a frame in two panels side by side. Below the panels are the plot of the edges, the pose
+// and the legend.
 #include <algorithm>
 #include <ostream>
 #include <string>
@@ -58,7 +58,7 @@ class Sketch {
         return view_.reached().cells ? "turn unknown: letters as on the grid" : "";
     }
 
-    /// Defines the image once in the SVG. Both panels refer to it.
+    /// Defines the image once in the SVG, because both panels show it.
     void define_frame(ImageView image) {
         const std::string uri = data_uri(image, static_cast<int>(kPanelWidth));
         svg_.add("<defs>");

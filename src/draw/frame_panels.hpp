@@ -1,5 +1,4 @@
-// Panels of the picture that `draw_frame` draws. Each panel has its own coordinate system with (0,
-// 0) at the top left corner.
+// Panels of the drawing of `draw_frame`. Point (0, 0) of each panel is its top left corner.
 #pragma once
 
 #include "draw/frame_view.hpp"
@@ -9,7 +8,8 @@ namespace dotpose::draw {
 /// Draws the dots and the edges between neighbours on the frame, as in Fig. 2 and 3 of the paper.
 void draw_detection(const FrameView& view, Svg& svg);
 
-/// Draws all edges from a common origin, in a square with side `side`, as in Fig. 4 of the paper.
+/// Draws all edges from a common origin, as in Fig. 4 of the paper. `side` is the side of the
+/// square plot.
 void draw_edges(const FrameView& view, double side, Svg& svg);
 
 /// Draws the grid and the symbols on a faded frame, as in Fig. 9 of the paper.

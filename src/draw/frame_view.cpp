@@ -68,7 +68,8 @@ Point Plane::image_point(Point plane_point) const {
     const Point d = 1 / area_ * (plane_point - at_centre_);
     const Point affine{d.x * dv_.y - d.y * dv_.x, d.y * du_.x - d.x * du_.y};
     Point p = affine;
-    // Fixed-point iteration. It converges fast because the divisor varies little within a frame.
+    // Solves p = divisor(p) * affine by iteration, which converges fast because the divisor varies
+    // little within a frame.
     for (int round = 0; round < 20; ++round)
         p = divisor(p) * affine;
     return centre_px_ + p;
@@ -112,11 +113,11 @@ double FrameView::estimate_spacing_px() const {
     if (areas_px.empty()) return 10;
     const auto middle = areas_px.begin() + static_cast<std::ptrdiff_t>(areas_px.size() / 2);
     std::nth_element(areas_px.begin(), middle, areas_px.end());
-    // Without a grid, estimates the spacing as three times the diameter of a typical dot.
+    // Without a grid, the spacing is estimated as three times the diameter of a typical dot.
     return 3 * std::sqrt(*middle * 4 / std::numbers::pi);
 }
 
-/// Inverts eq. 2 of the paper, |p_u - m| = r / (1 + k r^2), by solving it for r.
+/// Inverts eq. 2 of the paper by solving |p_u - m| = r / (1 + k r^2) for r.
 Point FrameView::image_from_ideal(Point ideal_px) const {
     const Point r_u = ideal_px - lens_centre_px_;
     const double squared = r_u.x * r_u.x + r_u.y * r_u.y;
@@ -126,7 +127,7 @@ Point FrameView::image_from_ideal(Point ideal_px) const {
 
 Point FrameView::at(Point ideal_px) const {
     const Point image_px = image_from_ideal(ideal_px);
-    // Adds half a pixel, because pixel (0, 0) covers the drawing from 0 to `scale_`.
+    // Half a pixel is added because the square of pixel (0, 0) is drawn from 0 to `scale_`.
     return scale_ * (image_px + Point{0.5, 0.5});
 }
 
@@ -141,7 +142,8 @@ Point FrameView::at_grid(double i, double j) const {
 
 Point FrameView::ahead_of_reference() const {
     const Plane pattern(trace_.pattern_from_image);
-    // Step in spacings. Over a longer step, the distortion would be visible.
+    // Length of the step in spacings. It is short, so that lens distortion does not change the
+    // direction.
     constexpr double kShort = 0.1;
     const Point end_px = pattern.image_point(pattern.plane_point(reference_px_) + Point{kShort, 0});
     const Point ahead = at(end_px) - at(reference_px_);

@@ -6,8 +6,7 @@
 
 namespace dotpose::draw {
 
-/// Stages of `locate` that the frame reached. A member is true if the trace contains the results of
-/// the stage.
+/// Stages of `locate` whose results are in the trace.
 struct Reached {
     bool undistorted = false;  ///< dot centres, corrected for lens distortion
     bool edges = false;        ///< edges between neighbouring dots
@@ -38,10 +37,10 @@ class Plane {
     Point dv_;
     Point perspective_;
     double lens_;
-    double area_;  ///< area of a pixel, in squared spacings
+    double area_;  ///< area of a pixel in the plane, in squared spacings
 };
 
-/// Maps pixels to the drawing. *Image* pixels are the pixels of the image. *Ideal* pixels are the
+/// Maps pixels to the drawing. Image pixels are pixels of the captured image. Ideal pixels are
 /// pixels of a camera without lens distortion.
 class FrameView {
   public:
@@ -53,11 +52,11 @@ class FrameView {
     double height() const { return height_px_ * scale_; }
     /// Returns the size of a pixel on the drawing.
     double scale() const { return scale_; }
-    /// Returns true if the dots are too close together on the drawing for legible letters and
+    /// Returns true if the dots are too close together in the drawing for legible letters and
     /// rings.
     bool is_dense() const;
-    /// Returns the factor for the width of strokes. The factor is 1 if the grid spacing is at least
-    /// 70 units on the drawing, and smaller for a smaller spacing.
+    /// Returns the factor for the width of strokes. It is 1 if the grid spacing is at least 70
+    /// units of the drawing, and smaller otherwise.
     double stroke() const { return stroke_; }
     /// Returns the grid spacing on the drawing, estimated from the dots if no grid was found.
     double spacing() const { return spacing_px_ * scale_; }
@@ -69,8 +68,8 @@ class FrameView {
     Point at_grid(double i, double j) const;
     /// Returns the reference point of the pose, in ideal pixels.
     Point reference_px() const { return reference_px_; }
-    /// Returns the unit vector of the pattern's x axis on the drawing, at the reference point.
-    /// Requires `reached().pose`.
+    /// Returns the direction of the pattern's x axis at the reference point as a unit vector in the
+    /// drawing. Requires `reached().pose`.
     Point ahead_of_reference() const;
 
   private:
@@ -90,7 +89,7 @@ class FrameView {
     Point reference_px_;
 };
 
-/// Returns the grid cell of the symbol that is at the top left of the window in the orientation of
+/// Returns the grid cell that is at the top left corner of the 8 x 8 window in the orientation of
 /// the pattern. Requires `Reached::place`.
 FixedVec window_corner(const Trace& trace);
 /// Returns the position of a grid cell in the code. Requires `Reached::place`.

@@ -19,8 +19,8 @@ constexpr double kMargin_mm = 5;
 /// Width of the line of a ballpoint pen.
 constexpr double kLine_mm = 0.4;
 
-/// Returns the page with its size. If the size is not known, the page is the area of the strokes
-/// with a margin.
+/// Returns the page with its size. If the size is unknown, the page covers the strokes and a
+/// margin.
 InkPage with_size(InkPage page) {
     if (page.width_mm > 0) return page;
     constexpr double kFar = std::numeric_limits<double>::max();
@@ -44,7 +44,7 @@ InkPage with_size(InkPage page) {
     return page;
 }
 
-/// Appends "x y" of a point on the page.
+/// Appends "x y" of a point, in mm from the top left corner of the page.
 void append_place(std::string& text, const InkPage& page, const InkPoint& point) {
     fmt::format_to(std::back_inserter(text), "{:.4f} {:.4f}", point.x_mm - page.left_mm,
                    point.y_mm - page.top_mm);
@@ -68,7 +68,7 @@ std::string ink_svg(const InkPage& given) {
             if (&point != &stroke.front()) text += " L";
             append_place(text, page, point);
         }
-        // A line to the same point makes the round end of a dot visible.
+        // A line of length 0 with round ends is visible as a dot.
         if (stroke.size() == 1) text += " h0";
         text += "\"/>\n";
     }

@@ -1,4 +1,4 @@
-// Draws the offsets of a print map, as an image of each component.
+// Draws the offsets of a print map as two images, one for each component.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@ constexpr double kOffsetSide = 620;  ///< longer side of a panel
 constexpr double kOffsetGap = 60;
 constexpr int kMaxBlocks = 60;  ///< maximum number of blocks along the longer side of the page
 
-/// Mean offset of the dots in a block.
+/// Sum of the offsets of the dots in a block, for each component.
 struct OffsetBlock {
     std::array<double, 2> sum_mm{};
     int dots = 0;
@@ -95,7 +95,7 @@ class OffsetMap {
             for (int i = 0; i < columns_; ++i) {
                 const OffsetBlock& block = at(i, j);
                 if (block.dots == 0) continue;
-                // A small overlap hides the seams between blocks.
+                // Blocks overlap a little, because otherwise seams would be visible between them.
                 svg_.add(
                     R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="{}"/>)",
                     corner.x + i * step, corner.y + j * step, step + 0.3, step + 0.3,
@@ -119,7 +119,7 @@ class OffsetMap {
     }
 
     const MapPage& page_;
-    int side_;  ///< of a block, in dots
+    int side_;  ///< side of a block, in dots
     int columns_;
     int rows_;
     std::vector<OffsetBlock> blocks_;

@@ -78,7 +78,6 @@ class PathSketch {
     void draw_page();
     void draw_scatter(double x, double y);
     void draw_errors(double x, double y, double height);
-    /// Returns the true path as the data of an SVG path.
     std::string path_data() const;
 
     const Sheet& sheet_;
@@ -126,7 +125,7 @@ void PathSketch::draw_page() {
         if (!p.is_fix) svg_.circle({p.true_x_mm * scale_, p.true_y_mm * scale_}, 7, {});
     }
     svg_.add("</g>");
-    // Draws a ruler that shows the scale of the page.
+    // A ruler shows the scale of the page.
     const double ruler_mm = round_up(sheet_.width_mm / 11);
     const Point left{(sheet_.width_mm - ruler_mm) * scale_ - 24, page_height - 28};
     svg_.line(left, left + Point{ruler_mm * scale_, 0},
@@ -187,7 +186,7 @@ void PathSketch::draw_errors(double x, double y, double height) {
     const auto last = static_cast<double>(std::max<std::size_t>(path_.size(), 2) - 1);
     svg_.add(R"svg(<g transform="translate({:.2f} {:.2f})">)svg", x, y);
     svg_.text({0, -16}, 24, "error of each frame", R"(fill="#6b7885")");
-    // With 4 or 5 divisions, the steps are 1, 2 or 5 times a power of ten.
+    // The number of divisions is 4 or 5, whichever makes the steps 1, 2 or 5 times a power of ten.
     const int steps = std::fmod(std::round(std::log10(reach_um / 2) * 1e6), 1e6) == 0 ? 4 : 5;
     for (int step = 0; step <= steps; ++step) {
         const double line_y = height * (1 - static_cast<double>(step) / steps);

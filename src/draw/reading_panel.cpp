@@ -44,7 +44,7 @@ Symbol turned(Symbol symbol, QuarterTurn pattern_from_grid) {
     return make_symbol((d.y - d.x + 1) / 2, (d.y + d.x + 1) / 2);
 }
 
-/// Draws the symbols read in one frame, layer by layer.
+/// Draws the symbols of a frame, layer by layer.
 class Reading {
   public:
     Reading(const FrameView& view, Svg& svg) : view_(view), trace_(view.trace()), svg_(svg) {}
@@ -67,11 +67,11 @@ class Reading {
     void draw_symbol(int i, int j, const GridCell& cell) const;
     void draw_points() const;
     /// Calls `draw` with the column, row and cell of each dot that was read. Returns the centres of
-    /// the other dots. These dots are far from all intersections, or a dot of higher quality is
-    /// assigned to their intersection.
+    /// the other dots, which are either far from all intersections, or at an intersection with a
+    /// dot of higher quality.
     std::vector<Point> for_each_read_dot(
         const std::function<void(int, int, const GridCell&)>& draw) const;
-    /// Draws a line of the grid as several strokes, because lens distortion may bend it.
+    /// Draws a line of the grid as several strokes, because lens distortion may bend the line.
     void draw_grid_line(double i, double j, int steps, Point step) const;
 
     const FrameView& view_;
@@ -121,7 +121,7 @@ void Reading::draw_symbol(int i, int j, const GridCell& cell) const {
     const bool is_legible = cell.x != 0 && cell.y != 0;
     const char capital = static_cast<char>(letter(read_in(cell)) - 'a' + 'A');
     const double size = 1.45 * radius;
-    // Letters are upright on the pattern to show its orientation.
+    // The letters are upright relative to the pattern, so they show its orientation.
     const double angle_deg =
         view_.reached().pose ? -trace_.fix.theta_rad() * 180 / std::numbers::pi : 0;
     svg_.add(R"svg(<text transform="translate({:.2f} {:.2f}) rotate({:.2f})" y="{:.2f}" )svg"
@@ -169,7 +169,7 @@ std::vector<Point> Reading::for_each_read_dot(
     return unread;
 }
 
-/// Draws dots without letters. Dots of similar likelihood share one element.
+/// Draws the dots without letters. One SVG element contains all dots of similar likelihood.
 void Reading::draw_points() const {
     constexpr std::size_t kColours = 8;
     std::array<std::vector<Point>, kColours> points;
@@ -194,8 +194,8 @@ void Reading::draw_points() const {
 void Reading::draw_window() const {
     if (!view_.reached().window) return;
     const GridRegion& window = trace_.decoding.window;
-    // The outline is half a cell outside the outer intersections. It is drawn cell by cell, because
-    // lens distortion may bend it.
+    // The outline is half a cell outside the outermost intersections. It consists of a stroke per
+    // cell, because lens distortion may bend it.
     const double left = window.i0 - 0.5;
     const double top = window.j0 - 0.5;
     std::string path;

@@ -1,5 +1,5 @@
-// Draws the sheets of a file. The left part is a map of the sheets in the world. The right part
-// shows the sheets without a known pose, each as large as possible.
+// Draws the sheets of a file. On the left is a map of the sheets in the world. On the right are the
+// sheets without a world pose, each as large as possible.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,14 +26,14 @@ constexpr double kBox = 190;  // longest side of a sheet without a pose
 constexpr double kBoxPitch_x = 230;
 constexpr double kBoxPitch_y = 300;
 constexpr std::size_t kBoxRows = 3;
-/// Maximum extent of the map. In a larger map, pages would be smaller than the rounding errors of
-/// the numbers in the drawing.
+/// Maximum extent of the map. If it were larger, the numbers in the drawing would not be precise
+/// enough to show a page.
 constexpr double kMaxExtent_m = 1e7;
 constexpr const char* kCentred = R"(text-anchor="middle" fill="#17202a")";
 constexpr const char* kCentredQuiet = R"(text-anchor="middle" fill="#6b7885")";
 
-/// Returns the corners of a page that has a pose. They are in metres in the world, clockwise from
-/// the top left corner.
+/// Returns the corners of a page in the world, in metres and clockwise from the top left corner.
+/// The page must have a world pose.
 std::array<Point, 4> corners_m(const SheetEntry& entry) {
     const auto corner = [&entry](double x_mm, double y_mm) {
         const WorldPlace place = world_place({&entry, x_mm, y_mm, 0, {}}).value();
@@ -44,8 +44,8 @@ std::array<Point, 4> corners_m(const SheetEntry& entry) {
             corner(0, sheet.height_mm)};
 }
 
-/// Returns the bounding box of all pages with a pose and of the world's origin. The origin is
-/// omitted if it would make the pages too small.
+/// Returns the bounding box of the world's origin and of all pages with a world pose. The origin is
+/// omitted if the pages would be too small otherwise.
 Bounds world_bounds(std::span<const SheetEntry> sheets) {
     constexpr double kMaxRatioForOrigin = 3;
     Bounds bounds;
@@ -124,7 +124,7 @@ class SheetMap {
         svg_.add(R"(<polygon class="sheet" points="{}" fill="{}" fill-opacity="0.07" )"
                  R"(stroke="{}" stroke-width="1.2"/>)",
                  points, colour::kEdge, colour::kInk);
-        // Marks the top left corner and the upper edge of the page, to which the pose refers.
+        // The pose of the page refers to its top left corner and upper edge, so both are marked.
         svg_.circle(corners[0], 5, fmt::format(R"(fill="{}")", colour::kBad));
         svg_.arrow(corners[0], corners[0] + 0.4 * (corners[1] - corners[0]), 2, colour::kBad);
     }

@@ -1,5 +1,5 @@
-// Draws a robot's turn on the spot: the places of the camera, and the centre of rotation computed
-// from each frame.
+// Draws the turn of a robot on the spot: the places of the camera, and the centre of rotation
+// computed from each frame.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -16,8 +16,8 @@ namespace {
 
 using namespace dotpose::draw;
 
-/// Minimum residual that the size of the panel represents. With this minimum, noise alone fills
-/// only a small part of the panel.
+/// Minimum full scale of the panel in mm. It ensures that residuals of pure noise fill only a small
+/// part of the panel.
 constexpr double kMinFullScale_mm = 0.001;
 
 class SpinPicture {

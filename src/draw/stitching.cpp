@@ -1,6 +1,6 @@
-// Draws the sheets before and after stitching, in two panels. Each frame that shows two sheets
-// gives two positions of its image centre, one from each sheet. An arrow shows the difference
-// between them.
+// Draws the sheets before and after stitching, in two panels. Each frame that shows two sheets has
+// two positions of its image centre, one on each sheet. An arrow shows the difference between the
+// positions.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,19 +20,18 @@ namespace {
 using namespace dotpose::draw;
 
 constexpr double kMaxArrow = 70;
-/// Minimum difference that an arrow of maximum length represents. With this minimum, noise alone
-/// has short arrows.
+/// Minimum full scale of the arrows in mm. It ensures that pure noise has short arrows.
 constexpr double kMinArrowScale_mm = 0.002;
 
-/// Image centre of one frame, in world mm with y DOWN, and the difference between its positions on
-/// the two sheets.
+/// Image centre of one frame, and the difference between its positions on the two sheets. Both are
+/// in mm in the world frame, but with y down.
 struct Disagreement {
     Point at;
     Point off;
 };
 
-/// Converts a point of a sheet to world mm, with y down as in the drawing. The sheet must have a
-/// world pose.
+/// Converts a point of a sheet to mm in the world frame, but with y down as in the drawing. The
+/// sheet must have a world pose.
 Point in_world(const SheetEntry& entry, double x_mm, double y_mm) {
     const WorldPlace place = world_place({&entry, x_mm, y_mm, 0, {}}).value();
     return {1000 * place.x_m, -1000 * place.y_m};

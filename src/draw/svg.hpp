@@ -14,8 +14,8 @@
 
 namespace dotpose::draw {
 
-/// A 2D point or vector. Where the unit matters, the names of variables end with it, such as _px or
-/// _mm.
+/// A 2D point or vector. Names of variables end with the unit, such as _px or _mm, where it
+/// matters.
 struct Point {
     double x = 0;
     double y = 0;
@@ -49,7 +49,7 @@ class Svg {
     /// Starts a drawing with a white background. The size is in user units.
     Svg(double width, double height, std::string_view title);
 
-    /// Appends formatted markup, without escaping it, and a line break.
+    /// Appends formatted markup and a line break. The markup is not escaped.
     template <typename... Values>
     void add(fmt::format_string<Values...> format, Values&&... values) {
         fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
@@ -57,8 +57,8 @@ class Svg {
     }
     void line(Point from, Point to, std::string_view attributes);
     void circle(Point centre, double radius, std::string_view attributes);
-    /// Draws filled discs of equal size as a single element. `attributes` must include the stroke
-    /// colour.
+    /// Draws filled discs of equal size as a single element. `attributes` must contain the colour
+    /// as `stroke`.
     void discs(std::span<const Point> centres, double diameter, std::string_view attributes);
     /// Draws a line with an arrowhead at its end. `width` is the width of the line.
     void arrow(Point from, Point to, double width, std::string_view colour,
@@ -66,15 +66,14 @@ class Svg {
     /// Draws one line of text. `size` is the font size.
     void text(Point at, double size, std::string_view content, std::string_view attributes = {});
 
-    /// Returns the whole drawing.
     std::string finish() &&;
 
   private:
     std::string text_;
 };
 
-/// Returns text for use between tags or in an attribute. The text is escaped and has no control
-/// characters. A replacement character replaces each byte that is not valid UTF-8.
+/// Escapes text for use between tags or in an attribute. Replaces bytes that are not valid UTF-8,
+/// and control characters other than tab and line feed, with the replacement character.
 std::string escaped(std::string_view text);
 
 /// Creates a file. `write` writes the contents to a stream. Throws Error if the file cannot be

@@ -16,7 +16,6 @@ constexpr double kTrackHead = 60;
 constexpr std::array kColours = {"#1565c0", "#c62828", "#2e7d32", "#6a1b9a",
                                  "#ef6c00", "#00838f", "#4e342e", "#ad1457"};
 
-/// Returns the bounds of the drawing.
 Bounds bounds_of(const Map& map) {
     Bounds bounds;
     for (const MapSheet& sheet : map.sheets) {

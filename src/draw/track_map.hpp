@@ -19,9 +19,8 @@ struct MapSheet {
 
 struct MapRobot {
     std::string name;
-    /// Path of the robot. A jump starts a new stroke.
+    /// Path of the robot. Where the position jumps, a new stroke begins.
     std::vector<std::vector<Point>> strokes_mm;
-    /// The last known position.
     Point place_mm;
     std::optional<double> heading_rad;  ///< from +x towards +y of the plane, or empty if unknown
     std::string problem;  ///< shown after the name, such as "lost", or empty if there is none
@@ -35,8 +34,8 @@ struct Map {
     std::vector<std::string> notes;  ///< lines of text below the drawing
 };
 
-/// Removes the sheets that no path of a robot touches, and adds a note with their number. If no
-/// sheet was visited, all sheets are kept.
+/// Removes the sheets that no path touches, and adds a note with their number. If no path touches a
+/// sheet, all sheets are kept.
 void keep_visited_sheets(Map& map);
 
 /// Returns the drawing. The size of the drawing is the bounding box of its contents.

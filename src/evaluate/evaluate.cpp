@@ -17,8 +17,7 @@ namespace {
 
 using Outcomes = std::vector<std::vector<Outcome>>;
 
-/// Locates frames in several threads. Each thread takes the next frame as soon as the thread is
-/// free.
+/// Locates frames in several threads. Whenever a thread is free, it takes the next frame.
 class Crew {
   public:
     Crew(const FrameRun& run, Outcomes& outcomes)
@@ -90,8 +89,8 @@ std::vector<std::vector<Outcome>> evaluate(const FrameRun& run) {
                       std::vector<Outcome>(static_cast<std::size_t>(run.frames)));
     Crew crew(run, outcomes);
     const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    // Uses at most one thread per frame. With more threads, the main thread, which reports the
-    // progress, might not get a frame.
+    // At most one thread per frame. With more threads, the main thread might get no frame, and then
+    // it would not report the progress.
     const int threads = std::min(run.threads > 0 ? run.threads : cores, run.frames);
     {
         std::vector<std::jthread> others;

@@ -19,7 +19,7 @@ namespace {
 using evaluate_detail::spread_of;
 using Complex = std::complex<double>;
 
-/// The found and the true place of a frame in mm, as complex numbers x + iy.
+/// The located and the true place of a frame in mm, as complex numbers x + iy.
 struct Pair {
     Complex found;
     Complex truth;
@@ -38,8 +38,8 @@ double wrapped(double angle_rad) {
     return std::remainder(angle_rad, 2 * std::numbers::pi);
 }
 
-/// Returns true if the found place of a frame can be compared with its true place. Both places must
-/// be known. If the sheet of the true place is known, both places must be on this sheet.
+/// Returns true if both the located and the true place of a frame are known and can be compared. If
+/// the sheet of the true place is known, the located place must be on the same sheet.
 bool is_comparable(const MeasuredFrame& frame) {
     return frame.truth && frame.found &&
            (frame.truth->sheet.empty() || frame.truth->sheet == frame.found->sheet);
@@ -90,9 +90,9 @@ double near_limit(std::span<const Pair> pairs, const Map& map) {
     return kNear_medians * median_residual(pairs, map) + 1e-9;
 }
 
-/// Fits a similarity transform to the pairs without outliers. Candidates for the initial map are
-/// the fit to all pairs and maps through two pairs. Starts with the candidate that has the smallest
-/// median residual. Then repeatedly fits all pairs within the outlier limit.
+/// Fits a similarity transform to the pairs that are not outliers. Tries the fit to all pairs and
+/// maps through two pairs, and takes the map with the smallest median residual. Then repeatedly
+/// fits all pairs within the outlier limit of the previous map.
 Map fit_most(std::span<const Pair> pairs) {
     constexpr std::size_t kTries = 500;
     constexpr int kRounds = 5;
@@ -101,8 +101,8 @@ Map fit_most(std::span<const Pair> pairs) {
     const std::size_t n = pairs.size();
     const std::size_t all = n * (n - 1) / 2;
     for (std::size_t k = 0; k < std::min(all, kTries); ++k) {
-        // Chooses two frames that are far apart in the list, because they are usually far apart on
-        // the sheet.
+        // Frames that are far apart in the list are usually far apart on the sheet, which makes the
+        // map through them more accurate.
         const std::size_t apart = 1 + (n / 2 + 7 * (k / n)) % (n - 1);
         const Map map = fit(std::array{pairs[k % n], pairs[(k + apart) % n]});
         const double median = median_residual(pairs, map);
@@ -145,9 +145,9 @@ MeasuredError error_of(const MeasuredFrame& frame, const std::optional<Similarit
 }
 
 /// Marks the frames with wrong positions or angles. A position is wrong if its error exceeds both
-/// kWrongFrom_medians times the median and kWrongFrom_grid spacings. An angle is wrong if its error
-/// exceeds both kWrongFrom_medians times the median and kWrongFrom_deg degrees. The medians are
-/// over all frames that are not marked yet.
+/// kWrongFrom_medians times the median error and kWrongFrom_grid spacings. An angle is wrong if its
+/// error exceeds both kWrongFrom_medians times the median error and kWrongFrom_deg degrees. Frames
+/// that are already marked do not contribute to the medians.
 void mark_wrong(const std::vector<MeasuredFrame>& frames,
                 std::vector<std::optional<MeasuredError>>& errors) {
     constexpr double kWrongFrom_medians = 10;
@@ -204,7 +204,7 @@ Measurement compare(std::vector<MeasuredFrame> frames, const std::optional<Simil
         if (frame.truth) result.is_in_world = frame.truth->is_in_world;
         result.errors.push_back(frame.found ? std::optional(error_of(frame, alignment))
                                             : std::nullopt);
-        // A fix without a place in the coordinate frame of the true places counts as wrong.
+        // A fix counts as wrong if it has no place in the coordinate frame of the true places.
         if (frame.status == Status::ok && !frame.found) ++result.wrong;
     }
     mark_wrong(frames, result.errors);

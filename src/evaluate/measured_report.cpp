@@ -27,7 +27,6 @@ std::string numbers(const Quantiles& quantiles, int decimals) {
                        number(quantiles.p95, decimals), number(quantiles.max, decimals));
 }
 
-/// Errors of all frames of one station.
 struct Samples {
     Station station;
     std::vector<double> x_mm;

@@ -50,14 +50,14 @@ double Scale::at(double value) const {
 std::vector<double> Scale::ticks(int min_count) const {
     std::vector<double> result;
     if (!is_log) {
-        // `last` may be below `first`, for example if y points down as on a page.
+        // `last` is less than `first` if, for example, y points down as on a page.
         const auto [low, high] = std::minmax(first, last);
         const double step = tick_step(high - low, min_count);
         for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)
             result.push_back(i * step + 0.0);  // adding 0 turns -0 into 0
         return result;
     }
-    // On an axis over more than about two decades, only powers of ten have labels.
+    // If an axis covers more than about two decades, only powers of ten have labels.
     const bool is_long = last / first > 150;
     for (double power = std::pow(10, std::floor(std::log10(first))); power <= last; power *= 10) {
         for (const double factor : {1.0, 2.0, 5.0}) {

@@ -1,4 +1,4 @@
-/// Draws axes with ticks in a rectangle of a drawing, and curves in the coordinates of the axes.
+/// Draws axes with ticks around a rectangular area, and curves in the coordinates of the axes.
 #pragma once
 
 #include <span>
@@ -48,7 +48,7 @@ struct Scale {
 /// ends of the scale are round numbers.
 Scale log_scale(double min, double max);
 
-/// A rectangle with an x axis below and a y axis to the left.
+/// A rectangular area with an x axis below it and a y axis to its left.
 class Axes {
   public:
     struct Area {
@@ -60,7 +60,8 @@ class Axes {
 
     Axes(Svg& svg, const Area& area, Scale x, Scale y);
 
-    /// Draws grid lines, numbers and the label. The label is above the left end of the axis.
+    /// Draws horizontal grid lines with their numbers, and the label above the upper end of the y
+    /// axis.
     void draw_y(std::string_view label) const;
     void draw_x(std::string_view label) const;
 
@@ -72,7 +73,7 @@ class Axes {
         bool has_marks = true;
         bool is_wide = false;  ///< true if the line must remain visible under another curve
     };
-    /// Draws a curve through the points. NaN coordinates interrupt the curve.
+    /// Draws a curve through the points. The curve is interrupted where a coordinate is NaN.
     void curve(std::span<const Point> data, const Line& line) const;
     /// Fills the area between two curves. The points of both curves must have the same x
     /// coordinates.
@@ -85,7 +86,7 @@ class Axes {
     Scale y_;
 };
 
-/// Draws the title of a picture in bold at its top, and a line of text below it.
+/// Draws a title in bold at the top of a drawing, and a line of text below it.
 void draw_title(Svg& svg, double left, std::string_view title, std::string_view below = "");
 
 /// Draws an entry of a legend: a short line and a text. Returns the x coordinate of the next entry.

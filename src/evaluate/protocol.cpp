@@ -15,16 +15,16 @@ using namespace evaluate_detail;
 /// The cell at the centre of the area. The choice is arbitrary.
 constexpr Cell kMiddle{10'000, 20'000};
 
-/// Commanded pose of the device, and the page below it.
+/// Commanded pose of the device, and the page under it.
 struct Stand {
     Vec2 place_mm;
     double theta_rad = 0;
     const PrintModel* print = nullptr;  ///< null for a perfect page
 };
 
-/// Sets the pose of the camera relative to the printed pattern. The ink at point p of the page
-/// belongs to point p - shift(p) of the pattern, and the pattern is rotated by the gradient of the
-/// shift. The stretch within a frame, at most 1 % over 8.6 mm, is neglected.
+/// Sets the pose of the camera relative to the printed pattern. The ink at point p of the page is
+/// point p - shift(p) of the pattern, and the gradient of the shift rotates the pattern. The
+/// stretch of the pattern within a frame is neglected, because it is at most 1 % over 8.6 mm.
 void place(CameraPose& pose, const Stand& stand, double spacing_mm) {
     Vec2 pattern_mm = stand.place_mm;
     pose.theta_rad = stand.theta_rad;
@@ -69,8 +69,8 @@ Station station_of(const Stand& stand, std::span<const Outcome> outcomes) {
         if (!outcome.is_fix() || outcome.is_wrong()) continue;
         ++station.located;
         const double spacing_mm = outcome.truth.spacing_mm;
-        // The printed pattern determines whether a fix is wrong. The accuracy is measured relative
-        // to the commanded pose.
+        // The printed pattern determines whether a fix is wrong, but the accuracy is measured
+        // relative to the commanded pose.
         const Deviation off = deviation_of(outcome.fix, sent_to(stand, spacing_mm));
         x_mm.push_back(off.x_grid * spacing_mm);
         y_mm.push_back(off.y_grid * spacing_mm);
@@ -109,7 +109,7 @@ std::vector<Step> spiral(int side) {
     std::vector<Step> steps = {{0, 0}};
     Step at;
     Step ahead{1, 0};
-    // The legs of the spiral have 1, 1, 2, 2, 3, 3, ... steps.
+    // The legs of the spiral are 1, 1, 2, 2, 3, 3, ... steps long.
     for (int leg = 2; steps.size() < count; ++leg) {
         for (int i = 0; i < leg / 2 && steps.size() < count; ++i) {
             at = {at.x + ahead.x, at.y + ahead.y};

@@ -1,4 +1,4 @@
-/// Functions of the paper's protocol that its figures and tests share.
+/// Functions of the paper's protocol that are shared by its figures and tests.
 #pragma once
 
 #include <functional>
@@ -20,15 +20,15 @@ struct Step {
     friend constexpr bool operator==(const Step&, const Step&) = default;
 };
 
-/// Returns all positions of a square with an odd side, in a spiral from the centre outwards: first
-/// to the right, then clockwise as seen on the page.
+/// Returns the positions of a square in a spiral from the centre outwards. The side must be odd.
+/// The spiral starts to the right and turns clockwise as seen on the page.
 std::vector<Step> spiral(int side);
 
-/// Returns the mean and the sample standard deviation (divisor n - 1). The deviation of fewer than
-/// two values is 0.
+/// Returns the mean and the sample standard deviation (divisor n - 1). With fewer than two values,
+/// the deviation is 0.
 Spread spread_of(std::span<const double> values);
 
-/// Best, mean and worst accuracy, and the worst precision, over the stations with fixes.
+/// The best, mean and worst accuracy of the stations with fixes, and their worst precision.
 struct Summary {
     double best = 0;
     double mean = 0;
@@ -39,7 +39,7 @@ struct Summary {
 using SpreadOf = std::function<Spread(const Station&)>;
 Summary summary_of(std::span<const Station> stations, const SpreadOf& spread);
 
-/// Draws figure 13, 14 or 15 of the paper from measured poses. The figure has one panel.
+/// Draws figure 13, 14 or 15 of the paper from measured poses, with a single panel.
 void draw_measured_figure(std::ostream& out, int figure, std::span<const Station> stations,
                           bool is_in_world);
 

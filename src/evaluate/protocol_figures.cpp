@@ -28,8 +28,8 @@ struct FigurePage {
     int decimals;
 };
 
-/// Coordinate that a figure shows. `spread` returns the spread of a station in this coordinate, in
-/// the unit of the figure.
+/// Coordinate that a figure shows. `spread` returns its spread at a station, in the unit of the
+/// figure.
 struct Coordinate {
     int figure;
     const char* name;
@@ -39,7 +39,7 @@ struct Coordinate {
 
 /// The labels of a figure.
 struct Labels {
-    const char* how;       ///< origin of the poses
+    const char* how;       ///< how the poses were obtained
     std::string stations;  ///< number of stations
     const char* y_label;
     bool is_y_up = false;
@@ -107,12 +107,12 @@ const char* colour_of(double bias) {
 constexpr double kMaxMark = 16;
 
 double mark_radius(double bias, double scale) {
-    // The area of a mark is proportional to the bias. Marks of small values are enlarged to stay
+    // The area of a mark is proportional to the bias, but very small marks are enlarged to stay
     // visible.
     return std::max(1.2, kMaxMark * std::sqrt(std::abs(bias) / scale));
 }
 
-/// Scales of the axes of a page. The y axis has the direction of the y coordinate of the page.
+/// Scales of the axes of a page. y increases in the same direction as on the page.
 struct PageScale {
     Scale x;
     Scale y;
@@ -251,7 +251,6 @@ Coordinate coordinate_of(int figure) {
     return {kAngleFigure, "the angle", [](const Station& s) { return s.theta; }, "°"};
 }
 
-/// Draws the pages side by side.
 void draw_figure(std::ostream& out, const Coordinate& coordinate, const Labels& labels,
                  std::span<const FigurePage> pages) {
     const bool is_rose = coordinate.figure == kAngleFigure;

@@ -8,11 +8,11 @@
 
 namespace dotpose::draw {
 
-/// Writes an SVG drawing as PNG, with two pixels per unit. Throws Error if the file cannot be
+/// Writes an SVG drawing as a PNG file with two pixels per unit. Throws Error if the file cannot be
 /// written, or if dotpose was built without librsvg.
 void write_png(const std::filesystem::path& path, const std::string& svg);
 
-/// Writes NAME.svg and NAME.png into a folder. Writes only NAME.svg if dotpose was built without
+/// Writes NAME.svg and NAME.png into a folder, or only NAME.svg if dotpose was built without
 /// librsvg. `draw` writes the SVG. Throws Error if a file cannot be written.
 void write_figure(const std::filesystem::path& folder, const std::string& name,
                   const std::function<void(std::ostream&)>& draw);

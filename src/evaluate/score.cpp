@@ -1,4 +1,3 @@
-// Computes the statistics of outcomes.
 #include "dotpose/tools/score.hpp"
 
 #include <algorithm>
@@ -71,7 +70,7 @@ Score score_of(std::span<const Outcome> outcomes) {
         }
     }
     for (double& sum : score.normalised)
-        sum /= score.located;  // NaN without fixes, like the quantiles
+        sum /= score.located;  // NaN if there are no fixes, like the quantiles
     score.position_um = quantiles_of(std::move(distances_um));
     score.angle_deg = quantiles_of(std::move(angles_deg));
     score.elapsed_us = quantiles_of(std::move(times_us));
@@ -97,8 +96,8 @@ std::vector<std::pair<std::string, std::string>> described(const Score& score) {
     add("error^2 / variance, mean: x / y / theta",
         fmt::format("{} / {} / {}", number(score.normalised[0], 2), number(score.normalised[1], 2),
                     number(score.normalised[2], 2)));
-    // Smallest probability to report. The model of paper, ink and camera does not justify smaller
-    // values.
+    // Smallest probability to report, because the model of paper, ink and camera does not justify
+    // smaller values.
     constexpr double kMinPWrong = 1e-30;
     const bool has_fix = score.located + score.wrong > 0;
     add("largest p_wrong of a fix",

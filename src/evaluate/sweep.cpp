@@ -1,4 +1,4 @@
-// Evaluates one condition, such as blur, at increasing values.
+// Evaluates a condition, such as blur, at increasing values.
 #include "evaluate/sweep.hpp"
 
 #include <algorithm>
@@ -63,8 +63,8 @@ void cover(GreyImage& image, double share, double direction_rad) {
 
 KnownFrame sweep_frame(SweepKind kind, double value, const Setup& setup, std::uint64_t index) {
     Shot shot = draw_shot(setup, index);
-    // A separate random generator draws the condition. All other random values of the shot are then
-    // equal for all values of the condition.
+    // The random values of the condition come from a separate generator. Otherwise, they would
+    // change the other random values of the shot.
     Rng rng(setup.seed ^ shot.seed);
     const double direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
     switch (kind) {
@@ -141,7 +141,7 @@ Sweep run_sweep(SweepKind kind, const SweepOptions& options) {
             const auto outcomes = evaluate(run);
             sweep.points.push_back({value, score_of(outcomes[0]), score_of(outcomes[1])});
         } catch (const Error&) {
-            // After an interrupt, keeps the completed values.
+            // If the sweep is interrupted, the completed values are kept.
             if (goes_on || sweep.points.size() < 2) throw;
             break;
         }

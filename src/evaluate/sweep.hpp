@@ -13,8 +13,8 @@ std::span<const double> sweep_values(SweepKind kind);
 /// Returns frame `index` of the sweep, with the condition set to `value`.
 KnownFrame sweep_frame(SweepKind kind, double value, const Setup& setup, std::uint64_t index);
 
-/// Darkens the fraction `share` of the pixels. A straight edge divides the image, and all pixels on
-/// one side of the edge are darkened. The dark side is opposite to `direction_rad`, an angle in the
+/// Darkens the fraction `share` of the pixels. A straight edge separates the dark pixels from the
+/// others. The dark pixels are on the side opposite to `direction_rad`, which is an angle in the
 /// image from +u towards +v.
 void cover(GreyImage& image, double share, double direction_rad);
 

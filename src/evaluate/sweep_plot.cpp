@@ -1,5 +1,5 @@
-// Draws a sweep: the fraction of located frames at the top and the errors at the bottom, as
-// functions of the same condition.
+// Draws a sweep over the values of a condition: at the top the fraction of located frames, and at
+// the bottom the errors.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,7 +20,7 @@ constexpr double kHeight = 690;
 constexpr double kLeft = 80;
 constexpr double kPlotWidth = kWidth - kLeft - 40;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-/// Minimum number of fixes for which errors are drawn.
+/// Errors are drawn only for values of the condition that have at least this number of fixes.
 constexpr int kMinFixes = 5;
 
 struct Words {
@@ -75,7 +75,7 @@ void draw_head(Svg& svg, const Sweep& sweep) {
     legend_entry(svg, {x, 39}, {style::kWindow, false, false, true}, "8 x 8 window (paper)");
 }
 
-/// Marks values that have wrong fixes with a red disc and the number of wrong fixes.
+/// Marks each point that has wrong fixes with a red disc and their number.
 void mark_wrong(Svg& svg, const Axes& axes, const Sweep& sweep, Decoder decoder) {
     for (const SweepPoint& point : sweep.points) {
         const Score& score = decoder == Decoder::window ? point.window : point.all;
@@ -118,8 +118,8 @@ void draw_sweep(std::ostream& out, const Sweep& sweep) {
     const Axes below(svg, {kLeft, 390, kPlotWidth, 220}, x, error_scale(sweep));
     below.draw_y("position error of the fixes, µm: median (solid) and 95 % (dashed)");
     below.draw_x(words.x_label);
-    // The curves of the decoder `window` are drawn first and wider, to remain visible where the
-    // curves of both decoders coincide.
+    // The curves of the decoder `window` are wider and drawn first, so they remain visible where
+    // both curves coincide.
     for (const Decoder decoder : kDecoders) {
         const bool is_window = decoder == Decoder::window;
         const char* colour = is_window ? style::kWindow : style::kAll;

@@ -17,7 +17,6 @@
 namespace dotpose {
 namespace {
 
-/// Splits a line into cells and trims them.
 std::vector<std::string> trimmed_cells_of(const std::string& line) {
     std::vector<std::string> cells = csv::cells_of(line);
     for (std::string& cell : cells) {
@@ -49,7 +48,7 @@ class TruthReader {
         throw Error(fmt::format("{}, line {}: {}", name_, line_number_, what));
     }
 
-    /// Reads the next non-empty line into `cells_`. Returns false at the end of the file.
+    /// Reads the next non-empty line into `cells_`. Returns false if there is none.
     bool next_line() {
         std::string line;
         while (std::getline(stream_, line)) {
@@ -83,7 +82,7 @@ class TruthReader {
 
     bool has(const std::string& column) const { return columns_.contains(column); }
 
-    /// Returns a cell of the current line, or an empty string if the column or the cell is missing.
+    /// Returns a cell of the current line, or an empty string if the line has no such cell.
     std::string text(const std::string& column) const {
         const auto found = columns_.find(column);
         return found != columns_.end() && found->second < cells_.size() ? cells_[found->second]

@@ -7,11 +7,10 @@
 namespace dotpose {
 namespace {
 
-/// A pixel between two of `count` equidistant points along an axis.
+/// Position of a pixel between the two nearest of `count` equidistant points along an axis.
 struct Between {
-    std::size_t first;  ///< index of the point at or before the pixel, at most `count` - 2
-    double part;        ///< distance from this point, as a fraction of the distance between the
-                        ///< points
+    std::size_t first;  ///< index of the point at or before the pixel, from 0 to `count` - 2
+    double part;        ///< fraction of the way from this point to the next
 };
 
 Between between(int px, int side_px, std::size_t count) {

@@ -1,4 +1,4 @@
-// Common functions for single images and sequences: options, sheets, camera file.
+// Functions for both single images and sequences: options, sheets, camera file.
 #include "dotpose/tools/follower.hpp"
 
 #include <algorithm>
@@ -38,8 +38,8 @@ void Follower::require_space_camera() const {
 void Follower::set_sheets(std::vector<SheetEntry> sheets) {
     if (sheets.empty()) throw BadArgument("a follower needs at least one sheet");
     options_.sheets = std::move(sheets);
-    // Starts a new track, because the track and the prediction are in the coordinates of the
-    // previous sheets.
+    // The track and the prediction are in the coordinates of the previous sheets, so a new track
+    // begins.
     tracker_ = Tracker(options_.track);
     seen_.reset();
     use_sheets();
@@ -72,7 +72,7 @@ void Follower::use_sheets() {
 void Follower::use_options_for(int width_px, int height_px) {
     used_ = options_.locate;
     if (options_.camera) use_camera(*options_.camera, width_px, height_px, used_);
-    // space_pose and with_print_map fit the dots in the trace.
+    // space_pose and with_print_map need the dots in the trace.
     if (options_.fits_space_pose || !options_.print_map.pages.empty()) used_.show_stages = true;
     if (options_.reference_px) {
         const auto from_centre_q8 = [](double px, int side_px) {
@@ -88,12 +88,12 @@ void Follower::set_camera(const Camera& camera) {
     if (options_.fits_space_pose) require_focal_length(camera);
     options_.camera = camera;
     use_flat_field();
-    // Starts a new track, because the prediction is in the coordinates of the previous lens.
+    // The prediction is in the coordinates of the previous lens, so a new track begins.
     tracker_ = Tracker(options_.track);
     seen_.reset();
 }
 
-/// Returns the image, flipped and corrected by the flat field if the options require it.
+/// Returns the image after the flip and the flat-field correction that the options require.
 ImageView Follower::as_located(ImageView image) {
     if (image.pixels == nullptr) return image;
     if (options_.flip || (options_.camera && options_.camera->flip)) {
@@ -110,7 +110,6 @@ Locator& Follower::locator(const DeviceOptions& options) {
     return locator_;
 }
 
-/// Applies the print map and the camera file to the fix of the latest image.
 Follower::Found Follower::by_camera_file(const Fix& seen, const std::optional<SheetPlace>& place,
                                          const CodeReading& reading) const {
     if (!options_.camera) {
@@ -123,7 +122,6 @@ Follower::Found Follower::by_camera_file(const Fix& seen, const std::optional<Sh
     return {seen, fix, place, reading, velocity, space_of(seen, place), map_use};
 }
 
-/// Returns the pose in space for the fix of the latest image.
 std::optional<SpacePose> Follower::space_of(const Fix& seen,
                                             const std::optional<SheetPlace>& place) const {
     if (!options_.fits_space_pose) return std::nullopt;
@@ -135,7 +133,7 @@ double Follower::spacing_mm(const std::optional<SheetPlace>& place) const {
     return place ? place->entry->sheet.pattern.spacing_mm : unplaced_spacing_mm_;
 }
 
-/// Returns the fix with the spacing of its sheet, or 0 if the spacing is not known.
+/// Returns the fix with the spacing of its sheet. The spacing is 0 if it is not known.
 Fix Follower::with_spacing(const Fix& fix, const std::optional<SheetPlace>& place) const {
     Fix result = fix;
     const double mm = spacing_mm(place);

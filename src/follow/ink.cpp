@@ -1,4 +1,4 @@
-// Strokes of a pen: smooths the path of the tip, and divides it where the pen is above the paper.
+// Strokes of a pen: smooths the path of the tip, and divides the path where the pen is lifted.
 #include "dotpose/tools/ink.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 using follow::AxisPlace;
 using follow::AxisSample;
 
-/// Smoothed height above which a sample beside a lift belongs to the lift.
+/// A sample next to a lift belongs to the lift if its smoothed height exceeds this height.
 constexpr double kRest_mm = 0.02;
 
 /// Consecutive samples on one page.
@@ -34,7 +34,7 @@ std::vector<Run> runs_of(std::span<const InkSample> samples) {
     return runs;
 }
 
-/// A coordinate of a sample, and its standard deviation.
+/// Members of a sample for one coordinate: its value and its standard deviation.
 struct Axis {
     double InkSample::*place_mm;
     double InkSample::*sigma_mm;
@@ -52,11 +52,12 @@ std::vector<AxisSample> along(const Axis& axis, Run run) {
     return result;
 }
 
-/// Returns the noise of the acceleration with the maximum likelihood over all runs.
+/// Returns the acceleration noise for which the samples of all runs are most likely.
 double fitted_noise(const std::vector<Run>& runs, std::initializer_list<Axis> axes) {
     double best = 0;
     double best_likelihood = -std::numeric_limits<double>::infinity();
-    // The range contains a resting and a very fast pen. A factor of 3 changes the result little.
+    // The noise ranges from that of a resting pen to that of a very fast pen. A factor of 3 changes
+    // the result little, so coarse steps are sufficient.
     for (double noise = 1e3; noise < 1e13; noise *= std::sqrt(10)) {
         double likelihood = 0;
         for (const Run& run : runs) {
@@ -70,7 +71,7 @@ double fitted_noise(const std::vector<Run>& runs, std::initializer_list<Axis> ax
     return best;
 }
 
-/// Returns whether the pen is on the paper, for each sample.
+/// Returns one value per sample, which is true if the pen is on the paper.
 std::vector<bool> contacts_of(Run run, double noise) {
     PenContact contact;
     std::vector<bool> is_down;
@@ -80,7 +81,7 @@ std::vector<bool> contacts_of(Run run, double noise) {
     const auto is_above = [&](std::size_t i) {
         return heights[i].place_mm > kRest_mm + 2 * std::sqrt(heights[i].variance_mm2);
     };
-    // Extends each lift to the samples before and after it that are above the paper.
+    // Extends each lift to the adjacent samples that are above the paper.
     for (std::size_t i = run.size(); i-- > 1;) {
         if (!is_down[i] && is_above(i - 1)) is_down[i - 1] = false;
     }

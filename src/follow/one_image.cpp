@@ -10,8 +10,7 @@ using namespace follow_detail;
 Located Follower::locate(const GreyImage& image) {
     use_options_for(image.width_px, image.height_px);
     image_ = as_located(image.view());
-    // A camera file requires images of its own size. Images are therefore reduced only without a
-    // camera file.
+    // A camera file is valid for one image size, so images are reduced only without a camera file.
     const int by = options_.camera ? 1 : reduction_of(image.width_px, image.height_px);
     if (by > 1) {
         used_ = reduced(used_, image_, by);
@@ -25,9 +24,9 @@ Located Follower::locate(const GreyImage& image) {
     return result;
 }
 
-/// Tries the code variants in turn. Returns the first fix that is on a sheet of its code variant.
-/// If there is none, returns the first fix. Without any fix, returns the result for the first code
-/// variant.
+/// Tries each code variant, and returns the first fix that is on a sheet of its variant. If there
+/// is none, returns the first fix in any variant. If there is no fix, returns the result for the
+/// first variant.
 Follower::Found Follower::read() {
     if (codes_.empty()) {
         const CodeReading reading = locator(used_).locate_in_any_code(image_, evidence_);
@@ -46,8 +45,8 @@ Follower::Found Follower::read() {
             is_found = true;
         }
     }
-    // The trace must belong to the fix. The image is therefore located again in the best variant,
-    // unless the best variant was tried last.
+    // The trace must belong to the returned fix. Unless the best variant was the last one tried,
+    // the image must therefore be located again.
     return used_.code == best ? found : read_in(best);
 }
 
@@ -59,10 +58,10 @@ Follower::Found Follower::read_in(CodeVariant code) {
     return by_camera_file(seen, place, reading);
 }
 
-/// If bits contradict a fix on a known sheet, masks the area beside the dots of the sheet and
-/// locates the image again. Labels and the table in this area are not evidence against the fix.
-/// Returns the new fix if fewer bits contradict it and if it uses nearly as many dots. Otherwise
-/// returns `fix`.
+/// If bits contradict a fix on a known sheet, labels or the table beside the sheet may have been
+/// read as dots. In this case, masks everything beside the dots of the sheet and locates the image
+/// again. Returns the new fix if fewer bits contradict it and it uses nearly as many dots.
+/// Otherwise returns `fix`.
 Fix Follower::without_surroundings(const Fix& fix, const SheetPlace& place) {
     if (fix.bit_errors == 0) return fix;
     const auto cut = cut_to_dots(image_, used_, fix, place.entry->sheet);
@@ -73,12 +72,12 @@ Fix Follower::without_surroundings(const Fix& fix, const SheetPlace& place) {
                            again.bit_errors < fix.bit_errors &&
                            again.dots_used + fix.bit_errors >= fix.dots_used;
     if (!is_better) {
-        // Restores the trace of the returned fix.
+        // Locates the image again, so that the trace belongs to the returned fix.
         (void)locator(used_).locate(image_);
         return fix;
     }
     if (again.attempt == Attempt::tracked) again.attempt = fix.attempt;
-    // Keeps the bound of the first fix, because this bound takes all codes into account.
+    // The bound of the first fix is kept, because it takes all codes into account.
     again.p_wrong_log2 = fix.p_wrong_log2;
     return again;
 }

@@ -10,7 +10,7 @@
 namespace dotpose::follow_detail {
 namespace {
 
-/// Maps pixels to a page. Ignores tilt and lens distortion, so positions have errors of a few
+/// Maps pixels to a page. The map ignores tilt and lens distortion, so its error is up to a few
 /// pixels.
 class PixelsOnPage {
   public:
@@ -33,13 +33,13 @@ class PixelsOnPage {
 
   private:
     const SheetPlace& place_;
-    double u_;  ///< pixel of the reference point
+    double u_;  ///< reference point in the image, in px
     double v_;
     double cosine_mm_ = 0;
     double sine_mm_ = 0;
 };
 
-/// Returns the median grey level of the image, an estimate of the level of the paper.
+/// Estimates the grey level of the paper as the median of the image.
 std::uint8_t brightness_of(ImageView image) {
     std::array<std::int64_t, 256> counts{};
     for (int v = 0; v < image.height_px; ++v) {
@@ -53,8 +53,9 @@ std::uint8_t brightness_of(ImageView image) {
     return static_cast<std::uint8_t>(grey);
 }
 
-/// Returns the image with all pixels outside `region` set to the grey level of the paper. Returns
-/// an empty optional if `region` contains all corners of the image.
+/// Returns a copy of the image in which all pixels outside `region` have the grey level of the
+/// paper. Returns an empty optional if `region` contains all corners of the image, because no pixel
+/// is then outside it.
 template <typename Region>
 std::optional<GreyImage> cut_to(ImageView image, const Region& region) {
     const int right = image.width_px - 1;
@@ -108,9 +109,8 @@ class PixelsAmongDots {
     }
 
   private:
-    /// Returns the signed distance, in cells, from a cell to the edge of the region. Chooses the
-    /// shorter direction on the cyclic plane. The edge is half a cell before the first cell of the
-    /// region.
+    /// Returns the signed distance in cells from a cell to the edge of the region, in the shorter
+    /// direction on the cyclic plane. The edge is half a cell before the first cell of the region.
     static double cells(std::uint32_t from, std::uint32_t first) {
         return std::remainder(double(first) - double(from), kPositionsPerAxis) - 0.5;
     }

@@ -1,5 +1,5 @@
-/// Masks the part of a frame beyond the edge of a page. Without the mask, `locate` would combine
-/// the dots of an adjacent sheet with the dots of this sheet.
+/// Masks the part of a frame that is outside a page. Otherwise, `locate` might combine the dots of
+/// the page with those of an adjacent sheet.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,15 @@
 
 namespace dotpose::follow_detail {
 
-/// Returns the image with everything outside the page masked, or an empty optional if the whole
-/// image shows the page. `fix` and `place` are the results of locating the image with `options`.
+/// Returns a copy of the image in which everything outside the page is masked. Returns an empty
+/// optional if the whole image shows the page. `fix` and `place` are the results of locating the
+/// image with `options`.
 std::optional<GreyImage> cut_to_page(ImageView image, const DeviceOptions& options, const Fix& fix,
                                      const SheetPlace& place);
 
-/// Returns the image with everything outside the dots of the sheet masked, such as labels in the
-/// margins and the table beside the sheet. Returns an empty optional if the whole image shows dots.
-/// `fix` must be on the sheet.
+/// Returns a copy of the image in which everything outside the dots of the sheet is masked, such as
+/// labels in its margins and the table beside it. Returns an empty optional if the whole image
+/// shows dots. `fix` must be on the sheet.
 std::optional<GreyImage> cut_to_dots(ImageView image, const DeviceOptions& options, const Fix& fix,
                                      const Sheet& sheet);
 

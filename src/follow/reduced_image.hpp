@@ -1,5 +1,4 @@
-/// Reduces images that are too large for `locate`, such as scans of large pages, by an integer
-/// factor.
+/// Reduces images that are too large for `locate`, such as scans of large pages.
 #pragma once
 
 #include "dotpose/device_options.hpp"
@@ -8,16 +7,16 @@
 
 namespace dotpose::follow_detail {
 
-/// Returns the smallest integer factor by which an image of this size must be reduced. Returns 1 if
-/// the image need not be reduced or would become too small.
+/// Returns the smallest integer factor by which an image of this size must be reduced for `locate`.
+/// Returns 1 if the image is small enough or would become too small.
 int reduction_of(int width_px, int height_px);
 
-/// Returns the image reduced by `by`. Each pixel is the mean of `by` x `by` pixels. Remaining
-/// pixels at the right and bottom edges are dropped.
+/// Returns a reduced image, in which each pixel is the mean of `by` x `by` pixels. Incomplete
+/// blocks at the right and bottom edges are dropped.
 GreyImage reduced(ImageView image, int by);
 
 /// Converts options for `image` to options for the image reduced by `by`. The distortion centre and
-/// the reference point remain at the same points of the scene.
+/// the reference point stay at the same points of the scene.
 DeviceOptions reduced(const DeviceOptions& options, ImageView image, int by);
 
 /// Converts the fix of an image reduced by `by` to pixels of the original image.

@@ -1,4 +1,4 @@
-// Follows a robot through the images of a sequence, with the tracker's predictions and its prior.
+// Follows a robot through a sequence of images, using the predictions and the prior of the tracker.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,14 +26,14 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
     Found found = find(options_.track.max_p_wrong_log2, predict(time_us));
     const Fix strict = found.fix;
     if (strict.status == Status::not_certain && tracker_.has_prior()) {
-        // Locates the image without a prediction, because the tracker applies its prior to the
-        // result. The result must not already depend on the prior.
+        // The tracker applies its prior to the result, so the result must not already depend on it.
+        // The image is therefore located without a prediction.
         found = find(options_.track.max_weak_p_wrong_log2, {});
     }
     const auto sighting = sighting_of(found, time_us);
     Followed result;
     result.track = tracker_.update(time_us, sighting ? &*sighting : nullptr);
-    // A fix with a weak bound counts only if the tracker accepted it with its prior.
+    // A fix that is not certain on its own counts only if the tracker accepted it with its prior.
     const bool is_with_prior = result.track.verdict == Verdict::with_prior;
     const bool is_fix = strict.status == Status::ok || is_with_prior;
     if (is_fix) {
@@ -58,16 +58,15 @@ void Follower::remember(const Found& found, const std::optional<Sighting>& sight
     }
 }
 
-/// Returns the prediction for an image taken at `time_us`.
 std::optional<Prediction> Follower::predict(std::int64_t time_us) const {
     if (!seen_) return std::nullopt;
     if (!seen_->sighting) return Prediction::like(seen_->fix);
     return tracker_.predict(time_us, seen_->fix, *seen_->sighting, used_);
 }
 
-/// Tries the code variants in turn. Returns the first fix that is on a sheet of its code variant.
-/// If there is none, returns the first fix. Without any fix, returns the result for the last code
-/// variant.
+/// Tries each code variant, and returns the first fix that is on a sheet of its variant. If there
+/// is none, returns the first fix in any variant. If there is no fix, returns the result for the
+/// last variant.
 Follower::Found Follower::find(int max_p_wrong_log2, const std::optional<Prediction>& expected) {
     used_.integrity.max_p_wrong_log2 = max_p_wrong_log2;
     if (codes_.empty()) return look_in_any_code(expected);
@@ -85,16 +84,17 @@ Follower::Found Follower::find(int max_p_wrong_log2, const std::optional<Predict
 
 Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
                                const std::optional<Prediction>& expected) {
-    // The given code may be wrong. Without a prediction, the other codes are therefore also tried,
-    // to warn if another code is in view.
+    // The given code may be wrong. If there is no prediction, the other codes are therefore tried
+    // too, to warn that another code is in view.
     if (!expected && options_.sheets.empty()) {
         const CodeReading reading = locator(options).locate_in_code(image);
         return by_camera_file(reading.fix, {}, reading);
     }
     Fix fix = expected ? locator(options).locate(image, *expected) : locator(options).locate(image);
     auto place = find_sheet(options_.sheets, options.code, fix);
-    // If the image centre of a tracked image is no longer on the page, another page may be there.
-    // The image is therefore located again without the prediction.
+    // A prediction keeps the fix on the same page, but another page may now be at the image centre.
+    // If the image centre is on no known page, the image is therefore located again without the
+    // prediction.
     if (fix.status == Status::ok && fix.attempt == Attempt::tracked && !place &&
         !options_.sheets.empty()) {
         fix = locator(options).locate(image);
@@ -111,13 +111,13 @@ Follower::Found Follower::look_in_any_code(const std::optional<Prediction>& expe
     return by_camera_file(reading.fix, {}, reading);
 }
 
-/// If an image extends beyond the edge of a page, locates it again without the part beyond the
-/// edge. Returns `found` if the second attempt does not find the same sheet.
+/// If an image shows more than the page of the fix, masks everything outside this page and locates
+/// the image again. Returns `found` if the second attempt does not find the same sheet.
 Follower::Found Follower::without_neighbours(const Found& found) {
     Found guess = found;
     if (found.seen.status == Status::not_certain) {
-        // If the image shows two patterns, a fix on the clearer pattern is sufficient, because this
-        // fix only determines the edge of the page.
+        // The image may show two patterns. This fix only determines the edge of the page, so a fix
+        // on the clearer pattern is sufficient.
         DeviceOptions any = used_;
         any.integrity = {.max_p_wrong_log2 = 0, .max_bit_error_q8 = 128};
         guess = look(image_, any, {});
@@ -127,8 +127,8 @@ Follower::Found Follower::without_neighbours(const Found& found) {
     if (!cut) return found;
     Found again = look(cut->view(), used_, Prediction::like(guess.seen));
     if (!again.place || again.place->entry != guess.place->entry) return found;
-    // The prediction for the second call comes from the same image, so the fix does not count as
-    // tracked.
+    // The prediction comes from the same image and not from an earlier one, so the fix does not
+    // count as tracked.
     if (again.fix.attempt == Attempt::tracked) {
         again.seen.attempt = again.fix.attempt = guess.seen.attempt;
     }

@@ -19,7 +19,8 @@ struct State {
     Matrix3d covariance;
 };
 
-/// Returns the state at the first sample. Velocity and acceleration are those of a fast hand.
+/// Returns the state at the first sample. The standard deviations of velocity and acceleration are
+/// those of a fast hand.
 State start_of(const AxisSample& first) {
     constexpr double kVelocity_mm_s = 500;
     constexpr double kAcceleration_mm_s2 = 20'000;
@@ -44,7 +45,6 @@ State predicted(const State& state, double dt, double noise) {
             by_state * state.covariance * by_state.transpose() + noise * added};
 }
 
-/// The states before and after each sample.
 struct Pass {
     std::vector<State> before;
     std::vector<State> after;

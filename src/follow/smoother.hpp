@@ -1,4 +1,4 @@
-// Smoother: the path of a point along one axis, from noisy places.
+// Smoother: estimates the path of a point along one axis from noisy positions.
 #pragma once
 
 #include <span>
@@ -6,7 +6,6 @@
 
 namespace dotpose::follow {
 
-/// A measured place at a time.
 struct AxisSample {
     double t_s = 0;
     double place_mm = 0;
@@ -19,11 +18,11 @@ struct AxisPlace {
     double variance_mm2 = 0;
 };
 
-/// Returns the log-likelihood of the places. `noise` is the power of the white noise that changes
-/// the acceleration, in mm^2/s^5.
+/// Returns the log-likelihood of the measured places. `noise` is the power of the white noise that
+/// drives the acceleration, in mm^2/s^5.
 double log_likelihood(std::span<const AxisSample> samples, double noise);
 
-/// Returns the places, given all samples before and after them (Rauch, Tung and Striebel 1965).
+/// Returns the most probable places given all samples (Rauch, Tung and Striebel 1965).
 std::vector<AxisPlace> smoothed(std::span<const AxisSample> samples, double noise);
 
 }  // namespace dotpose::follow

@@ -1,5 +1,5 @@
-// Reads BMP files with the headers of Windows 3 to 5 and of OS/2. Supports palettes of 1, 4 and 8
-// bits, and 16, 24 and 32 bits per pixel without compression. Microsoft documents the layout under
+// Reads BMP files with the headers of Windows 3 to 5 and of OS/2. Reads palettes of 1, 4 and 8
+// bits, and uncompressed pixels of 16, 24 and 32 bits. Microsoft documents the layout under
 // BITMAPV5HEADER.
 #include <algorithm>
 #include <array>
@@ -47,8 +47,8 @@ struct BmpHeader {
     std::size_t palette_at;
     std::size_t palette_count;
     std::size_t palette_entry_bytes;
-    /// Bit masks of red, green, blue and opacity in a pixel of 16 or 32 bits. 0 if the pixel has no
-    /// such component.
+    /// Bit masks of red, green, blue and opacity in a pixel of 16 or 32 bits. The mask of a missing
+    /// component is 0.
     std::array<std::uint32_t, 4> masks;
 };
 
@@ -129,7 +129,7 @@ BmpHeader read_header(Bytes file) {
     return header;
 }
 
-/// Returns the bits selected by `mask`, scaled to 0 to 255.
+/// Returns the bits selected by `mask` as a level from 0 to 255.
 std::uint8_t level_of(std::uint32_t pixel, std::uint32_t mask) {
     if (mask == 0) return 0;
     const std::uint64_t full = mask >> std::countr_zero(mask);
@@ -139,7 +139,6 @@ std::uint8_t level_of(std::uint32_t pixel, std::uint32_t mask) {
 
 using Colour = std::array<std::uint8_t, 4>;  // red, green, blue, opacity
 
-/// Reads the pixels row by row.
 class Pixels {
   public:
     Pixels(Bytes file, const BmpHeader& header) : header_(header) {

@@ -21,9 +21,9 @@ namespace {
 using images::ImageFormat;
 using Bytes = std::vector<std::uint8_t>;
 
-/// Returns the maximum size of a file in bytes. It exceeds the size of any image of `max_pixels`
-/// pixels with four channels of 16 bits. The limit is needed because a pipe or device may be
-/// endless.
+/// Returns the maximum size of a file in bytes. Without a limit, reading an endless pipe or device
+/// would never end. The limit exceeds the size of any image of `max_pixels` pixels with four
+/// channels of 16 bits.
 std::size_t max_file_bytes(int max_pixels) {
     return std::size_t{8} * static_cast<std::size_t>(max_pixels) + (std::size_t{1} << 20);
 }
@@ -46,7 +46,6 @@ std::string system_reason() {
     }
 }
 
-/// Appends `count` bytes of the file to `bytes`, or fewer at the end of the file.
 void append(std::FILE* file, std::size_t count, Bytes& bytes) {
     const std::size_t before = bytes.size();
     bytes.resize(before + count);
@@ -61,8 +60,8 @@ struct Content {
     Bytes bytes;
 };
 
-/// Returns advice for the user if the file is not an image but has a known type. Otherwise returns
-/// an empty string.
+/// Returns advice for the user if the file is of a known type other than an image, and otherwise an
+/// empty string.
 std::string advice_for(const Bytes& bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with("%PDF"))
@@ -88,7 +87,7 @@ Content read_file(const std::filesystem::path& path, int max_pixels) {
     if (format == nullptr) {
         throw Error("not a PNM, PNG, JPEG, BMP, TIFF, WebP or HEIC image" + advice_for(bytes));
     }
-    // Reads to the end of the file instead of using its size, because pipes have no size.
+    // Pipes have no size, so the file is read to its end.
     const std::size_t max_bytes = max_file_bytes(max_pixels);
     std::size_t chunk = std::size_t{1} << 16;
     while (std::feof(file.get()) == 0) {
@@ -106,7 +105,7 @@ void write_file(const std::filesystem::path& path, const Bytes& bytes) {
     File file(system::open_file(path, "wb"));
     const bool written =
         file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-    // Checks the result of fclose. It flushes the buffer, and fails if the disk is full.
+    // fclose flushes the buffer, so it fails if the disk is full.
     const bool closed = file && std::fclose(file.release()) == 0;
     if (!written || !closed) throw Error(system_reason());
 }
@@ -116,7 +115,7 @@ void require_pixels(ImageView image) {
         throw Error("the image is empty");
 }
 
-/// Runs `action` and adds the name of the file to its errors.
+/// Runs `action` and adds the name of the file to the message of its errors.
 template <class Action>
 auto with_name(const char* verb, const std::filesystem::path& path, Action action) {
     const auto sentence = [&](const char* reason) {
@@ -138,7 +137,7 @@ int pages_of(const Content& content) {
     return count == nullptr ? 1 : std::max(count(content.bytes), 1);
 }
 
-/// Throws Error with only the reason if the file has no page with this number.
+/// Throws Error if the file has no page with this number. The message contains only the reason.
 void require_page(const Content& content, int page) {
     if (page == 1) return;
     const int pages = pages_of(content);
@@ -147,8 +146,8 @@ void require_page(const Content& content, int page) {
                 ", and no page " + std::to_string(page));
 }
 
-/// Returns true for 72 and 96 dpi, the defaults of cameras and programs. These values do not
-/// describe the page.
+/// Returns true for 72 and 96 dpi. Cameras and programs write these values by default, so they do
+/// not describe the page.
 bool is_of_screen(const Resolution& resolution) {
     // PNG and BMP store whole pixels per metre, so the comparison needs a tolerance.
     const auto is = [&](double dpi) {

@@ -1,6 +1,6 @@
 /// The formats of image files: how a file is recognized and decoded. image_file.hpp describes the
-/// conversions and limits. These functions throw Error with only the reason. The caller adds the
-/// name of the file.
+/// conversions and limits. Errors contain only the reason, and the caller adds the name of the
+/// file.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace dotpose::images {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// A file in memory, with the requested page and the maximum number of pixels.
+/// A file in memory and the limits for decoding it.
 struct ImageInput {
     Bytes file;
     int page = 1;  ///< number of the page of a TIFF file, from 1
@@ -26,14 +26,14 @@ struct ImageInput {
 };
 
 struct ImageFormat {
-    /// Returns true if `head`, the first bytes of a file, is the signature of this format.
+    /// Returns true if `head`, the first bytes of a file, contains the signature of this format.
     bool (*matches)(std::string_view head);
-    /// Decodes an image. Sets `note` like `read_image`, but without the name of the file.
+    /// Decodes an image. Sets `note` as `read_image` does, but without the name of the file.
     GreyImage (*decode)(const ImageInput& input, std::string& note);
-    /// Returns the origin and the resolution in the file, without decoding the pixels. The
-    /// resolution may be a default of the program that wrote the file.
+    /// Returns the origin and the resolution from the metadata of the file. The resolution may be a
+    /// default of the program that wrote the file.
     ImageOrigin (*origin)(const ImageInput& input);
-    /// Returns the number of pages. Null for formats with a single page.
+    /// Returns the number of pages. Null if files of the format have a single page.
     int (*count_pages)(Bytes file) = nullptr;
 };
 
@@ -53,7 +53,7 @@ struct OtherFormat {
 /// for other files.
 const OtherFormat* other_format_of(Bytes head);
 
-// Each format is implemented in its own source file.
+// Functions of the formats. Each format has its own source file.
 GreyImage decode_bmp(const ImageInput& input, std::string& note);
 ImageOrigin bmp_origin(const ImageInput& input);
 GreyImage decode_heif(const ImageInput& input, std::string& note);
@@ -80,16 +80,16 @@ void require_size(std::uint64_t width_px, std::uint64_t height_px, int max_pixel
 inline constexpr double kMetresPerInch = 0.0254;
 inline constexpr double kCentimetresPerInch = 2.54;
 
-/// Converts a resolution to dots per inch. Returns an empty optional for values of 0 or less, which
-/// mean that the resolution is unknown.
+/// Converts a resolution to dots per inch. Returns an empty optional if a value is not positive,
+/// because the resolution is then unknown.
 std::optional<Resolution> resolution_from(double x, double y, double units_per_inch);
 
-/// EXIF tags that cameras write and scanners do not write: exposure time, f-number, sensitivity,
-/// focal length (CIPA DC-008).
+/// EXIF tags that cameras write and scanners do not (CIPA DC-008): exposure time, f-number,
+/// sensitivity and focal length.
 inline constexpr std::array<std::uint16_t, 4> kCameraTags{0x829A, 0x829D, 0x8827, 0x920A};
 
 /// Returns true if EXIF data contain one of kCameraTags. The name "Exif" may precede the TIFF
-/// header. Truncated or damaged data count as missing.
+/// header. Truncated or damaged data are treated as missing.
 bool is_of_camera(Bytes exif);
 
 }  // namespace dotpose::images

@@ -18,13 +18,13 @@ namespace {
 
 constexpr int kQuality = 95;
 constexpr int kExifMarker = JPEG_APP0 + 1;
-// Maximum number of scans. Progressive images of cameras have about ten. Each scan processes all
-// pixels, so without a limit a small file could occupy the decoder for hours.
+// Maximum number of scans. Each scan processes all pixels, so without a limit, a small file could
+// occupy the decoder for hours. Progressive images of cameras have about ten scans.
 constexpr int kMaxScans = 100;
 
-/// Collects the messages of libjpeg. The error handler must not return to libjpeg, and therefore
-/// jumps to `leave`. Each call that may fail is preceded by setjmp(leave). No objects with
-/// destructors may be created in between.
+/// Collects the messages of libjpeg. The error handler must not return to libjpeg, so it jumps to
+/// `leave`. Each call that may fail must follow setjmp(leave), and no objects with destructors may
+/// be created between setjmp and the call.
 struct Report : jpeg_error_mgr {
     std::jmp_buf leave;
     std::array<char, JMSG_LENGTH_MAX> message{};
@@ -36,7 +36,7 @@ struct Report : jpeg_error_mgr {
             report.format_message(jpeg, report.message.data());
             std::longjmp(report.leave, 1);
         };
-        // Warnings have levels below 0. Only the first warning is kept.
+        // Messages with a level below 0 are warnings. Only the first one is kept.
         emit_message = [](j_common_ptr jpeg, int level) {
             auto& report = *static_cast<Report*>(jpeg->err);
             if (level >= 0) return;
@@ -138,10 +138,12 @@ class JpegReader {
             }
             jpeg_finish_decompress(&jpeg_);
         });
-        // libjpeg replaces missing or damaged pixels by invented values, with a warning.
+        // libjpeg replaces missing or damaged pixels with invented values, and only warns about
+        // them.
         if (report_.num_warnings > 0) fail();
         if (source_.is_short) {
-            // In progressive files, whole scans may be missing without a warning.
+            // In progressive files, whole scans may be missing without a warning, so a short file
+            // is an error.
             if (jpeg_.progressive_mode != FALSE) fail();
             note = "the JPEG image lacks its end marker; its pixels are complete";
         }
@@ -149,7 +151,8 @@ class JpegReader {
     }
 
   private:
-    /// Requests the luma of YCbCr directly instead of converting to RGB and back.
+    /// Returns the colour space in which libjpeg returns the pixels. For YCbCr files, this is grey,
+    /// so that the luma is returned without a conversion to RGB and back.
     J_COLOR_SPACE output_space() const {
         switch (jpeg_.jpeg_color_space) {
             case JCS_GRAYSCALE:
@@ -163,7 +166,7 @@ class JpegReader {
         }
     }
 
-    /// Converts CMYK to RGB. Files store CMYK inverted: 255 means no ink.
+    /// Converts CMYK to RGB. JPEG files store CMYK inverted, so 255 means no ink.
     static Samples<std::uint8_t> rgb_of(const Samples<std::uint8_t>& inks) {
         Samples<std::uint8_t> rgb{inks.width_px, inks.height_px, 3, {}};
         rgb.values.reserve(inks.values.size() / 4 * 3);
@@ -211,7 +214,7 @@ void compress(ImageView image, jpeg_compress_struct& jpeg, Freed& encoded) {
     jpeg_set_quality(&jpeg, kQuality, TRUE);
     jpeg_start_compress(&jpeg, TRUE);
     for (int v = 0; v < image.height_px; ++v) {
-        // libjpeg does not modify the pixels.
+        // The cast is safe, because libjpeg does not modify the pixels.
         JSAMPROW row = const_cast<JSAMPROW>(image.row(v));
         jpeg_write_scanlines(&jpeg, &row, 1);
     }

@@ -15,8 +15,8 @@
 namespace dotpose::images {
 namespace {
 
-/// Reads a PNG file. libpng reports errors with longjmp. Only `guarded` calls functions of libpng,
-/// and no objects with destructors may be created in the scope of that call.
+/// Reads a PNG file. libpng reports errors with longjmp, so only `guarded` may call it, and no
+/// objects with destructors may be created in the scope of that call.
 class PngReader {
   public:
     explicit PngReader(Bytes file)
@@ -31,8 +31,8 @@ class PngReader {
         if (info_ == nullptr) throw std::bad_alloc();
         png_set_read_fn(png_, this, on_read);
         guarded([&] {
-            // libpng's own limits would hide the size of the image. `require_size` checks and
-            // reports the size instead.
+            // The limits of libpng are disabled, because their messages do not contain the size of
+            // the image. `require_size` checks the size instead.
             png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
             png_read_info(png_, info_);
         });
@@ -47,7 +47,7 @@ class PngReader {
         return resolution_from(x_per_metre, y_per_metre, kMetresPerInch);
     }
 
-    /// Returns the EXIF data before the pixels, or an empty span if there are none.
+    /// Returns the EXIF data that precede the pixels, or an empty span if there are none.
     Bytes exif() const {
         png_uint_32 size_bytes = 0;
         png_bytep bytes = nullptr;
@@ -60,7 +60,7 @@ class PngReader {
         const png_uint_32 height = png_get_image_height(png_, info_);
         require_size(width, height, max_pixels);
         guarded([&] {
-            // Converts palettes, levels of less than 8 bits and a transparent colour.
+            // Expands palettes, samples of less than 8 bits and a transparent colour.
             png_set_expand(png_);
             if (std::endian::native == std::endian::little) png_set_swap(png_);
             png_set_interlace_handling(png_);

@@ -1,4 +1,4 @@
-// Reads PBM, PGM and PPM, text and binary (P1 to P6), as specified by netpbm. Writes PGM.
+// Reads PBM, PGM and PPM files as text or binary (P1 to P6 of netpbm). Writes PGM.
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -24,7 +24,6 @@ bool is_space(char character) {
     return character == ' ' || (character >= '\t' && character <= '\r');
 }
 
-/// Reads bytes and numbers sequentially.
 class Reader {
   public:
     explicit Reader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
@@ -46,8 +45,8 @@ class Reader {
         return character;
     }
 
-    /// Reads a decimal number and the required white space after it. A number without white space
-    /// after it may be incomplete.
+    /// Reads a decimal number and the white space after it. The white space is required, because
+    /// without it the number may be incomplete.
     std::uint32_t number() {
         std::uint32_t value = 0;
         char character = symbol();
@@ -62,14 +61,14 @@ class Reader {
         return value;
     }
 
-    /// Skips the line feed after the header, if the lines of the header end with a carriage return
-    /// and a line feed. The line feed is present if more than `pixel_bytes` bytes are left.
+    /// If the lines of the header end with a carriage return and a line feed, skips the line feed
+    /// after the header. It is present if more than `pixel_bytes` bytes are left.
     void finish_line_break(std::size_t pixel_bytes) {
         if (ended_by_return_ && rest_.size() > pixel_bytes && rest_.front() == '\n') byte();
     }
 
   private:
-    /// Reads one character. A comment is read as the line break at its end.
+    /// Reads one character. A comment is read as the line break that ends it.
     char text() {
         char character = static_cast<char>(byte());
         if (character != '#') return character;
@@ -82,7 +81,6 @@ class Reader {
     bool ended_by_return_ = false;  ///< true if a carriage return followed the last number
 };
 
-/// Contents of the header.
 struct Header {
     bool is_text = false;
     bool is_bitmap = false;
@@ -110,8 +108,8 @@ Header read_header(Reader& reader, int max_pixels) {
     return header;
 }
 
-/// Returns the minimum number of bytes that encode the pixels. The number is compared with the file
-/// size before memory is allocated.
+/// Returns the minimum number of bytes that encode the pixels. Memory is allocated only if the file
+/// has at least this size.
 std::size_t min_bytes(const Header& header) {
     const std::size_t samples = header.width_px * header.height_px * header.channels;
     if (header.is_bitmap) {
@@ -149,8 +147,8 @@ std::uint32_t read_level(Reader& reader, const Header& header) {
     return level;
 }
 
-/// Returns the level of white. `reader` is passed by value, because the search for the maximum
-/// level must not advance the caller's reader.
+/// Returns the level of white. `reader` is a copy, because the samples must be read again after the
+/// search for the largest level.
 std::uint32_t white_of(Reader reader, const Header& header) {
     if (header.max_level < kMaxLevel) return header.max_level;
     std::uint32_t largest = 0;

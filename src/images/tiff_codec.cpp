@@ -56,7 +56,7 @@ toff_t on_size(thandle_t handle) {
 }
 int on_error(TIFF*, void* user, const char*, const char* format, std::va_list arguments) {
     auto& message = static_cast<Input*>(user)->message;
-    // Keeps the first error, which causes the later errors.
+    // Only the first error is kept, because it causes the later ones.
     if (message[0] == '\0') std::vsnprintf(message.data(), message.size(), format, arguments);
     return 1;
 }
@@ -64,7 +64,6 @@ int on_warning(TIFF*, void*, const char*, const char*, std::va_list) {
     return 1;
 }
 
-/// Reads pages of a TIFF file.
 class TiffReader {
   public:
     explicit TiffReader(Bytes file) : input_{file} {
@@ -76,7 +75,8 @@ class TiffReader {
         TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), tmsize_t{8} * kMaxImagePixels);
         tiff_.reset(TIFFClientOpenExt("image", "r", &input_, on_read, on_write, on_seek, on_close,
                                       on_size, nullptr, nullptr, options.get()));
-        // Checks for missing bytes, because libtiff treats a truncated directory as the last one.
+        // libtiff treats a truncated directory as the last one without an error, so missing bytes
+        // are an error here.
         if (!tiff_ || input_.is_short) fail();
     }
 
@@ -99,15 +99,15 @@ class TiffReader {
                                unit == RESUNIT_CENTIMETER ? kCentimetresPerInch : 1);
     }
 
-    /// Returns true if the page has EXIF data of a camera. Reading the EXIF directory replaces the
-    /// current directory of the page in libtiff.
+    /// Returns true if the page has EXIF data of a camera. Afterwards, the EXIF directory is the
+    /// current directory of libtiff instead of the page.
     bool read_is_of_camera() {
         toff_t exif = 0;
         if (TIFFGetField(tiff_.get(), TIFFTAG_EXIFIFD, &exif) == 0 ||
             TIFFReadEXIFDirectory(tiff_.get(), exif) == 0)
             return false;
         return std::ranges::any_of(kCameraTags, [&](std::uint16_t tag) {
-            // Output of libtiff: the value, or the number of values and a pointer to them.
+            // libtiff stores either the value, or the number of values and a pointer to them.
             std::uint64_t value = 0;
             const void* values = nullptr;
             return TIFFGetField(tiff_.get(), tag, &value, &values) != 0;
@@ -150,8 +150,8 @@ class TiffReader {
 
     int colours() const { return tag(TIFFTAG_PHOTOMETRIC) == PHOTOMETRIC_RGB ? 3 : 1; }
 
-    /// Returns true if the samples are interleaved grey or RGB samples of 8 or 16 bits. libtiff
-    /// converts other formats to 8-bit RGB.
+    /// Returns true if the samples are interleaved grey or RGB samples of 8 or 16 bits, which are
+    /// read without a conversion. libtiff converts all other formats to 8-bit RGB.
     bool has_plain_samples() const {
         const std::uint16_t bits = tag(TIFFTAG_BITSPERSAMPLE);
         std::uint16_t photometric = PHOTOMETRIC_PALETTE;
@@ -213,8 +213,8 @@ class TiffReader {
         }
     }
 
-    /// Keeps the colours and the opacity of each pixel, and drops other samples. Premultiplied
-    /// colours are composited onto white.
+    /// Removes all samples of a pixel except its colours and opacity. If colours are premultiplied
+    /// by the opacity, composites them onto white.
     template <typename Sample>
     Samples<Sample> plain(std::vector<Sample> stored, std::size_t per_pixel) const {
         const auto colours = static_cast<std::size_t>(this->colours());
@@ -238,8 +238,8 @@ class TiffReader {
         return samples;
     }
 
-    /// Reads the formats that libtiff converts: palettes, fewer than 8 bits, fax compression,
-    /// YCbCr, CMYK and separate planes.
+    /// Reads the formats that libtiff must convert: palettes, samples of fewer than 8 bits, fax
+    /// compression, YCbCr, CMYK and separate planes.
     GreyImage read_rgba() {
         std::array<char, 1024> reason{};
         TIFFRGBAImage image{};
@@ -261,8 +261,8 @@ class TiffReader {
         Samples<std::uint8_t> samples{width_px_, height_px_, 3, {}};
         samples.values.reserve(3 * pixels.size());
         for (const std::uint32_t abgr : pixels) {
-            // libtiff returns premultiplied colours, so only the transparent fraction of white is
-            // added.
+            // The colours from libtiff are premultiplied by the opacity, so to composite them onto
+            // white, only the transparent fraction of white is added.
             const std::uint32_t white = 255 - TIFFGetA(abgr);
             for (const std::uint32_t colour : {TIFFGetR(abgr), TIFFGetG(abgr), TIFFGetB(abgr)})
                 samples.values.push_back(static_cast<std::uint8_t>(std::min(colour + white, 255U)));

@@ -1,6 +1,6 @@
-// Encodes a fixed number of arbitrary bytes as bytes without zeros, and appends a CRC. The CRC is
-// computed from the encoded bytes, because an error in a code byte of COBS shifts all following
-// bytes, and a CRC of the plain bytes would not always detect such an error.
+// Encodes a fixed number of arbitrary bytes as bytes without zeros (COBS), and appends a CRC. The
+// CRC covers the encoded bytes, because an error in a code byte of COBS shifts all following plain
+// bytes, and a CRC of the plain bytes would not always detect this.
 #pragma once
 
 #include <array>
@@ -11,11 +11,11 @@
 namespace dotpose::link {
 
 inline constexpr std::size_t kPlainBytes = 27;
-/// Number of bytes after COBS encoding (Cheshire and Baker, 1999). COBS adds one byte to up to 254
-/// bytes.
+/// Number of bytes after COBS encoding (Cheshire and Baker, 1999), which adds one byte to at most
+/// 254 plain bytes.
 inline constexpr std::size_t kCodedBytes = kPlainBytes + 1;
-/// Number of bytes of the CRC. Each byte contains at most 7 bits of the CRC, and its top bit is
-/// set, so it is never zero.
+/// Number of bytes of the CRC. Each of them contains at most 7 bits of the CRC. The top bit is set,
+/// so that the byte is never zero.
 inline constexpr std::size_t kCheckBytes = 3;
 inline constexpr std::size_t kFramedBytes = kCodedBytes + kCheckBytes;
 
@@ -23,14 +23,14 @@ using Plain = std::array<std::uint8_t, kPlainBytes>;
 using Framed = std::array<std::uint8_t, kFramedBytes>;
 
 /// Returns the CRC-16 with the polynomial 0x5935 and the initial value 0xFFFF, most significant bit
-/// first. At this length, this polynomial detects the most errors of all 16-bit polynomials: all
-/// errors of up to 4 bits in up to 241 bits of data (Koopman and Chakravarty, DSN 2004). In the
-/// notation of this paper, the polynomial is 0xAC9A.
+/// first. No 16-bit polynomial detects more errors at this length: this one detects all errors of
+/// up to 4 bits in up to 241 bits of data (Koopman and Chakravarty, DSN 2004). In the notation of
+/// this paper, the polynomial is 0xAC9A.
 std::uint16_t crc16(std::span<const std::uint8_t> bytes);
 
 Framed frame(const Plain& plain);
 
-/// Decodes framed bytes. Returns false if the bytes are not a result of `frame`.
+/// Decodes framed bytes. Returns false if `frame` cannot have returned these bytes.
 bool unframe(const Framed& framed, Plain& plain);
 
 }  // namespace dotpose::link

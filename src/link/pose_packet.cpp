@@ -13,7 +13,6 @@ using link::Plain;
 
 static_assert(kFramedBytes + 1 == PacketBytes{}.size(), "a packet is a frame and its end mark");
 
-/// Writes little-endian integers.
 class Writer {
   public:
     void put(std::uint32_t value, int bytes) {
@@ -93,7 +92,8 @@ bool unpack(const Plain& plain, PosePacket& packet) {
     return true;
 }
 
-/// Rounds an angle to the nearest multiple of 2^-16 turn. Half a turn becomes minus half a turn.
+/// Rounds an angle to the nearest multiple of 2^-16 turn. Half a turn is returned as minus half a
+/// turn.
 std::int16_t rounded_bam16(std::int32_t theta_bam) {
     const std::uint32_t bits = static_cast<std::uint32_t>(theta_bam) + 0x8000U;
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits >> 16));
@@ -102,8 +102,8 @@ std::int16_t rounded_bam16(std::int32_t theta_bam) {
 std::uint8_t deviation_q12(const Fix& fix) {
     const float variance = std::max(fix.covariance[0][0], fix.covariance[1][1]);
     const float deviation = std::sqrt(std::max(variance, 0.0F)) * 4096.0F;
-    // The code 255 means an unknown deviation, or a deviation too large for the other codes. A fix
-    // without a covariance has an unknown deviation.
+    // The code 255 means that the deviation is unknown, for example because the fix has no
+    // covariance, or too large for the other codes.
     if (!(deviation > 0) || deviation >= 254) return 255;
     return static_cast<std::uint8_t>(static_cast<int>(deviation) + 1);
 }
@@ -143,7 +143,7 @@ bool PacketReader::push(std::uint8_t byte) {
     }
     const std::size_t count = count_;
     count_ = 0;
-    if (count == 0) return false;  // two adjacent end marks
+    if (count == 0) return false;  // two end marks are adjacent
     Plain plain;
     if (count == bytes_.size() && link::unframe(bytes_, plain) && unpack(plain, packet_)) {
         return true;

@@ -26,10 +26,11 @@ class Chunk {
   public:
     bool is_empty() const { return records_.empty(); }
     std::size_t size() const { return records_.size(); }
-    /// Returns the time from the earliest to the latest message in ns.
+    /// Returns the time from the earliest to the latest message, in ns.
     std::uint64_t duration_ns() const { return is_timeless() ? 0 : last_ns_ - first_ns_; }
 
-    /// Returns the records, to append schemas and channels before the messages that use them.
+    /// Returns the records, so that the caller can append schemas and channels before the messages
+    /// that use them.
     Bytes& records() { return records_; }
 
     void add_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns,
@@ -46,8 +47,8 @@ class Chunk {
         last_ns_ = std::max(last_ns_, time_ns);
     }
 
-    /// Appends the chunk and its indexes to `out`, and begins a new chunk. `place` is the offset of
-    /// the appended bytes in the file.
+    /// Appends the chunk and its indexes to `out`, and begins a new chunk. The first appended byte
+    /// will be at offset `place` in the file.
     ChunkEntry append_to(Bytes& out, std::uint64_t place) {
         ChunkEntry entry;
         entry.first_ns = is_timeless() ? 0 : first_ns_;

@@ -14,10 +14,10 @@ using namespace mcap;
 
 namespace {
 
-/// Returns the list of QoS profiles that rosbag2 stores with a channel, as YAML. Policies are
-/// written as the numbers of rmw, which all versions of rosbag2 can read. History 1 is keep last,
-/// reliability 1 is reliable, and liveliness 1 is automatic. Durability 1 is transient local, and
-/// durability 2 is volatile.
+/// Returns the QoS profiles that rosbag2 stores with a channel, as a YAML list. The policies are
+/// written as the numbers of rmw, because all versions of rosbag2 can read these numbers. History 1
+/// is keep last, reliability 1 is reliable, and liveliness 1 is automatic. Durability 1 is
+/// transient local, and durability 2 is volatile.
 std::string offered_profiles(const McapQuality& quality) {
     const std::string durability = quality.is_transient_local ? "1" : "2";
     const std::string forever = "\n    sec: 9223372036\n    nsec: 854775807\n";
@@ -71,9 +71,9 @@ class McapFile::Writer {
         const auto id = static_cast<std::uint16_t>(channel);
         const std::uint64_t number = contents_.messages.at(id)++;
         chunk_.add_message(id, static_cast<std::uint32_t>(number), time_ns, cdr);
-        // The duration ends a chunk only if the chunk has at least as many bytes as the end of the
-        // file. The end is rewritten after each chunk, so shorter chunks would multiply the number
-        // of bytes written.
+        // A chunk ends after `chunk_ns`, but only if it has at least as many bytes as the end of
+        // the file. The end is rewritten after each chunk, so shorter chunks would multiply the
+        // number of bytes written.
         const bool is_long =
             chunk_.duration_ns() >= static_cast<std::uint64_t>(options_.chunk_ns) &&
             chunk_.size() >= end_bytes_;
@@ -111,8 +111,8 @@ class McapFile::Writer {
         write_at_end(std::move(bytes));
     }
 
-    /// Writes `bytes` and a new end over the old end of the file, in one write. The file never
-    /// becomes shorter, because the new end contains the contents of the old end.
+    /// Overwrites the end of the file with `bytes` and a new end, in a single write. The file never
+    /// becomes shorter, because the new end contains everything that was in the old end.
     void write_at_end(Bytes bytes) {
         const std::size_t data_bytes = bytes.size();
         data_.add(bytes);
@@ -131,7 +131,7 @@ class McapFile::Writer {
     int descriptor_;
     Crc32 data_;
     std::uint64_t size_ = 0;  ///< number of bytes before the data end record
-    /// Number of bytes from the data end record to the end of the file.
+    /// Size of the end of the file in bytes, beginning with the data end record.
     std::size_t end_bytes_ = 0;
     Contents contents_;
     std::map<std::string, std::uint16_t> schemas_;  ///< schema IDs by name
@@ -144,7 +144,7 @@ McapFile::McapFile(const std::filesystem::path& path, const McapOptions& options
 McapFile::~McapFile() {
     try {
         finish();
-    } catch (const Error&) {  // call `finish` to get the error
+    } catch (const Error&) {  // only `finish` reports errors
     }
 }
 

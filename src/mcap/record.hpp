@@ -1,5 +1,5 @@
-// Records of an MCAP file. A record contains a type byte, the length of the members, and the
-// members, in little-endian order without padding.
+// Records of an MCAP file. A record contains a type byte, the length of its members, and the
+// members. Integers are little-endian, and there is no padding.
 #pragma once
 
 #include <concepts>
@@ -42,7 +42,7 @@ class Members {
         put(static_cast<std::uint32_t>(text.size()));
         bytes_.insert(bytes_.end(), text.begin(), text.end());
     }
-    /// Appends bytes without their length.
+    /// Appends bytes that are not preceded by their length.
     void put_raw(std::span<const std::uint8_t> bytes) {
         bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
     }
@@ -70,7 +70,7 @@ class Members {
     Bytes& bytes_;
 };
 
-/// Appends a record with the members that `fill` appends.
+/// Appends a record. `fill` appends its members.
 template <typename Fill>
 void append_record(Bytes& bytes, Op op, Fill fill) {
     Members members(bytes);

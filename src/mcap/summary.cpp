@@ -41,7 +41,7 @@ void append_chunk_index(Bytes& out, const ChunkEntry& entry) {
     });
 }
 
-/// Appends groups of records with the same type, and stores their offsets.
+/// Appends groups of records of the same type, and stores the offset of each group.
 class Summary {
   public:
     Summary(Bytes& out, std::uint64_t place) : out_(out), base_(place - out.size()) {}
@@ -103,7 +103,7 @@ void append_end(Bytes& out, std::uint64_t place, const Contents& contents, const
         footer.put(offsets_start);
         footer.put(std::uint32_t{0});
     });
-    // The checksum covers the summary and the footer up to the checksum itself.
+    // The checksum covers the summary and the part of the footer before the checksum.
     constexpr std::size_t kCrcBytes = sizeof(std::uint32_t);
     const std::size_t crc_at = out.size() - kCrcBytes;
     const std::uint32_t crc = crc32(std::span(out).subspan(summary_at, crc_at - summary_at));

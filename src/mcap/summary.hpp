@@ -1,11 +1,12 @@
-// The end of an MCAP file: the summary of its contents, with offsets.
+// The end of an MCAP file: a summary of the file with the offsets of its parts.
 #pragma once
 
 #include "mcap/chunk.hpp"
 
 namespace dotpose::mcap {
 
-/// Contents of the file, for the summary. Schemas and channels are stored as records.
+/// Contents of the file that are listed in the summary. Schemas and channels are stored as encoded
+/// records.
 struct Contents {
     Bytes schemas;
     Bytes channels;
@@ -14,11 +15,11 @@ struct Contents {
     std::vector<ChunkEntry> chunks;
 };
 
-/// Appends the end of the data, the summary and the footer to `out`. `place` is the offset of the
-/// appended bytes in the file. `data` is the checksum of all previous bytes.
+/// Appends the end of the data, the summary and the footer to `out`. The first appended byte will
+/// be at offset `place` in the file. `data` is the checksum of all bytes before it.
 void append_end(Bytes& out, std::uint64_t place, const Contents& contents, const Crc32& data);
 
-/// Appends the eight bytes with which a file begins and ends.
+/// Appends the eight bytes that are both the first and the last bytes of a file.
 void append_magic(Bytes& out);
 
 }  // namespace dotpose::mcap

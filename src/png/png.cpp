@@ -14,12 +14,12 @@ namespace dotpose::png {
 namespace {
 
 constexpr double kInchesPerMetre = 1 / 0.0254;
-// Compression level of zlib. Pages are nearly empty, and the default level takes 3.5 times as long
-// for files that are 20 % smaller. Slower compression hardly makes noisy frames smaller.
+// Compression level of zlib. Most of a page is empty, so the default level takes 3.5 times as long
+// for files that are only 20 % smaller. Slower compression does not make noisy frames much smaller.
 constexpr int kCompressionLevel = 4;
 
-/// Writes a PNG file. libpng reports errors with longjmp. Only `guarded` calls functions of libpng,
-/// and no objects with destructors may be created in the scope of that call.
+/// Writes a PNG file. libpng reports errors with longjmp, so only `guarded` may call it, and no
+/// objects with destructors may be created in the scope of that call.
 class Writer {
   public:
     explicit Writer(base::ByteSink& file) {
@@ -103,8 +103,8 @@ void write(const Header& header, const RowSource& rows, base::ByteSink& file) {
 
 std::vector<std::uint8_t> encode(ImageView image) {
     Memory file;
-    // Reserves memory in advance, because `Memory::write` must not throw. The size suffices for
-    // incompressible pixels and the filter byte of each row.
+    // `Memory::write` must not throw, so the memory is reserved in advance. It is sufficient for
+    // pixels that cannot be compressed and for the filter byte of each row.
     const std::size_t size_bytes =
         static_cast<std::size_t>(image.height_px) * (static_cast<std::size_t>(image.width_px) + 1);
     file.bytes.reserve(size_bytes + size_bytes / 256 + 1024);

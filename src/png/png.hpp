@@ -10,7 +10,7 @@
 #include "dotpose/export.hpp"
 #include "dotpose/image.hpp"
 
-// These functions are exported because the other tools libraries call them.
+// The other tools libraries call these functions, so they are exported.
 DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::png {
@@ -18,20 +18,19 @@ namespace dotpose::png {
 struct Header {
     int width_px = 0;
     int height_px = 0;
-    int bits_per_px = 8;  ///< 8 (0 is black), or 1 (1 is black, 8 pixels per byte)
+    int bits_per_px = 8;  ///< 8 (0 is black) or 1 (1 is black; a byte contains 8 pixels)
     double dpi = 0;       ///< resolution in dots per inch, or 0 if unknown
 };
 
-/// Receives one row of pixels.
 using RowSink = std::function<void(std::span<const std::uint8_t>)>;
-/// Calls a sink for all rows of an image, from top to bottom.
+/// Calls a sink for each row of an image, from top to bottom.
 using RowSource = std::function<void(const RowSink&)>;
 
 /// Writes an image. Throws Error if libpng fails or the file cannot be written.
 void write(const Header& header, const RowSource& rows, base::ByteSink& file);
 
-/// Returns an image as the bytes of a PNG file. The image must not be empty. Equal images give
-/// equal bytes. Throws Error if libpng fails.
+/// Encodes an image as PNG. The image must not be empty. Equal images are encoded as equal bytes.
+/// Throws Error if libpng fails.
 std::vector<std::uint8_t> encode(ImageView image);
 
 }  // namespace dotpose::png

@@ -1,4 +1,4 @@
-/// Positions of dots on a sheet, in mm. All writers use these functions.
+/// Positions of dots on a sheet, in mm. All output formats use these functions.
 #pragma once
 
 #include "dotpose/files/sheet.hpp"

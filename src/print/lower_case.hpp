@@ -7,8 +7,7 @@
 
 namespace dotpose::print {
 
-/// Returns the text with A to Z replaced by a to z, independent of the locale. Other characters are
-/// not changed.
+/// Returns the text with A to Z replaced by a to z. The result does not depend on the locale.
 inline std::string lower_case(std::string_view text) {
     std::string lower(text);
     std::ranges::transform(lower, lower.begin(), [](char c) {

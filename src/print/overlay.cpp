@@ -49,9 +49,8 @@ bool begins_like_pdf(const fs::path& path) {
     throw Error(fmt::format("{}: its objects are nested too deeply", path.string()));
 }
 
-/// Returns the warnings of qpdf about faults that it repaired. The new file does not contain these
-/// faults. Throws Error for faults in content or stream data, because qpdf would copy these faults
-/// unchanged.
+/// Returns the warnings of qpdf about faults that it has repaired in the new file. Throws Error for
+/// faults in content or stream data, because qpdf would copy them unchanged.
 std::set<std::string> repaired_faults(QPDF& pdf, const fs::path& path) {
     std::set<std::string> faults;
     for (const QPDFExc& warning : pdf.getWarnings()) {
@@ -66,7 +65,7 @@ std::set<std::string> repaired_faults(QPDF& pdf, const fs::path& path) {
     return faults;
 }
 
-/// Runs `work` and prepends `name` to the message of an Error that `work` throws.
+/// Runs `work`. If it throws an Error, prepends `name` to the message.
 template <typename Work>
 void with_name(const std::string& name, const Work& work) {
     try {
@@ -99,7 +98,7 @@ void open(QPDF& pdf, const fs::path& path, const std::string& password,
     }
 }
 
-/// Runs `work` and reports exceptions of qpdf as damage of the document.
+/// Runs `work`. If qpdf throws an exception, reports that the document is damaged.
 template <typename Work>
 auto with_damage_errors(const fs::path& path, const Work& work) {
     try {
@@ -115,8 +114,8 @@ auto with_damage_errors(const fs::path& path, const Work& work) {
     }
 }
 
-/// Throws Error if the page would need more than kMaxDots dots. Pages of a document may have any
-/// size. With /UserUnit, a side may even be kilometres long.
+/// Throws Error if the page would need more than kMaxDots dots. This can happen because pages of a
+/// document may have any size: with /UserUnit, a side may be kilometres long.
 void require_few_dots(const Sheet& sheet) {
     constexpr double kMaxDots = 5e7;
     const double dots = double{1} * sheet.columns * sheet.rows;
@@ -127,7 +126,6 @@ void require_few_dots(const Sheet& sheet) {
                     sheet.width_mm, sheet.height_mm, dots / 1e6, kMaxDots / 1e6));
 }
 
-/// Adds dots to one document.
 class Overlay {
   public:
     Overlay(const fs::path& in, const OverlayOptions& options)
@@ -190,7 +188,7 @@ class Overlay {
         return pages;
     }
 
-    /// Runs `work` and prepends the page number to the message of an Error that `work` throws.
+    /// Runs `work`. If it throws an Error, prepends the page number to the message.
     template <typename Work>
     void on_page(int number, const Work& work) {
         with_name(fmt::format("{}, page {}", in_.string(), number), work);
@@ -211,7 +209,6 @@ class Overlay {
         report_.pages.push_back({number, sheet, document_page});
     }
 
-    /// Scans a page of the document and converts its colours.
     void prepare(int number) {
         QPDFPageObjectHelper original = page(number);
         if (print::has_dots(pdf_, original)) dotted_.push_back(number);
@@ -238,9 +235,9 @@ class Overlay {
         }
     }
 
-    /// Draws the dots over or under the page's own content without changing the streams of this
-    /// content. The operators q and Q around the content restore the initial graphics state of the
-    /// page.
+    /// Draws the dots over or under the content of the page. The operators q and Q are added around
+    /// this content to restore the initial graphics state. The streams of the content do not
+    /// change.
     void draw(const OverlaidPage& laid_out) {
         const auto& [number, sheet, document_page] = laid_out;
         validate(sheet);
@@ -258,8 +255,8 @@ class Overlay {
         drawn.addPageContents(QPDFObjectHandle::newStream(&pdf_, after), false);
     }
 
-    /// Replaces the resources and the XObject dictionary of a page by copies, because other pages
-    /// may share the originals. Returns the copy of the XObject dictionary.
+    /// Gives a page its own copies of the resources and of the XObject dictionary, because other
+    /// pages may share the originals. Returns the copy of the XObject dictionary.
     static QPDFObjectHandle own_objects(QPDFPageObjectHelper drawn) {
         const auto copy = [](QPDFObjectHandle shared) {
             return shared.isDictionary() ? shared.shallowCopy() : QPDFObjectHandle::newDictionary();
@@ -271,7 +268,7 @@ class Overlay {
         return objects;
     }
 
-    /// Adds the dots to an XObject dictionary and returns the operators that draw them.
+    /// Adds the dots of a sheet to an XObject dictionary. Returns the operators that draw them.
     std::string draw_forms(QPDFObjectHandle objects, const Sheet& sheet) {
         std::string content;
         int suffix = 1;
@@ -286,7 +283,6 @@ class Overlay {
         return content;
     }
 
-    /// Replaces all pages by pages of cards.
     void make_cards() {
         const Paper card = card_size();
         const print::CardGrid grid = print::card_grid(*options_.card_paper, card);
@@ -374,9 +370,9 @@ class Overlay {
     print::UnpackedBytes unpacked_;
     print::ColourConverter colours_;
     OverlayReport report_;
-    /// Pages of the document, then pages of its copies.
+    /// The pages of the document, followed by the pages of its copies.
     std::vector<QPDFPageObjectHelper> pages_;
-    /// Results of `scan_page` for the pages of the document that get dots, by page number.
+    /// Result of `scan_page` for each page of the document that gets dots, by page number.
     std::map<int, print::PageContent> contents_;
     std::vector<int> dotted_;
     std::vector<int> black_;

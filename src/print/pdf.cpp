@@ -35,7 +35,7 @@ void set_information(QPDF& pdf, const std::string& title) {
     QPDFObjectHandle info = QPDFObjectHandle::newDictionary();
     if (!title.empty()) info.replaceKey("/Title", QPDFObjectHandle::newUnicodeString(title));
     info.replaceKey("/Creator", QPDFObjectHandle::newString(kCreator));
-    // Sets the default page scaling of print dialogs to none.
+    // This setting prevents print dialogs from scaling pages by default.
     pdf.getRoot().replaceKey("/ViewerPreferences",
                              QPDFObjectHandle::parse("<< /PrintScaling /None >>"));
     pdf.getTrailer().replaceKey("/Info", pdf.makeIndirectObject(info));

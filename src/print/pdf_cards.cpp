@@ -19,7 +19,8 @@ constexpr double kMargin_mm = kMarkGap_mm + kMark_mm;
 constexpr double kMarkWidth_mm = 0.1;
 
 CardGrid grid_on(Paper paper, Paper card) {
-    // Tolerance for the rounding of lengths in points. Ten cards of 21 mm must fit into 210 mm.
+    // Tolerance for lengths that were rounded to points. For example, ten cards of 21 mm must fit
+    // into 210 mm.
     constexpr double kTolerance_mm = 0.01;
     const auto fit = [](double paper_mm, double card_mm) {
         return static_cast<int>((paper_mm - 2 * kMargin_mm + kTolerance_mm) / card_mm);
@@ -92,8 +93,8 @@ std::string cut_marks(const CardGrid& grid) {
 }
 
 QPDFObjectHandle card_form(QPDFPageObjectHelper page) {
-    // The form contains the trim box, which may be smaller than the displayed page. The trim box is
-    // therefore set to the box of the displayed page.
+    // The form shows only the trim box, which may be smaller than the displayed page, so the trim
+    // box is set to the displayed page.
     page.getObjectHandle().replaceKey("/TrimBox", QPDFObjectHandle::newArray(page_frame(page).box));
     return page.getFormXObjectForPage(true);
 }

@@ -1,4 +1,4 @@
-/// Pages of cards: several small pages side by side on a larger page, to be cut apart.
+/// Pages of cards: a grid of small pages on a larger page, which is cut apart after printing.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace dotpose::print {
 
-/// Grid of cards, centred on a page. Adjacent cards touch. The margin around the grid has space for
-/// cut marks.
+/// Grid of cards in the middle of a page. Adjacent cards touch, and the margin has space for cut
+/// marks.
 struct CardGrid {
-    Paper paper;  ///< turned by 90 degrees if more cards fit on the turned paper
+    Paper paper;  ///< turned by 90 degrees if this gives more cards
     Paper card;
     int columns = 0;
     int rows = 0;
@@ -27,8 +27,8 @@ struct CardGrid {
 CardGrid card_grid(Paper paper, Paper card);
 
 /// Returns the sheet of a card in the coordinate frame of the page. `slot` is the index of the card
-/// on the page, row by row. The card is moved by less than a pixel at 300 dpi to align its dots
-/// with the pixels of the printer, as on a separate page.
+/// on the page, row by row. The card is shifted by less than a pixel at 300 dpi so that its dots
+/// are aligned with the pixels of the printer, as they are on a separate page.
 Sheet on_page(const CardGrid& grid, int slot, Sheet card);
 
 /// Returns the cut marks as PDF content, in points from the bottom left corner of the page.
@@ -37,15 +37,15 @@ std::string cut_marks(const CardGrid& grid);
 /// Returns the displayed part of a page as a form XObject.
 QPDFObjectHandle card_form(QPDFPageObjectHelper page);
 
-/// Returns the content that draws a form returned by `card_form` as a card. `page` is the page of
-/// cards. Its resources contain the form under `name`.
+/// Returns the content that draws a card on `page`. `form` is a result of `card_form`, and the
+/// resources of `page` contain it under `name`.
 std::string place_card(QPDFPageObjectHelper page, const CardGrid& grid, int slot,
                        const QPDFObjectHandle& form, const std::string& name);
 
-/// Adds an empty page to a document.
+/// Adds an empty page with the size of the paper to a document.
 QPDFPageObjectHelper add_card_page(QPDF& pdf, const CardGrid& grid);
 
-/// Removes all pages of a document and everything that refers to them, such as outlines,
+/// Removes all pages of a document. Also removes everything that refers to pages, such as outlines,
 /// destinations and form fields.
 void remove_pages(QPDF& pdf);
 

@@ -13,9 +13,9 @@ namespace dotpose::print {
 
 class ColourFilter : public QPDFObjectHandle::TokenFilter {
   public:
-    /// `spaces` maps the names of colour spaces that the operator `cs` may select to the kinds of
-    /// these colour spaces. If `starts_black` is true, as for pages, the filter first writes an
-    /// operator that sets the converted black. Other content inherits the current colour.
+    /// `spaces` maps the names of colour spaces that the operator `cs` may select to their kinds.
+    /// If `starts_black` is true, as for pages, the initial colour is black, so the filter first
+    /// writes an operator that sets the converted black. Other content inherits the current colour.
     ColourFilter(InkChange change, std::map<std::string, ColourKind> spaces, bool starts_black);
 
     void handleToken(QPDFTokenizer::Token const& token) override;
@@ -27,8 +27,8 @@ class ColourFilter : public QPDFObjectHandle::TokenFilter {
         ColourKind stroke = ColourKind::other;
     };
 
-    /// Writes the converted form of an operator and its operands. Returns false and writes nothing
-    /// if the operator need not be converted.
+    /// Writes an operator and its operands in converted form. If no conversion is needed, returns
+    /// false and writes nothing.
     bool rewrite(const std::string& name);
     bool select_space(ColourKind& kind, bool is_stroke);
     bool write_colour(ColourKind from, std::vector<double> colour, bool is_stroke);

@@ -24,8 +24,8 @@ std::map<std::string, ColourKind> named_spaces(QPDFObjectHandle resources) {
     return kinds;
 }
 
-/// Makes transparency groups blend in CMYK. Blending in RGB would convert a mix of cyan, magenta
-/// and yellow back to black.
+/// Makes transparency groups blend in CMYK. If they blended in RGB, a mix of cyan, magenta and
+/// yellow would be converted back to black.
 void blend_in_cmyk(QPDFObjectHandle holder, InkChange change) {
     QPDFObjectHandle group = holder.getKey("/Group");
     if (!change.black_to_cmy || !group.isDictionary() || !group.hasKey("/CS")) return;
@@ -42,8 +42,8 @@ std::string palette_bytes(QPDFObjectHandle table, UnpackedBytes& unpacked) {
     return {reinterpret_cast<const char*>(data->getBuffer()), data->getSize()};
 }
 
-/// Returns the converted colour space [/Indexed space last table] with `count` colours. `bytes`
-/// contains the components of the original colours.
+/// Returns an indexed colour space, [/Indexed space last table], with `count` converted colours.
+/// `bytes` contains the components of the original colours.
 QPDFObjectHandle indexed(InkChange change, ColourKind from, const std::string& bytes,
                          std::size_t count) {
     const std::size_t size = components(from);
@@ -82,8 +82,8 @@ bool convert_palette(InkChange change, QPDFObjectHandle dict, QPDFObjectHandle s
     return true;
 }
 
-/// Replaces the grey colour space of an image with a palette. The pixel data do not change,
-/// regardless of their compression.
+/// Replaces the grey colour space of an image with a palette, so that the pixel data need not
+/// change or be decompressed.
 bool convert_grey(InkChange change, QPDFObjectHandle dict, ColourKind kind) {
     QPDFObjectHandle depth = dict.getKey("/BitsPerComponent");
     if (!depth.isInteger() || depth.getIntValue() > 8 || depth.getIntValue() < 1) return false;
@@ -102,7 +102,7 @@ bool convert_grey(InkChange change, QPDFObjectHandle dict, ColourKind kind) {
     return true;
 }
 
-/// Returns a colour space whose components are the amounts of cyan, magenta and yellow.
+/// Returns a colour space with three components: the amounts of cyan, magenta and yellow.
 QPDFObjectHandle cmy_space(QPDF* pdf) {
     QPDFObjectHandle add_no_black = QPDFObjectHandle::newStream(pdf, "{ 0 }");
     add_no_black.replaceDict(QPDFObjectHandle::parse(
@@ -113,8 +113,8 @@ QPDFObjectHandle cmy_space(QPDF* pdf) {
     return space;
 }
 
-/// Converts the colours of an image through its /Decode array, which maps samples to colour values.
-/// The pixels do not change.
+/// Converts the colours of an image by changing its /Decode array, which maps samples to colour
+/// values. The pixel data do not change.
 bool convert_decode(InkChange change, QPDFObjectHandle dict, ColourKind kind, QPDF* pdf) {
     if (kind == ColourKind::cmyk && change.black_to_cmy) return false;
     const std::size_t count = 2 * components(kind);
@@ -148,7 +148,7 @@ void ColourConverter::convert(QPDFPageObjectHelper page) {
     QPDFObjectHandle dict = page.getObjectHandle();
     QPDFObjectHandle original = page.getAttribute("/Resources", false);
     QPDFObjectHandle contents = dict.getKey("/Contents");
-    // Gives this page a copy of the stream, because other pages may share the original.
+    // Other pages may share the stream, so this page gets a copy.
     if (contents.isStream()) dict.replaceKey("/Contents", contents.copyStream());
     if (!page.getPageContents().empty()) {
         page.addContentTokenFilter(
@@ -168,8 +168,8 @@ void ColourConverter::convert(QPDFPageObjectHelper page) {
 
 QPDFObjectHandle ColourConverter::appearance(QPDFObjectHandle original) {
     if (!original.isDictionary()) return content(original, true);
-    // An appearance may have one stream per state, such as /On and /Off. Dictionaries at a deeper
-    // level are ignored, so cyclic references are harmless.
+    // An appearance may have one stream per state, such as /On and /Off. Deeper dictionaries are
+    // ignored, so cyclic references are harmless.
     QPDFObjectHandle copy = original.shallowCopy();
     for (const std::string& state : copy.getKeys())
         copy.replaceKey(state, content(copy.getKey(state), true));
@@ -237,7 +237,7 @@ QPDFObjectHandle ColourConverter::pattern(QPDFObjectHandle original) {
         unconverted_.insert("shadings");
         return original;
     }
-    // An uncoloured tiling pattern is painted in the current colour of the content that uses it, so
+    // An uncoloured tiling pattern is painted in the current colour, which is already converted, so
     // the pattern itself is not converted.
     const bool is_coloured = original.getDict().getKey("/PaintType").isInteger() &&
                              original.getDict().getKey("/PaintType").getIntValue() == 1;

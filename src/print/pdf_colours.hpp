@@ -1,4 +1,4 @@
-/// Rewrites the colours in the content of a page, and in copies of all objects that the content
+/// Rewrites the colours of a page: in its content, and in copies of all objects that the content
 /// draws.
 #pragma once
 
@@ -14,19 +14,19 @@
 
 namespace dotpose::print {
 
-/// Converts the colours of pages. Converted objects are copies that all pages of one converter
-/// share. Other pages keep the originals. Content is rewritten only while the file is written.
+/// Converts the colours of pages. Converted objects are copies, which are shared by all pages of a
+/// converter. All other pages keep the originals. Content is only rewritten while the file is
+/// written.
 class ColourConverter {
   public:
-    /// `unpacked` counts the bytes of all converted content. It must outlive this object.
+    /// `unpacked` counts the bytes of all converted content, and must outlive this object.
     ColourConverter(InkChange change, UnpackedBytes& unpacked)
         : change_(change), unpacked_(unpacked) {}
 
     /// Converts a page. Throws Error if its resources are nested too deeply.
     void convert(QPDFPageObjectHelper page);
 
-    /// Returns the names of the kinds of content that were found but not converted, for example
-    /// "shadings".
+    /// Returns the kinds of content that were not converted, for example "shadings".
     const std::set<std::string>& unconverted() const { return unconverted_; }
 
   private:
@@ -42,7 +42,7 @@ class ColourConverter {
 
     InkChange change_;
     UnpackedBytes& unpacked_;
-    int level_ = 0;  ///< nesting depth of the resources that are being converted
+    int level_ = 0;  ///< nesting depth of the resources being converted
     std::map<QPDFObjGen, QPDFObjectHandle> converted_;
     std::set<std::string> unconverted_;
 };

@@ -19,8 +19,8 @@ namespace {
 
 using Token = QPDFTokenizer::Token;
 
-/// Reads the cross-reference tables and streams of a document, beginning at its end. `startxref` is
-/// the offset of the newest section. /Prev and /XRefStm are the offsets of the other sections.
+/// Reads the cross-reference tables and streams of a document. `startxref` near the end of the file
+/// contains the offset of the newest one, and /Prev and /XRefStm contain the offsets of others.
 class CrossReferences {
   public:
     CrossReferences(const std::filesystem::path& path, UnpackedBytes& unpacked)
@@ -34,7 +34,8 @@ class CrossReferences {
 
     void count() {
         // Number of bytes to search for the header at the beginning of the file, and for
-        // `startxref` at its end. Some files contain other data before and after the document.
+        // `startxref` at its end. The search is needed because some files contain other data before
+        // and after the document.
         constexpr qpdf_offset_t kNear = 1100;
         const std::string begin = text(0, kNear);
         std::smatch header;
@@ -85,8 +86,8 @@ class CrossReferences {
         if (!is_table && next().isWord("stream")) count_stream(*dictionary);
     }
 
-    /// Adds the unpacked size of the stream whose `dictionary` was just read. The file is
-    /// positioned at the data of the stream.
+    /// Adds the unpacked size of a stream. Its `dictionary` was just read, so the data follow at
+    /// the current position.
     void count_stream(QPDFObjectHandle dictionary) {
         QPDFObjectHandle length = dictionary.getKey("/Length");
         if (!length.isInteger() || length.getIntValue() < 0) {
@@ -123,7 +124,7 @@ class CrossReferences {
 
     std::shared_ptr<InputSource> file_;
     QPDFTokenizer tokenizer_;
-    QPDF stray_;  ///< empty document, because qpdf requires that a stream belongs to a document
+    QPDF stray_;  ///< empty document for streams, because qpdf requires one
     UnpackedBytes& unpacked_;
     qpdf_offset_t size_ = 0;
     qpdf_offset_t start_ = 0;

@@ -1,5 +1,4 @@
-/// Limits the size of the cross-reference streams of a PDF. These streams list the objects of the
-/// PDF.
+/// Limits the size of the cross-reference streams of a PDF, which list its objects.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +9,7 @@ namespace dotpose::print {
 
 /// Counts the unpacked bytes of the cross-reference streams of a document. Must be called before
 /// qpdf opens the document, because qpdf unpacks these streams without a limit. Ignores invalid
-/// references, which qpdf rejects later. Throws Error like `UnpackedBytes::count`. Also throws the
+/// references, because qpdf rejects them later. Throws Error like `UnpackedBytes::count`, and the
 /// exceptions of `FileInputSource`.
 void count_cross_references(const std::filesystem::path& path, UnpackedBytes& unpacked);
 

@@ -21,11 +21,12 @@ constexpr int kDotsPerStream = 250'000;
 
 // --- glyphs -------------------------------------------------------------------------------------
 
-/// Number of font units per em. One em is one spacing of the grid. The width of every glyph is
-/// therefore a whole number, and the text advances without rounding errors.
+/// Number of font units per em. An em is one spacing of the grid, so the width of every glyph is a
+/// whole number and the text advances without rounding errors.
 constexpr double kUnitsPerEm = 1000;
 
-/// Returns a circle as four Bezier curves. The factor 0.5523 gives a radius error of 0.03 %.
+/// Returns a circle as four Bezier curves. With the factor 0.5523, the radius is wrong by at most
+/// 0.03 %.
 std::string circle(double x, double y, double r) {
     const double k = 0.5522847498 * r;
     return fmt::format(
@@ -36,9 +37,9 @@ std::string circle(double x, double y, double r) {
         y - k, x - k, y - r, x, y - r, x + k, y - r, x + r, y - k, x + r, y);
 }
 
-/// Returns the glyph that draws the dot of one symbol. The lower left corner of the square around
-/// an undisplaced dot is the origin of the glyph. If the origin is at the corner of a pixel, the
-/// dot fills whole pixels.
+/// Returns the glyph that draws the dot of one symbol. The origin of the glyph is the lower left
+/// corner of the square around an undisplaced dot, so the dot fills whole pixels if the origin is
+/// at the corner of a pixel.
 std::string glyph(const Pattern& pattern, Symbol symbol) {
     const double per_mm = kUnitsPerEm / pattern.spacing_mm;
     const double r = pattern.dot_mm / 2 * per_mm;
@@ -54,8 +55,8 @@ std::string glyph(const Pattern& pattern, Symbol symbol) {
 ///
 /// Renderers count pixels from the top left or from the bottom left corner of the page, and either
 /// truncate or round to the nearest pixel. `near_px` and `far_px` are the distances of the origin
-/// from the two sides at the chosen resolution. The shift is also safe at half and at twice this
-/// resolution.
+/// from the two sides of the page at the chosen resolution. The shift also works at half and at
+/// twice this resolution.
 double clear_shift_px(double near_px, double far_px) {
     constexpr double kClear_px = 0.05;
     const auto clearance_px = [&](double shift_px) {
@@ -109,8 +110,8 @@ void write_glyph_rows(const Sheet& sheet, double dpi, int first_row, int end_row
 
 // --- strokes ------------------------------------------------------------------------------------
 
-/// Unit of length that divides spacing and displacement without a remainder. Integers are not
-/// rounded by renderers, and short numbers keep files small.
+/// Unit of length. Spacing and displacement are whole multiples of it, because whole numbers are
+/// short and renderers do not round them.
 struct WholeUnits {
     int spacing = 0;
     int displacement = 0;
@@ -131,10 +132,10 @@ WholeUnits whole_units(const Pattern& pattern) {
     return units;
 }
 
-// Number of columns of a tile. Tiles with equal symbols are written as equal text, so deflate
-// encodes most tiles as references to earlier rows.
+// Number of columns of a tile. Tiles with equal symbols have equal text, so deflate encodes most
+// tiles as references to earlier rows.
 constexpr int kTileColumns = 8;
-// Number of columns after which the absolute position is written again. Without this, the rounding
+// Number of columns after which the absolute position is written again. Otherwise, the rounding
 // errors of a renderer would accumulate from tile to tile.
 constexpr int kRunColumns = 16 * kTileColumns;
 
@@ -189,7 +190,7 @@ void write_stroke_rows(const Sheet& sheet, int first_row, int end_row, RowCount&
 
 // ------------------------------------------------------------------------------------------------
 
-/// Provides the data of one content stream when qpdf requests it.
+/// Computes the data of a content stream when qpdf requests them.
 class DotRows : public QPDFObjectHandle::StreamDataProvider {
   public:
     DotRows(const Sheet& sheet, DotDrawing drawing, double dpi, int first_row, int end_row,
@@ -240,8 +241,7 @@ bool is_whole_pixels(const Pattern& pattern, double dpi) {
         const double px = mm * dpi / kInch_mm;
         return std::round(px) >= 1 && std::abs(px - std::round(px)) < tolerance_px;
     };
-    // The tolerance of the spacing is smaller, because an error of the spacing accumulates over the
-    // page.
+    // An error of the spacing accumulates over the page, so its tolerance is smaller.
     return is_whole(pattern.spacing_mm, 1e-6) && is_whole(pattern.displacement_mm, 0.01) &&
            is_whole(pattern.dot_mm, 0.01);
 }
@@ -310,7 +310,7 @@ QPDFObjectHandle DotContent::font(const Pattern& pattern) {
         glyphs.replaceKey(std::string("/") + letter(symbol),
                           QPDFObjectHandle::newStream(&pdf_, glyph(pattern, symbol)));
     }
-    // The bounding box of the font must contain all glyphs. A larger box is harmless.
+    // The bounding box of a font must contain all glyphs, but it may be larger.
     const auto reach =
         static_cast<int>(std::ceil(kUnitsPerEm * (reach_mm(pattern) * 2) / pattern.spacing_mm));
     std::string widths;

@@ -1,7 +1,7 @@
 /// The dots of a sheet as PDF content.
 ///
-/// Coordinate frame of the content: points (1/72 inch) from the bottom left corner of the page, x
-/// right, y up.
+/// The content uses points (1/72 inch) from the bottom left corner of the page, with x to the right
+/// and y up.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,9 @@ inline constexpr const char* kCreator = "dotpose";
 /// Prefix of the resource names of the dots on a page.
 inline constexpr const char* kDotsName = "/Dots";
 
-/// Progress of writing the rows of all pages, and the first exception that `progress` threw. The
-/// exception is stored because qpdf, which requests the rows while it writes the file, would
-/// replace its message.
+/// Progress of writing the rows of all pages, and the first exception that `progress` threw. qpdf
+/// requests the rows while it writes the file, and would replace the message of an exception, so
+/// the exception is stored here.
 struct RowCount {
     Progress progress;
     std::int64_t done = 0;
@@ -33,24 +33,24 @@ struct RowCount {
     std::exception_ptr stopped;
 };
 
-/// Returns true if glyphs show the pattern exactly, that is, if spacing, displacement and dot
-/// diameter are whole numbers of pixels.
+/// Returns true if spacing, displacement and dot diameter are whole numbers of pixels, so that
+/// glyphs draw the pattern exactly.
 bool is_whole_pixels(const Pattern& pattern, double dpi);
 
 /// Replaces `DotDrawing::automatic` by the best choice for this pattern. Throws BadArgument if
-/// glyphs are requested but would not be exact.
+/// glyphs are requested but cannot draw the pattern exactly.
 DotDrawing resolve_drawing(DotDrawing asked, const Pattern& pattern, double dpi);
 
 /// Makes content streams with the dots of sheets, one stream per band of rows. The data of a stream
-/// is computed only while the file is written. qpdf keeps one compressed stream at a time in
-/// memory, so memory usage does not depend on the size of the page.
+/// are computed only while the file is written, and only one compressed stream at a time is in
+/// memory. The memory needed is therefore independent of the size of the page.
 class DotContent {
   public:
     /// `pdf` must outlive this object. `rows` counts the rows that all streams write.
     DotContent(QPDF& pdf, double dpi, DotDrawing asked, std::shared_ptr<RowCount> rows);
 
-    /// Returns the dots of the sheet as content streams, which may be drawn independently of each
-    /// other. Throws BadArgument like `resolve_drawing`.
+    /// Returns the dots of the sheet as content streams that are independent of each other. Throws
+    /// BadArgument like `resolve_drawing`.
     std::vector<QPDFObjectHandle> streams(const Sheet& sheet);
 
     /// Returns the resource dictionary of the content streams. It may be empty.

@@ -6,8 +6,8 @@
 namespace dotpose::print {
 namespace {
 
-/// Makes the writer copy the streams of the document in compressed form. Unpacking them could take
-/// unlimited time and memory.
+/// Makes the writer copy compressed streams unchanged. Unpacking them could take unlimited time and
+/// memory.
 void keep_packed(QPDF& pdf) {
     for (QPDFObjectHandle object : pdf.getAllObjects()) {
         if (object.isStream() && object.getDict().hasKey("/Filter") && !object.isDataModified()) {
@@ -25,9 +25,8 @@ void write_document(QPDF& pdf, const RowCount& rows, base::OutputFile& file) {
         QPDFWriter writer(pdf);
         writer.setOutputPipeline(&out);
         writer.setObjectStreamMode(qpdf_o_generate);
-        // With a deterministic identifier, the same input gives the same file. Encrypted files
-        // cannot have a deterministic identifier, because their key depends on the random
-        // identifier.
+        // With a deterministic identifier, equal input gives equal files. This is not possible for
+        // encrypted files, whose key depends on a random identifier.
         if (!pdf.isEncrypted()) writer.setDeterministicID(true);
         writer.write();
     } catch (const Error&) {

@@ -1,4 +1,5 @@
-/// Writes a qpdf document through an OutputFile, so the file appears completely or not at all.
+/// Writes a qpdf document through an OutputFile, so that no incomplete file remains if writing
+/// fails.
 #pragma once
 
 #include <qpdf/Pipeline.hh>

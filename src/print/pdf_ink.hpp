@@ -1,4 +1,4 @@
-/// Colours of PDF content, and their conversions according to `OverlayOptions`.
+/// Colours of PDF content, and the conversions that `OverlayOptions` requests.
 #pragma once
 
 #include <cstdint>
@@ -19,28 +19,28 @@ enum class ColourKind : std::uint8_t {
     other,  ///< colours that cannot be converted: patterns, spot colours, Lab, Indexed
 };
 
-/// Returns the number of components of a colour of this kind, or 0 for `ColourKind::other`.
+/// Returns the number of components of a colour, or 0 for `ColourKind::other`.
 std::size_t components(ColourKind kind);
 
-/// Returns the kind of a colour space. `space` is the name of a device space or an array such as
-/// [/ICCBased stream]. Other names are resolved by the resources `spaces`, which may be null.
+/// Returns the kind of a colour space. `space` is the name of a device space, an array such as
+/// [/ICCBased stream], or a name that is defined in the resources `spaces`, which may be null.
 ColourKind kind_of_space(QPDFObjectHandle space, QPDFObjectHandle spaces);
 
-/// Returns the amount of black ink, 0 to 1, with which a colour is printed. For grey and RGB, this
-/// is the amount that a printer computes.
+/// Returns the amount of black ink, 0 to 1, with which a colour is printed. For grey and RGB, the
+/// printer computes this amount.
 double black_of(ColourKind kind, std::span<const double> colour);
 
-/// Conversions of colours according to `OverlayOptions`.
+/// Changes of colours that `OverlayOptions` requests.
 struct InkChange {
     bool black_to_cmy = false;
     double lighten = 0;
 
     bool is_none() const { return !black_to_cmy && lighten == 0; }
 
-    /// Returns the kind of the converted colour for a colour of kind `from`.
+    /// Returns the kind of the converted colour if the original colour is of kind `from`.
     ColourKind kind(ColourKind from) const;
-    /// Returns the components of the converted colour. The kind of the converted colour is
-    /// `kind(from)`. `from` must not be `ColourKind::other`.
+    /// Returns the components of the converted colour, whose kind is `kind(from)`. `from` must not
+    /// be `ColourKind::other`.
     std::vector<double> apply(ColourKind from, std::span<const double> colour) const;
 };
 

@@ -35,10 +35,10 @@ constexpr double kRulerRoom_mm = kNumberAway_mm + kNumberHeight_mm + kEdge_mm;
 constexpr double kArrowGap_mm = 0.9;
 constexpr double kArrow_mm = 6;  // length of an arrow beyond the other arrow
 constexpr double kArrowHead_mm = 1.3;
-constexpr double kNoteAway_mm = 3;  // distance of the note from the x arrow
+constexpr double kNoteAway_mm = 3;  // distance from the x arrow to the note
 
-// Widths of the characters from the space to '~', in thousandths of the font size, from the Adobe
-// font metrics of Helvetica.
+// Widths of the characters from the space to '~' in thousandths of the font size (Adobe font
+// metrics of Helvetica).
 constexpr std::array<int, 95> kHelveticaWidths = {
     278,  278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278,  //
     556,  556, 556, 556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556,  //
@@ -63,7 +63,7 @@ std::size_t length_of(char first) {
     return byte < 0xC0 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
 }
 
-/// Returns the first `max_characters` characters of a UTF-8 text. Never splits a character.
+/// Returns the first `max_characters` characters of a UTF-8 text.
 std::string beginning(const std::string& utf8, std::size_t max_characters) {
     std::size_t end = 0;
     for (std::size_t i = 0; i < max_characters && end < utf8.size(); ++i)
@@ -71,8 +71,8 @@ std::string beginning(const std::string& utf8, std::size_t max_characters) {
     return utf8.substr(0, end);
 }
 
-/// Returns the text in the encoding of Helvetica, or nullopt if Helvetica lacks one of the letters.
-/// If no other font is available, replaces missing letters by question marks.
+/// Returns the text in the encoding of Helvetica, or nullopt if Helvetica lacks a letter. If no
+/// other font can be used, missing letters become question marks instead.
 std::optional<std::string> in_helvetica(const std::string& utf8) {
     std::string text;
     const bool has_all_letters = QUtil::utf8_to_win_ansi(utf8, text, '?');
@@ -80,8 +80,8 @@ std::optional<std::string> in_helvetica(const std::string& utf8) {
     return std::nullopt;
 }
 
-/// Breaks text between words into lines that `fits` accepts. Splits words that are wider than a
-/// line.
+/// Breaks text into lines that `fits` accepts. Lines end between words, except that a word wider
+/// than a line is split.
 template <typename Fits>
 std::vector<std::string> wrap(const std::string& text, const Fits& fits) {
     std::vector<std::string> lines = {""};
@@ -108,7 +108,7 @@ std::vector<std::string> wrap(const std::string& text, const Fits& fits) {
     return lines;
 }
 
-/// Sides of the area of dots that can have a ruler.
+/// Sides of the area of dots at which a ruler may be.
 enum class Side { top, left };
 double free_margin_mm(const Sheet& sheet, Side side) {
     return (side == Side::top ? sheet.origin_y_mm : sheet.origin_x_mm) - reach_mm(sheet.pattern);
@@ -118,7 +118,7 @@ bool has_ruler(const Sheet& sheet, Side side) {
     return free_margin_mm(sheet, side) >= kRulerRoom_mm;
 }
 
-/// Positions of the x arrow and the y arrow of the page. The arrows are outside the two rulers.
+/// Positions of the x arrow and the y arrow of the page. Both arrows are outside the rulers.
 struct Arrows {
     double x_of_y_arrow_mm = 0;
     double y_of_x_arrow_mm = 0;
@@ -126,7 +126,7 @@ struct Arrows {
     double y_end_mm() const { return y_of_x_arrow_mm + kArrow_mm; }
 };
 
-/// Returns the positions of the arrows, or an empty optional if the arrows do not fit.
+/// Returns the positions of the arrows, or an empty optional if there is too little space for them.
 std::optional<Arrows> arrows_of(const Sheet& sheet) {
     const double x_mm = free_margin_mm(sheet, Side::left) - kRulerRoom_mm - kArrowGap_mm;
     const double y_mm = free_margin_mm(sheet, Side::top) - kRulerRoom_mm - kArrowGap_mm;
@@ -134,8 +134,8 @@ std::optional<Arrows> arrows_of(const Sheet& sheet) {
     return Arrows{x_mm, y_mm};
 }
 
-/// Returns the pattern coordinates of the top left corner of the page. This corner is the origin of
-/// the coordinate frame of the sheet.
+/// Returns the position in the pattern of the top left corner of the page, which is the origin of
+/// the sheet's coordinate frame.
 std::string corner_text(const Sheet& sheet) {
     const double spacing_mm = sheet.pattern.spacing_mm;
     return fmt::format("x_mm {:.3f}, y_mm {:.3f}", sheet.origin.x * spacing_mm - sheet.origin_x_mm,
@@ -170,7 +170,7 @@ std::string shown(const std::string& win_ansi) {
     return QPDFObjectHandle::newString(win_ansi).unparse();
 }
 
-/// Returns the PDF content of the text below the dots. The first line is nearest to the dots.
+/// Returns the text below the dots as PDF content. The first line is nearest to the dots.
 std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions& options,
                          ScriptText& script) {
     const double reach = reach_mm(sheet.pattern);
@@ -190,8 +190,8 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
     }
     std::vector<std::string> lines = wrap(base::printable(text), fits);
     const std::vector<std::string> command = wrap(base::printable(options.command), fits);
-    // Prints the command only if it fits completely. An incomplete command would print another
-    // sheet.
+    // The command is printed only if it fits completely, because an incomplete command would print
+    // another sheet.
     if (!options.command.empty() && lines.size() + command.size() <= max_lines) {
         lines.insert(lines.end(), command.begin(), command.end());
     }
@@ -203,8 +203,7 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
     for (const std::string& line : lines) {
         bottom_mm -= kLine_mm;
         const double x_pt = (sheet.origin_x_mm - reach) * kPointsPerMm;
-        // The baseline is a quarter of the line height above the bottom of the line, to leave room
-        // for descenders.
+        // A quarter of the line height below the baseline is left for descenders.
         const double y_pt = (bottom_mm + kLine_mm / 4) * kPointsPerMm;
         if (const auto plain = in_helvetica(line)) {
             fmt::format_to(std::back_inserter(content), "1 0 0 1 {:.3f} {:.3f} Tm {} Tj\n", x_pt,
@@ -223,14 +222,14 @@ std::string point(const Sheet& sheet, double x_mm, double y_mm) {
 }
 
 /// Returns the PDF content of a ruler. The ruler begins with zero at the edge of the paper and ends
-/// at the last intersection. It has a tick for every millimetre and a number for every ten
-/// millimetres. Ticks that would cross the other ruler or its arrow are omitted.
+/// at the last intersection. It has a tick every millimetre and a number every ten millimetres.
+/// Ticks that would cross the other ruler or its arrow are omitted.
 std::string ruler_content(const Sheet& sheet, Side side) {
     if (!has_ruler(sheet, side)) return {};
     const bool is_top = side == Side::top;
     const double away_from_mm = free_margin_mm(sheet, side);
-    // Returns the point at the position `along_mm` on the ruler and at the distance `away_mm` from
-    // the dots. The left ruler runs downwards.
+    // Returns the point of the page at a position along the ruler and a distance from the dots. The
+    // left ruler runs downwards.
     const auto at = [&](double along_mm, double away_mm) {
         return is_top ? point(sheet, along_mm, away_from_mm - away_mm)
                       : point(sheet, away_from_mm - away_mm, along_mm);
@@ -243,8 +242,8 @@ std::string ruler_content(const Sheet& sheet, Side side) {
             (is_top ? arrows->x_of_y_arrow_mm : arrows->y_of_x_arrow_mm) - kArrowGap_mm / 2;
     }
     const double dots_begin_mm = has_ruler(sheet, other) ? free_margin_mm(sheet, other) : 0;
-    // Returns true if a tick or number would cross the other ruler. The marks of the other ruler
-    // are at a distance of at least `nearest_mm` from the dots.
+    // Returns true if a tick or number would cross the other ruler, whose marks are at least
+    // `nearest_mm` away from the dots.
     const auto is_crossed = [&](double from_mm, double to_mm, double nearest_mm) {
         return to_mm > crossing_mm && from_mm < dots_begin_mm - nearest_mm;
     };
@@ -264,7 +263,7 @@ std::string ruler_content(const Sheet& sheet, Side side) {
         const double length_mm = width_mm(number, kNumber_pt);
         const double from_mm = mm == 0 ? kEdge_mm : mm - length_mm / 2;
         if (is_crossed(from_mm, from_mm + length_mm, kNumberAway_mm)) continue;
-        // Numbers of the left ruler read upwards, with their tops facing away from the dots.
+        // The numbers of the left ruler are read upwards, so their tops are on the left.
         numbers +=
             fmt::format("{} {} Tm {} Tj\n", is_top ? "1 0 0 1" : "0 1 -1 0",
                         at(is_top ? from_mm : from_mm + length_mm, kNumberAway_mm), shown(number));
@@ -272,7 +271,8 @@ std::string ruler_content(const Sheet& sheet, Side side) {
     return ticks + "S\n" + numbers + "ET\n";
 }
 
-/// Returns the PDF content of an arrow along x or y that begins at the edge of the page.
+/// Returns the PDF content of an arrow. It begins at the edge of the page and is parallel to x or
+/// y.
 std::string arrow_content(const Sheet& sheet, Side side, double away_mm, double end_mm) {
     const auto at = [&](double along_mm, double aside_mm) {
         return side == Side::top ? point(sheet, along_mm, away_mm + aside_mm)
@@ -288,7 +288,7 @@ std::string label_at(const Sheet& sheet, double x_mm, double baseline_mm, const 
     return fmt::format("1 0 0 1 {} Tm {} Tj\n", point(sheet, x_mm, baseline_mm), shown(text));
 }
 
-/// Returns the PDF content of the x arrow and the y arrow at the corner of the page. Includes the
+/// Returns the PDF content of the x arrow and the y arrow at the corner of the page, and of the
 /// note about the corner if it fits beside the x arrow.
 std::string origin_content(const Sheet& sheet) {
     const auto arrows = arrows_of(sheet);

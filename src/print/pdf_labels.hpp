@@ -1,5 +1,5 @@
-/// Labels in the margins of a PDF page: text below the dots, rulers above and to the left of the
-/// dots.
+/// Labels in the margins of a PDF page: text below the dots, and rulers above and to the left of
+/// them.
 #pragma once
 
 #include <string>
@@ -9,16 +9,15 @@
 
 namespace dotpose::print {
 
-/// Number of a page in its document.
 struct PageNumber {
     int number = 1;  ///< from 1
     int count = 1;
 };
 
 /// Returns the labels as PDF content, in points from the bottom left corner of the page. The
-/// content requires the font resource /Label, which is Helvetica, and the forms of `script`.
-/// `script` draws the lines with letters that Helvetica lacks. Labels that do not fit into the
-/// margins are omitted, beginning with the command. Therefore no label touches a dot.
+/// content requires the font resource /Label, which is Helvetica. Lines with letters that Helvetica
+/// lacks are drawn by `script`, so its forms are also required. Labels that do not fit into the
+/// margins are omitted, beginning with the command, so no label touches a dot.
 std::string label_content(const Sheet& sheet, PageNumber page, const PrintOptions& options,
                           ScriptText& script);
 

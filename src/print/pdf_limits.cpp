@@ -22,8 +22,8 @@ namespace {
 
 constexpr const char* kTooDeep = "streams whose lengths are in other streams";
 
-/// Maximum stack usage of qpdf. Valid documents need far less, and the main thread of a program has
-/// a larger stack.
+/// Maximum size of the stack that qpdf may use while it reads. Valid documents need far less, and
+/// the stack of a program's main thread is larger.
 constexpr std::ptrdiff_t kMaxStack_bytes = 2 << 20;
 
 class ShallowFile : public FileInputSource {
@@ -44,14 +44,14 @@ class ShallowFile : public FileInputSource {
     std::ptrdiff_t start_;
 };
 
-/// Counts the bytes that pass through and discards them. Throws after `max` bytes.
+/// Counts the bytes that pass through and discards them. Throws if there are more than `max` bytes.
 class ByteCount : public Pipeline {
   public:
     explicit ByteCount(std::uint64_t max) : Pipeline("byte count", nullptr), max_(max) {}
 
     void write(unsigned char const* /*data*/, std::size_t size) override {
         bytes_ += size;
-        // qpdf may convert this exception to a warning, so the caller must also check the count.
+        // qpdf may turn this exception into a warning, so the caller must also check the count.
         if (bytes_ > max_) throw std::runtime_error("too many bytes");
     }
     void finish() override {}
@@ -63,8 +63,8 @@ class ByteCount : public Pipeline {
     std::uint64_t bytes_ = 0;
 };
 
-/// Returns the number of bytes that the predictor of a compression filter allocates for a row.
-/// Returns 0 without a predictor.
+/// Returns the number of bytes that the predictor of a compression filter allocates for a row, or 0
+/// without a predictor.
 double predictor_row_bytes(QPDFObjectHandle parameters) {
     if (!parameters.isDictionary()) return 0;
     double bytes = 1.0 / 8;
@@ -75,9 +75,8 @@ double predictor_row_bytes(QPDFObjectHandle parameters) {
     return bytes;
 }
 
-/// Throws Error if a stream has more than kMaxFilters filters, or if the rows of a predictor need
-/// more than kMaxRowBytes of memory. The number of filters is limited because each filter can
-/// multiply the size of the data.
+/// Throws Error if a stream has more than kMaxFilters filters, because each filter can multiply the
+/// size of the data. Also throws if the rows of a predictor need more than kMaxRowBytes of memory.
 void require_few_filters(QPDFObjectHandle dict) {
     constexpr int kMaxFilters = 8;
     constexpr double kMaxRowBytes = 1 << 24;
@@ -100,7 +99,7 @@ void require_few_filters(QPDFObjectHandle dict) {
     }
 }
 
-/// Returns the root of the page tree. Follows /Parent from the node in the document catalogue.
+/// Returns the root of the page tree, by following /Parent from the node in the document catalogue.
 QPDFObjectHandle page_tree(QPDF& pdf) {
     QPDFObjectHandle node = pdf.getRoot().getKey("/Pages");
     std::set<QPDFObjGen> seen;
@@ -124,8 +123,8 @@ void require_shallow_page_tree(QPDF& pdf) {
     while (!nodes.empty()) {
         auto [node, level] = nodes.back();
         nodes.pop_back();
-        // A node that was visited before is part of a cycle, or is a page that occurs twice. qpdf
-        // reports both faults, so the node is skipped.
+        // A node that was visited before is part of a cycle or a page that occurs twice. It is
+        // skipped, because qpdf reports both faults.
         if (!node.isDictionary() || (node.isIndirect() && !seen.insert(node.getObjGen()).second)) {
             continue;
         }
@@ -166,8 +165,8 @@ void UnpackedBytes::count(QPDFObjectHandle stream) {
     try {
         stream.pipeStreamData(&bytes, &attempted, 0, qpdf_dl_specialized, kSuppressWarnings);
     } catch (const std::runtime_error&) {
-        // Ignores the exception. The code below tests the count against the limits, and a damaged
-        // stream is reported when it is read.
+        // The exception can be ignored: the code below tests the count against the limits, and a
+        // damaged stream is reported when it is read.
     }
     page_ += bytes.bytes();
     document_ += bytes.bytes();

@@ -1,4 +1,4 @@
-/// Limits for untrusted documents: depth of nesting, and number of bytes after unpacking.
+/// Limits for untrusted documents: nesting depth, and number of bytes after unpacking.
 #pragma once
 
 #include <cstdint>
@@ -12,29 +12,28 @@
 
 namespace dotpose::print {
 
-/// Maximum nesting depth of objects. Useful documents are nested less deeply, and recursive
-/// functions do not overflow the stack at this depth.
+/// Maximum nesting depth of objects. Useful documents need less, and at this depth recursive
+/// functions do not overflow the stack.
 inline constexpr int kMaxPdfLevels = 100;
 
-/// Throws Error if `level` (from 1) exceeds kMaxPdfLevels. The message states that `what` is nested
-/// too deeply.
+/// Throws Error if `level`, counted from 1, exceeds kMaxPdfLevels. `what` names the nested objects
+/// in the message.
 void require_pdf_level(const char* what, int level);
 
 /// Throws Error if the page tree is nested too deeply.
 void require_shallow_page_tree(QPDF& pdf);
 
-/// Opens a PDF such that reading it cannot overflow the stack. qpdf reads recursively: the length
-/// of a stream may be stored in another stream, whose length is stored in a third stream, and so
-/// on. A read throws an exception if too much of the stack is in use. qpdf converts the exception
-/// to a warning, which `is_too_deep` recognizes. Throws Error for pipes and devices.
+/// Opens a PDF so that reading it cannot overflow the stack. qpdf reads recursively, because the
+/// length of a stream may be stored in another stream, whose length is in a third stream, and so
+/// on. If too much of the stack is in use, a read throws an exception, which qpdf turns into a
+/// warning (see `is_too_deep`). Throws Error for pipes and devices.
 std::shared_ptr<InputSource> open_pdf(const std::filesystem::path& path);
 
-/// Returns true if a warning of qpdf was caused by a read that stopped because too much of the
-/// stack was in use.
+/// Returns true if qpdf gave this warning because a read would have used too much of the stack.
 bool is_too_deep(const std::string& warning);
 
-/// Counts the bytes of unpacked streams before they are stored in memory. The limit is `max_mb`
-/// megabytes for one page, and eight times as much for all pages together.
+/// Counts the bytes of streams after unpacking, before they are stored in memory. The limit is
+/// `max_mb` megabytes per page, and eight times as much for all pages together.
 class UnpackedBytes {
   public:
     explicit UnpackedBytes(int max_mb) : max_mb_(max_mb) {}
@@ -45,8 +44,8 @@ class UnpackedBytes {
     /// many filters or needs too much memory for a row of a predictor.
     void count(QPDFObjectHandle stream);
 
-    /// Counts the bytes of the object streams (streams that contain other objects). The limit for
-    /// one page applies to each object stream.
+    /// Counts the bytes of the object streams, which are streams that contain other objects. The
+    /// limit for one page also applies to each object stream.
     void count_object_streams(QPDF& pdf);
 
   private:

@@ -35,7 +35,7 @@ double user_unit(QPDFPageObjectHelper& page) {
 int quarter_turns(QPDFPageObjectHelper& page) {
     QPDFObjectHandle rotate = page.getAttribute("/Rotate", false);
     if (!rotate.isNumber()) return 0;
-    // The rotation may be an integer or a real number.
+    // A rotation may be stored as an integer or a real number.
     const double degrees = rotate.getNumericValue();
     const double turns = std::fmod(degrees / 90, 4);
     if (turns != std::floor(turns)) {
@@ -59,7 +59,7 @@ PageFrame page_frame(QPDFPageObjectHelper page) {
     frame.box = box;
     frame.paper.width_mm = (turns % 2 == 0 ? width : height) * unit / kPointsPerMm;
     frame.paper.height_mm = (turns % 2 == 0 ? height : width) * unit / kPointsPerMm;
-    // Rotations by 0 to 3 quarter turns. A page is rotated clockwise when it is displayed (PDF
+    // Matrices of the rotations by 0 to 3 quarter turns. Pages are displayed rotated clockwise (PDF
     // 32000-1, 8.3.3).
     constexpr int kTurned[4][4] = {{1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0}};
     const auto& [a, b, c, d] = kTurned[turns];

@@ -1,4 +1,4 @@
-/// Relation between the displayed page and the coordinates of its content.
+/// Converts between the displayed page and the coordinates of its content.
 #pragma once
 
 #include <string>
@@ -9,23 +9,23 @@
 
 namespace dotpose::print {
 
-/// Crop box of a page, in the displayed orientation.
+/// Crop box of a page as it is displayed.
 struct PageFrame {
     Paper paper;  ///< displayed size
     /// Crop box within the media box, in units of the content.
     QPDFObjectHandle::Rectangle box;
-    /// Operands of the operator `cm` that converts points from the bottom left corner of the
-    /// displayed page to the coordinates of the content.
+    /// Operands of `cm` that convert points from the bottom left corner of the displayed page to
+    /// coordinates of the content.
     std::string matrix;
 };
 
-/// Computes the frame from /Rotate, /UserUnit and the boxes. These entries may be inherited. Throws
-/// Error if the area of the page is 0, or if the rotation of the page is not a multiple of 90
-/// degrees. Viewers show other rotations in different ways.
+/// Computes the frame from /Rotate, /UserUnit and the boxes, which may be inherited. Throws Error
+/// if the area of the page is 0. Also throws if the rotation is not a multiple of 90 degrees,
+/// because viewers differ in how they show such a page.
 PageFrame page_frame(QPDFPageObjectHelper page);
 
-/// Replaces a /Rotate that is a real number, such as 90.0, by an integer, because some viewers
-/// ignore a real number.
+/// Replaces a /Rotate that is a real number, such as 90.0, with an integer, because some viewers
+/// ignore real numbers.
 void write_turn_as_integer(QPDFPageObjectHelper page);
 
 }  // namespace dotpose::print

@@ -7,11 +7,11 @@
 
 namespace dotpose::print {
 
-/// Parses page numbers such as "1-3,7". "z" is the last of `count` pages. An empty text means all
-/// pages. Throws BadArgument if the text is invalid.
+/// Parses a list of page numbers such as "1-3,7". "z" is the last of `count` pages, and an empty
+/// text means all pages. Throws BadArgument if the text is invalid.
 std::set<int> page_numbers(const std::string& range, int count);
 
-/// Returns a list of page numbers such as "pages 1, 2, 5". Long lists are shortened.
+/// Formats page numbers, for example as "pages 1, 2, 5". Long lists are shortened.
 std::string page_list(const std::vector<int>& numbers);
 
 }  // namespace dotpose::print

@@ -18,7 +18,7 @@
 namespace dotpose::print {
 namespace {
 
-// Amount of black ink in the content, 0 to 1, below which a black dot has enough contrast.
+// Maximum amount of black ink in content, 0 to 1, on which black dots still have enough contrast.
 constexpr double kHidingBlack = 0.1;
 
 /// The current colour. Content starts with black, device grey 0.
@@ -32,15 +32,15 @@ struct Colours {
     Colour stroke;
 };
 
-/// State shared by the scans of a page and of its forms.
+/// State shared by the scan of a page and the scans of its forms.
 struct PageScan {
     UnpackedBytes& unpacked;
     std::set<QPDFObjGen> seen;
     PageContent found;
 };
 
-/// Maximum number of stored operands. Operators have at most 33 operands: the 32 components of a
-/// colour, and a name.
+/// Maximum number of stored operands. No operator has more than 33: the 32 components of a colour
+/// and a name.
 constexpr std::size_t kMaxOperands = 64;
 
 struct Operand {
@@ -48,8 +48,7 @@ struct Operand {
     std::string text;  ///< characters of a name or number
 };
 
-/// Scans content token by token, because parsed objects would need many times the memory of the
-/// bytes.
+/// Scans content token by token. Parsed objects would need many times as much memory as the bytes.
 class Scan : public QPDFObjectHandle::TokenFilter {
   public:
     Scan(QPDFObjectHandle resources, Colours start, PageScan& page, int level)
@@ -228,8 +227,8 @@ class Scan : public QPDFObjectHandle::TokenFilter {
 
 void Scan::read(const std::vector<QPDFObjectHandle>& streams) {
     Pl_QPDFTokenizer tokens("content", this);
-    // Tokens are processed in manualFinish, after all streams have been unpacked. qpdf would
-    // convert an exception during unpacking to a warning.
+    // The tokens are processed in manualFinish, after all streams have been unpacked, because qpdf
+    // would turn an exception during unpacking into a warning.
     Pl_Concatenate all("content", &tokens);
     for (QPDFObjectHandle stream : streams) {
         page_.unpacked.count(stream);

@@ -13,19 +13,20 @@ namespace dotpose::print {
 struct PageContent {
     bool paints_black = false;   ///< true for text or drawings that need black ink
     bool paints_images = false;  ///< true for images, whose colours are not examined
-    /// True for filled shapes, shadings or images, which cover the dots below them.
+    /// True for filled shapes, shadings or images, because they cover dots below them.
     bool paints_areas = false;
-    int unclosed_saves = 0;  ///< number of operators q without a matching Q
-    int extra_restores = 0;  ///< number of operators Q without a preceding q
+    int unclosed_saves = 0;  ///< number of operators q (save) without a matching Q
+    int extra_restores = 0;  ///< number of operators Q (restore) without a preceding q
 
-    /// Return the operators before and after the content that give it a separate graphics state.
+    /// Return the operators to write before and after the content, so that it does not change the
+    /// graphics state of other content.
     std::string before() const;
     std::string after() const;
 };
 
-/// Scans the content of a page and of its forms without changing them, and counts their bytes in
-/// `unpacked`. Throws Error if the content cannot be read completely, because a viewer would not
-/// show dots after the damaged part.
+/// Scans the content of a page and of its forms, and counts their bytes in `unpacked`. Throws Error
+/// if the content cannot be read completely, because a viewer would not show dots after the damaged
+/// part.
 PageContent scan_page(QPDFPageObjectHelper page, UnpackedBytes& unpacked);
 
 /// Returns true if dotpose printed the document, or has already added dots to the page.

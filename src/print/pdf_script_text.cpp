@@ -14,8 +14,8 @@
 namespace dotpose::print {
 namespace {
 
-/// Space above and below the baseline, relative to the font size. Leaves room for stacked
-/// diacritics.
+/// Space above and below the baseline, relative to the font size. The space is sufficient for
+/// stacked diacritics.
 constexpr double kAscent = 1.5;
 constexpr double kDescent = 0.8;
 
@@ -48,8 +48,8 @@ std::string escaped(const std::string& text) {
     throw Error(fmt::format("the label '{}' cannot be set", text));
 }
 
-/// Returns a drawing of the text in units of points. The library librsvg selects the fonts, and
-/// joins and orders the letters according to the rules of their script.
+/// Returns a drawing of the text, in points. librsvg selects the fonts, and joins and orders the
+/// letters according to the rules of their script.
 Drawing drawing_of(const std::string& text, double size_pt, double width_pt) {
     const std::string svg = fmt::format(
         R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}">)"
@@ -67,7 +67,6 @@ cairo_status_t append(void* document, const unsigned char* data, unsigned size) 
     return CAIRO_STATUS_SUCCESS;
 }
 
-/// Returns a PDF document with one page that contains the text.
 std::string document_of(const std::string& text, double size_pt, double width_pt) {
     const RsvgRectangle page{0, 0, width_pt, (kAscent + kDescent) * size_pt};
     const Drawing drawing = drawing_of(text, size_pt, width_pt);
@@ -82,8 +81,8 @@ std::string document_of(const std::string& text, double size_pt, double width_pt
     return document;
 }
 
-/// Makes the text of a form use black ink only. The library cairo writes RGB black. Printers mix
-/// all inks to print RGB black.
+/// Prints the text of a form with black ink only. cairo writes RGB black, for which printers mix
+/// all inks.
 void use_black_ink(QPDFObjectHandle form) {
     constexpr std::string_view kOfScreens = "0 0 0 rg";
     constexpr std::string_view kInk = "0 0 0 1 k";
@@ -122,7 +121,7 @@ QPDFObjectHandle ScriptText::form_of(const std::string& utf8, double size_pt) {
     if (known != forms_.end()) return known->second;
     const std::string document = document_of(utf8, size_pt, width_pt(utf8, size_pt) + 1);
     QPDF& source = *sources_.emplace_back(std::make_unique<QPDF>());
-    // Streams are copied immediately, because `document` is destroyed at the end of this function.
+    // `document` is destroyed at the end of this function, so streams must be copied immediately.
     source.setImmediateCopyFrom(true);
     source.processMemoryFile("label", document.data(), document.size());
     QPDFPageObjectHelper page = QPDFPageDocumentHelper(source).getAllPages().front();

@@ -1,5 +1,6 @@
-/// Typesets the labels of a PDF page that contain letters of any script. Uses the fonts that are
-/// installed on the computer, because Helvetica, which is not embedded, has only Latin letters.
+/// Typesets labels with letters of any script for a PDF page. Helvetica, which is not embedded, has
+/// only Latin letters, so other letters are drawn with the fonts that are installed on the
+/// computer.
 #pragma once
 
 #include <map>
@@ -16,20 +17,20 @@ namespace dotpose::print {
 /// object.
 class ScriptText {
   public:
-    /// `pdf` must outlive this object, and this object must exist until `pdf` has been written.
+    /// This object must exist until `pdf` has been written, and `pdf` must outlive it.
     explicit ScriptText(QPDF& pdf) : pdf_(pdf) {}
 
     /// Returns false if dotpose was built without librsvg, which typesets the lines.
     static bool is_available();
 
-    /// Returns the width of a line, in points. Throws Error if the line cannot be typeset.
+    /// Returns the width of a line in points. Throws Error if the line cannot be typeset.
     double width_pt(const std::string& utf8, double size_pt);
 
     /// Returns the content that draws a line with its baseline at (x_pt, y_pt). Throws Error if the
     /// line cannot be typeset.
     std::string draw(const std::string& utf8, double size_pt, double x_pt, double y_pt);
 
-    /// Adds the lines drawn since the last call to the resources of their page.
+    /// Adds the lines that were drawn since the last call to the resources of a page.
     void add_to(QPDFObjectHandle resources);
 
   private:
@@ -37,9 +38,9 @@ class ScriptText {
 
     QPDF& pdf_;
     std::map<std::string, double> widths_pt_;
-    /// Forms of the lines, by font size and text.
+    /// Form of each line, by font size and text.
     std::map<std::string, QPDFObjectHandle> forms_;
-    /// Drawn lines of the current page, by name.
+    /// Lines drawn on the current page, by name.
     std::map<std::string, QPDFObjectHandle> drawn_;
     std::vector<std::unique_ptr<QPDF>> sources_;  ///< documents that contain the original forms
 };

@@ -15,16 +15,17 @@ namespace dotpose {
 namespace print {
 namespace {
 
-// Offset added before rounding to a pixel. All centres halfway between two pixels are then rounded
-// in the same direction. Without the offset, floating-point errors would determine the direction.
+// Offset that is added before rounding to a pixel. Without it, floating-point errors would
+// determine in which direction a centre halfway between two pixels is rounded.
 constexpr double kTie_px = 1e-6;
 
 int diameter_px(const Sheet& sheet, double dpi) {
     return std::max(1, static_cast<int>(std::lround(sheet.pattern.dot_mm * dpi / kInch_mm)));
 }
 
-/// Returns the first pixel of a dot of `dot_px` pixels whose centre is as close as possible to
-/// `centre_mm`. Pixel k extends from k to k + 1. The result is clamped to the page.
+/// Returns the first pixel of a dot with a diameter of `dot_px` pixels. The centre of the dot is as
+/// close as possible to `centre_mm`, but the whole dot is on the page. Pixel k extends from k to k
+/// + 1.
 int first_px(double centre_mm, double dpi, int dot_px, int page_px) {
     const double first = centre_mm * dpi / kInch_mm - 0.5 * dot_px;
     return std::clamp(static_cast<int>(std::floor(first + 0.5 + kTie_px)), 0, page_px - dot_px);
@@ -39,8 +40,8 @@ struct Run {
     int end = 0;
 };
 
-/// Returns the rows of a disc: the pixels whose centres are in the inscribed circle of a square.
-/// Discs of 1, 2 and 3 px are full squares. A disc of 4 px lacks the four corners.
+/// Returns the rows of a disc: the pixels of a square whose centres are in its inscribed circle.
+/// Discs of 1, 2 and 3 px are full squares, and a disc of 4 px lacks the four corners.
 std::vector<Run> disc(int dot_px) {
     std::vector<Run> runs;
     const double radius = 0.5 * dot_px;
@@ -125,8 +126,8 @@ void rasterize(const Sheet& sheet, double dpi, const Progress& progress, const p
                 first_px(dot_y_mm(sheet, j, shift), dpi, band.dot_px(), size.height_px);
         }
         band.draw(symbols.row(j), tops);
-        // Bands do not overlap, because validate_resolution requires a white pixel between any two
-        // dots.
+        // Bands do not overlap, because `validate_resolution` requires a white pixel between
+        // neighbouring dots.
         for (; next_row < tops[0]; ++next_row)
             sink(blank);
         for (int v = 0; v < band.height_px(); ++v, ++next_row)
@@ -155,8 +156,7 @@ void validate_resolution(const Sheet& sheet, double dpi) {
             dpi, sheet.pattern.displacement_mm, displacement_px,
             std::ceil(print::kInch_mm / sheet.pattern.displacement_mm - print::kTie_px)));
     }
-    // Each dot is rounded independently, so the distance between two dots may decrease by up to one
-    // pixel.
+    // Each dot is rounded on its own, so two dots may become closer by up to one pixel.
     const int dot_px = print::diameter_px(sheet, dpi);
     const double closest_px = sheet.pattern.spacing_mm * px_per_mm - 2 * displacement_px;
     if (closest_px < dot_px + 1 - print::kTie_px) {

@@ -14,8 +14,8 @@ struct RasterSize {
 /// Returns the size of the page in printer pixels, rounded to whole pixels.
 RasterSize raster_size(const Sheet& sheet, double dpi);
 
-/// Calls `sink` for all pixel rows from top to bottom. The sheet and the resolution must be valid.
-/// Only the pixel rows of one row of dots are in memory at a time.
+/// Calls `sink` for each pixel row from top to bottom. The sheet and the resolution must be valid.
+/// At any time, only the pixel rows of one row of dots are in memory.
 void rasterize(const Sheet& sheet, double dpi, const Progress& progress, const png::RowSink& sink);
 
 }  // namespace dotpose::print

@@ -7,14 +7,14 @@
 
 namespace dotpose::print {
 
-/// Allocates regions side by side, from `start` to the right. A region that would extend past the
-/// right end of the plane begins a new row, below all regions of the previous row.
+/// Allocates regions side by side, from `start` to the right. If a region would extend past the
+/// right end of the plane, it begins a new row below all regions of the current row.
 class Regions {
   public:
     explicit Regions(Cell start) : start_(start), next_(start) {}
 
-    /// Returns the top left cell of a new region. If no free space is large enough, the region at
-    /// this cell extends past the end of the plane, and `validate` rejects it.
+    /// Returns the top left cell of a new region. If there is no space left for it, the region
+    /// extends past the end of the plane, and `validate` rejects it.
     Cell take(int columns, int rows);
 
   private:

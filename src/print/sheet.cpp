@@ -12,7 +12,7 @@
 namespace dotpose {
 namespace {
 
-/// Returns the first position at or after `mm` at which a dot fills whole printer pixels at 300
+/// Returns the first position at or after `mm` at which a dot covers whole printer pixels at 300
 /// dpi.
 double snap_up_mm(double mm) {
     return (std::ceil((mm - base::kTolerance_mm) / print::kPixelAt300Dpi_mm - 0.5) + 0.5) *

@@ -12,16 +12,16 @@
 namespace dotpose::print {
 namespace {
 
-// Drawing units per mm. Coordinates are integers in units of 0.1 µm. These integers are short, and
-// the unit is finer than the resolution of any printer. Positions are rounded before their
-// differences are computed, so rounding errors do not accumulate.
+// Drawing units per mm. Coordinates are whole numbers of 0.1 µm, which are short and more precise
+// than any printer. Positions are rounded before they are subtracted, so rounding errors do not
+// accumulate.
 constexpr double kUnitsPer_mm = 10'000;
 
 std::int64_t to_units(double mm) {
     return std::llround(mm * kUnitsPer_mm);
 }
 
-/// Returns the first lines of a drawing with the size of the page.
+/// Returns the beginning of a drawing with the size of the page.
 std::string head(double width_mm, double height_mm, const std::string& title) {
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -31,8 +31,8 @@ std::string head(double width_mm, double height_mm, const std::string& title) {
         width_mm, height_mm, to_units(width_mm), to_units(height_mm), title);
 }
 
-/// Writes one path per row of dots. A dot is a line of length zero with round ends. Such a line is
-/// drawn as a circle and takes a dozen bytes.
+/// Writes one path per row of dots. A dot is a line of length zero with round ends, which is drawn
+/// as a disc and takes only a dozen bytes.
 void write_dots(const Sheet& sheet, const std::function<void(int)>& row_done,
                 base::ByteSink& file) {
     SymbolRows symbols(sheet);
@@ -49,7 +49,8 @@ void write_dots(const Sheet& sheet, const std::function<void(int)>& row_done,
         for (const Symbol symbol : symbols.row(j)) {
             const std::int64_t x = to_units(dot_x_mm(sheet, i, dx(symbol)));
             const std::int64_t y = to_units(dot_y_mm(sheet, j, dy(symbol)));
-            // The first step of a path is relative to (0, 0).
+            // Each position is relative to the previous one. The first position is relative to (0,
+            // 0).
             fmt::format_to(std::back_inserter(line), "m{} {}h0", x - last_x, y - last_y);
             last_x = x;
             last_y = y;

@@ -8,15 +8,13 @@
 
 namespace dotpose::print {
 
-/// Computes the symbols of a sheet row by row. Stores the offset of the main sequence (the roll) of
-/// each column. A symbol then requires two table look-ups instead of the formula for arbitrary
-/// cells.
+/// Computes the symbols of a sheet row by row. Stores the roll of each column (the offset of the
+/// main sequence in the column), so that a symbol requires only two table look-ups.
 class SymbolRows {
   public:
     explicit SymbolRows(const Sheet& sheet);
 
-    /// Returns the symbols of row `j` of the sheet, from left to right. Row 0 is the first row.
-    /// Valid until the next call.
+    /// Returns the symbols of row `j` of the sheet, from left to right. Valid until the next call.
     const std::vector<Symbol>& row(int j);
 
   private:

@@ -43,8 +43,8 @@ Cell first_cell(int spacing, int dot) {
 }
 
 /// Returns the setting of the patch whose first cell is nearest to a coordinate, or 0 if there is
-/// no such setting. Accepts coordinates slightly outside a patch, because the maps that
-/// `check_print` fits extend beyond the patch.
+/// none. The maps that `check_print` fits extend beyond the patch, so the coordinate may be
+/// slightly outside it.
 int setting_at(std::uint32_t coordinate) {
     constexpr std::uint32_t kHalf = kTestPatchCells / 2;
     if (coordinate < kTestPageCell + kHalf) return 0;
@@ -52,8 +52,8 @@ int setting_at(std::uint32_t coordinate) {
     return setting <= kMaxSetting ? setting : 0;
 }
 
-/// Rounds a length to whole printer pixels, to give the dots of all patches the same position
-/// relative to the printer's pixels.
+/// Rounds a length to whole printer pixels. With rounded lengths, the dots of all patches have the
+/// same position relative to the printer's pixels.
 double snapped_mm(double mm) {
     return std::round(mm / print::kPixelAt300Dpi_mm) * print::kPixelAt300Dpi_mm;
 }

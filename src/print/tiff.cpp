@@ -8,11 +8,11 @@
 namespace dotpose::print {
 namespace {
 
-// File size above which BigTIFF is written. Offsets in a classic TIFF have 32 bits.
+// File size from which BigTIFF is written, because offsets in a classic TIFF have only 32 bits.
 constexpr std::int64_t kBigTiff_bytes = std::int64_t{1} << 31;
 constexpr std::uint32_t kRowsPerStrip = 64;
 
-// Reports success to libtiff for every write. OutputFile stores the first failure and its reason.
+// Always reports success to libtiff. OutputFile stores the first failure with its reason.
 tmsize_t on_write(thandle_t handle, void* data, tmsize_t size_bytes) {
     static_cast<base::OutputFile*>(handle)->write(data, static_cast<std::size_t>(size_bytes));
     return size_bytes;

@@ -1,6 +1,5 @@
-/// One writer per file format. Each writer takes a validated sheet and writes the complete file to
-/// `file`. The caller commits `file`. All writers throw Error if writing fails or `progress`
-/// returns false.
+/// Writers of the file formats. Each of them writes a validated sheet as a complete file to `file`,
+/// which the caller commits. All writers throw Error if writing fails or `progress` returns false.
 #pragma once
 
 #include <span>

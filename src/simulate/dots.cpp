@@ -6,8 +6,8 @@
 namespace dotpose::simulate {
 namespace {
 
-// Random printing errors of one dot. The errors depend only on the page and the cell, so a dot has
-// the same errors in every frame.
+// Random printing errors of one dot. They depend only on the page and the cell, so they are the
+// same in every frame.
 struct DotErrors {
     double presence;  // uniform random number in [0, 1)
     Vec2 jitter;      // normal random numbers with standard deviation 1
@@ -18,8 +18,8 @@ DotErrors errors_of(const Page& page, Cell cell) {
     const Section section = page.pattern.section;
     const std::uint64_t sheet = page.seed * 4096 + section.u * std::uint64_t{64} + section.v;
     Rng rng(sheet, (std::uint64_t{cell.x} << 32) | cell.y);
-    // Draws all random numbers in every case. Disabling one imperfection then does not change the
-    // others.
+    // Draws all random numbers even if an imperfection is switched off, because the other
+    // imperfections must not change then.
     DotErrors errors{};
     errors.presence = rng.uniform();
     errors.jitter.x = rng.normal();
@@ -51,7 +51,8 @@ Vec2 shift_of(const Page& page, Cell cell) {
 }
 
 /// Returns the reflectance of a dot. If `palest_ink` is less than 1, each direction of displacement
-/// has its own ink. The ink for right is the darkest, followed by the inks for down, left and up.
+/// is printed with its own ink. The inks from the darkest to the palest are those for right, down,
+/// left and up.
 double reflectance_of(Vec2 displacement, const Imperfections& imperfections) {
     const double paleness = displacement.x > 0   ? 0
                             : displacement.y > 0 ? 1
@@ -71,8 +72,8 @@ View::View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperf
                 std::hypot(blurred.motion_px.x, blurred.motion_px.y) / 2) {}
 
 OffsetBox visible_offsets(const View& view) {
-    // Number of steps along each side of the image. Points between the corners are included,
-    // because the extremes of a distorted side may be at the corners or in the middle.
+    // Number of steps along each side of the image. If the sides are distorted, the extreme offsets
+    // may be at the corners or in between.
     constexpr int kSteps = 16;
     OffsetBox box{{1e300, 1e300}, {-1e300, -1e300}};
     const auto include = [&](double along_u, double along_v) {
@@ -101,9 +102,9 @@ void add_disc(Ink& ink, const View& view, Vec2 offset_mm, double radius_mm, doub
     if (away_u > view.camera.width_px / 2.0 + reach_px) return;
     if (away_v > view.camera.height_px / 2.0 + reach_px) return;
 
-    // Approximates the projection across the dot by a linear map, so the image of the dot is an
-    // ellipse. At 3 degrees of tilt, this approximation moves the centroid by less than 0.001 px,
-    // even at 60 px per spacing.
+    // Across the dot, the projection is approximated by a linear map, so the image of the dot is an
+    // ellipse. At 3 degrees of tilt and 60 px per spacing, this approximation moves the centroid by
+    // less than 0.001 px.
     const auto half = [&](Vec2 step) {
         const Vec2 ahead =
             projection.pixel_from_offset({offset_mm.x + step.x, offset_mm.y + step.y});
@@ -122,8 +123,9 @@ void add_dots(Ink& ink, const View& view, const Page& page, const Imperfections&
     const Pattern& pattern = page.pattern;
     const OffsetBox box = visible_offsets(view);
     const CameraPose& pose = view.pose;
-    // Cells are relative to the cell of the pose, so offsets are exact anywhere on the plane. The
-    // range includes one more cell on each side, for dots that are displaced or jittered into view.
+    // Cells are counted from the cell of the pose, so offsets are exact anywhere on the plane. The
+    // range has one more cell on each side, because dots outside the view may be displaced or
+    // jittered into it.
     const AxisScale scale = page.print_scale;
     const Vec2 spacing_mm{scale.x * pattern.spacing_mm, scale.y * pattern.spacing_mm};
     const auto first = [](double low, double fraction) {

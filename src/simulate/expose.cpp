@@ -1,8 +1,8 @@
-// Computes grey levels from ink. Ink is drawn on sub-pixels, with the exact covered fraction of
-// each sub-pixel. A pixel has `kernel.per_pixel` sub-pixels per axis. One weighted sum over
-// sub-pixels represents lens blur, motion and integration over the area of the pixel. The sum is
-// computed first along rows, then along columns. Sub-rows are drawn in bands and added to the pixel
-// rows that they contribute to. No image larger than the frame is stored.
+// Computes grey levels from ink. A pixel has `kernel.per_pixel` sub-pixels per axis, and ink is
+// drawn as the covered fraction of each sub-pixel. A weighted sum over sub-pixels, first along rows
+// and then along columns, models lens blur, motion and the area of a pixel. Sub-rows are drawn in
+// bands and added to the pixel rows to which they contribute, so no image larger than the frame is
+// stored.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,8 +19,8 @@ namespace {
 // Number of pixels that are processed together with vector instructions.
 constexpr std::size_t kLanes = 4;
 
-// Computes the light in each pixel as the light of bare paper minus the light absorbed by ink. Only
-// the sub-pixels with ink, a few percent, are spread over neighbouring pixels.
+// Computes the light in each pixel: the light of bare paper minus the light that ink absorbs. Only
+// a few percent of the sub-pixels have ink, so only these are spread over neighbouring pixels.
 class Sensor {
   public:
     Sensor(const CameraModel& camera, const Kernel& kernel, const std::vector<float>& paper)
@@ -30,13 +30,14 @@ class Sensor {
           kernel_(kernel),
           paper_(paper),
           // A range may begin at any pixel, and its length is rounded up to a multiple of kLanes.
+          // The row has kLanes additional elements, because a range may therefore extend beyond the
+          // last pixel.
           row_(whole_lanes(width_ + 2 * border_ + kernel.taps) + kLanes),
           levels_(row_.size() * static_cast<std::size_t>(camera.height_px)) {
         collect_paper();
     }
 
-    // Subtracts the light absorbed by the ink in a sub-row. Sub-rows are numbered from the top of
-    // the border.
+    // Subtracts the light that the ink of a sub-row absorbs. Sub-row 0 is the top of the border.
     void absorb(int sub_row, std::span<const Raster::Spot> spots) {
         if (spots.empty()) return;
         const int row = sub_row / kernel_.per_pixel;
@@ -74,14 +75,14 @@ class Sensor {
     }
 
     // Converts the ink of a row to lost light, and computes the ranges of row_ that this light
-    // affects.
+    // changes.
     void gather(std::span<const Raster::Spot> spots, const float* paper) {
         losses_.assign(spots.begin(), spots.end());
         reaches_.clear();
         for (Raster::Spot& loss : losses_) {
             for (float& light : loss.darkness)
                 light *= paper[loss.pixel];
-            // Adjacent pixels share a range.
+            // Adjacent pixels are in the same range.
             if (reaches_.empty() || loss.pixel < reaches_.back().from ||
                 loss.pixel > reaches_.back().to) {
                 reaches_.push_back({loss.pixel, loss.pixel});
@@ -115,8 +116,8 @@ class Sensor {
         }
     }
 
-    // The number of phases is a template parameter to let the compiler unroll the loop over phases.
-    // Each pixel is then loaded and stored only once.
+    // The number of phases is a template parameter, so the compiler can unroll the loop over
+    // phases, and each pixel is loaded and stored only once.
     template <std::size_t kPhases>
     void spread_phases(const Kernel::Weights& weights) {
         std::array<const float*, kPhases> of_phase;
@@ -136,8 +137,8 @@ class Sensor {
         }
     }
 
-    // Adds a range of row_ to all pixel rows to which row `row` contributes. Rows are numbered from
-    // the top of the border.
+    // Adds a range of row_ to all pixel rows to which row `row` contributes. Row 0 is the top of
+    // the border.
     void add_row(int row, const std::vector<float>& weights, Reach reach) {
         const int top = row - 2 * kernel_.border_px;
         const int first = std::max(0, -top);
@@ -154,14 +155,14 @@ class Sensor {
         }
     }
 
-    // Convolves the light of bare paper with the kernel. The light is constant over each pixel, so
-    // the weights of the sub-pixels of a pixel are summed first. Both passes keep the sums of a
-    // part of a row in registers.
+    // Convolves the light of bare paper with the kernel. The light is constant over a pixel, so the
+    // weights of its sub-pixels can be summed first. In both passes, the sums of a part of a row
+    // are kept in registers.
     void collect_paper() {
         const auto height = static_cast<std::size_t>(height_);
         const std::size_t reach = 2 * border_ + 1;
         const std::size_t stride = row_.size();
-        // The taps to the left of the first pixel read the leading zeros.
+        // Zeros precede the light, because taps to the left of the first pixel read them.
         std::vector<float> light(2 * border_ + stride);
         std::vector<float> along_rows(stride * (height + 2 * border_));
         for (const Kernel::Moment& moment : kernel_.moments) {
@@ -222,8 +223,8 @@ class Sensor {
     const std::vector<float>& paper_;
     std::vector<Raster::Spot> losses_;  // darkness times the light of bare paper
     std::vector<Reach> reaches_;        // disjoint, from left to right
-    // One sub-row after horizontal spreading, with at least 2 * border_ elements on each side of
-    // the image.
+    // One sub-row after it was spread horizontally. It has at least 2 * border_ elements on each
+    // side of the image.
     std::vector<float> row_;
     std::vector<float> levels_;  // rows with the same length as row_
 };
@@ -257,14 +258,14 @@ class ImageRows {
     }
 
   private:
-    // Returns the pixel coordinate of the centre of a sub-pixel. Sub-pixels are numbered from the
-    // edge of the border.
+    // Returns the image coordinate of the centre of a sub-pixel, in px. Sub-pixel 0 is at the edge
+    // of the border.
     double pixel_of(int sub_pixel) const {
         return (sub_pixel + 0.5) / kernel_.per_pixel - 0.5 - kernel_.border_px;
     }
 
     float darkness_at(Vec2 offset_mm) const {
-        // Subtracts half a pixel, because pixel centres have integer coordinates.
+        // The centre of the first pixel has the coordinate 0, so half a pixel is subtracted.
         const double u = (page_.centre_mm.x + offset_mm.x) / page_.mm_per_px - 0.5;
         const double v = (page_.centre_mm.y + offset_mm.y) / page_.mm_per_px - 0.5;
         if (!(u > -1 && v > -1 && u < page_.image.width_px && v < page_.image.height_px)) return 0;
@@ -323,7 +324,7 @@ std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
 
 std::vector<float> expose(const PageImage& page, const View& view,
                           const Imperfections& imperfections) {
-    // Uses the sub-pixel size for dots of the default pattern.
+    // The sub-pixels have the same size as for dots of the default pattern.
     const Kernel kernel = make_kernel(imperfections, Pattern{}.dot_mm / view.camera.mm_per_px);
     const std::vector<float> paper = bare_paper(view, Page{}, imperfections, kernel.border_px);
     ImageRows rows(page, view, imperfections, kernel);
@@ -335,8 +336,8 @@ std::vector<float> expose(const PageImage& page, const View& view,
 
 namespace {
 
-/// Returns the offset of a pixel of the simulated sensor. The offsets of all pixels have a standard
-/// deviation of 1.
+/// Returns the offset of the grey level of a pixel of the simulated sensor, in units of the
+/// standard deviation over all pixels.
 double offset_of_pixel(std::size_t index) {
     constexpr std::uint64_t kSensor = 0x5e4503;
     return Rng(kSensor, index).normal();

@@ -9,8 +9,8 @@
 namespace dotpose::simulate {
 namespace {
 
-// Capital letters. Each stroke is given by four digits, x y x y, on a grid that is 2 units wide and
-// 4 units high. y points up.
+// Capital letters. Four digits (x y x y) are the ends of a stroke on a grid 2 units wide and 4
+// units high. y points up.
 constexpr std::array<std::string_view, 14> kLetters = {
     "001414200121",      // A
     "000404240020",      // C
@@ -59,7 +59,7 @@ Vec2 random_offset(const View& view, Rng& rng) {
 
 void add_stroke(Ink& ink, const View& view, const Stroke& stroke, double reflectance) {
     const Vec2 span{stroke.to_mm.x - stroke.from_mm.x, stroke.to_mm.y - stroke.from_mm.y};
-    // The strokes are split into short pieces, because lens distortion bends straight lines.
+    // Lens distortion bends lines, so a stroke is split into short pieces.
     const double piece_mm = 24 * view.camera.mm_per_px;
     const int pieces = std::max(1, static_cast<int>(std::hypot(span.x, span.y) / piece_mm));
     for (int piece = 0; piece < pieces; ++piece) {

@@ -1,4 +1,4 @@
-/// Shapes of ink in an image without blur, and the functions that create and expose them.
+/// Shapes of ink in an image before blur, and the functions that create and expose them.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,6 @@
 
 namespace dotpose::simulate {
 
-/// The image of a round dot.
 struct InkEllipse {
     Vec2 centre_px;
     /// Outline: all p with (p - centre)^T M^-1 (p - centre) = 1, where M = [xx xy; xy yy].
@@ -35,13 +34,14 @@ struct View {
     CameraModel camera;
     CameraPose pose;
     Projection projection;
-    /// Maximum distance at which ink outside the image contributes, due to blur and motion.
+    /// Maximum distance from which ink outside the image contributes to it, because of blur and
+    /// motion.
     double margin_px;
 
     View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperfections& blurred);
 };
 
-/// A rectangle of offsets from the pose point that contains everything in view.
+/// A rectangle that contains everything in view. Its corners are offsets from the pose point.
 struct OffsetBox {
     Vec2 low_mm;
     Vec2 high_mm;
@@ -69,7 +69,7 @@ struct Stroke {
 };
 void add_stroke(Ink& ink, const View& view, const Stroke& stroke, double reflectance);
 
-/// Letters on a line. `at_mm` is the offset of the bottom left corner of the first letter from the
+/// Letters on a line. `at_mm` is the bottom left corner of the first letter, as an offset from the
 /// pose point.
 struct Word {
     Vec2 at_mm;
@@ -78,7 +78,7 @@ struct Word {
     int letters = 0;
     double stroke_mm = 0;
 };
-/// Width of a letter and the gap after it, as a fraction of the letter height.
+/// Width of a letter plus the gap after it, as a fraction of the letter height.
 inline constexpr double kLetterAdvance = 0.75;
 void add_word(Ink& ink, const View& view, const Word& word, double reflectance, Rng& rng);
 
@@ -93,15 +93,16 @@ void add_dirt(Ink& ink, const View& view, double dot_mm, const Imperfections& im
 void check(const Page& page, const CameraModel& camera, const CameraPose& pose,
            const Imperfections& imperfections);
 
-/// Computes the grey levels of a frame, row by row, before noise is added and levels are rounded.
-/// Simulates paper, light, ink, blur, motion and the area of the pixels.
+/// Computes the grey levels of a frame, row by row, from paper, light and ink, with blur, motion
+/// and the area of the pixels. The levels contain no noise and are not rounded.
 std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
                           const Imperfections& imperfections);
-/// Computes the grey levels of a frame of a page image before noise and rounding, row by row.
+/// Computes the grey levels of a frame of a page image, row by row. The levels contain no noise and
+/// are not rounded.
 std::vector<float> expose(const PageImage& page, const View& view,
                           const Imperfections& imperfections);
 
-/// Adds noise to grey levels, clips them to 0 to 255 and rounds them.
+/// Adds noise to grey levels, limits them to 0 to 255 and rounds them.
 GreyImage read_out(const std::vector<float>& levels, const CameraModel& camera,
                    const Imperfections& imperfections, Rng& rng);
 

@@ -16,19 +16,19 @@ double integral_of_edge(double x, double sigma) {
     return sigma * (z * 0.5 * std::erfc(-z / std::numbers::sqrt2) + density);
 }
 
-// Returns the weights for a scene shifted by `shift_px`. The response of a pixel is a box of 1 px
-// convolved with the Gaussian blur of the lens. The weight of a sub-pixel is the integral of the
-// response over the sub-pixel.
+// Returns the weights for a scene that is shifted by `shift_px`. The response of a pixel is a box
+// of 1 px convolved with the Gaussian blur of the lens. The weight of a sub-pixel is the integral
+// of this response over the sub-pixel.
 Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, double share) {
     const auto pixels = static_cast<std::size_t>(2 * kernel.border_px + 1);
     const auto per_pixel = static_cast<std::size_t>(kernel.per_pixel);
-    // edges[i] is the value of `integral_of_edge` at the border before sub-pixel i of the kernel.
+    // edges[i] is `integral_of_edge` at the border before sub-pixel i of the kernel.
     std::vector<double> edges;
     for (std::size_t i = 0; i <= (pixels + 1) * per_pixel; ++i) {
         edges.push_back(integral_of_edge(
             static_cast<double>(i) / kernel.per_pixel - kernel.border_px - 1 + shift_px, sigma_px));
     }
-    // Returns the integral of the response up to a border.
+    // Returns the integral of the response from minus infinity to a border between sub-pixels.
     const auto collected = [&](std::size_t border) {
         return edges[border + per_pixel] - edges[border];
     };
@@ -40,16 +40,16 @@ Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, 
     }
     Kernel::Weights result(per_pixel, std::vector<float>(kernel.taps));
     for (std::size_t i = 0; i < exact.size(); ++i) {
-        // The order is reversed, because light on a sub-pixel further right in the kernel
-        // contributes to a pixel further left.
+        // The order is reversed: the farther right a sub-pixel is relative to a pixel, the farther
+        // left is the pixel relative to the sub-pixel.
         result[i % per_pixel][pixels - 1 - i / per_pixel] =
             static_cast<float>(exact[i] * share / sum);
     }
     return result;
 }
 
-// Returns the number of sub-pixels per pixel and axis, at most 8. This gives about 6 or more
-// sub-pixels across a dot. Sampling then moves the centroid of a dot by less than 0.003 px.
+// Returns the number of sub-pixels per pixel and axis. With about 6 or more sub-pixels across a
+// dot, sampling moves its centroid by less than 0.003 px.
 int sub_pixels_for(double dot_px) {
     if (dot_px < 1.5) return 8;
     return dot_px < 6 ? 4 : 2;
@@ -64,16 +64,16 @@ Kernel make_kernel(const Imperfections& imperfections, double dot_px) {
     Kernel kernel;
     kernel.per_pixel =
         imperfections.sub_pixels > 0 ? imperfections.sub_pixels : sub_pixels_for(dot_px);
-    // Drawing on sub-pixels has the effect of a triangle filter that is two sub-pixels wide. The
-    // variance of this filter is 1/6 sub-pixel^2. The Gaussian adds the rest of the requested blur.
+    // Drawing on sub-pixels blurs like a triangle filter that is two sub-pixels wide, with a
+    // variance of 1/6 sub-pixel^2. The Gaussian adds the rest of the requested blur.
     const double raster_variance = 1.0 / (6.0 * kernel.per_pixel * kernel.per_pixel);
     const double sigma_px = std::sqrt(
         std::max(0.0, imperfections.blur_sigma_px * imperfections.blur_sigma_px - raster_variance));
     kernel.border_px = static_cast<int>(
         std::ceil(4 * sigma_px + std::max(std::abs(motion_px.x), std::abs(motion_px.y)) / 2));
     kernel.taps = (static_cast<std::size_t>(2 * kernel.border_px + 1) + 3) / 4 * 4;
-    // Motion is approximated by several moments at which the scene is at rest. Between two moments,
-    // the scene moves by at most one sub-pixel.
+    // Motion is approximated by several moments at which the scene is at rest. From one moment to
+    // the next, the scene moves by at most one sub-pixel.
     const int moments = std::max(1, static_cast<int>(std::ceil(length_px * kernel.per_pixel)));
     for (int moment = 0; moment < moments; ++moment) {
         const double time = (moment + 0.5) / moments - 0.5;

@@ -14,20 +14,20 @@ struct Kernel {
     std::size_t taps = 1;  ///< 2 * border_px + 1, rounded up to a multiple of 4
 
     /// weights[phase][j] is the fraction of the light on sub-pixel `phase` of pixel u that
-    /// contributes to pixel u + j - border_px, for j from 0 to 2 * border_px. The remaining weights
-    /// up to `taps` are zero.
+    /// contributes to pixel u + j - border_px, for j from 0 to 2 * border_px. Weights with a larger
+    /// j, up to `taps`, are zero.
     using Weights = std::vector<std::vector<float>>;
 
     /// Weights for the scene at one moment of the exposure.
     struct Moment {
         Weights x;
-        Weights y;  ///< multiplied by the fraction of the exposure time that this moment represents
+        Weights y;  ///< multiplied by the fraction of the exposure that the moment represents
     };
     std::vector<Moment> moments;
 };
 
-/// Computes the kernel. `dot_px`, the diameter of a dot in the image, determines the size of the
-/// sub-pixels.
+/// Computes the kernel. The sub-pixels are chosen according to `dot_px`, the diameter of a dot in
+/// the image.
 Kernel make_kernel(const Imperfections& imperfections, double dot_px);
 
 }  // namespace dotpose::simulate

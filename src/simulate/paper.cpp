@@ -17,17 +17,16 @@ double PageArea::distance(double x, double y) const {
 namespace simulate {
 namespace {
 
-// Rounds down. std::floor is a function call on the baseline processor, and is therefore slower
-// than this conversion.
+// Rounds down. This is faster than std::floor, which is a function call on the baseline processor.
 std::int64_t floor_of(double x) {
-    // Points near the horizon of an extreme tilt exceed the range of a 64-bit integer.
+    // Near the horizon of an extreme tilt, coordinates exceed the range of a 64-bit integer.
     if (!(std::abs(x) < 4e18)) return 0;
     const auto towards_zero = static_cast<std::int64_t>(x);
     return towards_zero - (x < static_cast<double>(towards_zero) ? 1 : 0);
 }
 
-// Reflectance of bare paper: random values at the nodes of a lattice on the page, with linear
-// interpolation.
+// Reflectance of bare paper. It is interpolated linearly between random values at the nodes of a
+// lattice on the page.
 class Texture {
   public:
     Texture(const Page& page, const View& view, double deviation)
@@ -35,8 +34,8 @@ class Texture {
           nodes_per_mm_(1 / (Imperfections::kGrain_px * view.camera.mm_per_px)),
           origin_{x_grid(view.pose) * page.pattern.spacing_mm * nodes_per_mm_,
                   y_grid(view.pose) * page.pattern.spacing_mm * nodes_per_mm_},
-          // A uniform value in [-1, 1) has the standard deviation 1/sqrt(3). Interpolation
-          // multiplies the standard deviation by 2/3.
+          // A uniform value in [-1, 1) has the standard deviation 1/sqrt(3), which the
+          // interpolation multiplies by 2/3.
           amplitude_(deviation * std::sqrt(3.0) * 1.5) {
         if (deviation > 0) tabulate(view);
     }
@@ -66,8 +65,8 @@ class Texture {
         return nodes_[static_cast<std::size_t>(row * columns_ + column)];
     }
 
-    // Precomputes the values of the nodes in view, because about 36 pixels use each node. Under a
-    // strong tilt, there may be more nodes than pixels. In this case, there is no table.
+    // Computes the values of the nodes in view in advance, because about 36 pixels use each node.
+    // If a strong tilt makes more nodes than pixels visible, no table is made.
     void tabulate(const View& view) {
         const OffsetBox box = visible_offsets(view);
         const double width = (box.high_mm.x - box.low_mm.x) * nodes_per_mm_ + 3;
@@ -94,8 +93,8 @@ class Texture {
     std::vector<double> nodes_;
 };
 
-/// The table under the paper. It is visible beyond the edge of the paper. Pixels on the edge mix
-/// paper and table.
+/// The table under the paper, which is visible beyond the edge of the paper. Pixels on this edge
+/// show a mix of both.
 class Table {
   public:
     Table(const Page& page, const View& view)

@@ -1,4 +1,4 @@
-// Generates partly covered views: edges of sheets, and islands of pattern.
+// Generates views that the pattern covers only partly: edges of sheets, and islands of pattern.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,7 +9,7 @@
 namespace dotpose {
 namespace {
 
-/// Returns the page coordinates, in grid spacings, of evenly spaced pixels of the image.
+/// Returns the places on the page, in spacings, of evenly spaced pixels of the image.
 std::vector<Vec2> sample_points(const Shot& shot) {
     constexpr int kColumns = 64;
     constexpr int kRows = 48;
@@ -37,25 +37,24 @@ double spacing_px(const Shot& shot) {
     return shot.page.pattern.spacing_mm / shot.camera.mm_per_px;
 }
 
-/// Estimates the number of grid intersections in view.
 double intersections(const Shot& shot) {
     return shot.camera.width_px * shot.camera.height_px / (spacing_px(shot) * spacing_px(shot));
 }
 
-/// Draws a random direction along an axis of the pattern or of the image, in rad.
+/// Draws a random direction in rad that is parallel to an axis of the pattern or of the image.
 double draw_direction(const Shot& shot, Rng& rng) {
     const double of_image = rng.uniform() < 0.5 ? shot.pose.theta_rad : 0;
     return of_image + static_cast<double>(rng.below(4)) * std::numbers::pi / 2;
 }
 
-/// Returns half the side of a square, in grid spacings, that is large enough to have at most one
-/// corner in view.
+/// Returns half the side, in spacings, of a square so large that at most one of its corners is in
+/// view.
 double endless(const Shot& shot) {
     return 8 * std::hypot(shot.camera.width_px, shot.camera.height_px) / spacing_px(shot);
 }
 
-/// Draws a random sheet with an edge or a corner in view. `share` is the fraction of the view that
-/// the sheet covers.
+/// Draws a random sheet whose edge or corner is in view. The sheet covers the fraction `share` of
+/// the view.
 PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     const std::vector<Vec2> points = sample_points(shot);
     const double size = endless(shot);
@@ -67,7 +66,7 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     // The corner moves into the view along a line near the diagonal of the square.
     const double across = is_corner ? rng.uniform(0.6, 1.0) : 0;
     const auto advance = [&](double by) {
-        // Places the square with its edge or corner `by` spacings beyond the image centre.
+        // Places the square so that its edge or corner is `by` spacings beyond the image centre.
         const double u = by - size;
         const double v = is_corner ? across * by - size : 0;
         area.x_grid = x_grid(shot.pose) + u * along.x - v * along.y;
@@ -101,8 +100,8 @@ PageArea draw_island(const Shot& shot, Rng& rng) {
     return area;
 }
 
-/// Returns true if two areas are at least about two spacings apart. The area `a` is approximated by
-/// a circle.
+/// Returns true if two areas are at least about two spacings apart. Approximates the area `a` by a
+/// circle.
 bool are_apart(const PageArea& a, const PageArea& b) {
     constexpr double kGap = 2;
     const double reach = std::hypot(a.half_width, a.half_height);
@@ -138,7 +137,7 @@ void cover_partly(Shot& shot, const PartialView& view) {
         }
         return;
     }
-    // The factor 1.15 compensates for dots at the border, which are only partly visible.
+    // Dots at the border are only partly visible, so 15 % more are needed.
     const double min_share = std::max(view.min_share, 1.15 * view.min_dots / intersections(shot));
     const double share = rng.uniform(min_share, std::max(min_share, view.max_share));
     const PageArea dots = edge_of_sheet(shot, share, rng);

@@ -1,4 +1,4 @@
-// Frames of a camera in a pen, and paths of handwriting.
+// Simulates frames of a camera in a pen, and paths of handwriting.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -32,7 +32,7 @@ Vector on_pattern(const PenPose& pose, const Vector& in_camera) {
     return about_z(pose.azimuth_rad, about_y(-pose.tilt_rad, turned));
 }
 
-/// Sets cell and fraction to a place in spacings.
+/// Sets cell and fraction of a pose to a place in spacings.
 void move_to(double x_grid, double y_grid, CameraPose& pose) {
     pose.cell = {static_cast<std::uint32_t>(std::floor(x_grid)),
                  static_cast<std::uint32_t>(std::floor(y_grid))};
@@ -40,12 +40,13 @@ void move_to(double x_grid, double y_grid, CameraPose& pose) {
     pose.fraction_y = y_grid - std::floor(y_grid);
 }
 
-/// Returns a smooth path from 0 to 1 that begins and ends at rest, with minimum jerk.
+/// Returns the position at time `t` on a path with minimum jerk that begins and ends at rest. Time
+/// and position are from 0 to 1.
 double smooth_step(double t) {
     return t * t * t * (10 + t * (6 * t - 15));
 }
 
-/// A stroke with loops, and the move to the next stroke.
+/// A stroke with loops, and the pen's move to the next stroke.
 struct Stroke {
     double start_x_mm = 0;
     double start_y_mm = 0;
@@ -59,13 +60,13 @@ struct Stroke {
     double lift_mm = 0;
     bool is_last = false;
 
-    /// Returns the height at a part of the move after the stroke, from 0 to 1. After the last
-    /// stroke, the pen stays above the paper.
+    /// Returns the height of the pen during the move after the stroke, for `part` from 0 to 1.
+    /// After the last stroke, the pen stays above the paper.
     double height_mm(double part) const {
         return lift_mm * std::sin(std::numbers::pi * (is_last ? part / 2 : part));
     }
 
-    /// Returns the place at a part of the stroke, from 0 to 1.
+    /// Returns the place of the tip on the stroke, for `part` from 0 to 1.
     Vec2 at(double part) const {
         const double s = smooth_step(part);
         const double phase = kTurn_rad * loops * s;
@@ -104,7 +105,7 @@ std::vector<Stroke> strokes_of(const Handwriting& options) {
     return strokes;
 }
 
-/// Sets the angles of a pen in a hand.
+/// Sets the angles of the pen at the time `t_s` as in a writing hand.
 void lean(double t_s, std::uint64_t seed, PenPose& pose) {
     Rng rng(seed, 2);
     const double phase = rng.uniform(0, kTurn_rad);
@@ -114,7 +115,6 @@ void lean(double t_s, std::uint64_t seed, PenPose& pose) {
     pose.turn_rad = 10 * kDegree_rad * std::sin(kTurn_rad * 0.3 * t_s);
 }
 
-/// Returns the sample at the time `t_s` of a stroke that begins at `begin_s`.
 PenSample sample_at(double t_s, double begin_s, const Stroke& stroke, const Vec2& next,
                     std::uint64_t seed) {
     PenSample sample;
@@ -141,7 +141,7 @@ Shot shot_of_pen(const Shot& shot, const PenTip& tip, const PenPose& pose) {
     const double focal_px = shot.camera.working_distance_mm / shot.camera.mm_per_px;
     const Vector to_tip = on_pattern(pose, {tip.x_mm, tip.y_mm, tip.z_mm});
     const Vector axis = on_pattern(pose, {0, 0, 1});
-    // z points into the paper.
+    // z coordinate of the camera. z points into the paper, so it is negative above the paper.
     const double z_mm = -(pose.height_mm + tip.rest_mm) - to_tip[2];
     if (!(axis[2] > 0) || !(z_mm < 0))
         throw BadArgument("the camera of the pen must look down at the paper");
@@ -156,7 +156,7 @@ Shot shot_of_pen(const Shot& shot, const PenTip& tip, const PenPose& pose) {
     const Vector normal{component({1, 0, 0}), component({0, 1, 0}), axis[2]};
     result.pose.tilt_y_rad = std::asin(normal[0]);
     result.pose.tilt_x_rad = std::atan2(-normal[1], normal[2]);
-    // Direction on the paper of the image x axis at the image centre.
+    // Direction on the paper of the image x axis, measured at the image centre.
     const Vector right = on_pattern(pose, {1, 0, -normal[0] / normal[2]});
     result.pose.theta_rad = std::atan2(right[1], right[0]);
     return result;

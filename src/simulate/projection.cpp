@@ -8,9 +8,9 @@ namespace {
 
 constexpr Vec2 kInvisible{1e9, 1e9};
 
-/// Returns the distorted position of an undistorted point. Both positions are in px from the centre
-/// of distortion. Solves eq. 2 of the paper for r_d: k |r_u| |r_d|^2 - |r_d| + |r_u| = 0. The
-/// chosen root tends to r_u as k tends to 0.
+/// Returns the distorted position of an undistorted point, in px from the centre of distortion.
+/// Solves eq. 2 of the paper for r_d: k |r_u| |r_d|^2 - |r_d| + |r_u| = 0. Of the two roots, only
+/// this one equals r_u if k is 0.
 Vec2 distorted(Vec2 undistorted, double k) {
     const double square = undistorted.x * undistorted.x + undistorted.y * undistorted.y;
     const double discriminant = 1 - 4 * k * square;
@@ -35,8 +35,8 @@ Projection::Projection(const CameraModel& camera, const CameraPose& pose)
       k_(camera.k),
       focal_px_(camera.working_distance_mm / camera.mm_per_px),
       distance_mm_(camera.working_distance_mm) {
-    // The axes s and t of the paper are parallel to the image axes before the tilt. The tilt
-    // rotates them first about the image y axis, then about the image x axis.
+    // s and t are coordinates on the paper. Before the tilt, their axes are parallel to the image
+    // axes. The tilt rotates them first about the image y axis, then about the image x axis.
     const double cx = std::cos(pose.tilt_x_rad);
     const double sx = std::sin(pose.tilt_x_rad);
     const double cy = std::cos(pose.tilt_y_rad);
@@ -44,15 +44,15 @@ Projection::Projection(const CameraModel& camera, const CameraPose& pose)
     const std::array<double, 3> s_axis{cy, sx * sy, -cx * sy};
     const std::array<double, 3> t_axis{0, cx, sx};
 
-    // Near the pose point, a step along the image x axis corresponds to the step (s, t) on the
-    // paper that solves s * s_axis + t * t_axis = (1, 0, any). Theta is the angle of this step in
-    // the pattern.
+    // At the pose point, a step along the image x axis is a step (s, t) on the paper with s *
+    // s_axis + t * t_axis = (1, 0, any). Theta is the angle of this step in the pattern.
     const double step_angle_rad = std::atan2(-sx * sy / cx, 1);
     const double turn_rad = pose.theta_rad - step_angle_rad;
     const double c = std::cos(turn_rad);
     const double s = std::sin(turn_rad);
     for (std::size_t i = 0; i < 3; ++i) {
-        // offset = R(turn) * (s, t), so the axes of the pattern are the columns of R(-turn).
+        // An offset in the pattern is R(turn) * (s, t), where R is a rotation. The axes of the
+        // pattern are therefore the columns of R(-turn).
         x_axis_[i] = c * s_axis[i] - s * t_axis[i];
         y_axis_[i] = s * s_axis[i] + c * t_axis[i];
     }
@@ -82,8 +82,8 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
     if (depth_mm <= 0) return kInvisible;
     const Vec2 undistorted{focal_px_ * camera_mm(0) / depth_mm,
                            focal_px_ * camera_mm(1) / depth_mm};
-    // The scene moves while the rows are read. The row that shows a point depends on the time, and
-    // the time depends on the row. Newton's method solves row = seen_at(row).y. Without motion and
+    // The scene moves while the rows are read, so the row that shows a point depends on the time,
+    // and the time on the row. Newton's method solves row = seen_at(row).y. Without motion and
     // without distortion, the first step is exact.
     const auto seen_at = [&](double row_px) {
         return distorted(moved(undistorted, row_px / height_px_), k_);
@@ -97,8 +97,8 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
         constexpr double kStep_px = 1e-3;
         const double slope = (seen_at(row_px + kStep_px).y - seen.y) / kStep_px;
         row_px += (seen.y - row_px) / (1 - slope);
-        // If the scene turns, a point far beside the image may be shown by several rows or by none.
-        // Newton's method may then diverge, so the row is clamped.
+        // If the scene turns, several rows or no row may show a point far beside the image. The row
+        // is clamped, because Newton's method may then diverge.
         if (is_turning) row_px = std::clamp(row_px, -height_px_, height_px_);
         seen = seen_at(row_px);
     }
@@ -132,7 +132,7 @@ Vec2 Projection::offset_from_pixel(Vec2 pixel) const {
     return {(d * rx - b * ry) * factor, (a * ry - c * rx) * factor};
 }
 
-// With all calls inlined, this function takes half the time.
+// Inlining all calls halves the time of this function.
 [[gnu::flatten]] void Projection::offsets_from_row(Vec2 first_pixel,
                                                    std::span<Vec2> offsets_mm) const {
     for (std::size_t i = 0; i < offsets_mm.size(); ++i)

@@ -20,7 +20,7 @@ Raster::Raster(const Ink& ink, const Layout& layout)
                              1 - dot.reflectance});
         max_half_height_ = std::max(max_half_height_, ellipses_.back().half_height);
     }
-    // The sort is stable because the order of the ellipses affects the rounding of sums.
+    // A stable sort is needed, because the order of the ellipses affects how sums are rounded.
     std::stable_sort(ellipses_.begin(), ellipses_.end(),
                      [](const Ellipse& a, const Ellipse& b) { return a.y < b.y; });
     for (const InkPolygon& shape : ink.polygons) {
@@ -88,15 +88,15 @@ void Raster::draw_band(int top) {
     }
 }
 
-// Darkens each sub-pixel in proportion to the area that a convex shape covers. The area is exact
-// along the row. Across the row, a Gauss quadrature with four chords approximates the area, with an
-// error below 0.1 % even at the round ends of a dot. `chord_at(y)` returns the left and the right
-// end of the chord at y.
+// Darkens each sub-pixel in proportion to the part of its area that a convex shape covers. Along
+// the row, this area is exact. Across the row, Gauss quadrature with four chords approximates it
+// with an error below 0.1 %, even at the round ends of a dot. `chord_at(y)` returns the left and
+// the right end of the chord at y.
 template <typename ChordAt>
 void Raster::fill(double top, double bottom, double darkness, const ChordAt& chord_at) {
     struct Line {
-        double at;      // position of the chord, as a fraction of the height
-        double weight;  // weight of the chord, as a fraction of the height
+        double at;      // position of the chord across the covered part of the row, 0 to 1
+        double weight;  // the weights sum to 1
     };
     static constexpr Line kLines[] = {{0.06943184420297371, 0.17392742256872693},
                                       {0.33000947820757187, 0.32607257743127307},
@@ -119,7 +119,7 @@ void Raster::fill(double top, double bottom, double darkness, const ChordAt& cho
         float* out = row(row_index - band_top_);
         for (int x = touched_.from; x < touched_.to; ++x) {
             double& coverage = coverage_[static_cast<std::size_t>(x)];
-            // Overlapping shapes do not add up: the darker shape determines the level.
+            // Where shapes overlap, the darker shape determines the level.
             out[x] = std::max(out[x], static_cast<float>(coverage * darkness));
             coverage = 0;
         }

@@ -1,4 +1,4 @@
-/// Draws ink on sub-pixels in bands of sub-rows.
+/// Draws ink on sub-pixels, one band of sub-rows at a time.
 #pragma once
 
 #include <array>
@@ -15,33 +15,33 @@ class Raster {
     struct Layout {
         int per_pixel = 1;
         int border_px = 0;
-        /// Number of sub-pixels per row, including the border. A multiple of `per_pixel`.
+        /// Number of sub-pixels per row, including the border. It is a multiple of `per_pixel`.
         int width = 0;
         int band_rows = 0;
     };
 
     Raster(const Ink& ink, const Layout& layout);
 
-    /// Draws the sub-rows `top` to `top + band_rows - 1`, numbered from the top of the border. All
-    /// rows of the previous band must have been taken with `take_row`.
+    /// Draws the sub-rows `top` to `top + band_rows - 1`, where sub-row 0 is the top of the border.
+    /// All rows of the previous band must have been taken with `take_row`.
     void draw_band(int top);
 
     /// The sub-pixels of one pixel in one sub-row.
     struct Spot {
-        std::size_t pixel = 0;  ///< numbered from the left of the border
-        /// Fraction of the light that the ink absorbs in each sub-pixel. Elements with an index of
-        /// Layout::per_pixel or more are 0.
+        std::size_t pixel = 0;  ///< counted from the left of the border
+        /// Fraction of the light that the ink absorbs in each sub-pixel. Only the first
+        /// Layout::per_pixel elements are used. The others are 0.
         std::array<float, Kernel::kMaxPerPixel> darkness{};
     };
 
-    /// Returns the pixels with ink in a row of the band, each once, and clears the row.
+    /// Returns the pixels with ink in a row of the band, without duplicates, and clears the row.
     std::span<const Spot> take_row(int row_in_band);
 
   private:
-    // An ellipse in sub-pixel coordinates: sub-pixel i covers [i, i + 1).
+    // An ellipse in sub-pixel coordinates, in which sub-pixel i extends from i to i + 1.
     struct Ellipse {
         double x, y;
-        double slant;       // change of the x coordinate of the middle of a chord per unit of y
+        double slant;       // change of x of the middle of a chord per unit of y
         double half_width;  // half the length of the chord through the centre
         double half_height;
         double darkness;  // 1 - reflectance
@@ -61,8 +61,7 @@ class Raster {
     double max_half_height_ = 0;     // maximum half height of all ellipses
     std::vector<Polygon> polygons_;
     int band_top_ = 0;
-    // A range of sub-pixels with ink. Only these ranges are read, because most sub-pixels have no
-    // ink.
+    // A range of sub-pixels with ink. Most sub-pixels have no ink, so only these ranges are read.
     struct Span {
         int from, to;
     };

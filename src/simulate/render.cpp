@@ -32,25 +32,25 @@ void check_camera(const CameraModel& camera, const CameraPose& pose) {
     require(within(camera.readout_px.x, -kMaxReadout * half_u, kMaxReadout * half_u) &&
                 within(camera.readout_px.y, -kMaxReadout * half_v, kMaxReadout * half_v),
             "the motion during the readout must be at most 75 % of the image");
-    // Maximum speed of a point of a turning scene, in rows per row. The image shows the point only
-    // once if the point moves down by less than a row while the camera reads a row.
+    // Maximum speed of a point of a turning scene, in rows per row. A point appears only once in
+    // the image if it moves down by less than a row while the camera reads a row.
     constexpr double kMaxFall = 0.95;
     require(std::abs(camera.readout_turn_rad) * half_u + std::abs(camera.readout_px.y) <=
                 kMaxFall * camera.height_px,
             "the rotation during the readout is too fast for this image: the scene would overtake "
             "the rows");
     const double corner_square = half_u * half_u + half_v * half_v;
-    // At |k| r^2 = 1, eq. 2 folds the image over itself if k is positive, or reaches infinity if k
-    // is negative.
+    // At |k| r^2 = 1, a positive k makes eq. 2 of the paper fold the image over itself, and with a
+    // negative k the undistorted position is infinite.
     require(within(camera.k * corner_square, -0.9, 0.9),
             "the distortion k is too strong for this image: |k| r^2 must stay below 0.9 in the "
             "corners");
     require(within(pose.theta_rad, -1e6, 1e6) && within(pose.fraction_x, -1e6, 1e6) &&
                 within(pose.fraction_y, -1e6, 1e6),
             "the pose is not a number");
-    // In the direction of the tilt, depth increases by `slope` mm per mm on the paper. The ray of
-    // the image corner moves sideways by `widest` mm per mm of depth. The ray meets the paper only
-    // if the product of `slope` and `widest` is below 1.
+    // In the direction of the tilt, the depth of the paper increases by `slope` mm per mm. The ray
+    // of an image corner moves sideways by `widest` mm per mm of depth. It meets the paper only if
+    // slope * widest is less than 1.
     const double widest = std::sqrt(corner_square) / std::min(1.0, 1 + camera.k * corner_square) *
                           camera.mm_per_px / camera.working_distance_mm;
     const double slope = std::hypot(std::tan(pose.tilt_x_rad),

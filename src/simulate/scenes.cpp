@@ -1,5 +1,5 @@
-// Renders frames without a valid position. Camera, light and printing errors are taken from the
-// shot.
+// Renders frames that show no valid position. The camera, the light and the printing errors are
+// those of the shot.
 #include <algorithm>
 #include <cmath>
 
@@ -11,14 +11,15 @@ namespace {
 using simulate::Ink;
 using simulate::View;
 
-// Returns a random symbol for a cell. The symbol depends only on the seed and the cell.
+// Returns a random symbol that depends only on the seed and the cell.
 Symbol random_symbol(std::uint64_t seed, Cell cell) {
     return static_cast<Symbol>(Rng(seed, (std::uint64_t{cell.x} << 32) | cell.y).bits() >> 62);
 }
 
 simulate::DisplacementOf displacement_in(Scene scene, const Shot& shot) {
     const Pattern pattern = shot.page.pattern;
-    // The section changes on both axes, so neither x nor y can be read across the border.
+    // The sections on both sides differ on both axes, so neither x nor y can be read across the
+    // border.
     Pattern beyond = pattern;
     beyond.section = {static_cast<std::uint8_t>((pattern.section.u + 29) % kSections),
                       static_cast<std::uint8_t>((pattern.section.v + 31) % kSections)};

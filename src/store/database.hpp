@@ -1,5 +1,5 @@
-// Databases of robot states: SQLite files and PostgreSQL servers. Both kinds have the same tables
-// (schema.hpp), which docs/fleet.md describes.
+// Databases of robot states: SQLite files and PostgreSQL servers. Both have the same tables
+// (schema.hpp). docs/fleet.md describes the tables.
 #pragma once
 
 #include <cstdint>
@@ -28,18 +28,17 @@ struct Place {
 };
 
 /// A state of a robot. Texts must be valid UTF-8 without null characters. Many states belong to the
-/// same robot and place, and share the objects that contain the names.
+/// same robot and place, so they share the objects with the names.
 struct State {
     std::shared_ptr<const std::string> robot;
     std::shared_ptr<const Place> place;
-    /// Time at which the robot sent the state, in microseconds since 1970. Determines the day under
-    /// which the state is stored.
+    /// Time at which the robot sent the state, in microseconds since 1970. The state is stored
+    /// under the day of this time.
     std::int64_t time_us = 0;
     std::int64_t number = 0;       ///< sequence number
     std::int32_t delay_us = 0;     ///< time from sending to receiving
-    Motion motion = Motion::lost;  ///< if `lost`, the members after `reason` are not stored
-    Status reason = Status::ok;    ///< reason why the robot is lost; `ok` if it is not lost or the
-                                   ///< reason is unknown
+    Motion motion = Motion::lost;  ///< if `lost`, only members up to `reason` are stored
+    Status reason = Status::ok;    ///< why the robot is lost; `ok` if it is not lost or if unknown
     std::int32_t theta_urad = 0;
     std::int64_t x_nm = 0;
     std::int64_t y_nm = 0;
@@ -49,26 +48,25 @@ struct State {
     std::int32_t omega_urad_s = 0;
 };
 
-/// Selects the states of a robot in a time span.
+/// Selects the states of a robot in a time span. The end of the span is not included.
 struct Query {
     std::string robot;
     std::int64_t from_us = std::numeric_limits<std::int64_t>::min();
-    std::int64_t to_us = std::numeric_limits<std::int64_t>::max();  ///< end of the time span,
-                                                                    ///< exclusive
+    std::int64_t to_us = std::numeric_limits<std::int64_t>::max();  ///< end of the time span
 };
 
-/// Times of the first and the last state of a robot.
 struct RobotSpan {
     std::string robot;
     std::int64_t first_us = 0;
     std::int64_t last_us = 0;
 };
 
-/// Access to a database. With `read`, neither a database nor tables are created.
+/// Access to a database. If the access is `read`, neither a missing database nor missing tables are
+/// created.
 enum class Access { read, write };
 
-/// A connection to a database. The first call that needs the connection opens it. After an Error,
-/// the next call opens it again. Not thread-safe.
+/// A connection to a database. It is opened by the first call that needs it, and again by the next
+/// call after an Error. Not thread-safe.
 class Database {
   public:
     Database() = default;
@@ -76,32 +74,33 @@ class Database {
     Database& operator=(const Database&) = delete;
     virtual ~Database() = default;
 
-    /// Returns the database without its password, for messages.
+    /// Returns the name of the database for messages, without a password.
     virtual std::string label() const = 0;
 
-    /// Opens the database, and creates the tables if they are missing. Throws Error.
+    /// Opens the database, and creates missing tables. Throws Error if this fails.
     virtual void prepare() = 0;
 
-    /// Writes all states in one transaction. Skips states that are already stored. Throws Error if
-    /// the transaction fails. Either all states or none are then stored, and the call may be
-    /// repeated.
+    /// Writes all states in one transaction. Skips states that are already stored. If the
+    /// transaction fails, throws Error. Either all states or none are then stored, so the call may
+    /// be repeated.
     virtual void write(std::span<const State> states) = 0;
 
-    /// Removes the states of all days before the day of `time_us`. Throws Error.
+    /// Removes the states of all days before the day of `time_us`. Throws Error if this fails.
     virtual void remove_days_before(std::int64_t time_us) = 0;
 
-    /// Calls `take` with the selected states in the order of their times. Throws Error.
+    /// Calls `take` with each selected state, in the order of their times. Throws Error if this
+    /// fails.
     virtual void read(const Query& query, const std::function<void(const State&)>& take) = 0;
 
-    /// Returns all robots in the order of their names. Throws Error.
+    /// Returns all robots in the order of their names. Throws Error if this fails.
     virtual std::vector<RobotSpan> robots() = 0;
 };
 
 /// Returns true if `where` is a URL of a database server (postgresql:// or postgres://).
 bool is_on_server(const std::string& where);
 
-/// Creates the object for a PostgreSQL URL or a SQLite file, without opening the database. Throws
-/// Error if this program was built without the required library.
+/// Creates the object for a PostgreSQL URL or a SQLite file without opening the database. Throws
+/// Error if dotpose was built without the required library.
 std::unique_ptr<Database> make_database(const std::string& where, Access access);
 
 std::unique_ptr<Database> make_sqlite(const std::string& path, Access access);

@@ -1,4 +1,4 @@
-// Caches the numbers of robots and places in a database.
+// Caches the database IDs of robots and places.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,12 @@
 
 namespace dotpose::store {
 
-/// A cache of numbers. Its size is bounded, because any publisher can invent names.
+/// Maps keys to database IDs. The size of the cache is limited, because any publisher can invent
+/// names.
 template <typename Key>
 class Ids {
   public:
-    /// Returns the number of a key. Calls `look_up(key)` if the cache does not contain the key.
+    /// Returns the ID of a key. If the cache does not contain it, calls `look_up(key)`.
     template <typename LookUp>
     std::int64_t of(const Key& key, const LookUp& look_up) {
         const auto known = ids_.find(key);

@@ -13,7 +13,6 @@ namespace {
 
 using std::chrono::steady_clock;
 
-/// Maximum number of states in a transaction.
 constexpr std::size_t kMaxBatch = 50'000;
 constexpr auto kBetweenAttempts = std::chrono::seconds(1);
 
@@ -78,7 +77,7 @@ void Queue::run() {
             std::unique_lock lock(mutex_);
             changed_.wait_for(lock, kBetweenAttempts, [this] { return ends_; });
             if (ends_ && steady_clock::now() >= ends_by_) return;
-            // Once `ends_` is true, the wait above returns immediately, and this wait limits the
+            // Once `ends_` is true, the wait above returns immediately. This wait then limits the
             // rate of attempts.
             if (ends_) changed_.wait_for(lock, kBetweenAttempts / 10);
         }
@@ -86,8 +85,8 @@ void Queue::run() {
     }
 }
 
-/// Takes the states of the next transaction from the queue, after waiting for them. Returns false
-/// if the queue has ended and is empty.
+/// Waits for states, and takes those of the next transaction from the queue. Returns false if the
+/// queue is empty and has ended.
 bool Queue::take_batch() {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, options_.period,

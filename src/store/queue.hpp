@@ -1,5 +1,5 @@
-// Writes states to a database in the background. Keeps the states in memory while the database is
-// not available.
+// Writes states to a database in the background. While the database is not available, keeps the
+// states in memory.
 #pragma once
 
 #include <chrono>
@@ -19,15 +19,15 @@
 namespace dotpose::store {
 
 struct QueueOptions {
-    /// Maximum number of states in the queue. If the queue is full, the oldest states are dropped.
-    /// A state takes 96 bytes.
+    /// Maximum number of states in the queue. A new state replaces the oldest one if the queue is
+    /// full. A state takes 96 bytes.
     std::size_t max_states = 1'000'000;
     /// Time between two transactions. PostgreSQL stores the states of a transaction together,
-    /// sorted by robot. With a longer period, the history of a robot can be read faster.
+    /// sorted by robot, so with a longer period the states of one robot can be read faster.
     std::chrono::milliseconds period{5000};
     int keep_days = 0;  ///< number of days to keep, or 0 to keep all days
     /// Called with messages for the user, for example that the database is not available. May be
-    /// called by another thread.
+    /// called in another thread.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
@@ -35,25 +35,25 @@ struct QueueStatus {
     std::int64_t stored = 0;
     std::int64_t waiting = 0;
     std::int64_t dropped = 0;
-    bool is_away = false;  ///< true if the newest transaction failed
+    bool is_away = false;  ///< true if the latest transaction failed
 };
 
 class Queue {
   public:
-    /// Creates the tables. Throws Error if the database is a file and cannot be opened. If the
-    /// database is on a server that is not available, the queue retries later.
+    /// Creates the tables. Throws Error if the database is a file that cannot be opened. If the
+    /// database is on a server that is not available, the queue tries again later.
     Queue(std::unique_ptr<Database> database, bool is_on_server, QueueOptions options);
     ~Queue();
     Queue(const Queue&) = delete;
     Queue& operator=(const Queue&) = delete;
 
-    /// Adds a state. Does not block. Thread-safe.
+    /// Adds a state without waiting. Thread-safe.
     void push(State state);
 
     QueueStatus status() const;
 
-    /// Writes the states in the queue. Gives up if the database is not available for longer than
-    /// `patience`. No state may be added afterwards. Returns false if some states were not stored.
+    /// Writes all states in the queue, but stops if the database is not available for longer than
+    /// `patience`. Returns false if some states were not stored. No states may be added afterwards.
     bool finish(std::chrono::milliseconds patience);
 
   private:
@@ -66,7 +66,7 @@ class Queue {
     std::unique_ptr<Database> database_;
     QueueOptions options_;
     std::vector<State> batch_;    ///< states of the current transaction; used by `thread_` only
-    std::int64_t kept_from_ = 0;  ///< first day kept by the latest removal of old days
+    std::int64_t kept_from_ = 0;  ///< first day that was kept when old days were last removed
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<State> waiting_;

@@ -1,4 +1,4 @@
-// Tables that all databases have, and the conversion between rows and states.
+// The tables of all databases, and the conversion between rows and states.
 #pragma once
 
 #include <array>
@@ -18,15 +18,13 @@ inline constexpr int kVersion = 1;
 
 /// Parts of the table definitions that depend on the database.
 struct Dialect {
-    std::string_view generated_key;  ///< definition of a primary key: an integer column whose
-                                     ///< values are generated
-    std::string_view partition;      ///< last part of the definition of the table `states`
-    std::string_view create_view;    ///< creates a view if it is missing, or replaces it
+    std::string_view generated_key;  ///< definition of an integer primary key with generated values
+    std::string_view partition;      ///< end of the definition of the table `states`
+    std::string_view create_view;    ///< statement that creates a view or replaces it
     std::string_view time;           ///< SQL expression that converts `time_us` to a time
 };
 
-/// Returns the statements that create the missing tables and the view. Semicolons separate the
-/// statements.
+/// Returns statements that create the missing tables and the view, separated by semicolons.
 std::string schema_of(const Dialect& dialect);
 
 /// Columns of the table `states` in the order of its definition.
@@ -34,8 +32,8 @@ inline constexpr std::string_view kColumns =
     "time_us, number, x_nm, y_nm, robot, place, delay_us, theta_urad, deviation_nm, vx_um_s, "
     "vy_um_s, omega_urad_s, state, reason";
 inline constexpr int kColumnCount = 14;
-inline constexpr int kIntegerCount = 12;  ///< number of integer columns; text columns follow
-/// Number of integer columns with 64 bits. They precede the columns with 32 bits.
+inline constexpr int kIntegerCount = 12;  ///< the columns after these are text
+/// Number of 64-bit integer columns. The 32-bit integer columns follow them.
 inline constexpr int kWideCount = 4;
 
 /// Values of the integer columns. nullopt represents null.
@@ -46,11 +44,11 @@ Integers integers_of(const State& state, std::int64_t robot_id, std::int64_t pla
 /// Returns the text of the column `reason`.
 std::string_view reason_text(Status reason);
 
-/// Returns the state of a row. Sets neither `robot` nor `place`.
+/// Returns the state of a row, without `robot` and `place`.
 State state_of(const Integers& integers, std::string_view state, std::string_view reason);
 
-/// Returns the name of the partition of a day, such as "states_20261128". `day` is the number of
-/// days since 1970.
+/// Returns the name of the partition of a day, such as "states_20261128". `day` is counted from 1
+/// January 1970.
 std::string partition_name(std::int64_t day);
 
 }  // namespace dotpose::store

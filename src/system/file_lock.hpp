@@ -1,4 +1,4 @@
-/// A lock between programs, held by means of a file.
+/// A lock between programs, based on a file.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,19 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::system {
 
-/// A lock that at most one program holds at a time. The system releases the lock when the program
-/// ends or is killed.
+/// A lock that at most one program holds at a time. The system releases it when the program ends,
+/// even if the program is killed.
 class FileLock {
   public:
-    /// `path` is the path of the lock file. The file exists only while a program holds the lock or
-    /// waits for it.
+    /// `path` is the lock file, which exists only while a program holds the lock or waits for it.
     explicit FileLock(std::filesystem::path path) : path_(std::move(path)) {}
     ~FileLock();
     FileLock(const FileLock&) = delete;
     FileLock& operator=(const FileLock&) = delete;
 
-    /// Takes the lock. Returns std::errc::resource_unavailable_try_again while another program
-    /// holds it, and another error if the file cannot be created or the file system does not
-    /// support locks.
+    /// Takes the lock. Returns std::errc::resource_unavailable_try_again if another program holds
+    /// it. Returns another error if the file cannot be created or the file system does not support
+    /// locks.
     std::error_code try_lock();
 
   private:

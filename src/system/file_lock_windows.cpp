@@ -5,8 +5,8 @@
 namespace dotpose::system {
 
 std::error_code FileLock::try_lock() {
-    // No other program can open a file that is not shared. Windows removes the file when the handle
-    // is closed, also if the program is killed.
+    // While a program has the file open without sharing it, no other program can open it. Windows
+    // removes the file when the handle is closed, even if the program is killed.
     constexpr DWORD kNotShared = 0;
     const HANDLE handle =
         CreateFileW(path_.c_str(), GENERIC_WRITE, kNotShared, nullptr, OPEN_ALWAYS,
@@ -19,7 +19,8 @@ std::error_code FileLock::try_lock() {
     if (error == ERROR_SHARING_VIOLATION || error == ERROR_DELETE_PENDING) {
         return std::make_error_code(std::errc::resource_unavailable_try_again);
     }
-    // The values of errno have the same messages on all systems.
+    // The error is converted to a value of errno, because the messages of these values are the same
+    // on all systems.
     const std::error_code code(static_cast<int>(error), std::system_category());
     const std::error_condition condition = code.default_error_condition();
     if (condition.category() != std::generic_category()) return code;

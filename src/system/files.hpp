@@ -1,5 +1,5 @@
-/// File operations that the standard library lacks. On failure, they set errno, unless their
-/// comment states otherwise.
+/// File operations that the standard library lacks. If they fail, they set errno, unless their
+/// comments state otherwise.
 #pragma once
 
 #include <compare>
@@ -20,24 +20,24 @@ namespace dotpose::system {
 /// Opens a file as std::fopen does. Returns nullptr if that fails.
 std::FILE* open_file(const std::filesystem::path& path, const char* mode);
 
-/// Creates a file for writing. Returns nullptr if that fails, with EEXIST if the file exists. The
-/// mode of the file follows the user's umask.
+/// Creates a file for writing, with the mode that the user's umask allows. Returns nullptr if that
+/// fails. errno is EEXIST if the file exists.
 std::FILE* create_new_file(const std::filesystem::path& path);
 
 /// Returns true if the user may write to an existing file.
 bool is_writable(const std::filesystem::path& path);
 
-/// Creates an empty file, or truncates an existing one. Returns its descriptor, or -1 if that
-/// fails. `close_descriptor` closes it.
+/// Creates an empty file, or truncates an existing one. Returns its descriptor, which
+/// `close_descriptor` closes, or -1 if that fails.
 int create_descriptor(const std::filesystem::path& path);
 
-/// Writes all bytes at an offset from the start of the file. Returns false if that fails.
+/// Writes all bytes at an offset in bytes from the start of the file. Returns false if that fails.
 bool write_at(int descriptor, const void* data, std::size_t size_bytes, std::uint64_t offset);
 
-/// Returns false if closing the file fails.
+/// Closes a descriptor. Returns false if that fails.
 bool close_descriptor(int descriptor);
 
-/// Numbers that identify a file on this computer. They are equal for all names of the file.
+/// Numbers that identify a file on this computer, whatever its name.
 struct FileNumbers {
     std::uint64_t device = 0;
     std::uint64_t file = 0;
@@ -49,8 +49,8 @@ struct FileNumbers {
 std::optional<FileNumbers> numbers_of(const std::filesystem::path& path);
 std::optional<FileNumbers> numbers_of(int descriptor);
 
-/// Creates a folder for temporary files. Only the user can read the folder. Throws
-/// std::filesystem::filesystem_error if that fails.
+/// Creates a temporary folder that only the user can read. Throws std::filesystem::filesystem_error
+/// if that fails.
 std::filesystem::path create_temporary_folder();
 
 }  // namespace dotpose::system

@@ -71,7 +71,7 @@ bool close_descriptor(int descriptor) {
 }
 
 std::optional<FileNumbers> numbers_of(const fs::path& path) {
-    // FILE_FLAG_BACKUP_SEMANTICS opens folders too.
+    // With FILE_FLAG_BACKUP_SEMANTICS, folders can be opened too.
     const HANDLE handle =
         CreateFileW(path.c_str(), 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
                     nullptr, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);
@@ -88,8 +88,8 @@ std::optional<FileNumbers> numbers_of(int descriptor) {
 }
 
 fs::path create_temporary_folder() {
-    // The folder does not need special access rights, because the system's temporary folder is
-    // private to the user.
+    // The system's temporary folder is private to the user, so the new folder does not need special
+    // access rights.
     constexpr int kAttempts = 100;
     std::random_device random;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {

@@ -1,4 +1,4 @@
-/// Files whose names match a pattern with *, ? and [...].
+/// Finds files whose names match a pattern with *, ? and [...].
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::system {
 
-/// Returns the files that match a pattern of a shell, in UTF-8 and sorted. On Windows, only the
-/// last part of the pattern, after the folder, may have wildcards.
+/// Returns the files that match a shell pattern, in UTF-8 and sorted. On Windows, only the last
+/// part of the path may contain wildcards.
 std::vector<std::string> glob(const std::string& pattern);
 
 }  // namespace dotpose::system

@@ -9,8 +9,8 @@ namespace dotpose::system {
 namespace fs = std::filesystem;
 namespace {
 
-/// Compares a character with the set at the beginning of `pattern`, such as [a-z] or [!0-9], and
-/// removes the set. Returns false if the set is not closed.
+/// Removes the set at the beginning of `pattern`, such as [a-z] or [!0-9]. Returns true if the set
+/// is closed and matches the character.
 bool matches_set(std::wstring_view& pattern, wchar_t c) {
     const std::size_t end = pattern.find(L']', 2);
     if (end == std::wstring_view::npos) return false;

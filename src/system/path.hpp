@@ -1,4 +1,4 @@
-/// Paths from texts. All texts of dotpose are UTF-8.
+/// Converts text to paths. All text in dotpose is UTF-8.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace dotpose::system {
 
-/// Returns the path that a text in UTF-8 names. The constructor of std::filesystem::path would
-/// convert the text from the code page of Windows.
+/// Returns the path for a text in UTF-8. On Windows, the constructor of std::filesystem::path would
+/// expect another encoding.
 inline std::filesystem::path path_of(std::string_view utf8) {
     return std::u8string(utf8.begin(), utf8.end());
 }

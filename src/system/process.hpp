@@ -19,22 +19,22 @@ namespace dotpose::system {
 /// prepares a Windows console for UTF-8 and colours.
 std::vector<std::string> start_program(int argc, char** argv);
 
-/// Returns the folder of this program, or an empty path if it is not known.
+/// Returns the folder that contains the program, or an empty path if it is unknown.
 std::filesystem::path program_folder();
 
 /// Returns true if the stream is a terminal.
 bool is_terminal(std::FILE* stream);
 
 /// Waits up to 100 ms for bytes from a file, a pipe or a device. Returns the number of bytes read,
-/// 0 at the end of the file, or nullopt if no bytes arrived. Throws std::system_error if reading
-/// fails.
+/// 0 at the end of the file, or nullopt if no bytes arrived in this time. Throws std::system_error
+/// if reading fails.
 std::optional<std::size_t> read_available(int descriptor, void* data, std::size_t max_bytes);
 
-/// Calls the handler for the signals that ask the program to end: Ctrl-C, SIGTERM and a closed
-/// terminal. System calls continue after the signal.
+/// Sets the handler of the signals that request the end of the program: Ctrl-C, SIGTERM and a
+/// closed terminal. System calls that a signal interrupts are continued.
 void on_end_signals(void (*handler)(int signal_number));
 
-/// Makes writing to a pipe without a reader fail with EPIPE instead of ending the program.
+/// Makes writing to a pipe without a reader fail with EPIPE. Otherwise, it would end the program.
 void ignore_broken_pipes();
 
 }  // namespace dotpose::system

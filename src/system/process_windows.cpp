@@ -7,7 +7,7 @@
 #include <fcntl.h>
 #include <io.h>
 #include <windows.h>
-// shellapi.h needs the types of windows.h, which must therefore be included first.
+// windows.h must be included before shellapi.h, which needs its types.
 #include <shellapi.h>
 
 #include "system/process.hpp"
@@ -25,8 +25,8 @@ void make_streams_binary() {
     for (std::FILE* const stream : {stdin, stdout, stderr}) {
         _setmode(_fileno(stream), _O_BINARY);
     }
-    // Windows has no line buffering. With full buffering, lines written to a pipe would be delayed
-    // until the end.
+    // Windows has no line buffering, and with full buffering, lines written to a pipe would only
+    // arrive at the end.
     std::setvbuf(stderr, nullptr, _IONBF, 0);
 }
 
@@ -43,14 +43,15 @@ void prepare_console() {
 
 void (*end_handler)(int) = nullptr;
 
-/// Windows resets the handler of a signal before it calls the handler.
+/// Installs itself again, because Windows removes the handler of a signal before it calls the
+/// handler.
 void on_end_signal(int signal_number) {
     std::signal(signal_number, on_end_signal);
     end_handler(signal_number);
 }
 
-/// Returns true if `read` would not block. Only pipes can be examined. For other files, `read` may
-/// block.
+/// Returns true if `read` would not block. For files other than pipes, this cannot be determined,
+/// so `read` may block.
 bool has_bytes_or_end(int descriptor) {
     const auto handle = reinterpret_cast<HANDLE>(_get_osfhandle(descriptor));
     if (GetFileType(handle) != FILE_TYPE_PIPE) return true;
@@ -78,7 +79,7 @@ std::filesystem::path program_folder() {
 }
 
 bool is_terminal(std::FILE* stream) {
-    // _isatty is also true for NUL and serial devices.
+    // _isatty also returns true for NUL and serial devices.
     DWORD mode = 0;
     return GetConsoleMode(reinterpret_cast<HANDLE>(_get_osfhandle(_fileno(stream))), &mode) != 0;
 }

@@ -17,7 +17,8 @@ namespace dotpose::video {
 namespace {
 
 constexpr int kMaxDevices = 64;
-/// Maximum number of entries of each kind. A faulty driver might return entries endlessly.
+/// Maximum number of entries of each kind. The limit is needed because a faulty driver might return
+/// entries endlessly.
 constexpr std::uint32_t kMaxEntries = 256;
 
 class Device {
@@ -46,7 +47,7 @@ class Device {
     int descriptor_;
 };
 
-/// Calls `use` for each entry that the driver reports, at most kMaxEntries.
+/// Calls `use` for each entry that the driver reports, up to kMaxEntries.
 template <typename Entry>
 void for_each_entry(const Device& device, unsigned long request, Entry entry,
                     const std::function<void(const Entry&)>& use) {
@@ -57,7 +58,7 @@ void for_each_entry(const Device& device, unsigned long request, Entry entry,
     }
 }
 
-/// Returns the text in an array that a driver filled. The terminating zero may be missing.
+/// Returns the text in an array from a driver, even if its terminating zero is missing.
 template <std::size_t size>
 std::string text_of(const std::uint8_t (&bytes)[size]) {
     const char* text = reinterpret_cast<const char*>(bytes);
@@ -86,7 +87,7 @@ std::vector<double> rates_at(const Device& device, std::uint32_t format, std::ui
     for_each_entry<v4l2_frmivalenum>(
         device, VIDIOC_ENUM_FRAMEINTERVALS, asked, [&rates](const v4l2_frmivalenum& found) {
             const bool is_one = found.type == V4L2_FRMIVAL_TYPE_DISCRETE;
-            // A range is represented by its shortest interval.
+            // Lists only the shortest interval of a range.
             rates.push_back(rate_of(is_one ? found.discrete : found.stepwise.min));
         });
     return rates;
@@ -132,7 +133,7 @@ std::vector<CameraSize> sizes_of(const Device& device) {
     return sizes;
 }
 
-/// Returns the name of the camera according to the kernel. Used if the device cannot be opened.
+/// Returns the kernel's name of the camera, for devices that cannot be opened.
 std::string name_in_sysfs(int number) {
     std::ifstream file(fmt::format("/sys/class/video4linux/video{}/name", number));
     std::string name;

@@ -24,8 +24,8 @@ struct FoundCamera {
 /// Returns the cameras among /dev/video0 to /dev/video63, or an empty list if there are none.
 std::vector<FoundCamera> find_cameras();
 
-/// Returns the cameras as a sentence without a full stop: "cameras are /dev/video0 (name), ...".
-/// Without cameras, the sentence states that none was found.
+/// Returns the cameras as a sentence without a full stop: "cameras are /dev/video0 (name), ...". If
+/// there are none, the sentence states this.
 std::string in_one_line(const std::vector<FoundCamera>& cameras);
 
 }  // namespace dotpose::video

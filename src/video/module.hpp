@@ -1,5 +1,6 @@
-// Cameras, videos and windows, implemented in the module dotpose-video.so beside the program.
-// OpenCV and FFmpeg take a third of a second to load, so the module is loaded on first use.
+// Cameras, videos and windows. They are implemented in the module dotpose-video.so beside the
+// program, which is loaded on first use, because loading OpenCV and FFmpeg takes a third of a
+// second.
 #pragma once
 
 #include <functional>
@@ -14,17 +15,16 @@ namespace dotpose::video {
 
 using Tell = std::function<void(const std::string&)>;
 
-/// An output video file.
 class GreyVideo {
   public:
     virtual ~GreyVideo() = default;
     /// Appends a frame. Throws Error, for example if the disk is full or the frames differ in size.
     virtual void write(ImageView image) = 0;
-    /// Completes the file. Throws Error if the file is incomplete.
+    /// Completes the file. Throws Error if frames are missing from it.
     virtual void finish() = 0;
 };
 
-/// Functions of the module. Each function throws Error if it fails.
+/// Functions of the module. They throw Error if they fail.
 struct Module {
     using OpenSource = std::unique_ptr<capture::FrameSource>(const std::string& name,
                                                              const capture::SourceOptions& options);
@@ -36,7 +36,7 @@ struct Module {
     std::unique_ptr<ScreenOutput> (*open_screen)(const ScreenOptions& options);
 };
 
-/// Returns the module. The first call loads the module and throws Error if loading fails.
+/// Returns the module, which is loaded by the first call. Throws Error if that fails.
 const Module& module();
 
 }  // namespace dotpose::video

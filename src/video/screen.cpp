@@ -27,9 +27,9 @@ bool Screen::is_wanted() {
 }
 
 bool has_display() {
-    // Tests the connection to the X server before Qt opens the window, because Qt ends the program
-    // if it cannot connect. The X library is a dependency of Qt. It is loaded at run time to avoid
-    // linking dotpose to it.
+    // Qt ends the program if it cannot connect to the X server, so the connection is tested before
+    // Qt opens the window. The X library is loaded at run time, so that dotpose, which needs it
+    // only with Qt, is not linked to it.
     void* library = dlopen("libX11.so.6", RTLD_LAZY);
     if (library == nullptr) return false;
     const auto connect = reinterpret_cast<void* (*)(const char*)>(dlsym(library, "XOpenDisplay"));

@@ -1,4 +1,4 @@
-// Shows the live picture of `dotpose watch` or `calibrate --live` in a window, writes it to a video
+// Shows the picture of `dotpose watch` or `calibrate --live` in a window, records it to a video
 // file, or both.
 #pragma once
 
@@ -19,18 +19,17 @@
 
 namespace dotpose::video {
 
-/// A point of the path in a plane. After a jump, the path continues as a new stroke.
+/// A point of the path in a plane. `is_jump` is true if the path is interrupted before this point.
 struct PathMark {
     double x = 0;
     double y = 0;
     bool is_jump = false;
 };
 
-/// A gauge: progress towards one goal.
 struct Gauge {
     std::string label;
-    std::string text;  ///< current value as text
-    double share = 0;  ///< fraction of the goal, at most 1
+    std::string text;
+    double share = 0;  ///< reached fraction of the goal, at most 1
     bool is_reached = false;
 };
 
@@ -40,20 +39,21 @@ struct CalibrationScene {
 
     CalibrationCoverage coverage;
     std::vector<Gauge> gauges;
-    std::optional<double> theta_rad;  ///< direction of the frame, or empty if it was not located
+    std::optional<double> theta_rad;  ///< angle of the image x axis on the sheet; empty if not
+                                      ///< located
     bool is_taken = false;            ///< true if this frame was added to the calibration
 };
 
 /// Contents of the picture of one frame.
 struct Scene {
     ImageView image;
-    Trace trace;           ///< trace of this image
-    bool is_good = false;  ///< false to draw the captions and the current place in a warning colour
+    Trace trace;
+    bool is_good = false;                    ///< if false, captions and place have a warning colour
     std::vector<std::string> lines;          ///< captions: pose, rate, quality
     std::span<const PathMark> path;          ///< the path up to this frame
     std::span<const draw::MapSheet> sheets;  ///< the sheets in the plane of the path
     bool y_up = false;                       ///< true if y points up in the plane
-    /// Calibration gauges, which replace the view of sheets and path.
+    /// Gauges of a calibration. They are shown instead of the sheets and the path.
     std::optional<CalibrationScene> calibration;
 };
 
@@ -61,7 +61,7 @@ struct ScreenOptions {
     bool has_window = false;
     std::string record;  ///< path of the video file, or empty for none
     double fps = 30;     ///< frame rate of the video file
-    /// Called with a message if the recording does not have the preferred format for its name.
+    /// Called with a message if the format of the recording is not the preferred one for its name.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
@@ -69,7 +69,7 @@ struct ScreenOptions {
 class ScreenOutput {
   public:
     virtual ~ScreenOutput() = default;
-    /// These functions implement the functions of Screen with the same names.
+    /// Implementations of the functions of Screen with the same names.
     virtual bool show(const Scene& scene) = 0;
     virtual void finish() = 0;
     virtual bool is_wanted() = 0;
@@ -77,33 +77,33 @@ class ScreenOutput {
 
 class Screen {
   public:
-    /// The window and the file are opened for the first scene. Throws Error if the module that
-    /// opens them cannot be loaded.
+    /// The window and the file are opened with the first scene. Throws Error if the module for them
+    /// cannot be loaded.
     explicit Screen(const ScreenOptions& options);
 
     /// Returns true if there is a window or a recording.
     bool is_on() const;
 
-    /// Draws, shows and records a scene if `is_on()` is true. Returns false if the user closed the
-    /// window or pressed q or Escape in the window. Throws Error if the scene cannot be shown or
+    /// Shows and records a scene. Does nothing if `is_on()` is false. Returns false if the user
+    /// closed the window or pressed q or Escape in it. Throws Error if the scene cannot be shown or
     /// recorded.
     bool show(const Scene& scene);
 
-    /// Closes the recording. Throws Error if it is incomplete, for example because the disk is
+    /// Completes the recording. Throws Error if it is incomplete, for example because the disk is
     /// full.
     void finish();
 
-    /// Handles window events while there is no new scene. Returns false under the same conditions
-    /// as `show`.
+    /// Handles the events of the window while there is no new scene. Returns false if the user
+    /// closed the window or pressed q or Escape in it.
     bool is_wanted();
 
   private:
-    /// Null if neither a window nor a recording is requested.
+    /// Null if there is neither a window nor a recording.
     std::unique_ptr<ScreenOutput> output_;
 };
 
-/// Returns true if a window can be opened, that is, if an X server answers (possibly in a Wayland
-/// session).
+/// Returns true if a window can be opened because an X server answers, possibly as a part of a
+/// Wayland session.
 bool has_display();
 
 }  // namespace dotpose::video

@@ -10,7 +10,7 @@
 namespace dotpose::store {
 namespace {
 
-/// Joins the lines of a libpq message into one line. The lines may be indented.
+/// Joins the lines of a libpq message, which may be indented, into one line.
 std::string in_one_line(std::string_view text) {
     std::string line;
     for (const char c : text) {
@@ -44,8 +44,8 @@ std::int64_t Rows::integer(int row, int column) const {
 }
 
 PostgresConnection::PostgresConnection(const std::string& url) : connection_(nullptr, &PQfinish) {
-    // Default parameters, which the URL can override. The timeouts detect a server that no longer
-    // responds.
+    // Default parameters, which the URL can override. With these timeouts, a server that no longer
+    // responds is detected.
     constexpr std::array keys = {"connect_timeout",  "tcp_user_timeout", "keepalives_idle",
                                  "application_name", "client_encoding",  "dbname"};
     std::array<const char*, keys.size() + 1> names{};
@@ -53,7 +53,7 @@ PostgresConnection::PostgresConnection(const std::string& url) : connection_(nul
     const std::array<const char*, keys.size() + 1> values = {
         "5", "10000", "10", "dotpose fleet", "UTF8", url.c_str(), nullptr};
     connection_.reset(PQconnectdbParams(names.data(), values.data(), 1));
-    // Discards notices, which libpq would print to standard error.
+    // Notices are discarded, because libpq would print them to standard error.
     PQsetNoticeProcessor(
         connection_.get(), [](void*, const char*) {}, nullptr);
     if (PQstatus(connection_.get()) == CONNECTION_OK) return;

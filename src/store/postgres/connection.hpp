@@ -1,4 +1,4 @@
-// A connection to PostgreSQL with libpq. Errors are exceptions.
+// A connection to PostgreSQL with libpq. Errors are thrown as exceptions.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace dotpose::store {
 struct Refused : Error {
     Refused(const std::string& message, std::string state)
         : Error(message), sql_state(std::move(state)) {}
-    std::string sql_state;  ///< code of five characters, or empty if the connection broke
+    std::string sql_state;  ///< code of five characters, or empty if the connection was lost
 };
 
 class Rows {
@@ -26,7 +26,7 @@ class Rows {
     int size() const { return PQntuples(result_.get()); }
     bool is_null(int row, int column) const { return PQgetisnull(result_.get(), row, column) != 0; }
     std::string_view text(int row, int column) const;
-    /// Returns the value as an integer, or 0 if the value is null.
+    /// Returns the value as an integer. Null is returned as 0.
     std::int64_t integer(int row, int column) const;
     PGresult* get() const { return result_.get(); }
 
@@ -36,7 +36,7 @@ class Rows {
 
 class PostgresConnection {
   public:
-    /// Connects to the server. Throws Error if this takes more than 5 s or fails.
+    /// Connects to the server. Throws Error if the connection fails or takes more than 5 s.
     explicit PostgresConnection(const std::string& url);
 
     /// Runs statements without parameters, separated by semicolons. Throws Refused.
@@ -45,13 +45,13 @@ class PostgresConnection {
     /// Runs a statement with the parameters $1, $2, .... Throws Refused.
     Rows run(const std::string& statement, std::initializer_list<std::string> parameters);
 
-    /// Starts a statement whose rows are returned one at a time by `next`. Throws Refused.
+    /// Starts a statement. `next` then returns its rows one at a time. Throws Refused.
     void start(const std::string& statement, std::initializer_list<std::string> parameters);
-    /// Returns the next row as the only element of the result. Returns an empty result after the
-    /// last row. Throws Refused.
+    /// Returns a result with only the next row, or an empty result after the last row. Throws
+    /// Refused.
     Rows next();
 
-    /// Runs a statement COPY ... FROM STDIN and sends `data`, in the binary format, to it. Throws
+    /// Runs a statement COPY ... FROM STDIN with `data`, which must be in the binary format. Throws
     /// Refused.
     void copy(const std::string& statement, std::string_view data);
 
@@ -62,8 +62,8 @@ class PostgresConnection {
     std::unique_ptr<PGconn, decltype(&PQfinish)> connection_;
 };
 
-/// Returns the host and the database of a URL, without user and password. Throws BadArgument if the
-/// URL is not valid.
+/// Returns the host and the database of a URL, but not the user and the password. Throws
+/// BadArgument if the URL is invalid.
 std::string label_of(const std::string& url);
 
 }  // namespace dotpose::store

@@ -4,7 +4,7 @@
 
 namespace dotpose::store {
 
-// PostgreSQL documentation of COPY, section "Binary Format", specifies the format.
+// The format is specified in the PostgreSQL documentation of COPY, section "Binary Format".
 CopyRows::CopyRows() {
     using namespace std::string_literals;
     data_ = "PGCOPY\n\377\r\n\0"s;

@@ -1,4 +1,4 @@
-// Rows in the binary format of COPY. The binary format needs no quoting.
+// Rows in the binary format of COPY, which needs no quoting.
 #pragma once
 
 #include <cstdint>

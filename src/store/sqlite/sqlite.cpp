@@ -28,8 +28,8 @@ class Connection {
     Connection(const std::string& path, Access access) : path_(path) {
         constexpr int kBusy_ms = 5000;
         sqlite3* database = nullptr;
-        // Readers also need write access, because they update the shared-memory file of the
-        // write-ahead log.
+        // Readers also need write access, because they update the shared memory of the write-ahead
+        // log.
         const int flags =
             SQLITE_OPEN_READWRITE | (access == Access::write ? SQLITE_OPEN_CREATE : 0);
         const int code = sqlite3_open_v2(path.c_str(), &database, flags, nullptr);
@@ -62,7 +62,7 @@ class Statement {
         statement_.reset(statement);
     }
 
-    /// Binds the next parameter. A text must remain valid until the statement has run.
+    /// Binds the next parameter. Texts must remain valid until the statement has run.
     Statement& bind(std::int64_t value) {
         connection_.require(sqlite3_bind_int64(statement_.get(), ++bound_, value));
         return *this;
@@ -77,13 +77,12 @@ class Statement {
                                               static_cast<int>(text.size()), SQLITE_STATIC));
         return *this;
     }
-    /// Advances to the next row. Returns false if there are no more rows.
     bool step() {
         const int code = sqlite3_step(statement_.get());
         connection_.require(code);
         return code == SQLITE_ROW;
     }
-    /// Runs the statement, and resets it for the next parameters.
+    /// Runs the statement. Afterwards, new parameters can be bound.
     void run() {
         while (step()) {
         }
@@ -118,8 +117,8 @@ class Sqlite : public Database {
         if (connection_) return;
         Connection connection(path_, access_);
         if (access_ == Access::write) {
-            // With a write-ahead log, readers do not wait for the writer. With full
-            // synchronization, each transaction survives a power failure.
+            // With the write-ahead log, readers need not wait for the writer. With full
+            // synchronization, completed transactions survive a power failure.
             connection.run(
                 "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA cache_size = -65536;"
                 "BEGIN IMMEDIATE;" +
@@ -156,8 +155,8 @@ class Sqlite : public Database {
 
     void remove_days_before(std::int64_t time_us) override {
         run([&](const Connection& connection) {
-            // Each robot has its own transaction, to let other programs write between the
-            // transactions.
+            // The states of each robot are removed in a separate transaction, so that other
+            // programs can write in between.
             std::vector<std::int64_t> ids;
             Statement select(connection, "SELECT robot FROM robots");
             while (select.step())
@@ -208,7 +207,8 @@ class Sqlite : public Database {
     }
 
   private:
-    /// Calls `work(connection)`. After an Error, closes the file, which rolls back the transaction.
+    /// Calls `work(connection)`. If it throws Error, closes the file, which rolls back the
+    /// transaction.
     template <typename Work>
     void run(const Work& work) {
         try {

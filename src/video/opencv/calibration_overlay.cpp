@@ -18,8 +18,8 @@ void write(cv::Mat& panel, const std::string& text, cv::Point at, const cv::Scal
     cv::putText(panel, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.5, colour, 1, cv::LINE_AA);
 }
 
-/// Draws a compass in the orientation of the sheet. A filled sector shows each previous direction
-/// of the image x axis, and a hand shows the current direction.
+/// Draws a compass in the orientation of the sheet. Filled sectors show the earlier directions of
+/// the image x axis, and a hand shows the current one.
 void draw_directions(const CalibrationScene& scene, cv::Point centre, int radius, cv::Mat& panel) {
     constexpr int kDirections = CalibrationCoverage::kDirections;
     for (int i = 0; i < kDirections; ++i) {

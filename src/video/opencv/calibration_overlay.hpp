@@ -1,5 +1,5 @@
-// Draws the progress of a calibration: tints the parts of the frame that are not covered yet, and
-// draws gauges beside the frame.
+// Draws the progress of a calibration: a tint on the parts of the frame that are not covered yet,
+// and gauges beside the frame.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -8,11 +8,11 @@
 
 namespace dotpose::video {
 
-/// Tints the parts of the image in which no dots were seen. `frame` is the part of the picture that
-/// shows the frame.
+/// Tints the parts of the image in which no dots have been seen. `frame` is the part of the picture
+/// with the image.
 void draw_coverage(const CalibrationScene& scene, cv::Mat frame);
 
-/// Draws the gauges and, below them, the directions in which frames were taken.
+/// Draws the gauges. Below them, draws the directions in which frames were taken.
 void draw_gauges(const CalibrationScene& scene, cv::Mat panel);
 
 }  // namespace dotpose::video

@@ -40,7 +40,8 @@ void to_grey(const cv::Mat& picture, GreyImage& image) {
         image.pixels.insert(image.pixels.end(), grey.ptr(v), grey.ptr(v) + grey.cols);
 }
 
-/// Runs `action`. Converts exceptions of drivers and decoders to Error with the name of the source.
+/// Runs `action`. If a driver or a decoder throws an exception, throws an Error with the name of
+/// the source.
 template <typename Action>
 auto guarded(const std::string& name, const Action& action) {
     try {
@@ -50,7 +51,7 @@ auto guarded(const std::string& name, const Action& action) {
     }
 }
 
-/// Reads a camera in a separate thread, so `next` always returns the newest frame.
+/// Reads a camera in a separate thread, so that `next` always returns the newest frame.
 class Camera : public capture::FrameSource {
   public:
     Camera(const std::string& name, const SourceOptions& options)
@@ -79,7 +80,7 @@ class Camera : public capture::FrameSource {
     double rate() const override { return rate_; }
 
   private:
-    /// Returns the device path of a local camera. The name of the camera is a path or a number.
+    /// Returns the device path of a local camera, whose name is a path or a number.
     std::string device() const {
         const bool is_number = name_.find_first_not_of("0123456789") == std::string::npos;
         return is_number ? "/dev/video" + name_ : name_;
@@ -123,9 +124,9 @@ class Camera : public capture::FrameSource {
         if (options_.gain) capture_.set(cv::CAP_PROP_GAIN, *options_.gain);
     }
 
-    /// Returns the time of the frame on the monotonic clock. This is the time of the driver if
-    /// available, otherwise the time at which the frame was read. The times of network streams are
-    /// not used, because their clock is unknown.
+    /// Returns the time of the frame on the monotonic clock: the time from the driver if available,
+    /// otherwise the time at which the frame was read. Times of network streams are not used,
+    /// because their clock is unknown.
     std::int64_t time_us() const {
         const double driver_ms = is_remote_ ? 0 : capture_.get(cv::CAP_PROP_POS_MSEC);
         if (driver_ms > 0) return std::llround(driver_ms * 1e3);
@@ -180,7 +181,7 @@ class Camera : public capture::FrameSource {
         if (frames_ > 0) put_empty();
         try {
             open();
-        } catch (const Error&) {  // the next read fails as well and retries
+        } catch (const Error&) {  // the next read also fails and tries again
         }
     }
 
@@ -204,7 +205,7 @@ class Camera : public capture::FrameSource {
 
 std::unique_ptr<capture::FrameSource> open_camera(const std::string& name,
                                                   const SourceOptions& options) {
-    // Suppresses the messages of OpenCV, because failures are reported as Error.
+    // Failures are reported as Error, so OpenCV need not print messages.
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // AV_LOG_QUIET
     return std::make_unique<Camera>(name, options);

@@ -17,7 +17,7 @@ extern "C" {
 namespace dotpose::video {
 namespace {
 
-/// Encoders to try. All of them are software encoders, because FFmpeg also lists encoders of
+/// Encoders to try. Only software encoders are listed, because FFmpeg also offers encoders of
 /// graphics cards that are not installed.
 constexpr const char* kEncoders[] = {"libx264", "libopenh264"};
 
@@ -99,8 +99,8 @@ class H264File::Encoder {
         if ((file_->oformat->flags & AVFMT_GLOBALHEADER) != 0) {
             encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
         }
-        // Locating must not wait for the encoder. This preset takes a third of the default time,
-        // and its files are only slightly larger.
+        // Locating must not wait for the encoder. With this preset, encoding takes a third of the
+        // time, and files are only slightly larger.
         AVDictionary* options = nullptr;
         av_dict_set(&options, "preset", "veryfast", 0);
         av_dict_set(&options, "crf", "23", 0);
@@ -109,8 +109,8 @@ class H264File::Encoder {
         require(code);
     }
 
-    /// Encodes a picture and writes the finished packets. Without a picture, writes the remaining
-    /// packets.
+    /// Encodes a picture and writes the packets that are ready. If there is no picture, writes all
+    /// remaining packets.
     void encode(const AVFrame* picture) {
         require(avcodec_send_frame(encoder_.get(), picture));
         while (true) {
@@ -123,7 +123,7 @@ class H264File::Encoder {
         }
     }
 
-    /// Throws Error with the reason if `code` is an error code of FFmpeg.
+    /// Throws Error if `code` is an error code of FFmpeg. The message contains the reason.
     void require(int code) const {
         if (code >= 0) return;
         char reason[AV_ERROR_MAX_STRING_SIZE] = {};
@@ -152,7 +152,7 @@ H264File::~H264File() {
     try {
         encoder_->finish();
     } catch (const Error&) {
-        // Errors are ignored here. Call `finish` to check that the file is complete.
+        // Only `finish` reports errors.
     }
 }
 

@@ -1,4 +1,4 @@
-// Writes pictures to a video file as H.264, with the libraries of FFmpeg.
+// Writes pictures to a video file as H.264, using the libraries of FFmpeg.
 #pragma once
 
 #include <memory>
@@ -15,10 +15,10 @@ class H264File {
     /// Returns true if the installed FFmpeg can encode H.264.
     static bool is_available();
 
-    /// Creates the file. The file extension determines the container. Width and height must be
-    /// even. Throws Error if the file cannot be created.
+    /// Creates the file in the container format of its extension. Width and height must be even.
+    /// Throws Error if the file cannot be created.
     H264File(const std::string& path, double fps, cv::Size size);
-    /// Completes the file and ignores errors.
+    /// Completes the file unless `finish` was called. Errors are ignored.
     ~H264File();
     H264File(const H264File&) = delete;
     H264File& operator=(const H264File&) = delete;
@@ -26,8 +26,7 @@ class H264File {
     /// Appends a BGR picture. Throws Error, for example if the disk is full.
     void write(const cv::Mat& picture);
 
-    /// Completes the file. No further pictures may be appended. Throws Error if the file cannot be
-    /// completed.
+    /// Completes the file. No more pictures may be appended. Throws Error if this fails.
     void finish();
 
   private:

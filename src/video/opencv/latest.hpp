@@ -1,5 +1,5 @@
-// Passes the newest of a series of values from one thread to another. There is no queue. A value
-// that is not taken before the next value arrives is dropped and counted.
+// Passes values from one thread to another without a queue. If a value is not taken before the next
+// one arrives, it is dropped and counted.
 #pragma once
 
 #include <chrono>
@@ -23,8 +23,8 @@ class Latest {
         arrived_.notify_one();
     }
 
-    /// Returns the newest value and removes it. Waits for a value if there is none. Returns an
-    /// empty optional if no value arrives within `patience`.
+    /// Waits for a value and removes it. Returns an empty optional if none arrives within
+    /// `patience`.
     std::optional<Value> take(std::chrono::milliseconds patience) {
         std::unique_lock lock(mutex_);
         arrived_.wait_for(lock, patience, [this] { return value_.has_value(); });

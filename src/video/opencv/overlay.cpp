@@ -22,7 +22,8 @@ int even(double length) {
     return 2 * static_cast<int>(std::ceil(length / 2));
 }
 
-/// Draws the grid. In a large grid, draws only every `step`-th line, at most a few hundred lines.
+/// Draws the grid. If the grid is large, draws only every `step`-th line, so that there are at most
+/// a few hundred lines.
 void draw_grid(const draw::FrameView& view, cv::Mat& picture) {
     const GridRegion& grid = view.trace().grid.region;
     const int step = std::max({1, grid.columns / 64, grid.rows / 64});
@@ -30,7 +31,7 @@ void draw_grid(const draw::FrameView& view, cv::Mat& picture) {
         cv::line(picture, pixel(view.at_grid(i0, j0)), pixel(view.at_grid(i1, j1)), kGrid, 1,
                  cv::LINE_AA);
     };
-    // Lines are drawn in short pieces, because lens distortion bends them.
+    // Lens distortion bends lines, so they are drawn in short pieces.
     for (int i = grid.i0; i < grid.i0 + grid.columns; i += step) {
         for (int j = grid.j0; j < grid.j0 + grid.rows; j += step) {
             if (i + step < grid.i0 + grid.columns) line(i, j, i + step, j);
@@ -63,7 +64,7 @@ void draw_captions(const Scene& scene, cv::Mat panel) {
     }
 }
 
-/// The panel that shows the sheets and the path from above, scaled to fit.
+/// A panel that shows the sheets and the path from above. Its contents are scaled to fit.
 class Plan {
   public:
     Plan(const Scene& scene, cv::Mat panel) : panel_(std::move(panel)), y_up_(scene.y_up) {
@@ -122,7 +123,7 @@ cv::Mat overlay(const Scene& scene) {
     const int width = even(view.width());
     const int height = std::max(even(view.height()), 480);
     cv::Mat picture(height, width + kPanelWidth, CV_8UC3, kPaper);
-    // cv::Mat has no read-only view. The pixels are not modified.
+    // The cast is safe, because the pixels are not modified. cv::Mat has no read-only view.
     const cv::Mat grey(scene.image.height_px, scene.image.width_px, CV_8UC1,
                        const_cast<std::uint8_t*>(scene.image.pixels),
                        static_cast<std::size_t>(scene.image.stride_bytes));

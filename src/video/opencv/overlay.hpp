@@ -7,8 +7,8 @@
 
 namespace dotpose::video {
 
-/// Draws the picture. Its size depends only on the size of the frame. Width and height are even, as
-/// video encoders require.
+/// Draws the picture. Its size depends only on the size of the frame. Width and height are even,
+/// because video encoders require this.
 cv::Mat overlay(const Scene& scene);
 
 }  // namespace dotpose::video

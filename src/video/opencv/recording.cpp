@@ -16,7 +16,6 @@ bool is_avi(const std::string& path) {
     return path.ends_with(".avi");
 }
 
-/// Returns the codec to pass to OpenCV.
 int codec_of(const std::string& path) {
     return is_avi(path) ? cv::VideoWriter::fourcc('M', 'J', 'P', 'G')
                         : cv::VideoWriter::fourcc('m', 'p', '4', 'v');

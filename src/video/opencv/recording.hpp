@@ -1,4 +1,4 @@
-// Writes pictures to a video file: H.264 or MPEG-4, or Motion JPEG if the name ends in .avi.
+// Writes pictures to a video file as H.264 or MPEG-4, or as Motion JPEG if the name ends in .avi.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@ class Recording : public GreyVideo {
     /// The file is created with the first picture. `tell` receives messages for the user.
     Recording(std::string path, double fps, Tell tell);
 
-    /// Append a BGR or a grey picture. Throw Error, for example if the disk is full or the pictures
-    /// differ in size.
+    /// Append a BGR or a grey picture. Throw Error if that fails, for example because the disk is
+    /// full or the pictures differ in size.
     void write(const cv::Mat& picture);
     void write(ImageView image) override;
 
-    /// Closes the file and verifies its number of frames, because OpenCV reports neither a full
-    /// disk nor an incomplete file. Throws Error if frames are missing.
+    /// Closes the file. Throws Error if frames are missing. The frames are counted, because OpenCV
+    /// reports neither a full disk nor an incomplete file.
     void finish() override;
 
   private:
@@ -38,7 +38,7 @@ class Recording : public GreyVideo {
     std::unique_ptr<H264File> h264_;
     cv::VideoWriter writer_;  ///< open if the recording is not H.264
     cv::Size size_;
-    std::int64_t frames_ = 0;  ///< number of frames written
+    std::int64_t frames_ = 0;
 };
 
 }  // namespace dotpose::video

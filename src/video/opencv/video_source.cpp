@@ -1,5 +1,5 @@
-// Reads video files with the libraries of FFmpeg. Unlike OpenCV, FFmpeg provides the time of each
-// frame and reports damaged frames.
+// Reads video files with the libraries of FFmpeg, because unlike OpenCV, they provide the time of
+// each frame and report damaged frames.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -41,7 +41,6 @@ Owned<T> owned(T* pointer) {
     return Owned<T>(pointer);
 }
 
-/// Converts frames of any pixel format to grey.
 class GreyConverter {
   public:
     void operator()(const AVFrame& picture, GreyImage& image) {
@@ -55,7 +54,7 @@ class GreyConverter {
             const int* colours = sws_getCoefficients(SWS_CS_DEFAULT);
             sws_setColorspaceDetails(converter_.get(), colours, 1, colours, 1, 0, 1 << 16, 1 << 16);
         }
-        // The converter requires aligned rows, which this allocation provides.
+        // The converter requires aligned rows, so FFmpeg allocates the image.
         const auto grey = owned(av_frame_alloc());
         grey->format = AV_PIX_FMT_GRAY8;
         grey->width = width;
@@ -91,7 +90,7 @@ class VideoFile : public capture::FrameSource {
         if (!std::ifstream(name)) {
             throw Error("cannot read " + name + ": " + std::strerror(errno));
         }
-        // Suppresses the messages of FFmpeg, because failures are reported as Error.
+        // Failures are reported as Error, so FFmpeg need not print messages.
         av_log_set_level(AV_LOG_QUIET);
         if (!open()) throw Error(name + " is not a video, or its format is not known");
     }
@@ -122,12 +121,12 @@ class VideoFile : public capture::FrameSource {
   private:
     bool open() {
         AVFormatContext* file = nullptr;
-        // The prefix keeps FFmpeg from interpreting the part of the name before a colon as a
+        // Without the prefix, FFmpeg would interpret the part of a name before a colon as a
         // protocol.
         const std::string url = "file:" + name_;
         if (avformat_open_input(&file, url.c_str(), nullptr, nullptr) < 0) return false;
         file_.reset(file);
-        // The index is checked before packets are read, because reading adds entries to the index.
+        // Reading packets adds entries to the index, so the index must be checked first.
         for (unsigned i = 0; i < file->nb_streams; ++i) {
             const int entries = avformat_index_get_entries_count(file->streams[i]);
             has_index_ = has_index_ || (entries > 0 && entries >= file->streams[i]->nb_frames);
@@ -152,16 +151,17 @@ class VideoFile : public capture::FrameSource {
         if (stream_->duration > 0) {
             return static_cast<double>(stream_->duration) * av_q2d(stream_->time_base);
         }
-        // The duration of a file is the maximum over its streams. It is therefore used only if the
-        // file has one stream.
+        // The duration of a file is that of its longest stream, so it is used only if the file has
+        // one stream.
         const bool is_of_video = file_->nb_streams == 1 && file_->duration > 0;
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }
-    /// Returns the number of frames according to the file, or a number computed from the duration.
+    /// Returns the number of frames that the file reports, or otherwise a number computed from the
+    /// duration.
     std::int64_t expected_frames() const {
         return stream_->nb_frames > 0 ? stream_->nb_frames : std::llround(duration_s() * rate_);
     }
-    /// Throws Error if the video is damaged or ended too early.
+    /// Throws Error if the video is damaged or ends too early.
     void check_end() const {
         const bool is_short = stream_->nb_frames > 0 ? frames_ < stream_->nb_frames
                                                      : time_s_ + 2 / rate_ < duration_s();
@@ -180,8 +180,7 @@ class VideoFile : public capture::FrameSource {
         }
     }
 
-    /// Sends the next packet of the video to the decoder. After the last packet, sends the end of
-    /// the stream.
+    /// Sends the next video packet to the decoder, or the end of the stream after the last packet.
     void send_packet() {
         constexpr int kMaxFailures = 100;
         for (int failures = 0; failures < kMaxFailures;) {
@@ -205,9 +204,9 @@ class VideoFile : public capture::FrameSource {
         avcodec_send_packet(decoder_.get(), nullptr);
     }
 
-    /// Corrects the time of a packet in an AVI file with the index of the file. AVI stores no
-    /// times. FFmpeg counts packets instead, so the times after damage are wrong. The index
-    /// contains the positions of all frames.
+    /// Corrects the time of a packet in an AVI file. AVI stores no times, so FFmpeg counts packets,
+    /// which gives wrong times after damage. The index of the file contains the positions of all
+    /// frames, so it gives the correct times.
     void correct_time() {
         if (std::string_view(file_->iformat->name) != "avi") return;
         int first = 0;
@@ -226,14 +225,15 @@ class VideoFile : public capture::FrameSource {
         if (packet_->pts != AV_NOPTS_VALUE) packet_->pts = entry->timestamp;
     }
 
-    /// Discards the frames up to the next key frame, because they may contain parts of damaged
+    /// Skips the frames before the next key frame, because they may contain parts of damaged
     /// frames.
     void skip_to_key_frame() {
         is_damaged_ = true;
         waits_for_key_frame_ = true;
     }
 
-    /// Converts the decoded picture to a frame. Returns false if the picture may be damaged.
+    /// Converts the decoded picture to a frame. Returns false if parts of the picture may be
+    /// damaged.
     bool take_picture(Frame& frame) {
         const std::int64_t time = picture_->best_effort_timestamp;
         if (time != AV_NOPTS_VALUE) {
@@ -268,16 +268,16 @@ class VideoFile : public capture::FrameSource {
     GreyConverter to_grey_;
     double rate_ = 30;
     double begin_s_ = 0;  ///< time of the first picture in the file
-    double time_s_ = 0;   ///< time of the newest picture relative to the first picture
+    double time_s_ = 0;   ///< time of the newest picture since the first one
     bool is_lossy_ = false;
     std::int64_t packet_bytes_ = 0;  ///< total size of the decoded packets
     std::int64_t packet_px_ = 0;     ///< total number of pixels of the returned frames
     bool has_begun_ = false;
     bool is_damaged_ = false;
     bool has_index_ = false;
-    bool is_counted_ = false;  ///< true if times are counted, because the index is inconsistent
+    bool is_counted_ = false;  ///< true if times are computed from frame numbers
     bool waits_for_key_frame_ = false;
-    std::int64_t frames_ = 0;  ///< number of returned frames
+    std::int64_t frames_ = 0;
 };
 
 }  // namespace
