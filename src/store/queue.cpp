@@ -39,18 +39,23 @@ Queue::~Queue() {
 }
 
 void Queue::push(State state) {
-    const std::lock_guard lock(mutex_);
-    waiting_.push_back(std::move(state));
-    ++status_.waiting;
-    if (static_cast<std::size_t>(status_.waiting) > options_.max_states) {
-        waiting_.pop_front();
-        --status_.waiting;
-        if (status_.dropped++ == 0) {
-            options_.tell(fmt::format("{}: more than {} states wait; the oldest are dropped",
-                                      database_->label(), options_.max_states));
+    bool is_first_dropped = false;
+    {
+        const std::lock_guard lock(mutex_);
+        waiting_.push_back(std::move(state));
+        ++status_.waiting;
+        if (static_cast<std::size_t>(status_.waiting) > options_.max_states) {
+            waiting_.pop_front();
+            --status_.waiting;
+            is_first_dropped = status_.dropped++ == 0;
         }
+        if (waiting_.size() == kMaxBatch) changed_.notify_all();
     }
-    if (waiting_.size() == kMaxBatch) changed_.notify_all();
+    // Without the lock, because the caller's function may use the queue.
+    if (is_first_dropped) {
+        options_.tell(fmt::format("{}: more than {} states wait; the oldest are dropped",
+                                  database_->label(), options_.max_states));
+    }
 }
 
 QueueStatus Queue::status() const {

@@ -323,6 +323,23 @@ TEST(StoreQueue, DropsTheOldestStatesBeyondItsBuffer) {
     EXPECT_EQ(contents.numbers.front(), 150);
 }
 
+TEST(StoreQueue, MessagesMayUseTheQueue) {
+    FakeDatabase::Contents contents;
+    contents.is_away = true;
+    // A null pointer until the queue is constructed, because the constructor may report a failure.
+    const store::Queue* used = nullptr;
+    std::int64_t dropped = 0;
+    store::Queue queue(std::make_unique<FakeDatabase>(contents), true,
+                       {.max_states = 1, .period = 10s, .tell = [&](const std::string&) {
+                            if (used != nullptr) dropped = used->status().dropped;
+                        }});
+    used = &queue;
+    queue.push(state_of("anna", kNoon_us, 0));
+    queue.push(state_of("anna", kNoon_us + 1, 1));
+    EXPECT_EQ(dropped, 1);
+    used = nullptr;
+}
+
 TEST(StoreQueue, EndsIfTheDatabaseStaysAway) {
     FakeDatabase::Contents contents;
     contents.is_away = true;
