@@ -28,7 +28,6 @@ struct SpaceState {
     double displacement = 1.0 / 6;  ///< displacement of the dots in the image, in spacings
 };
 
-/// Result of a fit.
 struct SpaceFit {
     SpaceState state;
     /// Covariance of position_mm and of the rotation vector in the camera frame: true rotation =

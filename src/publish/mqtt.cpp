@@ -162,7 +162,7 @@ void MqttClient::start() {
     mosquitto_disconnect_callback_set(mosquitto_, Callbacks::on_disconnect);
     mosquitto_publish_callback_set(mosquitto_, Callbacks::on_publish);
     mosquitto_message_callback_set(mosquitto_, Callbacks::on_message);
-    // Reserves one more place than `publish` uses. Presence messages use this place without
+    // Reserves one more place than `publish` uses, so that presence messages are sent without
     // waiting.
     mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMaxUnderWay + 1));
     // Messages are published by threads other than the thread of `run`.
