@@ -50,7 +50,7 @@ struct GuideOptions {
     std::string file;  ///< camera file; no other file is written
     CalibrateOptions calibrate;
     SpacingSource spacing = SpacingSource::assumed;
-    /// Camera of the run: the values that a step does not calibrate are kept.
+    /// Camera of the run. Each step changes only the values that it calibrates.
     std::optional<Camera> camera;
     bool needs_focal_length = false;  ///< true if the run fits poses in space
     bool flip = false;  ///< true if the source flips the frames; written to the camera file
@@ -62,7 +62,7 @@ struct GuideResult {
     bool is_good = true;                          ///< false if the verdict is a warning
     std::optional<ResidualField> residuals = {};  ///< only for the step `lens`
     std::vector<SpinStation> stations = {};       ///< only for the step `spin`
-    std::vector<std::string> improvements = {};   ///< what more frames could improve
+    std::vector<std::string> improvements = {};   ///< what could be improved with more frames
 };
 
 struct GuideState {

@@ -98,7 +98,7 @@ void ReadoutFrames::take(const GuidedFrame& frame) {
     if (seen_.size() > 1) advice_ = "go on at this speed";
 }
 
-/// Completes the calibration if there are enough consecutive frames, or else starts again.
+/// Completes the calibration if there are enough consecutive frames, otherwise starts again.
 void ReadoutFrames::end_run() {
     is_complete_ = is_complete_ || images_.size() >= kMinRun;
     if (is_complete_) return;

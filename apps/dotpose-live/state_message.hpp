@@ -1,6 +1,6 @@
 /// JSON messages of robots according to VDA 5050, version 2.0.0: poses on the topic
 /// `visualization`, and the connection state of a robot on the topic `connection` (docs/live.md).
-/// Also the messages of the alerts that `dotpose fleet` publishes (docs/fleet.md).
+/// Also defines the alerts that `dotpose fleet` publishes (docs/fleet.md).
 #pragma once
 
 #include <array>

@@ -31,7 +31,7 @@ publish::MqttOptions with_presence(const PublishArguments& arguments) {
 void CameraCounter::count(const Reading& reading) {
     if (total_.frames++ == 0) {
         reported_us_ = reading.time_us;
-        // the first frame is excluded, because the rate is that of the intervals between frames
+        // The rate is the number of intervals between frames, so the first frame does not count.
         reported_frames_ = total_.frames;
     }
     newest_us_ = reading.time_us;

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kLogEnding = ".csv";
 constexpr const char* kMessagesEnding = ".mcap";
 
-/// Returns a name of a recording that contains no special characters of paths or URLs.
+/// Returns a name for a recording, without characters that are special in paths or URLs.
 std::string name_at(const std::string& robot, std::time_t now) {
     std::tm utc{};
     gmtime_r(&now, &utc);

@@ -273,7 +273,7 @@ void WebSheets::measure(bool is_on) {
         const std::lock_guard lock(mutex_);
         std::swap(job, job_);
     }
-    job.reset();  // waits for the thread of the job, which publishes
+    job.reset();  // waits for the thread of the job, which may still publish
     publish_measurement(nullptr);
     if (!is_on) return;
     edits_.refresh();

@@ -61,7 +61,7 @@ View median_view(const std::vector<View>& views) {
     return view;
 }
 
-/// Returns true if the scales of the views differ as those of a hand-held camera.
+/// Returns true if the scales of the views differ so much that the camera was hand-held.
 bool differ(const std::vector<View>& views, const View& typical) {
     constexpr double kMaxMedianChange = 0.01;
     return median_of(views, [&](const View& view) {

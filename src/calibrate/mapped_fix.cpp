@@ -182,7 +182,8 @@ void write_fix(const Plane& plane, const Correction& correction, const Trace& tr
     fix.section = cell.section;
     fix.fraction_x_q16 = static_cast<std::uint16_t>(x_q16 & 65535);
     fix.fraction_y_q16 = static_cast<std::uint16_t>(y_q16 & 65535);
-    // Derivative of the place along the image x axis, by the difference of two points.
+    // Approximates the derivative of the place along the image x axis by the difference between
+    // two points.
     const double step = 8;
     const MapDot left{reference - Vector2d(step, 0), Vector2d::Zero(), Vector2d::Zero(),
                       Vector2d::Zero()};

@@ -113,9 +113,8 @@ void pin_one(ceres::Problem& problem, std::array<double, kSize>& block, std::siz
     pin(problem, block, weights, expected, sigma);
 }
 
-/// Returns a pose on the page of the sheet of a view. The position of this pose is the position of
-/// the point `in_camera`, given in the camera's coordinate frame. The direction of the pose is the
-/// direction of the x axis of this coordinate frame.
+/// Converts a pose from the coordinate frame of the camera to the page of the sheet of a view. The
+/// pose is at the point `in_camera`, in the direction of the x axis of the camera frame.
 PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const Sheet& sheet,
                   const AxisScale& scale) {
     const Eigen::Vector2d at = view.place + view.axes * (in_camera - view.middle);
@@ -407,7 +406,7 @@ void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
             ++row;
         }
         if (has_scale()) continue;
-        // adds the print error of the fixed sheet, to which all scales are relative
+        // Adds the print error of the fixed sheet, to which all scales are relative.
         for (const std::size_t scale : {3, 4})
             variances_[i][scale] += kUsualPrintError * kUsualPrintError;
     }
