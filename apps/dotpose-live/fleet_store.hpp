@@ -27,7 +27,7 @@ struct StoreArguments {
 /// characters only, so that every program can show it.
 std::string stored_name(std::string_view name);
 
-/// Converts states of messages. Equal names share memory.
+/// Converts received states to stored states. Equal names share memory.
 class StoredStates {
   public:
     /// Uses the time stamp of the robot. If the clock of the robot differs by more than half an

@@ -1,5 +1,5 @@
-/// Measures the relative places of sheets from the frames of a running camera, on a thread of its
-/// own.
+/// Measures the relative places of sheets from the frames of a running camera, in a separate
+/// thread.
 #pragma once
 
 #include <atomic>

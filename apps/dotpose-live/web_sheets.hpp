@@ -1,8 +1,8 @@
 /// The view of the sheets in the page of `dotpose watch --web`. docs/web.md describes its topics
 /// and commands.
 ///
-/// The sheet file is read, changed and printed on a thread of its own, because another program may
-/// hold the lock of the file, and large pages take seconds.
+/// A separate thread reads and changes the sheet file and prints sheets, because another program
+/// may hold the lock of the file, and large pages take seconds.
 #pragma once
 
 #include <atomic>

@@ -166,7 +166,7 @@ void WebView::publish_frame(const Reading& reading, Clock::time_point now) {
     const bool is_small = is_time_for(small_frame_, small_timer_, kFramePeriod, now);
     if (!is_large && !is_small) return;
     const ImageView image = follower_.image();
-    // Both sizes share the copy. The thread of the server encodes it.
+    // The thread of the server encodes the images of both sizes from the same copy.
     const auto shot = std::make_shared<const std::pair<GreyImage, serve::FrameOverlay>>(
         copy_of(image), serve::overlay_of(image, follower_.trace()));
     const auto encoder = [shot, index = reading.index](int max_side_px) {
@@ -193,7 +193,7 @@ void WebView::publish_state(const Reading& reading, const WatchTally& tally,
                           {"frames", recordings_.frames()},
                           {"notice", recordings_.notice()},
                           {"files", recordings_.files()}};
-    // The line is the JSON line of the frame, so its keys are those of docs/schema.
+    // The line is the JSON output for the frame. docs/schema describes its keys.
     std::string line = json_line(fields(reading, Units::mm));
     server_.publish(state_, [state = std::move(state), line = std::move(line)] {
         std::string text = text_of(state);

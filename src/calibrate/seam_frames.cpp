@@ -19,9 +19,9 @@ constexpr double kBeyondPage_mm = 400;
 /// reliable.
 constexpr std::size_t kMinViewDots = 30;
 constexpr int kFieldsPerSide = 8;
-/// Number of fields (SheetView::fields), out of 64, that suffices: if the located sheets cover so
-/// many fields of a frame, the search ends. The number of dots is not a suitable criterion, because
-/// a fix includes the dots of only one sheet.
+/// The search in a frame ends when the located sheets cover this number of its 64 fields
+/// (SheetView::fields). The number of dots is not a suitable criterion, because a fix includes the
+/// dots of only one sheet.
 constexpr int kNearlyAllFields = 58;
 
 /// Part of the image along one axis: begin and length, as fractions of the side.

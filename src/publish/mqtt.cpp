@@ -419,7 +419,7 @@ int MqttSubscriber::work() {
 }
 
 int MqttSubscriber::receive_all() {
-    constexpr int kMaxBatch = 256;  // messages per batch; acknowledgements follow each batch
+    constexpr int kMaxBatch = 256;  // maximum number of messages that are acknowledged together
     for (int i = 0; i < kMaxBatch; ++i) {
         const std::int64_t before = received_;
         const int code = mosquitto_loop_read(handle(), 1);
