@@ -25,15 +25,15 @@ class AdviceWorker {
         Record record;
     };
 
-    /// `take` is called on the thread with the reason and the advice for a frame (`reason` in
-    /// locate_record.hpp).
+    /// The worker thread calls `take` with the reason and the advice for each frame (see `reason`
+    /// in locate_record.hpp).
     explicit AdviceWorker(std::function<void(const std::string&)> take);
     /// Waits for the end of the current search.
     ~AdviceWorker();
     AdviceWorker(const AdviceWorker&) = delete;
     AdviceWorker& operator=(const AdviceWorker&) = delete;
 
-    /// Searches for the reason of a refusal. Replaces a job that has not started yet.
+    /// Queues a search. Replaces a queued job that has not started.
     void ask(Job job);
 
   private:

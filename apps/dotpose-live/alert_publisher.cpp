@@ -11,7 +11,8 @@ namespace dotpose::cli {
 namespace {
 
 publish::MqttOptions with_queue(publish::MqttOptions options) {
-    options.queue = FleetState::kMaxRobots;  // all robots may change at the same time
+    // The conditions of all robots may change at the same time.
+    options.queue = FleetState::kMaxRobots;
     options.qos = 1;
     return options;
 }

@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 
 /// Minimum time between two frames that are offered for the calibration of the lens.
 constexpr std::chrono::milliseconds kOfferPeriod = 50ms;
-/// Maximum number of waiting jobs. A command of a page is ignored if so many wait.
+/// Maximum number of waiting jobs. Further commands of a page are ignored.
 constexpr std::size_t kMaxJobs = 8;
 
 constexpr std::array<const char*, 4> kSteps = {"lens", "spin", "drive", "readout"};
@@ -323,7 +323,7 @@ void CalibrationGuide::write() {
         update([&error](GuideState& state) { state.problem = error.what(); });
         return;
     }
-    // The source flips the frames.
+    // The written file contains the flip, but the source of this run already flips the frames.
     camera.flip = false;
     update([&](GuideState& state) {
         state.phase = GuidePhase::saved;

@@ -1,8 +1,9 @@
-/// Calibrates the camera of a running `dotpose watch`, step by step: the lens, the mount by a turn
-/// on the spot, the direction by a straight drive, and the readout time by a fast drive.
+/// Calibrates the camera of a running `dotpose watch` in four steps: the lens, the mount of the
+/// camera from a turn on the spot, the forward direction from a straight drive, and the readout
+/// time from a fast drive.
 ///
-/// The main thread passes frames and commands to the guide. These calls return immediately, and
-/// copy only frames that are needed. A thread with a lower priority selects the frames for the
+/// The main thread passes frames and commands to the guide. These calls return immediately and copy
+/// only the frames that the guide needs. A thread with a lower priority selects the frames for the
 /// lens, computes the calibration, and writes the file.
 #pragma once
 
@@ -28,11 +29,10 @@
 
 namespace dotpose::cli {
 
-/// A step of the calibration.
 enum class GuideStep { lens, spin, drive, readout };
 /// Returns the identifier, such as "spin".
 const char* name(GuideStep step);
-/// Returns the step with an identifier, or none.
+/// Returns the step with the identifier `name`, or none if there is no such step.
 std::optional<GuideStep> guide_step(const std::string& name);
 
 /// State of the current step.
@@ -47,23 +47,22 @@ enum class GuidePhase {
 const char* name(GuidePhase phase);
 
 struct GuideOptions {
-    std::string file;  ///< the only file that is written
+    std::string file;  ///< camera file; no other file is written
     CalibrateOptions calibrate;
     SpacingSource spacing = SpacingSource::assumed;
-    /// Camera of the run: the values that a step does not calibrate are kept.
+    /// Camera of the run. Each step changes only the values that it calibrates.
     std::optional<Camera> camera;
     bool needs_focal_length = false;  ///< true if the run fits poses in space
-    bool flip = false;  ///< true if the source flips the frames, which the file then contains
+    bool flip = false;  ///< true if the source flips the frames; written to the camera file
 };
 
-/// Result of a step.
 struct GuideResult {
     Camera camera;
     std::string report;                           ///< lines of `dotpose calibrate`
     bool is_good = true;                          ///< false if the verdict is a warning
-    std::optional<ResidualField> residuals = {};  ///< only of the lens
-    std::vector<SpinStation> stations = {};       ///< only of the turn
-    std::vector<std::string> improvements = {};   ///< what more frames could improve
+    std::optional<ResidualField> residuals = {};  ///< only for the step `lens`
+    std::vector<SpinStation> stations = {};       ///< only for the step `spin`
+    std::vector<std::string> improvements = {};   ///< what could be improved with more frames
 };
 
 struct GuideState {
@@ -72,8 +71,8 @@ struct GuideState {
     int frames = 0;  ///< number of frames that were taken
     std::vector<video::Gauge> gauges;
     std::string advice;                     ///< what to do now
-    std::optional<CalibrationStatus> lens;  ///< coverage, of the step `lens` only
-    std::vector<bool> directions;           ///< directions of a turn that were seen
+    std::optional<CalibrationStatus> lens;  ///< coverage; only for the step `lens`
+    std::vector<bool> directions;           ///< for each direction, true if a frame was taken
     std::string problem;                    ///< failure of the step, or of writing the file
     std::optional<GuideResult> result;
     std::optional<Camera> camera;  ///< the camera of the run
@@ -89,7 +88,7 @@ class CalibrationGuide {
 
     /// Starts a step. A running step is cancelled.
     void start(GuideStep step);
-    /// Solves with the frames so far.
+    /// Computes the result of the step from the frames taken so far.
     void finish();
     void cancel();
     /// Writes the result of the current step into the file.
@@ -107,7 +106,7 @@ class CalibrationGuide {
 
     const std::string& file() const { return options_.file; }
     GuideState state() const;
-    /// Returns the number of changes of the state.
+    /// Returns a number that increases with each change of the state.
     std::uint64_t version() const;
 
   private:

@@ -10,8 +10,8 @@
 
 namespace dotpose::cli {
 
-/// Tilt of the camera in one frame, as the change of the scale from the middle to a corner of the
-/// image relative to the scale, along the image axes.
+/// Tilt of the camera in one frame. Each component is the relative change of the image scale along
+/// an image axis, over the distance from the middle of the image to a corner.
 struct FrameTilt {
     double u = 0;
     double v = 0;

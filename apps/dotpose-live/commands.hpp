@@ -9,7 +9,7 @@ namespace dotpose::cli {
 void add_watch(Command& app, int& exit_code);
 void add_fleet(Command& app, int& exit_code);
 
-/// Add subcommands of `fleet`.
+/// Add the subcommands of `fleet`.
 void add_fleet_remove(Command& fleet);
 void add_fleet_history(Command& fleet);
 

@@ -13,11 +13,11 @@ namespace dotpose::cli {
 namespace {
 
 constexpr std::int64_t kWindow_us = 1'000'000;
-/// Minimum number of failed frames in a second for a hint. Slow cameras deliver only a few frames
-/// per second.
+/// Minimum number of failed frames in a second for a hint. The number is small, because slow
+/// cameras deliver only a few frames per second.
 constexpr std::size_t kMinFrames = 3;
-/// Maximum number of remembered frames. This maximum limits the memory if the timestamps of a
-/// source do not advance.
+/// Maximum number of remembered frames. Limits the memory if the timestamps of a source do not
+/// advance.
 constexpr std::size_t kMaxFrames = 2000;
 
 std::string reason_with_advice(Record record, ImageView image, const DeviceOptions& options,
@@ -30,9 +30,9 @@ std::string reason_with_advice(Record record, ImageView image, const DeviceOptio
 
 }  // namespace
 
-/// Counts a failed frame by its status. Keeps a copy of the first, second, fourth, eighth (and so
-/// on) frame with each status. A new copy replaces the previous copy. At the end of the run, the
-/// copy shows a frame from the second half of the frames with this status.
+/// Counts the failed frames with each status, and keeps a copy of one of them for the report at the
+/// end of the run. The first, second, fourth, eighth (and so on) frame replaces the previous copy,
+/// so the last copy is from the second half of the frames with this status.
 void FailureHint::remember(const Record& record, ImageView image, const DeviceOptions& options,
                            double bits_per_px) {
     ++frames_;

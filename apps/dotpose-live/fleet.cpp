@@ -78,7 +78,7 @@ void register_files(const FleetArguments& arguments) {
     }
 }
 
-/// Calls its function if at least `period_s` passed since the last call.
+/// Limits the rate of calls to one per period.
 class Periodically {
   public:
     explicit Periodically(double period_s) : period_s_(period_s), last_(steady_clock::now()) {}
@@ -100,7 +100,7 @@ std::optional<store::QueueStatus> store_status(const std::optional<FleetStore>& 
     return store ? std::optional(store->status()) : std::nullopt;
 }
 
-/// Returns the options of the page without functions that depend on the run, or none without --web.
+/// Returns the options of the page, or none without --web. `now` and `services` are not set yet.
 std::optional<FleetWebOptions> web_options(const FleetArguments& arguments,
                                            const publish::MqttOptions& mqtt) {
     auto server = arguments.web.options();

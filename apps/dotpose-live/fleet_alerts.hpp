@@ -12,8 +12,8 @@ namespace dotpose::cli {
 
 class AlertWatch {
   public:
-    /// Returns an alert for each robot that was lost for a second, became silent or gone, is fine
-    /// again, or was removed, since the previous call. A new robot causes an alert only if it is
+    /// Returns an alert for each robot that, since the previous call, was lost for a second, became
+    /// silent or gone, is fine again, or was removed. A new robot causes an alert only if it is
     /// lost or silent. Times and numbers of the alerts are not set.
     std::vector<RobotAlert> changes(const FleetRobots& robots, const Now& now);
 

@@ -15,13 +15,13 @@
 
 namespace dotpose::cli {
 
-/// Measures Now. The thread that calls `observe` may differ from the threads that call `now`.
+/// Provides the times of Now. One thread calls `observe`, and any thread may call `now`.
 class WatchedClock {
   public:
     WatchedClock();
 
-    /// Must be called regularly. Stops the watched clock for the time since the previous call if
-    /// there is no connection.
+    /// Must be called regularly. If there is no connection, excludes the time since the previous
+    /// call from Now::watched_us.
     void observe(bool is_connected);
 
     Now now() const;

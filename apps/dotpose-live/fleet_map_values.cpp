@@ -59,8 +59,9 @@ class Window {
         for (const FleetEntry& entry : robots) {
             if (is_inside(entry.second)) visible_.push_back(&entry);
         }
-        // Single precision suffices near the origin, but not for positions in the pattern, which
-        // has 200 km.
+        // Positions are sent in single precision, relative to an origin in the window. Relative to
+        // the origin of the pattern, which extends over 200 km, single precision would be too
+        // coarse.
         const draw::Point middle{(x_min_ + x_max_) / 2, (y_min_ + y_max_) / 2};
         const bool is_finite = std::isfinite(middle.x) && std::isfinite(middle.y);
         if (is_finite) {
@@ -105,7 +106,7 @@ std::uint16_t heading_of(const RobotState& state) {
 
 std::string positions_value(const FleetSnapshot& snapshot, const FleetMap& map,
                             const serve::Command& request) {
-    constexpr std::size_t kMaxNames = 80;  // names of more robots would cover each other
+    constexpr std::size_t kMaxNames = 80;  // more names would cover each other
     constexpr std::uint8_t kHasHeading = 1;
     constexpr std::uint8_t kIsUnknown = 2;
     const Window window(snapshot.robots, map, request);

@@ -18,7 +18,7 @@ inline constexpr std::size_t kMaxTrailPoints = 20'000;
 std::string positions_value(const FleetSnapshot& snapshot, const FleetMap& map,
                             const serve::Command& request);
 
-/// Returns the newest part of the paths of the same robots.
+/// Returns the trails of the same robots: the newest part of each path.
 std::string trails_value(const FleetSnapshot& snapshot, const FleetState& fleet,
                          const FleetMap& map, const serve::Command& request);
 

@@ -12,8 +12,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns map and sheet of the newest known place, with a question mark if they are not in the
-/// file.
+/// Returns the map and the sheet of the newest known place. Appends a question mark if they are not
+/// in the sheet file.
 std::string place_text(const FleetRobot& robot, const FleetMap& map) {
     if (!robot.has_place) return "-";
     const RobotState& state = robot.newest;
@@ -21,12 +21,12 @@ std::string place_text(const FleetRobot& robot, const FleetMap& map) {
            (map.has_place_of(robot) ? "" : "?");
 }
 
-/// Returns a coordinate of the newest pose. It is not shown while the robot is lost.
+/// Returns the text of a coordinate of the newest pose, or "-" if the robot is lost.
 std::string located(const RobotState& state, double value, int decimals) {
     return state.is_localized ? fmt::format("{:.{}f}", value, decimals) : std::string("-");
 }
 
-/// Returns the speed in mm/s. It is not shown if the newest state is old.
+/// Returns the text of the speed in mm/s, or "-" if the robot is lost, silent or gone.
 std::string speed_text(const FleetRobot& robot, int decimals) {
     if (!is_fine(robot.condition)) return "-";
     const RobotState& state = robot.newest;

@@ -36,8 +36,8 @@ using FleetRobots = std::vector<FleetEntry>;
 /// the map of the first robot that has one. Returns an empty string if there is none.
 std::string shown_map(const FleetMap& map, const FleetRobots& robots);
 
-/// Returns the rank of a robot in the order of attention: silent, lost, on an unknown map or sheet,
-/// moving or still, and gone.
+/// Returns the rank of a robot by the attention that it needs, most urgent first: silent, lost, on
+/// an unknown map or sheet, moving or still, gone.
 int attention_rank(const FleetRobot& robot, const FleetMap& map);
 
 /// Sorts the robots by attention. The order of robots that need equal attention is kept.
@@ -46,7 +46,7 @@ void sort_by_attention(FleetRobots& robots, const FleetMap& map);
 /// Columns of the table. `narrow` fits 80 characters and omits the counts of messages.
 enum class Layout { wide, narrow };
 
-/// Return lines without a line break, of any width.
+/// The lines contain no line break and may have any width.
 std::string table_header(Layout layout);
 std::string table_row(const std::string& name, const FleetRobot& robot, const FleetMap& map,
                       Layout layout, Delivery delivery);

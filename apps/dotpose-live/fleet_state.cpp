@@ -62,7 +62,7 @@ void FleetState::take_state(std::string_view name, RobotState state, const Now& 
         count_frames(*state.camera, shown.camera);
         shown.camera = state.camera;
     }
-    // The planes of two maps are not related.
+    // Coordinates on different maps are not comparable, so the path begins again.
     if (state.is_localized && state.map_id != shown.newest.map_id) robot.path_mm.clear();
     if (!state.is_localized && (shown.newest.is_localized || shown.newest.sent_us == 0)) {
         shown.lost_since_us = now.watched_us;
@@ -126,9 +126,9 @@ void LatencyHistogram::add(double latency_s) {
     sum_s += positive_s;
 }
 
-/// Adds the difference of two reports of a robot. A first report only determines where counting
-/// begins, and so does a report with smaller or implausible numbers, because the robot was
-/// restarted.
+/// Adds the difference between two consecutive reports of a robot. If there is no previous report,
+/// or if the numbers are smaller or implausible because the robot was restarted, nothing is added,
+/// and counting continues from the new report.
 void FleetState::count_frames(const CameraReport& report,
                               const std::optional<CameraReport>& previous) {
     constexpr std::uint64_t kMaxFrames = 1'000'000;

@@ -27,8 +27,8 @@ namespace dotpose::cli {
 /// A time on the clocks of the computer that receives the messages.
 struct Now {
     std::int64_t system_us = 0;  ///< microseconds since 1970
-    /// Microseconds on a monotonic clock that stops while the broker is away, because robots are
-    /// not silent then.
+    /// Microseconds on a monotonic clock that stops while there is no connection to the broker, so
+    /// that robots do not count as silent during this time.
     std::int64_t watched_us = 0;
 };
 
@@ -129,7 +129,7 @@ class FleetState {
 
     void take_state(std::string_view name, RobotState state, const Now& now);
     void take_connection(std::string_view name, const RobotConnection& connection, const Now& now);
-    /// Updates time and presence of a robot with a state that is not late.
+    /// Updates the newest sign of life and the presence of a robot. `state` must not be late.
     static void note_sign_of_life(Robot& robot, const RobotState& state, const Now& now);
     Robot& touch(std::string_view name);
     void remove(std::string_view name);

@@ -23,19 +23,20 @@ struct StoreArguments {
     void add_to(Command& command);
 };
 
-/// Returns the name of a robot, map or sheet as it is stored: printable, so that every program can
-/// show it.
+/// Returns the name of a robot, map or sheet in the form in which it is stored: with printable
+/// characters only, so that every program can show it.
 std::string stored_name(std::string_view name);
 
-/// Converts states of messages. Equal names share memory.
+/// Converts received states to stored states. Equal names share memory.
 class StoredStates {
   public:
-    /// The time of a state is that of the robot's clock. If this clock differs by more than half an
-    /// hour, the time is that of its arrival.
+    /// Uses the time stamp of the robot. If the clock of the robot differs by more than half an
+    /// hour, uses the time of arrival.
     store::State of(std::string_view robot, const RobotState& state, std::int64_t received_us);
 
   private:
-    /// Maximum number of remembered names. Anyone who can publish can invent names.
+    /// Maximum number of remembered names. Limits the memory, because any client of the broker can
+    /// invent names.
     static constexpr std::size_t kMaxNames = 20'000;
 
     std::map<std::string, std::shared_ptr<const std::string>, std::less<>> robots_;

@@ -144,7 +144,7 @@ nlohmann::json alert_json(const RobotAlert& alert) {
     return shown;
 }
 
-/// Maps with the bounds of the robots on them, those with the most robots first.
+/// Returns the maps with the bounds of the robots on them. The maps with the most robots are first.
 nlohmann::json maps_json(const FleetRobots& robots) {
     constexpr std::size_t kMaxMaps = 50;
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -255,7 +255,7 @@ std::string table_value(const FleetSnapshot& snapshot, const FleetMap& map, Deli
                         const serve::Command& request) {
     const std::vector<const FleetEntry*> chosen = RowChoice(request, map).rows_of(snapshot.robots);
     const std::size_t count = count_in(request, "rows", kMaxTableRows);
-    // A page beyond the end becomes the last page.
+    // If the requested page is beyond the end, the last page is returned.
     const std::size_t last = chosen.size() - std::min(chosen.size(), count);
     const std::size_t first = count_in(request, "first", last);
     nlohmann::json rows = nlohmann::json::array();

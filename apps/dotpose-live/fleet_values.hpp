@@ -1,6 +1,6 @@
 /// Values of the topics of the page of `dotpose fleet --web`, except those of the map.
-/// docs/fleet.md describes them. All names are printable (printable.hpp), and a request names
-/// robots by their numbers.
+/// docs/fleet.md describes them. All names are printable (printable.hpp), and requests refer to
+/// robots by number.
 #pragma once
 
 #include <chrono>
@@ -32,8 +32,8 @@ inline constexpr std::size_t kMaxAlerts = 200;
 std::string setup_value(const FleetMap& map, const ConditionLimits& limits,
                         const std::string& device);
 
-/// Returns the number of robots by state and map, the counts of messages, and the alerts.
-/// `alerts` is in the order of time.
+/// Returns the number of robots by state and map, the counts of messages, and the alerts. `alerts`
+/// must be sorted by time.
 std::string summary_value(const FleetSnapshot& snapshot, const FleetState& fleet,
                           const FleetMap& map, const FleetServices& services, double states_per_s,
                           const std::deque<RobotAlert>& alerts);
@@ -44,8 +44,8 @@ std::string summary_value(const FleetSnapshot& snapshot, const FleetState& fleet
 std::string table_value(const FleetSnapshot& snapshot, const FleetMap& map, Delivery delivery,
                         const serve::Command& request);
 
-/// Returns the newest state of the robot with the number `robot`, its path and its alerts, or only
-/// null if there is no such robot.
+/// Returns the newest state, the path and the alerts of the robot with the number `robot`, or null
+/// if there is no such robot.
 std::string robot_value(const FleetSnapshot& snapshot, const FleetState& fleet, const FleetMap& map,
                         Delivery delivery, const std::deque<RobotAlert>& alerts,
                         const serve::Command& request);

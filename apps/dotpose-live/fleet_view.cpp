@@ -68,7 +68,7 @@ void FleetView::finish(const FleetState& fleet, const Now& now) {
     if (!drawing_.empty()) draw(fleet, now);
 }
 
-/// Leaves the last page and the messages on the terminal.
+/// Closes the screen, and prints the last page and the messages on the normal terminal.
 void FleetView::leave_screen(const FleetState& fleet, const Now& now) {
     page_.take(Key::home);
     std::vector<std::string> lines =

@@ -30,12 +30,13 @@ class FleetView {
     /// of the time on drawing.
     void refresh(const FleetState& fleet, const Now& now);
 
-    /// Shows the last table, completely unless it is shown on a terminal, and draws the last map.
-    /// Throws Error if the map cannot be written.
+    /// Shows the final table and draws the final map. The table is complete, unless it is shown on
+    /// a terminal. Throws Error if the map cannot be written.
     void finish(const FleetState& fleet, const Now& now);
 
-    /// Reports a message to the user: below the table and at the end if the table is shown on a
-    /// terminal, otherwise on standard error. Thread-safe.
+    /// Reports a message to the user. If the table is shown on a terminal, the message appears
+    /// below the table and again at the end; otherwise it is printed on standard error.
+    /// Thread-safe.
     void tell(const std::string& message);
 
     const FleetMap& map() const { return map_; }
@@ -52,8 +53,8 @@ class FleetView {
     Delivery delivery_;
     FleetPage page_;
     std::optional<TerminalScreen> screen_;
-    std::mutex mutex_;                  ///< for `messages_`, and for the end of `screen_`
-    std::deque<std::string> messages_;  ///< newest messages that wait for the end of `screen_`
+    std::mutex mutex_;                  ///< guards `messages_` and the end of `screen_`
+    std::deque<std::string> messages_;  ///< newest messages, printed when `screen_` is closed
     bool is_failing_ = false;           ///< true if the last map could not be written
     Clock::time_point next_map_;
 };

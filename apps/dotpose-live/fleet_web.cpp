@@ -61,7 +61,7 @@ void FleetWeb::run() {
     serve::run_in_background();
     Clock::time_point next = Clock::now();
     while (!ends_) {
-        // After a delay, ticks that were missed are not made up for.
+        // Missed ticks are skipped.
         next = std::max(next + kTick, Clock::now());
         std::this_thread::sleep_until(next);
         const Clock::time_point now = Clock::now();
@@ -87,7 +87,7 @@ const FleetWeb::Snapshot& FleetWeb::snapshot() {
     return snapshot_;
 }
 
-/// Remembers the newest alerts, also while no browser is connected.
+/// Stores the newest alerts, even while no browser is connected.
 void FleetWeb::note_alerts(Clock::time_point now) {
     constexpr std::size_t kMaxRemembered = 2000;
     if (now < next_check_) return;
@@ -144,8 +144,8 @@ void FleetWeb::obey() {
     }
 }
 
-/// Removes a robot as `dotpose fleet remove` does. Both number and name must agree, because numbers
-/// begin again when this program is restarted.
+/// Removes a robot as `dotpose fleet remove` does. The number and the name must both match, because
+/// a restarted program assigns the numbers again.
 void FleetWeb::remove(const serve::Command& command) {
     const auto* id = command.argument<double>("robot");
     const auto* name = command.argument<std::string>("name");

@@ -42,7 +42,7 @@ class FleetWeb {
   private:
     using Clock = std::chrono::steady_clock;
     using Snapshot = std::shared_ptr<const FleetSnapshot>;
-    /// A topic that has its next value after a period.
+    /// A topic that is published at most once per period.
     struct TimedTopic {
         serve::Topic& topic;
         std::chrono::milliseconds period;
@@ -50,7 +50,8 @@ class FleetWeb {
     };
 
     void run();
-    /// Returns true if a client is ready and the period has passed, and begins the next period.
+    /// Returns true if a client is ready and the period has passed. In this case, the next period
+    /// begins.
     static bool is_due(TimedTopic& timed, Clock::time_point now);
     /// Returns the robots now. All topics of one tick share the snapshot.
     const Snapshot& snapshot();

@@ -73,7 +73,7 @@ bool write_new(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
 
 FrameSaver::FrameSaver(SaveOptions options) : options_(std::move(options)) {
     std::error_code failed;
-    // Creates only the last folder of the path. If the parent folder is missing, the path is
+    // Creates only the last folder of the path, because a path whose parent folder is missing is
     // probably mistyped.
     fs::create_directory(options_.folder, failed);
     if (!fs::is_directory(options_.folder)) {

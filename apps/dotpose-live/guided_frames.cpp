@@ -11,11 +11,10 @@
 namespace dotpose::cli {
 namespace {
 
-/// Distance between two frames of a straight drive. With the wanted length, the number of frames is
-/// 40.
+/// Distance between two frames of a straight drive. A drive of kWantedLength_mm has 40 frames.
 constexpr double kStep_mm = 1.5;
-/// Length of a straight drive. At a residual of 0.01 mm, the direction is then known to 0.01
-/// degrees.
+/// Length of a straight drive. With residuals of 0.01 mm, this length determines the direction to
+/// 0.01 degrees.
 constexpr double kWantedLength_mm = 60;
 /// Number of consecutive frames of a fast drive.
 constexpr std::size_t kWantedRun = 40;
@@ -99,7 +98,7 @@ void ReadoutFrames::take(const GuidedFrame& frame) {
     if (seen_.size() > 1) advice_ = "go on at this speed";
 }
 
-/// Completes the calibration if there are enough consecutive frames, or else starts again.
+/// Completes the calibration if there are enough consecutive frames, otherwise starts again.
 void ReadoutFrames::end_run() {
     is_complete_ = is_complete_ || images_.size() >= kMinRun;
     if (is_complete_) return;

@@ -23,7 +23,7 @@ struct GuidedFrame {
     ImageView image;
 };
 
-/// Frames of one calibration, for a robot that moves as the page describes.
+/// Frames of one step of the calibration, taken while the robot moves as the page describes.
 class GuidedFrames {
   public:
     using Images = std::vector<std::shared_ptr<const GreyImage>>;
@@ -38,7 +38,6 @@ class GuidedFrames {
     /// Returns true if no more frames are needed.
     virtual bool is_complete() const = 0;
     virtual video::Gauge gauge() const = 0;
-    /// Returns advice for the user.
     virtual std::string advice() const = 0;
 
     const Images& images() const { return images_; }

@@ -39,7 +39,7 @@ class HistoryPath {
     std::size_t points_ = 0;
     double step_mm_ = 0.1;                          ///< minimum distance between two points
     store::State newest_;                           ///< newest state with a place on the map
-    std::map<std::string, std::size_t> elsewhere_;  ///< states on other maps
+    std::map<std::string, std::size_t> elsewhere_;  ///< number of states on each other map
 };
 
 }  // namespace dotpose::cli

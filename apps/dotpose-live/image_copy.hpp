@@ -1,4 +1,4 @@
-/// Copies the image of a frame, whose memory the next frame overwrites.
+/// Copies the image of a frame. The original is valid only until the next frame is read.
 #pragma once
 
 #include <cstddef>

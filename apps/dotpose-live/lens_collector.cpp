@@ -14,7 +14,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Maximum number of frames that are taken. More frames take longer and do not improve the result.
+/// Maximum number of frames that are taken. More frames would take longer without improving the
+/// result.
 constexpr std::size_t kMaxFrames = 50;
 /// Maximum image speed of a steady camera, in px/s. At this speed, the image moves by less than a
 /// pixel during an exposure or the readout of a rolling shutter.
@@ -22,7 +23,8 @@ constexpr double kSteady_px_s = 30;
 /// Time without a steady frame after which frames of a moving camera are accepted, for example if
 /// the robot does not stop.
 constexpr std::int64_t kPatience_us = 3'000'000;
-/// Minimum number of uncovered image blocks that a frame must cover to be taken at a known place.
+/// Minimum number of newly covered image blocks for which a frame is taken at a place that was
+/// already seen.
 constexpr int kNewParts = 3;
 
 CalibrationView view_of(const calibrate::LocatedFrame& located, const Fix& fix) {
@@ -152,11 +154,10 @@ std::optional<Camera> LensCollector::lens() const {
     return job_.newest() ? std::optional(job_.newest()->camera) : std::nullopt;
 }
 
-/// Returns true if another calibration would improve on the newest calibration. Each calibration
-/// takes longer than the previous one, so the next calibration waits for twice the number of
-/// frames. The next calibration waits for fewer frames if only the accuracy of the lens is
-/// insufficient, because standard deviations are inversely proportional to the square root of the
-/// number of frames.
+/// Returns true if another calibration is likely to improve on the newest one. Because each
+/// calibration takes longer than the previous one, the number of frames must double between two
+/// calibrations. Fewer frames suffice if only the accuracy of the lens is insufficient, because
+/// standard deviations are inversely proportional to the square root of the number of frames.
 bool LensCollector::is_worth_calibrating() const {
     if (taken_.size() < std::size_t{kWantedFrames} || taken_.size() == job_.frames()) return false;
     const std::vector<CalibrationNeed> missing = needs();

@@ -46,7 +46,6 @@ class ImageMotion {
 
 class LensCollector {
   public:
-    /// Result of one frame.
     struct Outcome {
         std::string refusal;  ///< reason for not taking the frame; empty if the frame was taken
         ImageView image;      ///< pixels of the frame; valid until the next frame is read
@@ -78,8 +77,8 @@ class LensCollector {
     /// Returns true if the maximum number of frames was taken.
     bool is_full() const;
 
-    /// Calibrates with all frames if there are enough. Calls `goes_on` while it waits. Returns
-    /// false if `goes_on` returned false.
+    /// Calibrates with all frames if there are enough. Calls `goes_on` repeatedly while it waits.
+    /// Returns false if `goes_on` returned false.
     bool finish(const std::function<bool()>& goes_on);
 
     /// Returns the calibration after `finish`. Throws Error if the frames are not sufficient for
@@ -121,7 +120,7 @@ class LensCollector {
     ImageMotion motion_;
     std::int64_t steady_us_ = 0;  ///< time of the newest steady frame, or of the first frame
     Tally tally_;
-    GreyImage failed_;  ///< newest frame before the first located frame
+    GreyImage failed_;  ///< newest frame that was not located, before the first located frame
     Status failure_ = Status::ok;
     double bits_per_px_ = 0;
 };

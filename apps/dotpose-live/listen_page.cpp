@@ -1,4 +1,4 @@
-// The page of `dotpose listen --web`: the page of a fleet, with the robot of the device.
+// The page of `dotpose listen --web`. It is the page of a fleet whose only robot is the device.
 #include <memory>
 #include <string>
 

@@ -44,7 +44,7 @@ class MetricsText {
     std::string text_;
 };
 
-/// Returns a label, with the value escaped.
+/// Returns a label with an escaped value.
 std::string label(std::string_view name, std::string_view value);
 
 }  // namespace dotpose::cli

@@ -8,8 +8,7 @@
 namespace dotpose::cli {
 
 /// Compares byte by byte, except that runs of digits are compared as numbers of any length. Names
-/// that differ only in leading zeros are compared as texts. Only equal names are therefore
-/// equivalent.
+/// that differ only in leading zeros are compared as text, so only equal names are equivalent.
 struct NaturalOrder {
     using is_transparent = void;
 

@@ -18,17 +18,17 @@ class PageCalibrationArguments {
     /// Adds --calibrate-to. `command` must outlive this object.
     void add_to(Command& command);
 
-    /// Without --camera, uses the file as the camera file of the run if it exists. Throws Error if
-    /// it is not a camera file.
+    /// Without --camera, the run uses the file of --calibrate-to, if it exists, as its camera file.
+    /// Throws Error if it is not a camera file.
     void use_replaced_camera(FollowerArguments& follower) const;
 
-    /// Throws BadArgument if there is a file, but no page.
+    /// Throws BadArgument if --calibrate-to is given without --web.
     void require_page(const WebArguments& web) const;
 
     /// Throws Error if the file cannot be written.
     void require_writable_file() const;
 
-    /// Registers the sheet file and the camera files. The file may be that of --camera.
+    /// Registers the sheet file and the camera files. --calibrate-to may name the file of --camera.
     void add_files(const FollowerArguments& follower, RunFiles& files) const;
 
     /// Returns the options of the calibration, or none without --calibrate-to.

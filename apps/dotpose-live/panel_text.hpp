@@ -8,10 +8,10 @@
 
 namespace dotpose::cli {
 
-/// Returns the lines of text for a frame. The lines contain the number and time of the frame, its
-/// result, the state of the tracker, the sheet, and the pose with the name of its frame of
-/// reference. The frame of reference is the world if the sheet file contains world poses.
-/// Otherwise, the frame of reference is the sheet, or the pattern if there is no sheet.
+/// Returns the lines of text for a frame: its number and time, its result, the state of the
+/// tracker, the sheet, and the pose with the name of its frame of reference. The frame of reference
+/// is the world if the sheet file contains world poses. Otherwise, it is the sheet, or the pattern
+/// if there is no sheet.
 std::vector<std::string> panel_text(const Reading& reading);
 
 }  // namespace dotpose::cli

@@ -29,7 +29,7 @@ class PathMemory {
     static constexpr std::size_t kMax = 16384;
 
     std::vector<video::PathMark> marks_;
-    std::int64_t stride_ = 1;  ///< step between stored frames, in tracked frames
+    std::int64_t stride_ = 1;  ///< every `stride_`-th tracked frame is stored
     std::int64_t frames_ = 0;
     bool is_jump_ = true;
 };

@@ -37,7 +37,7 @@ class Stamps {
   private:
     std::int64_t half_exposure_ns_;
     std::optional<std::int64_t>
-        system_from_monotonic_ns_;  ///< offset between the clocks; constant, to preserve intervals
+        system_from_monotonic_ns_;  ///< constant, to preserve the intervals between frames
 };
 
 class RobotOutput {

@@ -1,7 +1,7 @@
 /// Edits of a sheet file with undo, while other programs may change the file too.
 ///
-/// Each edit takes the lock of the file, reads it again, and is refused if the sheet is not as the
-/// user saw it. The functions throw Error or BadArgument, and then write nothing.
+/// Each edit locks the file and reads it again. An edit is refused if another program changed the
+/// sheet since the user saw it. If a function throws Error or BadArgument, the file is unchanged.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ class SheetEdits {
     /// Reads the file if it was changed. Returns true if its sheets or `problem` changed.
     bool refresh();
 
-    /// Returns the sheets, as last read.
+    /// Returns the sheets as they were last read.
     const std::vector<SheetEntry>& sheets() const { return sheets_; }
     /// Returns the reason why the file could not be read, or an empty string.
     const std::string& problem() const { return problem_; }
@@ -37,7 +37,7 @@ class SheetEdits {
     /// Returns a number that increases with each change of any sheet.
     std::int64_t version() const { return version_; }
 
-    /// A sheet as the user saw it.
+    /// The revision of a sheet that the user saw.
     struct Target {
         std::string name;
         std::int64_t revision = 0;
@@ -48,12 +48,12 @@ class SheetEdits {
     /// as "move". Returns the new entry.
     SheetEntry change(const Target& target, const std::string& what, const Change& change);
 
-    /// Replaces the places and print scales of several sheets in one edit. `targets` are the sheets
-    /// that the measurement started with.
+    /// Replaces the places and print scales of several sheets in one edit. `targets` are the
+    /// revisions of the sheets at the start of the measurement.
     void change_all(const std::vector<Target>& targets, const std::vector<SheetEntry>& measured,
                     const std::string& what);
 
-    /// Removes the mark of a reserved sheet whose page exists now. This is not an edit.
+    /// Marks a reserved sheet as made, because its page exists now. The change cannot be undone.
     void confirm(const std::string& name);
 
     /// Return descriptions of the edits that `undo` and `redo` would make, such as "move 'table'",
@@ -61,8 +61,8 @@ class SheetEdits {
     std::string undo_text() const { return undo_.empty() ? "" : undo_.back().text; }
     std::string redo_text() const { return redo_.empty() ? "" : redo_.back().text; }
 
-    /// Undoes or redoes an edit. Returns its description. If another program changed one of its
-    /// sheets since, throws Error and forgets the edit.
+    /// Undoes or redoes an edit. Returns its description. If another program has since changed one
+    /// of the sheets of the edit, throws Error and discards the edit.
     std::string undo();
     std::string redo();
 

@@ -13,17 +13,17 @@ namespace dotpose::cli {
 
 /// Answer to a command of a page.
 struct SheetAnswer {
-    std::string id = {};  ///< identifier that the page gave the command
+    std::string id = {};  ///< identifier of the command, chosen by the page
     bool is_ok = false;
     std::string message = {};
     std::string name = {};  ///< name of a new sheet; empty if there is none
     std::string url = {};   ///< path of a file to download; empty if there is none
 };
 
-/// Returns the sheets of the file, and what can be undone.
+/// Returns the sheets of the file, and descriptions of the edits that can be undone and redone.
 nlohmann::json sheets_message(const SheetEdits& edits, bool may_edit);
 nlohmann::json answers_message(const std::deque<SheetAnswer>& answers);
-/// Returns the state of a measurement, or of no measurement.
+/// Returns the state of a measurement. `progress` is null if there is none.
 nlohmann::json stitch_message(const StitchJob::Progress* progress);
 
 }  // namespace dotpose::cli

@@ -15,7 +15,6 @@
 namespace dotpose::cli {
 namespace {
 
-/// A new folder, removed at the end.
 class TemporaryFolder {
   public:
     TemporaryFolder() : path_(system::create_temporary_folder()) {}

@@ -63,7 +63,7 @@ std::int64_t system_us() {
 
 std::string json_of(const RobotState& state) {
     nlohmann::ordered_json json = header(state.robot, state.header_id, state.sent_us);
-    // VDA 5050 permits additional members: state, reason, sheet and camera.
+    // The members state, reason, sheet and camera are additions, which VDA 5050 permits.
     json["state"] = state.state;
     if (!state.reason.empty()) json["reason"] = state.reason;
     if (!state.sheet.empty()) json["sheet"] = state.sheet;

@@ -1,6 +1,6 @@
 /// JSON messages of robots according to VDA 5050, version 2.0.0: poses on the topic
-/// `visualization`, and the connection state of a robot on the topic `connection`. docs/live.md
-/// describes the messages. Also the alerts that `dotpose fleet` publishes (docs/fleet.md).
+/// `visualization`, and the connection state of a robot on the topic `connection` (docs/live.md).
+/// Also defines the alerts that `dotpose fleet` publishes (docs/fleet.md).
 #pragma once
 
 #include <array>
@@ -60,7 +60,7 @@ struct CameraReport {
     RefusedFrames refused{};  ///< frames without a fix; the element of Status::ok is 0
 };
 
-/// Messages contain metres, and reports millimetres.
+/// Factor from metres, the unit of the messages, to millimetres, the unit of the reports.
 inline constexpr double kMm_per_m = 1000;
 
 struct RobotState {
@@ -72,7 +72,7 @@ struct RobotState {
     /// robot is not lost or the reason is unknown.
     std::string reason;
     std::string sheet;                   ///< name of the sheet in view, or empty if unknown
-    std::optional<CameraReport> camera;  ///< about once per second
+    std::optional<CameraReport> camera;  ///< contained in about one state per second
     bool is_localized = false;           ///< true if the members below are valid
     std::string map_id;                  ///< name of the map, the plane of x and y
     double x_m = 0;
@@ -94,8 +94,8 @@ std::optional<RobotState> parse_state(std::string_view json);
 struct RobotConnection {
     std::string robot;            ///< name of the sender, or empty in a parsed message
     std::uint64_t header_id = 0;  ///< sequence number of the connection message
-    /// Time of sending, in microseconds since 1970 on the system clock of the sender. In a last
-    /// will, the time at which the robot connected.
+    /// Time of sending, in microseconds since 1970 on the system clock of the sender. The last will
+    /// of a robot contains the time at which the robot connected.
     std::int64_t sent_us = 0;
     publish::Presence presence = publish::Presence::online;
 };

@@ -43,8 +43,9 @@ bool StateNumbers::is_late(const Sent& sent) {
         doubts_ = 0;
         return false;
     }
-    // After an interruption, clients send queued messages in descending order of time. If older
-    // states arrive in ascending order, the clock of the robot was set back.
+    // After an interruption, queued states are sent newest first, so late states arrive in
+    // descending order of time. If older states arrive in ascending order instead, the clock of the
+    // robot was set back.
     doubts_ = sent.time_us > doubted_us_ || doubts_ == 0 ? doubts_ + 1 : 1;
     doubted_us_ = sent.time_us;
     if (doubts_ < kDoubts) return true;

@@ -25,11 +25,11 @@ class StateNumbers {
   public:
     enum class Arrival { news, late, repeated };
 
-    /// Takes a state and counts it. A state is news if its number is higher than all earlier
-    /// numbers, regardless of its time. A state with a lower number but a later time is also news,
-    /// because the robot was restarted. A state with a lower number and an earlier time is late.
-    /// If several late states are in ascending order of time, the robot was restarted with its
-    /// clock set back. In this case, the states are news.
+    /// Counts a state and returns its arrival. The arrival is `news` if the number of the state is
+    /// higher than all earlier numbers, regardless of its time, or if its number is lower but its
+    /// time is later, because the robot was restarted. A state with a lower number and an earlier
+    /// time is `late`. If several late states arrive in ascending order of time, the robot was
+    /// restarted with its clock set back, so these states become `news`.
     Arrival take(const RobotState& state, StateCounts& counts);
 
   private:

@@ -31,7 +31,8 @@ publish::MqttOptions with_presence(const PublishArguments& arguments) {
 void CameraCounter::count(const Reading& reading) {
     if (total_.frames++ == 0) {
         reported_us_ = reading.time_us;
-        reported_frames_ = total_.frames;  // the rate counts the intervals between frames
+        // The rate is the number of intervals between frames, so the first frame does not count.
+        reported_frames_ = total_.frames;
     }
     newest_us_ = reading.time_us;
     const Status status = reading.record.fix.status;

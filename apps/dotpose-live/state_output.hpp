@@ -27,11 +27,12 @@ class CameraCounter {
     std::uint64_t reported_frames_ = 0;
 };
 
-/// Makes the numbered states of a robot from its readings.
+/// Creates the numbered state messages of a robot from its readings.
 class StateSource {
   public:
-    /// `sheets` is the path of the sheet file, whose name is the map of poses in the world. At most
-    /// `max_rate_hz` states per second are made, except after events. 0 means a state per reading.
+    /// `sheets` is the path of the sheet file, whose name is the map of poses in the world. Creates
+    /// at most `max_rate_hz` states per second, except after events. If `max_rate_hz` is 0, creates
+    /// a state for each reading.
     StateSource(std::string robot, const std::string& sheets, double max_rate_hz);
 
     /// Counts the reading. Returns its state, or none if the state is not due.

@@ -55,7 +55,8 @@ void StitchJob::offer(const Reading& reading, ImageView image) {
         if (!is_near_edge(reading.record, image) || !places_.take(reading.record.fix, image))
             return;
     } else {
-        // A frame over a seam may not be located, because it shows two patterns.
+        // A frame that is not located may show a seam, because two patterns in one frame prevent a
+        // fix.
         constexpr std::chrono::milliseconds kPause(500);
         const Clock::time_point now = Clock::now();
         if (now < unlocated_at_ + kPause) return;
@@ -99,7 +100,8 @@ void StitchJob::run() {
 /// Returns true if the frame shows two sheets.
 bool StitchJob::shows_seam(const GreyImage& frame) const {
     std::vector<SheetEntry> sheets = sheets_;
-    // With places, a frame of other sheets than the placed ones is an error.
+    // Removes the world poses, because `stitch_sheets` throws Error if the frame shows only sheets
+    // without one.
     for (SheetEntry& entry : sheets)
         entry.world.reset();
     try {

@@ -1,5 +1,5 @@
-/// Measures the relative places of sheets from the frames of a running camera, on a thread of its
-/// own.
+/// Measures the relative places of sheets from the frames of a running camera, in a separate
+/// thread.
 #pragma once
 
 #include <atomic>
@@ -40,8 +40,8 @@ class StitchJob {
     StitchJob(const StitchJob&) = delete;
     StitchJob& operator=(const StitchJob&) = delete;
 
-    /// Takes a frame if the job is ready for it and if the frame shows a new place near the edge of
-    /// a sheet, or is not located. `image` is the located image. Copies it.
+    /// Copies a frame if the job is ready for it and the frame is useful: it shows a new place near
+    /// the edge of a sheet, or it is not located. `image` is the located image.
     void offer(const Reading& reading, ImageView image);
 
     const std::vector<SheetEntry>& sheets() const { return sheets_; }

@@ -14,7 +14,8 @@ namespace dotpose::cli {
 namespace {
 
 // Control sequences of ECMA-48 and xterm.
-constexpr const char* kEnter = "\033[?1049h\033[?25l\033[?7l";  // screen, no cursor, no wrapping
+// Alternate screen, hidden cursor, no wrapping.
+constexpr const char* kEnter = "\033[?1049h\033[?25l\033[?7l";
 constexpr const char* kLeave = "\033[?7h\033[?25h\033[?1049l";
 constexpr std::string_view kTopLeft = "\033[H";
 constexpr std::string_view kEraseRight = "\033[K";

@@ -54,7 +54,7 @@ constexpr const char* kWatchExamples =
     "newest frame; the frames in between are dropped and counted. Other sources deliver every\n"
     "frame. Ctrl-C ends.\n";
 
-/// Maximum DDS domain. Higher domains do not have port numbers.
+/// Maximum DDS domain. The port numbers of higher domains would exceed 65,535.
 constexpr int kLastDomain = 232;
 
 struct DdsArguments {
@@ -129,7 +129,7 @@ RunFiles files_of(const WatchArguments& arguments, const Sources& sources) {
     return files;
 }
 
-/// Reports on standard error why most frames fail, and reports the first warning of each kind.
+/// Reports on standard error why most frames fail, and the first warning of each kind.
 void report_problems(const Reading& reading, ImageView image, const Follower& follower,
                      double bits_per_px, FailureHint& hint,
                      std::array<bool, kWarnings>& was_reported) {
@@ -180,8 +180,8 @@ class Pace {
     std::optional<std::chrono::steady_clock::time_point> begun_;
 };
 
-/// Warns on standard error if a sheet has no world pose. If there are no sheets, warns if poses are
-/// published, because these poses are not in world coordinates.
+/// Warns on standard error if a sheet has no world pose, or if poses are published without sheets
+/// and therefore not in world coordinates.
 void tell_frame_of_poses(const WatchArguments& arguments, const Follower& follower) {
     const OutputOptions& outputs = arguments.outputs;
     const bool is_published = !outputs.publish.mqtt.url.empty() || outputs.messages.is_wanted();
@@ -212,7 +212,7 @@ std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
     return images > 0 ? images : source.length();
 }
 
-/// Follows the robot over the new sheets if the page or another program changed them.
+/// If the page or another program changed the sheets, uses the new sheets for the next frames.
 void use_changed_sheets(Follower& follower, WatchOutputs& outputs) {
     std::optional<std::vector<SheetEntry>> sheets = outputs.take_changed_sheets();
     if (!sheets) return;
@@ -221,7 +221,7 @@ void use_changed_sheets(Follower& follower, WatchOutputs& outputs) {
     outputs.use_sheets(was_in_world);
 }
 
-/// Locates the next frames with the camera that was calibrated in the page, if there is a new one.
+/// If a new camera was calibrated in the page, uses it for the next frames.
 void use_calibrated_camera(WatchOutputs& outputs, Follower& follower) {
     const std::optional<Camera> camera = outputs.take_camera();
     if (!camera) return;
@@ -256,7 +256,7 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
     } catch (const BadArgument&) {
         throw;
     } catch (const Error& error) {
-        // After a failure, the map and the report still include the earlier frames.
+        // Returns normally, so that the map and the report include the earlier frames.
         tell(error.what());
         return kExitFailed;
     }

@@ -55,9 +55,8 @@ class WatchOutputs {
     /// Throws Error if an output cannot be opened.
     WatchOutputs(const OutputOptions& options, const Follower& follower);
 
-    /// Writes the outputs of a frame. Returns false if the user closed the window. Also returns
-    /// false if no output is left, because all readers closed their ends. Throws Error if an output
-    /// cannot be written.
+    /// Writes the outputs of a frame. Returns false if the user closed the window, or if no output
+    /// is left because all readers closed their pipes. Throws Error if an output cannot be written.
     bool take(const capture::Frame& frame, const Reading& reading, const SourceState& source);
 
     /// Returns the camera that was calibrated in the page since the previous call, or none.
@@ -66,9 +65,11 @@ class WatchOutputs {
     /// Writes the map, completes the recording and sends the last states. Throws Error on failure.
     void finish();
 
-    /// Returns the sheets once after the page or another program changed them. None without a page.
+    /// Returns the sheets if the page or another program changed them since the previous call.
+    /// Returns none otherwise, and always without a page.
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
-    /// Uses the new sheets of the follower. `was_in_world` is the plane of the earlier frames.
+    /// Uses the new sheets of the follower. `was_in_world` is true if the poses of the earlier
+    /// frames are in world coordinates.
     void use_sheets(bool was_in_world);
 
     const WatchTally& tally() const { return tally_; }

@@ -62,7 +62,7 @@ json json_of(const CalibrationStatus& status) {
             {"is_taken", status.is_taken}};
 }
 
-/// Returns the mean residuals of the parts of the image: u and v alternately.
+/// Returns the mean residuals of the image blocks, with u and v alternating.
 json json_of(const ResidualField& field) {
     json before = json::array();
     json after = json::array();
@@ -111,7 +111,8 @@ std::string sigma_text(const Camera& camera, const char* key, double factor, int
     return sigma == camera.sigma.end() ? "" : plus_minus(factor * sigma->second, digits);
 }
 
-/// Returns the lens. A lens without distortion and without standard deviations was not calibrated.
+/// Describes the lens. Returns an empty string for a lens without distortion and without standard
+/// deviations, because it was not calibrated.
 std::string lens_text(const Camera& camera) {
     constexpr std::array kSigmas = {"k_per_px2", "centre_u_px", "centre_v_px"};
     const auto is_known = [&camera](const char* key) { return camera.sigma.contains(key); };
@@ -133,7 +134,7 @@ std::string reference_text(const Camera& camera) {
                        sigma_text(camera, "reference_u_px", camera.paper->mm_per_px_x, 4));
 }
 
-/// Returns the values that the camera file contains, by step; an empty text for a missing value.
+/// Returns the values in the camera file, by step. The text of a missing value is empty.
 json values_of(const std::optional<Camera>& camera) {
     json values = {{"lens", ""}, {"spin", ""}, {"drive", ""}, {"readout", ""}};
     if (!camera) return values;

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kLogEnding = ".csv";
 constexpr const char* kMessagesEnding = ".mcap";
 
-/// Returns a name without characters that are special in paths or URLs.
+/// Returns a name for a recording, without characters that are special in paths or URLs.
 std::string name_at(const std::string& robot, std::time_t now) {
     std::tm utc{};
     gmtime_r(&now, &utc);
@@ -85,7 +85,7 @@ void WebRecordings::stop() {
     files_.push_back(name_ + kMessagesEnding);
 }
 
-/// Checks the free space once a second.
+/// Returns true if the disk is almost full. The free space is checked at most once a second.
 bool WebRecordings::is_disk_full() {
     constexpr std::uintmax_t kReserve_bytes = 256 << 20;
     const auto now = std::chrono::steady_clock::now();

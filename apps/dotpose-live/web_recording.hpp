@@ -21,8 +21,8 @@ class WebRecordings {
     /// a record without a fix, with the fields of the run.
     WebRecordings(std::filesystem::path folder, RobotOutputOptions messages, Record empty);
 
-    /// Starts a recording, unless one is running. The files are new, and are named after the robot
-    /// and the time. If they cannot be written, `notice` contains the reason.
+    /// Starts a recording, unless one is running. Creates new files, named after the robot and the
+    /// time. If they cannot be written, `notice` contains the reason.
     void start();
 
     /// Records a frame. Stops if a file cannot be written or if the disk is almost full.

@@ -20,7 +20,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Time that the user of a page waits for another program that changes the sheet file.
+/// Maximum time to wait for another program that has locked the sheet file.
 constexpr double kMaxWait_s = 3;
 constexpr std::chrono::milliseconds kRefreshPeriod(300);
 constexpr std::size_t kMaxWaiting = 16;
@@ -169,7 +169,8 @@ void WebSheets::answer_to(const serve::Command& command) {
     } catch (const std::exception& error) {
         given.message = error.what();
     }
-    // Pages must see the new values before the answer. After a refused change, they also need them.
+    // Publishes the sheets before the answer, so that a page shows the current values when the
+    // answer arrives, even if the change was refused.
     publish_sheets();
     answer(std::move(given));
 }
@@ -247,7 +248,7 @@ void WebSheets::print_new(const serve::Command& command, SheetAnswer& answer) {
     answer.name = entry.name;
 }
 
-/// Makes the PDF of a sheet, which can be downloaded until several others were made.
+/// Makes the PDF of a sheet available for download. Only the newest PDFs are kept.
 void WebSheets::offer_pdf(const SheetEntry& entry, SheetAnswer& answer) {
     const auto bytes =
         std::make_shared<const std::string>(pdf_of(entry, [this] { return !ends_.load(); }));
@@ -272,7 +273,7 @@ void WebSheets::measure(bool is_on) {
         const std::lock_guard lock(mutex_);
         std::swap(job, job_);
     }
-    job.reset();  // waits for the thread of the job, which publishes
+    job.reset();  // waits for the thread of the job, which may still publish
     publish_measurement(nullptr);
     if (!is_on) return;
     edits_.refresh();

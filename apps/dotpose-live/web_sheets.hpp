@@ -1,8 +1,8 @@
 /// The view of the sheets in the page of `dotpose watch --web`. docs/web.md describes its topics
 /// and commands.
 ///
-/// The sheet file is read, changed and printed on a thread of its own, because another program may
-/// hold the lock of the file, and large pages take seconds.
+/// A separate thread reads and changes the sheet file and prints sheets, because another program
+/// may hold the lock of the file, and large pages take seconds.
 #pragma once
 
 #include <atomic>
@@ -30,7 +30,8 @@ struct WebSheetsOptions {
     std::optional<Camera> camera;
 };
 
-/// Topics about sheets. They exist without a sheet file too, because a page subscribes to them.
+/// Topics about sheets. They also exist without a sheet file, because pages always subscribe to
+/// them.
 struct SheetTopics {
     /// Adds the topics. The server must not be started yet.
     explicit SheetTopics(serve::Server& server);
@@ -45,7 +46,7 @@ class WebSheets {
     /// Reads the sheet file. The server must outlive this object. Throws Error if the file cannot
     /// be read.
     WebSheets(WebSheetsOptions options, serve::Server& server, const SheetTopics& topics);
-    /// Ends running work. A change of the sheet file is completed, or not begun.
+    /// Ends running work. A change of the sheet file that has begun is completed.
     ~WebSheets();
     WebSheets(const WebSheets&) = delete;
     WebSheets& operator=(const WebSheets&) = delete;
@@ -62,7 +63,8 @@ class WebSheets {
     /// Offers a frame to a running measurement. `image` is the located image.
     void take(const Reading& reading, ImageView image);
 
-    /// Returns the sheets once after they were changed by a page or by another program.
+    /// Returns the sheets if a page or another program changed them since the previous call,
+    /// otherwise none.
     std::optional<std::vector<SheetEntry>> take_changed();
 
   private:
@@ -89,7 +91,7 @@ class WebSheets {
     std::deque<std::string> pdf_paths_;         ///< paths of the PDFs that can be downloaded
     std::int64_t taken_version_ = 0;            ///< version of the sheets in `changed_`
     std::int64_t pdfs_ = 0;                     ///< number of PDFs made
-    std::vector<SheetEdits::Target> measured_;  ///< sheets when the measurement began
+    std::vector<SheetEdits::Target> measured_;  ///< sheets at the start of the measurement
 
     std::mutex mutex_;
     std::condition_variable wake_;

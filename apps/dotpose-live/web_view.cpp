@@ -79,7 +79,8 @@ WebView::WebView(WebOptions options, const Follower& follower)
     }
     server_.start();
     if (sheet_view_) sheet_view_->start();
-    // A pipe has one reader, which is not the page.
+    // If the log is a pipe, the page cannot offer it, because the reader of the pipe receives the
+    // data.
     if (!std::filesystem::is_regular_file(options_.log)) options_.log.clear();
     if (!options_.log.empty()) {
         server_.set_route("/log.csv", [log = options_.log] {
@@ -165,7 +166,7 @@ void WebView::publish_frame(const Reading& reading, Clock::time_point now) {
     const bool is_small = is_time_for(small_frame_, small_timer_, kFramePeriod, now);
     if (!is_large && !is_small) return;
     const ImageView image = follower_.image();
-    // Both sizes share the copy, which the thread of the server encodes.
+    // The thread of the server encodes the images of both sizes from the same copy.
     const auto shot = std::make_shared<const std::pair<GreyImage, serve::FrameOverlay>>(
         copy_of(image), serve::overlay_of(image, follower_.trace()));
     const auto encoder = [shot, index = reading.index](int max_side_px) {
@@ -192,7 +193,7 @@ void WebView::publish_state(const Reading& reading, const WatchTally& tally,
                           {"frames", recordings_.frames()},
                           {"notice", recordings_.notice()},
                           {"files", recordings_.files()}};
-    // The line is the JSON line of the frame, so its keys are those of docs/schema.
+    // The line is the JSON output for the frame. docs/schema describes its keys.
     std::string line = json_line(fields(reading, Units::mm));
     server_.publish(state_, [state = std::move(state), line = std::move(line)] {
         std::string text = text_of(state);
@@ -271,8 +272,8 @@ void WebView::obey() {
     }
 }
 
-/// Adds the routes of completed recordings. A name is in the map of routes, never in a path that
-/// comes from a request.
+/// Adds the routes of completed recordings. Each file has a route of its own, so a request cannot
+/// name any other file.
 void WebView::offer_recordings() {
     const std::vector<std::string>& files = recordings_.files();
     for (; offered_ < files.size(); ++offered_) {

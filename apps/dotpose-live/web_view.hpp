@@ -28,9 +28,9 @@ struct WebOptions {
     serve::ServerOptions server;
     std::vector<std::string> sources;  ///< names of the sources of the frames
     std::string recordings = ".";      ///< folder of the recordings that are started in the page
-    std::string log;                   ///< log of the run; empty if there is none
-    RobotOutputOptions messages;       ///< robot of the recordings
-    WebSheetsOptions sheets;           ///< without a sheet file, the path is empty
+    std::string log;              ///< log of the run that the page offers; empty if there is none
+    RobotOutputOptions messages;  ///< robot that recordings describe
+    WebSheetsOptions sheets;      ///< without a sheet file, the path is empty
     /// Calibration in the page; none if the page may not calibrate.
     std::optional<GuideOptions> calibration;
 };
@@ -51,7 +51,7 @@ class WebView {
     void take(const capture::Frame& frame, const Reading& reading, const WatchTally& tally,
               const PathMemory& path, const SourceState& source);
 
-    /// Returns the sheets once after they were changed.
+    /// Returns the sheets if they changed since the previous call, otherwise none.
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
     /// Shows the new sheets of the follower.
     void use_sheets();
@@ -63,7 +63,7 @@ class WebView {
 
   private:
     using Clock = std::chrono::steady_clock;
-    /// A period after which a topic may have its next value.
+    /// Limits the rate of a topic.
     struct Timer {
         Clock::time_point next{};
         bool is_due(Clock::time_point now) const { return now >= next; }

@@ -8,13 +8,12 @@
 namespace dotpose::calibrate {
 
 /// Replaces the dots that `locate` read by all blobs at the places where `fit` predicts a dot of
-/// the code. If a frame has fewer than half as many of these blobs as dots that `locate` read, the
-/// dots of the frame are not replaced.
+/// the code. Keeps the dots of a frame if fewer than half as many blobs are found.
 ///
 /// `locate` reads only the dots that a pose needs. In the corners of the image of a slightly tilted
 /// camera, the plane of `locate` fits badly, and `locate` omits the dots with large residuals. The
-/// perspective fitted to the remaining dots is too small. Without this function, the focal length
-/// computed at a tilt of 8 degrees is wrong by three standard deviations (unit test
+/// perspective fitted to the remaining dots is therefore too small: at a tilt of 8 degrees, the
+/// computed focal length would be wrong by three standard deviations (unit test
 /// ASlightTiltTellsAnUnbiasedFocalLength).
 void take_all_dots(const LensFit& fit, const FitSetting& setting, CodeVariant code,
                    std::vector<LocatedFrame>& frames);

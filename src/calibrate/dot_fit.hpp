@@ -17,7 +17,6 @@ struct AxisEquation {
 /// Equations of one dot along both axes.
 using DotEquation = std::array<AxisEquation, 2>;
 
-/// Result of a fit.
 struct DotFit {
     std::vector<double> parameters;
     Eigen::MatrixXd covariance;

@@ -1,5 +1,5 @@
 // Dot images: measures the centres of expected dots by least squares over their pixels. The
-// measurement is unbiased for dots at the border of the image, and for dots that a tilted view
+// measurement is unbiased even for dots at the border of the image and for dots that a tilted view
 // foreshortens.
 #pragma once
 

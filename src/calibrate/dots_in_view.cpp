@@ -167,7 +167,7 @@ std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& 
         read.push_back(space_dot(view, dot.step, dot.symbol, dot.pixel));
     if (read.size() < kMinDots) return std::nullopt;
     const Eigen::Vector2d focal_px(view.pinhole.focal_u_px, view.pinhole.focal_v_px);
-    // Maximum number of dots for the first fit. This number is sufficient to predict all dots.
+    // Maximum number of dots in the first fit, which only needs to predict the places of all dots.
     constexpr std::size_t kPart = 300;
     std::vector<SpaceDot> part;
     for (std::size_t i = 0; i < read.size(); i += 1 + read.size() / kPart)
@@ -175,7 +175,7 @@ std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& 
     const auto first = fit_space(part, focal_px);
     if (!first) return std::nullopt;
     const std::vector<SpaceDot> all = dots_in_view(image, view, trace, first->state);
-    // If few dots were measured, the dots are too small in the image. In this case, the fit uses
+    // Few measured dots mean that the dots are too small in the image. In this case, the fit uses
     // the dots of `locate`.
     return fit_space(2 * all.size() < read.size() ? read : all, focal_px);
 }

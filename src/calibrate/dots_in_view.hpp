@@ -27,9 +27,9 @@ SpaceDot space_dot(const PatternView& view, FixedVec step, Symbol symbol, PixelP
 std::vector<SpaceDot> dots_in_view(const ImageView& image, const PatternView& view,
                                    const Trace& trace, const SpaceState& state);
 
-/// Fits the pose to the dots in the trace. Then measures all dots that this pose predicts, and fits
-/// the pose to these dots. Places are in mm from `trace.decoding.place`. Returns nullopt if the
-/// trace has fewer than 12 dots.
+/// Fits the pose to the dots in the trace, measures all dots that this pose predicts, and fits the
+/// pose again. Places are in mm from `trace.decoding.place`. Returns nullopt if the trace has fewer
+/// than 12 dots.
 std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& view,
                                      const Trace& trace);
 

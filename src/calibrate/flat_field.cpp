@@ -41,8 +41,8 @@ MatrixXd mean_of(int frames, const FrameAt& frame_at, const std::optional<Camera
     return sum / (255.0 * frames);
 }
 
-/// Returns the weights of the values of a flat field in each pixel along one axis. The weights are
-/// those of linear interpolation between equidistant values, from the first to the last pixel.
+/// Returns a matrix that interpolates the values of a flat field linearly along one axis, with one
+/// row per pixel. The values are equidistant, from the first to the last pixel.
 MatrixXd interpolation(Index pixels, Index longer_side) {
     const double distance_px = std::max(static_cast<double>(longer_side - 1) / kIntervals, 1.0);
     const auto values = std::max(
@@ -92,8 +92,8 @@ FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
                         "of the brightest part: light the paper more evenly",
                         100 * kMinFlatField));
     }
-    // Dots cover a tenth of the paper. They cause an rms deviation of 25 % in one frame, and of 6 %
-    // in the mean of 20 frames.
+    // Dots, which cover a tenth of the paper, cause an rms deviation of 25 % in one frame, and of
+    // 6 % in the mean of 20 frames.
     constexpr double kMaxResidual = 0.08;
     if (!(result.residual <= kMaxResidual)) {
         throw Error(

@@ -1,7 +1,7 @@
 // Calibrates a lens in three rounds. The first round locates the frames and fits a lens. The second
 // round locates the frames again with this lens. The third round adds all dots that the second fit
-// predicts. Then sets the camera and the verdict. Unlike the paper, which uses calibration images,
-// dotpose calibrates with frames of any printed sheet.
+// predicts. Unlike the paper, which uses calibration images, dotpose calibrates with frames of any
+// printed sheet.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -78,8 +78,8 @@ class Series {
 };
 
 /// Returns the decrease of a frame's sum of squared residuals if the frame is fitted with its own
-/// scale, shear and perspective. The decrease is divided by the variance of the residuals. By
-/// chance, the expected decrease is 5, the number of these parameters.
+/// scale, shear and perspective. The decrease is divided by the variance of the residuals. If all
+/// frames have the same view, the expected value is 5, the number of these parameters.
 double gain_of_own_view(const LocatedFrame& frame,
                         const std::vector<std::array<double, 2>>& residuals,
                         const std::vector<char>& is_outlier, const FitSetting& setting,
@@ -98,7 +98,7 @@ double gain_of_own_view(const LocatedFrame& frame,
     return equations.explained_squares() / (sigma_px * sigma_px);
 }
 
-/// Returns true if the heights and tilts of the frames differ by more than noise explains.
+/// Returns true if the heights and tilts of the frames differ significantly.
 bool is_held_by_hand(const std::vector<LocatedFrame>& located, const FitSetting& setting,
                      const LensFit& mounted) {
     double gain = 0;

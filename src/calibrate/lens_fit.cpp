@@ -17,10 +17,10 @@ constexpr double kOutlier_sigmas = 4;
 /// Assumed standard deviation of the residuals before the first fit.
 constexpr double kFirstSigma_px = 0.3;
 /// Prior standard deviations of the camera. The distortion centre is within about 5 % of the image
-/// diagonal from the image centre. The field of view is about 55 degrees. Pixels are square to
-/// within 2 %. The priors only matter for parameters that the frames do not determine. These are
-/// the centre of a lens without distortion, the focal length without tilt, and the shape of the
-/// pixels if the tilt never changes.
+/// diagonal from the image centre, the field of view is about 55 degrees, and pixels are square to
+/// within 2 %. The priors only matter for parameters that the frames do not determine: the centre
+/// of a lens without distortion, the focal length without tilt, and the shape of the pixels if the
+/// tilt never changes.
 constexpr double kCentrePrior = 0.1;  // in reaches (half diagonals)
 constexpr double kReachPerFocal = 0.5;
 constexpr double kReachPerFocalPrior = 0.5;
@@ -99,8 +99,8 @@ struct HandheldResidual {
         const T sx = sin(pose[4]);
         const T cy = cos(pose[5]);
         const T sy = sin(pose[5]);
-        // The ray (a, b, focal) intersects the paper at s (cy, sx sy, -cx sy) + t (0, cx, sx) + (0,
-        // 0, distance).
+        // The point (s, t) of the paper is s (cy, sx sy, -cx sy) + t (0, cx, sx) + (0, 0, distance)
+        // in the camera frame. Solves for the point on the ray (a, b, focal).
         const T m00 = cy + a * per_focal * cx * sy;
         const T m01 = -a * per_focal * sx;
         const T m10 = sx * sy + b * per_focal * cx * sy;

@@ -27,7 +27,6 @@ struct SharedModel {
     double displacement = 1.0 / 6;         ///< displacement of the dots in the image, in spacings
 };
 
-/// Result of a fit.
 struct LensFit {
     Stand stand = Stand::mounted;
     SharedModel camera;

@@ -8,8 +8,9 @@ namespace {
 
 /// Distance between nodes, in mm. A wave with a wavelength of 40 mm is reproduced to 8 %.
 constexpr double kNodePitch_mm = 5;
-/// Standard deviation of the second differences of adjacent nodes, in mm. The value is that of a
-/// feed wave of 40 µm with a wavelength of 50 mm.
+/// Standard deviation of the second differences of adjacent nodes, in mm. A periodic error of the
+/// paper feed with an amplitude of 40 µm and a wavelength of 50 mm has second differences of this
+/// size.
 constexpr double kDifference_mm = 0.016;
 
 }  // namespace
@@ -40,8 +41,8 @@ Eigen::Vector2d MapField::at(int column, int row) const {
     return sum;
 }
 
-/// Calls `use` with the nodes of each second difference along x, along y, and of each mixed
-/// difference, with their coefficients.
+/// Calls `use` with the nodes and the coefficients of each second difference along x and along y,
+/// and of each mixed difference.
 template <typename Use>
 void MapField::for_each_difference(Use use) const {
     const auto wide = static_cast<std::size_t>(columns_);

@@ -17,25 +17,28 @@ namespace {
 using Eigen::Vector2d;
 using FrameBlock = Eigen::Matrix<double, kFrameTerms, kFrameTerms>;
 
-/// Number of linearisations. Each also estimates the variances and finds the outliers again.
+/// Number of linearisations. After each, the variances are estimated and the outliers are marked
+/// again.
 constexpr int kRounds = 3;
-/// Limit of the squared residual of an observation, in units of the variance per axis. Exceeded by
-/// chance once in 4,000. The limit is larger before the offsets of the dots are known.
+/// Maximum squared residual of an observation, in units of the variance per axis. Noise exceeds it
+/// once in 4,000 observations. The first limit is larger, because the offsets of the dots are not
+/// known yet.
 constexpr double kOutlier = 16.6;
 constexpr double kFirstOutlier = 30;
 constexpr double kMinNoise_mm = 1e-4;
 constexpr double kMinJitter_mm = 5e-4;
-/// First values of the variances.
+/// Initial values of noise and jitter, in spacings.
 constexpr double kFirstNoise = 0.005;
 constexpr double kFirstJitter = 0.02;
 
-/// Residuals of all frames with the offsets and views of a solution.
+/// Statistics of the residuals of all frames, given the offsets and views of a solution.
 struct Statistics {
     double squares = 0;  ///< sum over the observations that are not outliers
     std::array<double, kViewTerms> view_sigma{};
 };
 
-/// View terms of a frame if all other unknowns are right, with their variances.
+/// View terms of a frame, estimated from this frame alone with all other unknowns fixed, and their
+/// variances.
 struct FreeView {
     Eigen::Matrix<double, kViewTerms, 1> terms;
     Eigen::Matrix<double, kViewTerms, 1> variance;
@@ -50,8 +53,8 @@ FreeView free_view(const FrameBlock& block, const FrameVector& right, const MapF
             variance * inverse.diagonal().tail<kViewTerms>()};
 }
 
-/// Returns the standard deviations of the view terms between frames. A camera whose terms do not
-/// differ more than their errors counts as rigid.
+/// Returns the standard deviations of the view terms between frames. They are nearly 0 if the terms
+/// do not differ by more than their errors, because the camera is then considered rigid.
 std::array<double, kViewTerms> view_sigma_of(const std::vector<FreeView>& views) {
     std::array<double, kViewTerms> result{};
     for (int k = 0; k < kViewTerms; ++k) {

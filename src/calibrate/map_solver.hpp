@@ -38,8 +38,8 @@ inline constexpr int kFrameTerms = 4 + kViewTerms;
 using FrameVector = Eigen::Matrix<double, kFrameTerms, 1>;
 using CameraVector = Eigen::Matrix<double, kCameraTerms, 1>;
 
-/// Pose and view of a frame. A place P in the camera frame is seen at place + R(angle) (P + view
-/// terms) on the page.
+/// Pose and view of a frame. The point P in the camera frame is the point place + R(angle) (P +
+/// view terms) on the page.
 struct MapFrame {
     std::size_t first = 0;  ///< index of its first observation
     std::size_t count = 0;  ///< number of observations
@@ -49,7 +49,6 @@ struct MapFrame {
     Eigen::Matrix<double, kViewTerms, 1> view = Eigen::Matrix<double, kViewTerms, 1>::Zero();
 };
 
-/// The page of a map.
 struct MapGrid {
     int columns = 0;
     int rows = 0;
@@ -63,14 +62,15 @@ struct MapGrid {
         return {pitch_mm.x() * static_cast<double>(dot % wide),
                 pitch_mm.y() * static_cast<double>(dot / wide)};
     }
-    /// Place of the dot, without its offset.
+    /// Returns the place of a dot without its offset: the intersection plus the displacement.
     Eigen::Vector2d place_mm(std::size_t dot, double displacement_mm) const {
         return place_mm(dot) +
                displacement_mm * Eigen::Vector2d(directions[dot][0], directions[dot][1]);
     }
 };
 
-/// Offset of a dot from an earlier map, with its information. Empty if there is no earlier map.
+/// Offsets of the dots in an earlier map, and the number of views of each dot. Empty if there is no
+/// earlier map.
 struct EarlierOffsets {
     std::vector<Eigen::Vector2f> offset_mm;
     std::vector<float> views;
@@ -92,11 +92,12 @@ struct MapSolution {
     int iterations = 0;  ///< iterations of conjugate gradients in the last round
 };
 
-/// Called after each part of the work, with its share. Throws to end the work.
+/// Called after each part of the work with the fraction of the work that is done. May throw to end
+/// the work.
 using MapProgress = std::function<void(double share)>;
 
-/// Computes the map. `solution` contains the approximate poses of the frames. The observations of a
-/// frame are consecutive. Marks outliers.
+/// Computes the map and marks outliers. `solution` must contain the approximate poses of the
+/// frames, and the observations of each frame must be consecutive.
 void solve_map(const MapGrid& grid, const EarlierOffsets& earlier, double reach_mm,
                std::vector<MapObservation>& observations, MapSolution& solution,
                const MapProgress& progress);

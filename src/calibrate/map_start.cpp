@@ -61,7 +61,7 @@ View median_view(const std::vector<View>& views) {
     return view;
 }
 
-/// Returns true if the scales of the views differ as those of a hand-held camera.
+/// Returns true if the scales of the views differ so much that the camera was hand-held.
 bool differ(const std::vector<View>& views, const View& typical) {
     constexpr double kMaxMedianChange = 0.01;
     return median_of(views, [&](const View& view) {
@@ -139,8 +139,7 @@ double misfit(const MapGrid& grid, const EarlierOffsets& earlier, double reach_m
     double without = 0;
     for (const MapFrame& frame : solution.frames) {
         const MapView view(grid, frame, reach_mm);
-        // Removes the mean residual and the change of scale, rotation and shear, which the poses
-        // absorb.
+        // Removes the parts of the residuals that a fit of the pose and the view would remove.
         Eigen::MatrixXd design(2 * static_cast<Eigen::Index>(frame.count), kFrameTerms);
         Eigen::MatrixXd residuals(design.rows(), 2);
         for (std::size_t k = 0; k < frame.count; ++k) {

@@ -27,14 +27,15 @@ bool add_sighting(const Fix& fix, const Trace& trace, const MapPage& page, std::
 /// Converts the observations to places on the paper in the frame of the camera, and sets the
 /// approximate poses of the frames of `solution`. All frames use the view of the camera file or, if
 /// it has none, their median view. If the views differ too much, because the camera was hand-held,
-/// each frame uses its own view. The median scale of the frames on the page, with the offsets of
-/// the earlier map, becomes 1. Returns the distance to the most distant dots, in mm.
+/// each frame uses its own view. All places are scaled such that the median scale between the
+/// frames and the page, including the offsets of the earlier map, is 1. Returns the distance to the
+/// most distant dots, in mm.
 double start_map(const MapGrid& grid, const EarlierOffsets& earlier,
                  const std::optional<Camera>& camera, const std::vector<MapSighting>& frames,
                  std::vector<MapObservation>& observations, MapSolution& solution);
 
-/// Returns the median squared residual of the dots with the offsets of a map, divided by that
-/// without. `solution` contains the poses of `start_map`.
+/// Returns the median squared residual of the dots with the offsets of a map, divided by the median
+/// without these offsets. `solution` contains the poses of `start_map`.
 double misfit(const MapGrid& grid, const EarlierOffsets& earlier, double reach_mm,
               const std::vector<MapObservation>& observations, const MapSolution& solution);
 

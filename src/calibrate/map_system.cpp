@@ -218,7 +218,7 @@ void MapSystem::make_preconditioner() {
                 const double sigma = solution_.view_sigma[static_cast<std::size_t>(k)];
                 block(4 + k, 4 + k) += 1 / (sigma * sigma);
             }
-            // A frame whose dots do not determine a term does not change it.
+            // Makes the block invertible if the dots of the frame do not determine all terms.
             block.diagonal().array() += 1e-9 * block.diagonal().maxCoeff();
             frame_blocks_[f].compute(block);
         }

@@ -60,9 +60,9 @@ class MapSystem {
     const EarlierOffsets& earlier_;
     const std::vector<MapObservation>& observations_;
     const MapSolution& solution_;
-    double weight_;                   ///< of an observation: 1 / noise^2
-    double prior_weight_;             ///< of the field for the offset of a dot: 1 / jitter^2
-    std::vector<float> information_;  ///< weight of all that is known of an offset
+    double weight_;                   ///< weight of an observation: 1 / noise^2
+    double prior_weight_;             ///< weight of the field in the offset of a dot: 1 / jitter^2
+    std::vector<float> information_;  ///< total weight of all that is known about each offset
     std::vector<Eigen::Vector2d> offsets_;
     std::vector<std::vector<Eigen::Vector2d>> sums_;  ///< of each part
     std::vector<Eigen::LLT<Eigen::Matrix<double, kFrameTerms, kFrameTerms>>> frame_blocks_;

@@ -30,9 +30,9 @@ MappedDots mapped_dots(const Fix& fix, const PrintMap& map, const Trace& trace) 
 }
 
 bool is_same_print(double variance_with_map, double variance_without, double noise) {
-    // Another print doubles the variance.
+    // A map of another print would double the variance.
     constexpr double kMaxRatio = 0.8;
-    // The map hardly changes the residuals of a print without jitter. They are then noise.
+    // In a print without jitter, the residuals are only noise, so the map hardly changes them.
     constexpr double kMaxNoise_2 = 2;
     return variance_with_map <= kMaxRatio * variance_without ||
            variance_with_map <= kMaxNoise_2 * noise * noise;

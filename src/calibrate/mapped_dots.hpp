@@ -18,7 +18,7 @@ struct MappedDot {
     Eigen::Vector2d offset = Eigen::Vector2d::Zero();
 };
 
-/// Dots of a fix that were seen for the map. There are no dots unless `use` is MapUse::used.
+/// Dots of a fix whose offsets the map contains. They are sufficient only if `use` is MapUse::used.
 struct MappedDots {
     MapUse use = MapUse::no_map;
     double noise = 0;  ///< MapPage::noise

@@ -71,11 +71,12 @@ Eigen::Matrix<double, 2, kTerms> derivatives_at(const Plane& plane, const MapDot
 struct Correction {
     VectorXd terms = VectorXd::Zero(kTerms);
     MatrixXd covariance = MatrixXd::Zero(kTerms, kTerms);
-    double variance = 0;  ///< of the residuals, per axis
+    double variance = 0;  ///< variance of the residuals, per axis
     int dots = 0;
 };
 
-/// Normal equations of the dots whose squared residuals are at most `limit`.
+/// Solves the normal equations of the dots whose squared residuals in the previous fit are at most
+/// `limit`.
 Correction correct(const Plane& plane, const std::vector<MapDot>& dots, double map_weight,
                    const VectorXd& last, double limit, const std::vector<int>& used) {
     const auto count = static_cast<Eigen::Index>(used.size());
@@ -109,13 +110,13 @@ Correction correct(const Plane& plane, const std::vector<MapDot>& dots, double m
     return result;
 }
 
-/// Fits the given terms. Repeats the fit without outliers.
+/// Fits the terms in `used`. Repeats the fit without outliers.
 Correction fit_terms(const Plane& plane, const std::vector<MapDot>& dots, double map_weight,
                      const std::vector<int>& used) {
     VectorXd last = VectorXd::Zero(kTerms);
     last[4] = 1.0 / 6;
     Correction result;
-    double limit = 0.04;  // squared radius of a dot's own place, in spacings^2
+    double limit = 0.04;  // initial limit of the squared residual, in spacings^2
     constexpr int kRounds = 4;
     constexpr double kOutlier = 16.6;
     for (int round = 0; round < kRounds; ++round) {
@@ -131,8 +132,9 @@ Correction fit_terms(const Plane& plane, const std::vector<MapDot>& dots, double
     return result;
 }
 
-/// Returns true if two terms differ from 0. The limit is high, because the plane of the fix
-/// contains probable values, and because each additional term makes the place less accurate.
+/// Returns true if the two terms from index `first` differ significantly from 0. The limit is high,
+/// because the plane of the fix is already a good estimate, and because each additional term makes
+/// the place less accurate.
 bool are_significant(const Correction& fit, int first) {
     constexpr double kSignificant = 20;
     const Vector2d terms = fit.terms.segment<2>(first);
@@ -140,7 +142,8 @@ bool are_significant(const Correction& fit, int first) {
     return terms.dot(covariance.inverse() * terms) > kSignificant;
 }
 
-/// Fits the similarity, and shear and perspective if they are significant.
+/// Fits place, scale, rotation and displacement. Also fits shear and perspective if they are
+/// significant.
 Correction fit_correction(const Plane& plane, const std::vector<MapDot>& dots, double map_weight) {
     const Correction full = fit_terms(plane, dots, map_weight, {0, 1, 2, 3, 4, 5, 6, 7, 8});
     std::vector<int> used = {0, 1, 2, 3, 4};
@@ -179,7 +182,8 @@ void write_fix(const Plane& plane, const Correction& correction, const Trace& tr
     fix.section = cell.section;
     fix.fraction_x_q16 = static_cast<std::uint16_t>(x_q16 & 65535);
     fix.fraction_y_q16 = static_cast<std::uint16_t>(y_q16 & 65535);
-    // Derivative of the place along the image x axis, by the difference of two points.
+    // Approximates the derivative of the place along the image x axis by the difference between
+    // two points.
     const double step = 8;
     const MapDot left{reference - Vector2d(step, 0), Vector2d::Zero(), Vector2d::Zero(),
                       Vector2d::Zero()};

@@ -23,14 +23,19 @@ using namespace dotpose::calibrate;
 
 constexpr std::size_t kMinPoseDots = 12;
 
-/// Number of parameters in the equation of a dot: printed + displacement * displaced = place + (c,
-/// -s; s, c) (x, y) + t v. (x, y) is in mm from `middle`. All other lengths are in spacings,
-/// corrected for the print scale. The parameters are place, c, s and the displacement. The
-/// displacement is fitted because ink and blur change it.
-/// For a rolling shutter, the fit also includes the motion v and the turn of the camera during the
-/// readout. t is the time at which the row of the dot is read, as a fraction of the readout time,
-/// from -1/2 to 1/2. With a turn, (x, y) is rotated about the reference point by t times the turn.
-/// The reference point moves along an arc. v, the chord of this arc, is rotated by half this angle.
+/// Numbers of parameters in the equation of a dot:
+///
+///   printed + displacement * displaced = place + (c, -s; s, c) (x, y) + t v
+///
+/// (x, y) is the position of the dot in mm from `middle`. All other lengths are in spacings,
+/// corrected for the print scale. The parameters are place, c, s and the displacement, which is
+/// fitted because ink and blur change it.
+///
+/// For a rolling shutter, the parameters also include the motion v and the turn of the camera
+/// during the readout. t is the time at which the row of the dot is read, as a fraction of the
+/// readout time, from -1/2 to 1/2. At this time, (x, y) is rotated about the reference point by t
+/// times the turn. The reference point moves along an arc, so t v is replaced by the chord of this
+/// arc.
 constexpr int kParameters = 5;
 constexpr int kMovingParameters = 7;
 constexpr int kTurningParameters = 8;
@@ -49,8 +54,9 @@ CameraPoint turned(CameraPoint from, CameraPoint to, double angle_rad) {
     return {c * x - s * y, s * x + c * y};
 }
 
-/// Fits the pose to the dots at their mapped places. `reference` is the reference point. The
-/// equation is linear in the turn near `turn_rad`, so the fit for a rolling shutter is repeated.
+/// Fits the pose to the dots at their mapped places. `reference` is the reference point. For a
+/// rolling shutter, the equation is linearised at `turn_rad`, and the fit is repeated with the turn
+/// that it finds.
 PoseFit fit_pose(const std::vector<MappedDot>& dots, const Camera& camera, const AxisScale& print,
                  CameraPoint reference, double turn_rad) {
     std::vector<CameraPoint> points;
@@ -228,7 +234,7 @@ MappedMovingFix with_camera_and_map(const Fix& seen, const Camera& camera, const
                                     const AxisScale& print, const PrintMap& map) {
     if (seen.status != Status::ok) return {seen, {}, MapUse::no_map};
     MappedFix mapped{seen};
-    // Without a view of the camera, the plane of the fix is fitted to the mapped dots.
+    // Without a view of the paper in the camera file, fits the plane of the fix to the mapped dots.
     if (!camera.paper) mapped = with_print_map(seen, map, trace);
     const Fix& fix = mapped.fix;
     Fix result = fix;

@@ -52,8 +52,8 @@ void set_field(const Optics& o, OpticsReport& r) {
 void set_block(const Optics& o, OpticsReport& r) {
     const double side_mm = o.spacing_mm * (7 + 2.0 / 6) + o.dot_mm;
     r.block_diagonal_mm = std::numbers::sqrt2 * side_mm;
-    // The nearest block is centred up to half a diagonal of a cell from the image centre. At 45
-    // degrees, this distance is along an image axis.
+    // The centre of the nearest block is at most half the diagonal of a cell from the image centre.
+    // If the pattern is rotated by 45 degrees, this distance is along an image axis.
     r.block_anywhere_mm = r.block_diagonal_mm + std::numbers::sqrt2 * o.spacing_mm;
     const double shorter_mm = std::min(r.field_width_mm, r.field_height_mm);
     r.block_fits = shorter_mm >= r.block_diagonal_mm;

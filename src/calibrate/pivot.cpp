@@ -25,7 +25,8 @@ using calibrate::PivotFit;
 using calibrate::PivotView;
 
 constexpr int kMinPivotFrames = 6;
-/// Below this angle, the tip is less accurate than the poses by more than a factor of about 10.
+/// Minimum pivot angle. At smaller angles, the errors of the tip are more than about 10 times the
+/// errors of the poses.
 constexpr double kMinPivot_rad = 3 / kDegrees;
 constexpr double kMinUsed = 2.0 / 3;
 

@@ -26,9 +26,10 @@ struct PivotView {
 struct PivotFit {
     Eigen::Vector3d tip_mm;   ///< in the camera frame
     Eigen::Vector3d rest_mm;  ///< on the paper, in the frame of the views
-    /// Covariance of the tip and of the resting point. The frames show partly the same dots, whose
-    /// print errors shift all poses. The covariance is therefore computed from the residuals of
-    /// each dot in all frames. It is larger if the tip moved by more than the errors of the poses.
+    /// Covariance of the tip and of the resting point. Frames that show the same dots have
+    /// correlated errors, because the print errors of these dots shift all poses. The covariance is
+    /// therefore computed from the residuals of each dot in all frames. It is larger if the tip
+    /// moved by more than the errors of the poses.
     Eigen::Matrix<double, 6, 6> covariance;
     std::vector<bool> is_used;  ///< by view
     double residual_mm = 0;     ///< rms per axis

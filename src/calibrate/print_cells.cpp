@@ -136,7 +136,7 @@ class Trimmer {
         double worst_share = 1;
         for (const Outer& one : outer) {
             if (is_enough(one.line, one.longest)) continue;
-            // Counts short lines as worst, because their fraction of correct dots is not
+            // Treats short lines as the worst, because their fraction of correct dots is not
             // significant.
             const double share =
                 is_long(one.line, one.longest) ? double(one.line.right) / one.line.seen : 0;

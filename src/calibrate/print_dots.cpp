@@ -159,9 +159,9 @@ class Meter {
     }
 
     /// Returns true if the border of a cell is not blank, that is, if its darkness differs from the
-    /// paper by more than `min_darkness` in either direction. A border is lighter than `paper_` if
-    /// grey print fills most of the tile. The middles of the four sides are not checked, because
-    /// swollen dots may merge there.
+    /// paper by more than `min_darkness` in either direction. The border may be lighter than
+    /// `paper_`, because grey print that fills most of the tile makes `paper_` too dark. The
+    /// middles of the four sides are not checked, because swollen dots may merge there.
     bool is_covered(const Vector2d& intersection_px, double min_darkness) const {
         const Vector2d x = map_.px_per_cell.col(0);
         const Vector2d y = map_.px_per_cell.col(1);
@@ -188,7 +188,7 @@ class Meter {
 
   private:
     /// Visits the pixels within reach of a point, with their darkness and weight. The weight
-    /// decreases to 0 over the last pixel. Sums are therefore continuous functions of the point.
+    /// decreases to 0 over the last pixel, so that sums are continuous functions of the point.
     template <typename Visit>
     void visit_around(const Vector2d& p, Visit visit) const {
         const auto first = [&](double centre) {
@@ -287,8 +287,7 @@ PrintLevels measure_levels(const ImageView& scan, const TileMap& map,
     std::vector<double> levels;
     std::vector<double> strengths;
     for (const Vector2d& dot_px : dots_px) {
-        // Takes the level of the paper at a corner of the cell, because dots do not reach the
-        // corners.
+        // Takes the level of the paper at a corner of the cell, which dots do not reach.
         const Vector2d cell = map.cell(dot_px);
         const double level =
             level_at(scan, map.pixel({std::round(cell.x()) + 0.5, std::round(cell.y()) + 0.5}));

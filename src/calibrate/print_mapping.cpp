@@ -20,7 +20,8 @@ namespace {
 using namespace dotpose::calibrate;
 
 constexpr std::size_t kMinDots = 20;
-/// Minimum reduction of the squared residuals by an earlier map of the same print.
+/// Maximum ratio of the squared residuals with and without an earlier map, if the map is of the
+/// same print.
 constexpr double kSamePrint = 0.8;
 
 MapGrid grid_of(const SheetEntry& entry) {
@@ -107,7 +108,7 @@ MappedPage statistics_of(const std::string& name, const MapGrid& grid, const Map
     }
     const double all = squares / static_cast<double>(std::max<std::size_t>(page.seen, 1));
     page.slow_mm = std::sqrt(std::max(all - solution.jitter_mm * solution.jitter_mm, 0.0));
-    // Limit of the relative change of the scale.
+    // Maximum relative standard deviation of the scale of a rigid mount.
     constexpr double kRigid = 2e-4;
     page.is_rigid = solution.view_sigma[0] < kRigid * solution.reach_mm;
     return page;
@@ -118,7 +119,7 @@ MappedPage statistics_of(const std::string& name, const MapGrid& grid, const Map
 struct PrintMapping::State {
     struct PageFrames {
         std::vector<MapSighting> frames;
-        std::vector<MapObservation> observations;  ///< in px before `start_map`
+        std::vector<MapObservation> observations;  ///< in px until `start_map` converts them to mm
     };
 
     explicit State(PrintMappingOptions given)
@@ -138,7 +139,7 @@ struct PrintMapping::State {
 
     PrintMappingOptions options;
     std::vector<PageFrames> pages;   ///< in the order of the sheets
-    std::vector<KnownRegion> known;  ///< regions of the sheets, which the locator refers to
+    std::vector<KnownRegion> known;  ///< regions of the sheets; the locator refers to them
     std::size_t frames = 0;
     Locator locator{DeviceOptions{}};
 };

@@ -10,7 +10,6 @@
 
 namespace dotpose::calibrate {
 
-/// Inputs of the measurements of a field.
 struct Measuring {
     const ImageView& scan;
     const Field& field;

@@ -13,7 +13,6 @@
 
 namespace dotpose::calibrate {
 
-/// A tile with a fix.
 struct LocatedTile {
     int tile = 0;
     TileMap map;

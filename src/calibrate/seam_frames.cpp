@@ -19,9 +19,9 @@ constexpr double kBeyondPage_mm = 400;
 /// reliable.
 constexpr std::size_t kMinViewDots = 30;
 constexpr int kFieldsPerSide = 8;
-/// Number of fields (SheetView::fields), out of 64, with dots of located sheets at which the search
-/// stops locating further parts of the frame. The number of dots in a fix is not a suitable
-/// criterion, because a fix includes only one sheet.
+/// The search in a frame ends when the located sheets cover this number of its 64 fields
+/// (SheetView::fields). The number of dots is not a suitable criterion, because a fix includes the
+/// dots of only one sheet.
 constexpr int kNearlyAllFields = 58;
 
 /// Part of the image along one axis: begin and length, as fractions of the side.
@@ -207,7 +207,7 @@ Camera SeamLocator::camera_of(const GreyImage& image, const Part& part) const {
         camera = *camera_;
         if (camera.width_px != image.width_px || camera.height_px != image.height_px) {
             DeviceOptions unused;
-            // Throws the error for a wrong image size.
+            // Throws an Error that describes the wrong image size.
             use_camera(camera, image.width_px, image.height_px, unused);
         }
     } else {

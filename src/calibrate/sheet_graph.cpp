@@ -113,9 +113,8 @@ void pin_one(ceres::Problem& problem, std::array<double, kSize>& block, std::siz
     pin(problem, block, weights, expected, sigma);
 }
 
-/// Returns a pose on the page of the sheet of a view. The position of this pose is the position of
-/// the point `in_camera`, given in the camera's coordinate frame. The direction of the pose is the
-/// direction of the x axis of this coordinate frame.
+/// Converts a pose from the coordinate frame of the camera to the page of the sheet of a view. The
+/// pose is at the point `in_camera`, in the direction of the x axis of the camera frame.
 PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const Sheet& sheet,
                   const AxisScale& scale) {
     const Eigen::Vector2d at = view.place + view.axes * (in_camera - view.middle);
@@ -205,8 +204,9 @@ PlanePose SheetGraph::image_centre(const SheetView& view) const {
                                       print_scale(view.sheet));
 }
 
-/// Sets initial poses of the sheets by a breadth-first search from the fixed sheet. For two sheets,
-/// the search uses the frame in which the sheet with fewer dots has the most dots.
+/// Sets initial poses of the sheets by a breadth-first search from the fixed sheet. If several
+/// frames show the same two sheets, the search uses the frame in which the sheet with fewer dots
+/// has the most dots.
 void SheetGraph::spread_from_fixed() {
     const auto start = [this](std::size_t sheet, const PlanePose& pose) {
         const AxisScale scale = sheets_[sheet].print_scale();
@@ -293,8 +293,8 @@ void SheetGraph::pin_sheets(ceres::Problem& problem) {
                 pin_one(problem, node, k, 0, kPinned);
         }
         if (i == fixed_ && !has_scale()) {
-            // The views from parts of frames would determine the aspect, but all these views have
-            // the same error. The aspect is therefore fixed to its value in the sheet file.
+            // The aspect is fixed to its value in the sheet file. Views from parts of frames would
+            // determine it, but with an error that all these views have in common.
             pin<5>(problem, node, {0, 0, 0, 1, -1}, logs[0] - logs[1], kPinned);
         }
         if (i == fixed_ && reference_.by == By::fixed_sheet) {
@@ -406,7 +406,8 @@ void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
             ++row;
         }
         if (has_scale()) continue;
-        for (const std::size_t scale : {3, 4})  // errors are relative to the fixed sheet
+        // Adds the print error of the fixed sheet, to which all scales are relative.
+        for (const std::size_t scale : {3, 4})
             variances_[i][scale] += kUsualPrintError * kUsualPrintError;
     }
 }

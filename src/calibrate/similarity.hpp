@@ -11,11 +11,11 @@ namespace dotpose::calibrate {
 struct SimilarPoint {
     Eigen::Vector2d seen;
     Eigen::Vector2d intersection;
-    Eigen::Vector2d direction;  ///< displacement of the dot for a displacement of 1
+    Eigen::Vector2d direction;  ///< direction of the displacement of the dot, with length 1
 };
 
 struct Similarity {
-    Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< of the origin of the camera frame
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< place of the origin of the camera frame
     double angle_rad = 0;
     double scale = 1;
     double displacement = 0;

@@ -73,7 +73,7 @@ SpaceState moved(const SpaceState& state, const Parameters& step) {
     SpaceState result = state;
     result.position_mm += step.head<3>();
     if (angle > 0) {
-        // The quaternion is normalized against the accumulation of rounding errors.
+        // Normalizes the quaternion, so that rounding errors do not accumulate.
         const Eigen::Quaterniond rotation(state.rotation * Eigen::AngleAxisd(angle, turn / angle));
         result.rotation = rotation.normalized().toRotationMatrix();
     }

@@ -14,8 +14,7 @@ struct SpaceDot {
     /// Undistorted pixel minus the pixel on the optical axis.
     Eigen::Vector2d pixel;
     Eigen::Vector2d intersection_mm;  ///< place of its intersection on the paper
-    Eigen::Vector2d direction_mm;     ///< displacement of the dot for a displacement length of 1
-                                      ///< spacing
+    Eigen::Vector2d direction_mm;     ///< shift of the dot for a displacement of 1 spacing
     /// Covariance of the measured pixel, up to a common factor of all dots.
     Eigen::Matrix2d centre_covariance = Eigen::Matrix2d::Identity();
 };
@@ -28,7 +27,6 @@ struct SpaceState {
     double displacement = 1.0 / 6;  ///< displacement of the dots in the image, in spacings
 };
 
-/// Result of a fit.
 struct SpaceFit {
     SpaceState state;
     /// Covariance of position_mm and of the rotation vector in the camera frame: true rotation =

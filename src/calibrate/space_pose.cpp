@@ -81,7 +81,7 @@ std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const 
 CameraInSpace on_sheet(const CameraInSpace& camera, const SheetEntry& entry) {
     const Sheet& sheet = entry.sheet;
     const auto along = [](double mm, double scaled_mm, std::uint32_t first, double origin_mm) {
-        // The code plane is cyclic.
+        // The code plane is cyclic, so the difference is reduced to at most half a period.
         const double period_mm = scaled_mm * kPositionsPerAxis;
         return origin_mm + std::remainder(mm - scaled_mm * first, period_mm);
     };
@@ -96,7 +96,8 @@ CameraInSpace on_sheet(const CameraInSpace& camera, const SheetEntry& entry) {
 
 CameraInWorld in_world(const CameraInSpace& camera, const SpaceCovariance& covariance,
                        const WorldPose& page) {
-    // Turns a z axis into the paper to a z axis out of the paper: half a turn about x.
+    // The z axis of `camera` points into the paper, and that of the world out of the paper. A half
+    // turn about x converts between them.
     const Quaterniond turn =
         Eigen::AngleAxisd(page.yaw_rad, Vector3d::UnitZ()) * Quaterniond(0, 1, 0, 0);
     const Vector3d position = turn * Vector3d(camera.x_mm, camera.y_mm, camera.z_mm) / 1000 +

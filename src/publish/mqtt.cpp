@@ -162,7 +162,7 @@ void MqttClient::start() {
     mosquitto_disconnect_callback_set(mosquitto_, Callbacks::on_disconnect);
     mosquitto_publish_callback_set(mosquitto_, Callbacks::on_publish);
     mosquitto_message_callback_set(mosquitto_, Callbacks::on_message);
-    // Reserves one more place than `publish` uses. Presence messages use this place without
+    // Reserves one more place than `publish` uses, so that presence messages are sent without
     // waiting.
     mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMaxUnderWay + 1));
     // Messages are published by threads other than the thread of `run`.
@@ -419,7 +419,7 @@ int MqttSubscriber::work() {
 }
 
 int MqttSubscriber::receive_all() {
-    constexpr int kMaxBatch = 256;  // messages per batch; acknowledgements follow each batch
+    constexpr int kMaxBatch = 256;  // maximum number of messages that are acknowledged together
     for (int i = 0; i < kMaxBatch; ++i) {
         const std::int64_t before = received_;
         const int code = mosquitto_loop_read(handle(), 1);

@@ -1,5 +1,5 @@
 // Converts the results of a frame to metres with y up. The results are in mm with y down, or in the
-// world frame.
+// world frame, which is already in metres with y up.
 #include <cmath>
 #include <cstdio>
 

@@ -17,7 +17,7 @@ bool is_ipv6(const std::string& ip) {
     return ip.find(':') != std::string::npos;
 }
 
-/// An IP address in the form of the operating system.
+/// An IP address as the operating system represents it.
 struct SocketAddress {
     sockaddr_storage storage{};
     socklen_t size = 0;  ///< 0 if the text is not an IP address

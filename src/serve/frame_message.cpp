@@ -15,7 +15,8 @@ namespace {
 
 using nlohmann::json;
 
-/// Maximum number of grid lines per direction, and of pieces of a line.
+/// Maximum number of grid lines in each direction, and number of pieces into which a line is
+/// divided.
 constexpr int kMaxLines = 64;
 constexpr int kPieces = 6;
 
@@ -83,7 +84,7 @@ FrameOverlay overlay_of(ImageView image, const Trace& trace) {
         overlay.dots.push_back(view.at_dot(dot));
     if (view.reached().cells) add_grid(view, overlay);
     if (view.reached().pose) {
-        // The pattern is not mirrored, so y is a quarter turn from x.
+        // The pattern is not mirrored, so the y axis is the x axis rotated by a quarter turn.
         const draw::Point ahead = view.ahead_of_reference();
         overlay.axes = {view.at(view.reference_px()), ahead, {-ahead.y, ahead.x}};
     }

@@ -12,9 +12,9 @@ inline constexpr int kHeadTimeout_s = 5;    ///< maximum time to send the head o
 inline constexpr int kSilence_s = 20;       ///< time without a message after which a ping is sent
 inline constexpr int kMaxSilence_s = 40;    ///< time without an answer after which a client is dead
 inline constexpr std::size_t kMaxHeadBytes = 4096;     ///< maximum size of the head of a request
-inline constexpr std::size_t kChunkBytes = 32 * 1024;  ///< size of one write
+inline constexpr std::size_t kChunkBytes = 32 * 1024;  ///< maximum size of one write
 inline constexpr std::size_t kMaxWaitingCommands = 32;
-/// Messages of a client per second, and in one burst.
+/// Maximum number of messages of a client, per second and in one burst.
 inline constexpr double kMaxMessages_per_s = 200;
 inline constexpr double kMaxBurst = 200;
 

@@ -43,8 +43,8 @@ struct Page {
 struct Answer {
     std::string type = {};  ///< MIME type
     std::string body = {};
-    /// Path of a file that is sent instead of `body`; empty for none. The path is from the program,
-    /// never from the request.
+    /// Path of a file that is sent instead of `body`, or empty for none. The program must choose
+    /// the path. It must not be made from a request.
     std::string file = {};
     /// Name under which browsers save the answer; empty if they show it. Must consist of letters,
     /// digits, '.', '-' and '_'.

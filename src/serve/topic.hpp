@@ -50,8 +50,8 @@ class Topic {
     bool is_binary() const { return is_binary_; }
     /// Returns the number of values that were published.
     std::uint64_t version() const;
-    /// Returns the newest value as a message, that is, after the name of the topic and a line
-    /// break. Sets `version` to its number. The topic must have a value.
+    /// Returns the message with the newest value: the name of the topic, a line break, and the
+    /// value. Sets `version` to the number of the value. The topic must have a value.
     std::shared_ptr<const std::string> message(std::uint64_t& version, const Command& request = {});
     void set_ready_clients(int count) { ready_clients_.store(count, std::memory_order_relaxed); }
 

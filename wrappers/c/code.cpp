@@ -12,8 +12,8 @@ using namespace dotpose;
 
 constexpr std::int32_t kMaxCells = 65535;
 
-/// Number of columns that are written together. The rolls of a block are computed once and need
-/// little memory.
+/// Number of columns that are written together. The rolls of these columns are computed once and
+/// stored.
 constexpr std::uint32_t kBlock_columns = 64;
 
 bool are_sides(std::int32_t columns, std::int32_t rows) {

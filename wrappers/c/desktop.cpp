@@ -14,9 +14,9 @@ namespace {
 
 using namespace dotpose;
 
-/// Layout of CodeEvidence in the core. `State` contains the log odds from earlier places, and the
-/// sums of the factors of the frames at the current place. It also contains the cell of the first
-/// of these frames, and the number of these frames.
+/// Layout of CodeEvidence in the core: for each code, the log odds from earlier places and the sum
+/// of the factors of the frames at the current place; then the cell of the first of these frames,
+/// and the number of these frames.
 struct State {
     std::int32_t log2_q8[kCodeVariantCount];
     float factors[kCodeVariantCount];

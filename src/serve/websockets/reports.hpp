@@ -1,4 +1,4 @@
-// Reports refused clients to the user, without repeating a report for each of many refusals.
+// Reports refused clients to the user, and summarises repeated refusals.
 #pragma once
 
 #include <chrono>

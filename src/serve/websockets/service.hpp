@@ -26,7 +26,7 @@ inline constexpr std::size_t kSecurityHeaders = 7;
 
 /// A WebSocket.
 struct Client {
-    std::vector<Subscription> subscriptions;     ///< in the order of the topics
+    std::vector<Subscription> subscriptions;     ///< one per topic, in the order of the topics
     std::shared_ptr<const std::string> message;  ///< message that is being sent; null for none
     std::size_t sent_bytes = 0;
     bool is_binary = false;
@@ -100,7 +100,7 @@ class Server::Service {
     std::mutex commands_mutex_;
     std::deque<Command> commands_;
 
-    // Members of the thread.
+    // Used by the thread only.
     Reports reports_;
     std::map<lws*, bool> sockets_;  ///< true after the first request was received
     std::map<lws*, Client> clients_;
