@@ -291,9 +291,7 @@ class Fitter {
             for (const auto& [du, dv] : frame)
                 squares.push_back(du * du + dv * dv);
         }
-        // Median of the squared length of a two-dimensional Gaussian vector, in sigma^2.
-        constexpr double kMedian = 1.386;
-        const double variance = upper_median(std::move(squares)) / kMedian;
+        const double variance = upper_median(std::move(squares)) / kMedianOfSquaredLength;
         for (std::size_t i = 0; i < frames_.size(); ++i) {
             for (std::size_t k = 0; k < frames_[i].dots.size(); ++k) {
                 const auto& [du, dv] = fit_.residuals_px[i][k];
