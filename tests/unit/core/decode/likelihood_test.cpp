@@ -37,8 +37,8 @@ DetectedDot dot_in(int i, int j, Vec2 offset) {
     return dot_at(kMesh.at(i + offset.x, j + offset.y));
 }
 
-/// Returns dots at two corners of `columns` x `rows` cells from (i0, j0), which determine the
-/// extent of the grid.
+/// Returns one dot in the first cell and one in the last cell of `columns` x `rows` cells from (i0,
+/// j0). The two dots determine the extent of the grid.
 std::vector<DetectedDot> corners(int i0, int j0, int columns, int rows) {
     return {dot_in(i0, j0, {0, -1 / 6.0}), dot_in(i0 + columns - 1, j0 + rows - 1, {0, -1 / 6.0})};
 }
@@ -75,7 +75,8 @@ TEST(Likelihood, TheLikelierOfTwoDotsInACellStaysWhateverTheOrder) {
         ASSERT_EQ(assign_likelihoods(dots, kPlane, owned.grid), Status::ok);
         const GridCell& cell = owned.grid.at(1, 2);
         EXPECT_EQ(cell.dot, good_first ? 2 : 3);
-        // In eq. 7-8 with y down, the x bit comes from dy - dx, the y bit from dy + dx.
+        // According to eq. 7-8 with y down, the x bit is computed from dy - dx, and the y bit from
+        // dy + dx.
         EXPECT_NEAR(cell.x / 127.0, f(0.01 - 0.16), 0.03);
         EXPECT_NEAR(cell.y / 127.0, f(0.01 + 0.16), 0.03);
         EXPECT_EQ(quality(cell), std::abs(cell.x * cell.y));
@@ -109,7 +110,6 @@ TEST(Likelihood, TheMiddleOfALargerGridIsKept) {
 }
 
 TEST(Likelihood, PerspectiveAndLensAreUndone) {
-    // Dots are placed by the formula of PlaneFromImage.
     PlaneFromImage bent = kPlane;
     bent.perspective_q30 = {1 << 19, -(1 << 18)};
     bent.lens_q40 = 3 << 20;
