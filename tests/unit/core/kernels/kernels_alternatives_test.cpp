@@ -15,7 +15,8 @@ namespace {
 
 using namespace core;
 
-/// Places in the four sequences, and the roll offsets of an alternative in one of them.
+/// The places of a reading in the four sequences. Also computes how much the roll of a line at
+/// another place of a sequence differs from the reading.
 struct OwnPlaces {
     const code::Basis& basis;
     std::array<std::uint32_t, 4> own;
