@@ -83,8 +83,8 @@ std::string check_turned(const Draw& draw, const Grid& upright) {
     if (draw.quarter_turns > 0) {
         Place place;
         const Status status = decode(draw.code, seen.window(), place);
-        // Turning reverses and inverts the bits along at least one axis. The main sequence contains
-        // no reversed and inverted string of 7 bits.
+        // Turning reverses and inverts the bits along at least one axis. If a string of 7 bits
+        // occurs in the main sequence, its reversed and inverted form does not.
         if (draw.columns >= 7 && draw.rows >= 7 && status != Status::not_in_code) {
             return "a turned window was not refused";
         }

@@ -147,8 +147,8 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
 }
 
 /// Draws views of a place until p_wrong of a view is between 2^-30 and 2^-10. For this view,
-/// returns the minimum, over all gate sizes, of log2 of the tracker's bound divided by the sum of
-/// the odds in the gate.
+/// returns the minimum margin of the tracker's bound over all gate sizes. The margin is log2 of the
+/// bound divided by the sum of the odds in the gate.
 double margin_of_weak_view(CodeVariant code, const Place& place, Rng& rng) {
     View view;
     view.code = code;

@@ -145,7 +145,8 @@ TEST(Decode, FindsWindowsThatAreNotSquare) {
     };
     for (const CodeVariant code : kCodeVariants) {
         for (const Size size : {Size{6, 32}, Size{32, 6}, Size{7, 9}, Size{32, 32}, Size{6, 6}}) {
-            // The 5 digits at the places 100 and 59 of the a4 of libdots are unique.
+            // The 5 digits from index 100 and the 5 digits from index 59 of the a4 of libdots are
+            // unique, so no window is ambiguous.
             const Place truth{{241 * 1000 + 100, 241 * 77 + 59}, {5, 60}};
             const Grid grid = reference_window(code, truth, size.columns, size.rows);
             Place place;
@@ -233,8 +234,8 @@ TEST(Decode, NeverGuessesFromAChanged6x6) {
         ASSERT_TRUE(shows(CodeVariant::anoto, place, grid)) << describe(CodeVariant::anoto, place);
         ++elsewhere;
     }
-    // An independent simulation in another language gives 70.6 %, with a standard deviation of 0.3
-    // %.
+    // An independent simulation in another language gives 70.6 %. The standard deviation for these
+    // draws is 0.3 %.
     EXPECT_NEAR(static_cast<double>(elsewhere) / kDraws, 0.706, 0.013);
 }
 
@@ -302,8 +303,8 @@ Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int 
 }
 
 TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
-    // The difference across the border is wrong. On one side of the border, at least five of the
-    // other nine differences are consecutive. They determine a position, which the wrong difference
+    // Of the ten differences, the one across the border is wrong. At least five differences are on
+    // the same side of the border. They determine a position, which the wrong difference
     // contradicts.
     std::mt19937 rng(kSeed);
     int found_in_8 = 0;

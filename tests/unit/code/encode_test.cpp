@@ -1,5 +1,5 @@
-// Tests the symbols of positions against reference vectors, a direct sum, and an independent
-// formula.
+// Tests symbols and rolls against test vectors, a direct count of the digits, and the reference
+// implementation.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -121,7 +121,8 @@ TEST(Encode, RollAtRandomPositionsIsTheCountedSum) {
     std::mt19937 rng(kSeed);
     for (const CodeVariant code : kCodeVariants) {
         for (int i = 0; i < 20'000; ++i) {
-            // A tenth of the random numbers are below L, the number of positions.
+            // Nine of ten of these numbers exceed L, the number of positions. `roll` must accept
+            // them, too.
             const auto p = static_cast<std::uint32_t>(rng());
             const int expected = roll_by_counting(code, p);
             ASSERT_EQ(roll(code, p), expected) << "p " << p << " seed " << kSeed;

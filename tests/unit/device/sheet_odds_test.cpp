@@ -38,7 +38,8 @@ int wrong_bits(const core::HardBlock& block, int quarters, const Place& corner) 
     return wrong;
 }
 
-/// Returns the sum of the odds of all places except the upright place at `corner`.
+/// Returns the sum of the odds of all places, relative to the upright place at `corner`. Excludes
+/// the place at `corner`.
 double odds_of_others(const core::HardBlock& block, const Place& corner) {
     const int wrong = wrong_bits(block, 0, corner);
     const double per_bit =

@@ -1,4 +1,4 @@
-// Tests the search for the position on an axis. The lines contain wrong bits.
+// Tests the search for the position on an axis, in lines with wrong bits.
 #include "core/decode/search.hpp"
 
 #include <algorithm>

@@ -333,7 +333,7 @@ TEST(Blobs, RandomPixelsFormTheSetsThatFloodingFinds) {
     }
 }
 
-/// The list after the size filter, and the number of dots that the filter keeps.
+/// Dots after the size filter. The first `count` dots are those that the filter keeps.
 struct Sifted {
     std::vector<DetectedDot> dots;
     int count = 0;
@@ -352,7 +352,7 @@ TEST(Blobs, TheSizeFilterIsRelativeToTheMedianDot) {
         for (int i = 0; i < 300; ++i)
             dots.push_back(dot_at({i * 1.0, 50}, 1000 * scale, 8 * scale));
         BlobOptions options;
-        options.min_mass_q8 = 64;  // a quarter of the median mass
+        options.min_mass_q8 = 64;  // a quarter of the upper quartile
         options.max_area_ratio = 3;
         dots[10] = dot_at({10, 50}, 240 * scale, 8 * scale);
         dots[20] = dot_at({20, 50}, 260 * scale, 8 * scale);

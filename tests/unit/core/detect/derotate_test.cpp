@@ -70,7 +70,7 @@ TEST(ReadoutTurn, ThePlaneOfASquareGridShowsTheDrift) {
 }
 
 TEST(Derotated, IsTheImageOfAStillScene) {
-    constexpr int kBorder_px = 40;  // the rotation moves new parts of the scene into the corners
+    constexpr int kBorder_px = 40;  // the rotation moves other parts of the scene into this border
     // Maximum mean difference, in grey levels. It is small, because most pixels are paper and do
     // not differ.
     constexpr double kMaxMeanDifference = 1;

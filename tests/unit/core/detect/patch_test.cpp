@@ -98,7 +98,7 @@ TEST(PatchContrast, ThresholdsFollowTheLight) {
 TEST(PatchContrast, WhatIsBlankHasNone) {
     EXPECT_FALSE(core::measure_contrast(*lit_patch(160, 96, 200, 195)));
     EXPECT_FALSE(core::measure_contrast(*lit_patch(160, 96, 0, 0)));
-    // Only a few tiles contain dark pixels.
+    // A patch is blank if only a few of its tiles contain dark pixels.
     const auto patch = lit_patch(160, 96, 200, 199);
     for (std::size_t i = 0; i < 10; ++i)
         patch->darkness[i] = 200;

@@ -75,7 +75,8 @@ TEST(Undistort, TheLensMayBeCentredElsewhere) {
     }
 }
 
-// Regression: on a plane seen edge-on, the fuzzer found points far outside the image.
+// Regression: the distortion of points far outside the image overflowed. The fuzzer found such
+// points on a plane seen edge-on.
 TEST(Undistort, PointsFarOutsideTheImageKeepTheirDirection) {
     for (const std::int32_t k_q40 : {-385875968, INT32_MIN, INT32_MAX}) {
         const FixedLens lens{k_q40};

@@ -58,9 +58,9 @@ TEST(Alternatives, GetFewerWithEveryColumn) {
             ASSERT_LT(log2, before) << columns << " columns, window " << i << ", seed " << kSeed;
             before = log2;
         }
-        // Positions that share five of 17 lines differ in twelve lines, by at least two of twelve
-        // bits each. The odds of each of these 2^29 positions are at most 2^-120. The result is
-        // larger than these odds, because small odds count as 2^-56.
+        // Positions that share five of 17 lines differ in twelve lines, by at least two bits each.
+        // With odds of 2^-5 per bit, the odds of each of these 2^29 positions are at most 2^-120.
+        // The result is larger than these odds, because small odds count as 2^-56.
         EXPECT_LE(before, -40);
         EXPECT_LT(alternatives_of_window(code, place, 8, 2 * kOdds_q8),
                   alternatives_of_window(code, place, 8, kOdds_q8));
@@ -80,9 +80,9 @@ TEST(Alternatives, FewLinesExcludeNone) {
 using Odds = std::array<float, kSections>;
 
 /// Returns the expected sum of the odds of all alternatives that differ in two or more sequences,
-/// for two adjacent lines. `first` and `second` are the odds of these lines at each roll offset.
-/// The first line of the reading is at `position`. Enumerates every digit of every sequence that
-/// differs. The result is multiplied by `factor`, once for the step between the lines.
+/// for a reading of two adjacent lines. The first line is at `position`. `first` and `second` are
+/// the odds of the two lines at each roll offset. `factor` is the safety factor for the step
+/// between the lines.
 double two_lines(std::uint32_t position, const Odds& first, const Odds& second, double factor) {
     constexpr std::array<int, 4> kBases{3, 3, 2, 3};
     const auto texts = code_test::secondary_texts(CodeVariant::anoto);

@@ -65,8 +65,8 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
 }
 
 TEST(OddsPerBit, GrowWithTheWeightOfWhatIsRight) {
-    // If the same fraction of bits with half the weight is wrong, log2 of the odds of a bit with
-    // full weight is about twice as large.
+    // The odds are those of a bit with full weight. If bits with half the weight have the same
+    // fraction of errors, log2 of the odds is about twice as large.
     const double full = odds_per_bit_q8(confidence(1000, 124, 50));
     const double half = odds_per_bit_q8(confidence(1000, 60, 50));
     EXPECT_GT(half, 1.7 * full);

@@ -1,5 +1,5 @@
 // Tests the expected odds of double alternatives (positions that differ in two sequences) against a
-// sum in double precision over every digit of every pair of places.
+// sum in double precision over all strings of digits in both sequences.
 #include "core/integrity/expected_double_alternatives.hpp"
 
 #include <gtest/gtest.h>

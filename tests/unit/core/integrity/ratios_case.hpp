@@ -28,8 +28,8 @@ struct RatiosCase {
     LikelihoodRatios ratios() const { return {code, lines(), reading(), odds_q8}; }
 };
 
-/// Returns a line of `bits` bits of the main sequence with weights up to `most`. The fraction
-/// `wrong` of the bits is flipped.
+/// Returns a line of `bits` bits of the main sequence, with random weights between `most` / 2 and
+/// `most`. The fraction `wrong` of the bits is flipped.
 inline ScoredLine scored_line(int roll, int bits, double wrong, int most, Rng& rng) {
     std::vector<std::int8_t> weights;
     for (int i = 0; i < bits; ++i) {

@@ -52,7 +52,6 @@ TEST(Verify, CountsEveryBitThatContradicts) {
         IntegrityOptions any;
         any.max_p_wrong_log2 = 0;
         Verdict quick_before = judge(reading, any, verify_quickly);
-        // Flips x bits of the grid one after another.
         int flipped = 0;
         for (GridCell& cell : reading.owned.cells) {
             if (cell.dot == GridCell::kNoDot || flipped == bits / 4) continue;

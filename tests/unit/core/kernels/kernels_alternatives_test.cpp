@@ -197,9 +197,9 @@ TEST(KernelsAlternatives, ExpectationsHaveTheSameBitsInEachForm) {
 using OddsByRun = std::array<std::array<double, 66>, 63>;
 
 /// Calls `use` for every choice of digits at one step in the sequences of the bit set `different`,
-/// from sequence `k` on. Its first argument is the change of the roll modulo 63. Its second
-/// argument is true if all digits equal those of the reading. `shift` and `are_equal` are the
-/// values of these arguments for the sequences below `k`.
+/// from sequence `k` on. The first argument of `use` is the change of the roll modulo 63. The
+/// second argument is true if all digits equal those of the reading. `shift` and `are_equal` are
+/// the values of these arguments for the sequences below `k`.
 void visit_digits(const OwnPlaces& places, unsigned different, std::size_t line, std::size_t k,
                   int shift, bool are_equal, const auto& use) {
     if (k == 4) return use((shift + 63 * 63) % 63, are_equal);

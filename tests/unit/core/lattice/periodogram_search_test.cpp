@@ -100,7 +100,7 @@ TEST(SearchPeriodogram, LeavesAGoodEstimateGood) {
     search_periodogram(dots, std::span(seeds).first(static_cast<std::size_t>(count)),
                        fixed(centre, 8), 12, lattice);
     const Mesh found = mesh_of(lattice);
-    // The finest steps of the search are an eighth of a degree and an eightieth of the spacing.
+    // The last steps of the search are an eighth of a degree and 1/640 of the spacing.
     EXPECT_NEAR(length(found.u), 12, 12.0 / 640);
     EXPECT_NEAR(turned_degrees(std::atan2(found.u.y, found.u.x), 0.3), 0, 0.13);
     const Vec2 at = mesh.inverse(found.origin);
