@@ -17,7 +17,7 @@ constexpr std::uint64_t kSeed = 6667695;
 #if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__)
 constexpr int kDraws = 200'000;
 #else
-constexpr int kDraws = 50'000;  // few enough for builds without optimization or with sanitizers
+constexpr int kDraws = 50'000;  // fewer, because unoptimized and sanitized builds are slow
 #endif
 constexpr int kDrawsAtLength = 5 * kDraws;
 
@@ -44,7 +44,7 @@ std::uint32_t random_position(Rng& rng) {
 
 Draw random_draw(std::uint64_t seed) {
     std::minstd_rand rng(static_cast<std::uint32_t>(seed % 2147483646 + 1));
-    rng.discard(3);  // discards some numbers, because neighbouring seeds begin with similar numbers
+    rng.discard(3);  // because the first numbers of consecutive seeds are similar
     Draw draw;
     draw.code = kCodeVariants[static_cast<std::size_t>(random_int(rng, 0, 2))];
     draw.place = random_place(rng);
@@ -74,7 +74,8 @@ Grid encode(const Draw& draw) {
     return grid;
 }
 
-/// Checks the result for a turned window. Returns the fault, or "" if there is none.
+/// Checks that the window, turned by the draw's quarter turns, is refused or decoded to a place
+/// that contains the turned window. Returns a description of the failure, or "" if there is none.
 std::string check_turned(const Draw& draw, const Grid& upright) {
     Grid seen = upright;
     for (int i = 0; i < draw.quarter_turns; ++i)
@@ -82,8 +83,8 @@ std::string check_turned(const Draw& draw, const Grid& upright) {
     if (draw.quarter_turns > 0) {
         Place place;
         const Status status = decode(draw.code, seen.window(), place);
-        // Turning reverses and flips the bits of at least one axis. A string of 7 such bits does
-        // not occur in the main sequence.
+        // Turning reverses and inverts the bits along at least one axis. If a string of 7 bits
+        // occurs in the main sequence, its reversed and inverted form does not.
         if (draw.columns >= 7 && draw.rows >= 7 && status != Status::not_in_code) {
             return "a turned window was not refused";
         }
@@ -97,7 +98,8 @@ std::string check_turned(const Draw& draw, const Grid& upright) {
     return "";
 }
 
-/// Checks a draw. Returns the fault, or "" if there is none.
+/// Checks that the window of a draw equals the reference, and is decoded to the place of the draw.
+/// Returns a description of the failure, or "" if there is none.
 std::string check(const Draw& draw) {
     const Grid grid = encode(draw);
     if (grid != reference_window(draw.code, draw.place, draw.columns, draw.rows)) {
@@ -162,13 +164,12 @@ TEST(CodeProperty, EverySectionAtAndAcrossTheWrap) {
                 ASSERT_EQ(check(draw), "") << describe(draw);
                 ++n;
             }
-            ++n;  // so that the next draw of each x has another code variant
+            ++n;  // gives the next draw of each x another code variant
         }
     }
 }
 
 TEST(CodeProperty, EveryPositionOfOneSheet) {
-    // Tests 400 x 3 windows of a page, at consecutive positions.
     for (std::uint32_t x = 0; x < 400; ++x) {
         for (std::uint32_t y = 0; y < 3; ++y) {
             for (const CodeVariant code : kCodeVariants) {

@@ -21,13 +21,14 @@ namespace dotpose {
 namespace {
 
 constexpr int kMaxSide = 16;
-/// Maximum distance of two places inside a gate of fewer than 15 cells to each side.
+/// Maximum distance per axis, in cells, between two places inside the tracker's gate. The gate
+/// extends less than 15 cells to each side, so the distance is less than 30.
 constexpr int kReach = 29;
 constexpr std::uint64_t kSeed = 20;
 constexpr std::array kCodeVariants{CodeVariant::anoto, CodeVariant::libdots,
                                    CodeVariant::microdots};
 
-/// Bits that were read from an upright part of the pattern.
+/// Bits that were read from a part of the pattern. The pattern is upright in the image.
 struct View {
     CodeVariant code = CodeVariant::anoto;
     Place place;
@@ -46,7 +47,7 @@ struct View {
     }
 };
 
-/// Chooses a random size and noise of the view, and reads its bits from the code.
+/// Gives the view a random size and random noise, and fills its cells with noisy bits of the code.
 void read(View& view, Rng& rng) {
     view.columns = 8 + static_cast<int>(rng.below(5));
     view.rows = 8 + static_cast<int>(rng.below(5));
@@ -70,8 +71,8 @@ void read(View& view, Rng& rng) {
     }
 }
 
-/// Returns log2 of the p_wrong that the decoder reports. Returns 1 if the decoder found another
-/// place or none.
+/// Decodes the view. Returns log2 of the p_wrong that the decoder reports, or 1 if the decoder
+/// finds no place or a wrong one.
 int claim(View& view) {
     core::Grid grid = view.grid();
     Decoding decoding;
@@ -89,8 +90,8 @@ int claim(View& view) {
                : 1;
 }
 
-/// Returns the index in the main sequence of the first cell in view, for each line that may be in
-/// view.
+/// For each line from `first` - kReach to `first` + kReach + kMaxSide - 1, returns the index in the
+/// main sequence of the line's first cell in view.
 std::vector<int> starts(CodeVariant code, std::uint32_t first, int section, std::uint32_t cross) {
     std::vector<int> result;
     for (int i = -kReach; i < kReach + kMaxSide; ++i) {
@@ -100,9 +101,9 @@ std::vector<int> starts(CodeVariant code, std::uint32_t first, int section, std:
     return result;
 }
 
-/// Computes the odds of each other place relative to the true place, as a product over all bits.
-/// Element k of the result is the sum of the odds of the places that are at most k cells away along
-/// both axes.
+/// Returns, at index k, the sum of the odds of all other places that are at most k cells away along
+/// both axes. The odds of a place are relative to the true place, and are the product of the odds
+/// of all bits.
 std::array<double, kReach + 1> odds_by_distance(View& view) {
     const auto& [cell, section] = view.place;
     const auto columns = starts(view.code, cell.x, section.u, cell.y);
@@ -110,9 +111,9 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
     const auto main = [](int index) {
         return main_bit(static_cast<std::uint32_t>(index + kSections));
     };
-    // Returns the sum of the weights of the bits of a line. Weights of bits that contradict the
-    // main sequence are subtracted. The first cell of the line is at index `start` of the main
-    // sequence.
+    // Returns the score of a line whose first cell is at index `start` of the main sequence. The
+    // score is the sum of the weights of the bits that agree with the sequence, minus the weights
+    // of the bits that contradict it.
     const core::Grid grid = view.grid();
     const auto score = [&](bool is_x, int line, int start) {
         int sum = 0;
@@ -135,8 +136,8 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
     for (int dy = -kReach; dy <= kReach; ++dy) {
         for (int dx = -kReach; dx <= kReach; ++dx) {
             if (dx == 0 && dy == 0) continue;
-            // The loss is halved, because a contradicting bit is added to one sum and subtracted
-            // from the other sum.
+            // The difference is halved, because each bit in which the places differ is added to one
+            // score and subtracted from the other.
             const double odds = std::exp2(view.odds_log2 / 127 * (total(dx, dy) - of_truth) / 2);
             for (int k = std::max(std::abs(dx), std::abs(dy)); k <= kReach; ++k)
                 sums[static_cast<std::size_t>(k)] += odds;
@@ -145,8 +146,9 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
     return sums;
 }
 
-/// Draws views of a place until p_wrong of a view is between 2^-30 and 2^-10. Returns the minimum
-/// margin of the tracker's bound for this view, in bits.
+/// Draws views of a place until p_wrong of a view is between 2^-30 and 2^-10. For this view,
+/// returns the minimum margin of the tracker's bound over all gate sizes. The margin is log2 of the
+/// bound divided by the sum of the odds in the gate.
 double margin_of_weak_view(CodeVariant code, const Place& place, Rng& rng) {
     View view;
     view.code = code;
@@ -159,8 +161,8 @@ double margin_of_weak_view(CodeVariant code, const Place& place, Rng& rng) {
     const auto sums = odds_by_distance(view);
     double least = 1e9;
     for (unsigned k = 1; k <= kReach; ++k) {
-        // According to the tracker's count, the smallest gate that contains two places at this
-        // distance has k + 2 cells.
+        // If two places inside a gate are at distance k, the tracker counts at least k + 2 cells in
+        // the gate.
         const int cells_log2 = std::bit_width(k + 1);
         least = std::min(least, p_wrong_log2 + cells_log2 - 36 - std::log2(sums[k]));
     }
@@ -180,16 +182,16 @@ TEST(WeakSighting, NoPlaceInTheGateIsLikelierThanTheBound) {
     }
 }
 
-/// Five consecutive lines that occur again a few lines later, all shifted in the main sequence by
-/// the same roll.
+/// Five consecutive lines that are repeated `distance` lines later, with `roll` added to the roll
+/// of each line.
 struct Repetition {
     std::uint32_t position = 0;
     int distance = 0;  ///< in lines
     int roll = 0;      ///< roll of the later lines relative to the earlier lines, 0 to 62
 };
 
-/// Returns all repetitions at a distance of at most kReach lines. A repetition occurs where the
-/// same four digits are repeated in all four sequences.
+/// Returns all repetitions at a distance of at most kReach lines. Five lines are repeated if the
+/// four digits between them are repeated in all four sequences.
 std::vector<Repetition> repetitions(CodeVariant code) {
     const code::Basis& basis = code::basis(code);
     std::vector<Repetition> found;
@@ -229,7 +231,8 @@ struct Twin {
     int dy = 0;
 };
 
-/// Returns all twins. The offset along each axis must compensate for the roll along the other axis.
+/// Returns all twins. The roll of the repetition along one axis must cancel the offset along the
+/// other axis.
 std::vector<Twin> twins(CodeVariant code) {
     const auto found = repetitions(code);
     std::vector<Twin> twins;

@@ -1,5 +1,5 @@
-// Tests the decoding of windows. A window of the code must be found exactly, and any other window
-// refused.
+// Tests the decoding of windows. A window of the code must be found at its place, and any other
+// window must be refused.
 #include <array>
 #include <cstdint>
 #include <random>
@@ -19,11 +19,11 @@ namespace {
 
 constexpr std::uint32_t kSeed = 7998798;
 
-/// Initial value of `place`. A refused window must not change this value.
+/// Value of `place` before decoding. If a window is refused, this value must not change.
 constexpr Place kUntouched{{1, 2}, {3, 4}};
 
-/// Places in the a4 of libdots (modulo 241) at which the next 5 digits also occur elsewhere in this
-/// sequence.
+/// Indices (modulo 241) in the sequence a4 of libdots. The 5 digits from each of these indices also
+/// occur at another index.
 const std::set<std::uint32_t> kTwinPlaces{82,  238, 170, 236, 177, 237,
                                           195, 217, 198, 218, 199, 219};
 
@@ -61,8 +61,8 @@ TEST(Decode, RollsFromRealPaperAreOneStraightRun) {
 }
 
 TEST(Decode, RollsFromRealPaperShowTheMisprint) {
-    // The window at position 1117 + 17 = 1134 is at place 170 of a4. Because of the misprint, the
-    // digits at this place also occur elsewhere, so this window is ambiguous.
+    // The window at position 1117 + 17 = 1134 is at index 170 of a4 (1134 = 4 * 241 + 170). Because
+    // of the misprint, the digits at this index also occur elsewhere, so this window is ambiguous.
     expect_run(CodeVariant::libdots, kPaperRollsFrom1117, 1117);
     expect_run(CodeVariant::libdots, kPaperRollsFrom1097, 1097);
 }
@@ -145,7 +145,8 @@ TEST(Decode, FindsWindowsThatAreNotSquare) {
     };
     for (const CodeVariant code : kCodeVariants) {
         for (const Size size : {Size{6, 32}, Size{32, 6}, Size{7, 9}, Size{32, 32}, Size{6, 6}}) {
-            // The 5 digits at the places 100 and 59 of the a4 of libdots are unique.
+            // The 5 digits from index 100 and the 5 digits from index 59 of the a4 of libdots are
+            // unique, so no window is ambiguous.
             const Place truth{{241 * 1000 + 100, 241 * 77 + 59}, {5, 60}};
             const Grid grid = reference_window(code, truth, size.columns, size.rows);
             Place place;
@@ -156,8 +157,8 @@ TEST(Decode, FindsWindowsThatAreNotSquare) {
     }
 }
 
-/// Returns the places of the a4 of libdots at which a window is refused as ambiguous. At all other
-/// places, the window must be found.
+/// Returns the indices of the a4 of libdots at which a window is refused as ambiguous. Expects that
+/// windows at all other indices are found.
 std::set<std::uint32_t> ambiguous_places(int columns, int rows, bool along_x) {
     std::set<std::uint32_t> result;
     for (std::uint32_t p = 0; p < 241; ++p) {
@@ -211,8 +212,8 @@ TEST(Decode, RefusesEveryChangedSymbolIn8x8) {
 }
 
 TEST(Decode, NeverGuessesFromAChanged6x6) {
-    // 6 x 6 windows have no redundancy. Most changed windows occur at another place, and are found
-    // exactly there.
+    // 6 x 6 windows have no redundancy. Most windows with a changed bit occur elsewhere in the
+    // code. The decoder must find these windows where they occur, and refuse the others.
     std::mt19937 rng(kSeed);
     int elsewhere = 0;
     constexpr int kDraws = 20'000;
@@ -233,8 +234,8 @@ TEST(Decode, NeverGuessesFromAChanged6x6) {
         ASSERT_TRUE(shows(CodeVariant::anoto, place, grid)) << describe(CodeVariant::anoto, place);
         ++elsewhere;
     }
-    // An independent simulation in another language gives 70.6 %, with a standard deviation of 0.3
-    // %.
+    // An independent simulation in another language gives 70.6 %. The standard deviation for these
+    // draws is 0.3 %.
     EXPECT_NEAR(static_cast<double>(elsewhere) / kDraws, 0.706, 0.013);
 }
 
@@ -257,13 +258,15 @@ TEST(Decode, NeverGuessesFromRandomSymbols) {
             ASSERT_EQ(place, kUntouched);
         }
     }
-    // L * 63 of the 2^36 patterns of an axis are in the code, and the axes are independent:
-    // (410815348 * 63 / 2^36)^2 = 0.14184, with a standard deviation of 0.0011 for these draws.
+    // L * 63 of the 2^36 patterns of an axis are in the code, and the axes are independent, so the
+    // probability is (410815348 * 63 / 2^36)^2 = 0.14184. The standard deviation for these draws is
+    // 0.0011.
     EXPECT_NEAR(static_cast<double>(found) / kDraws, 0.14184, 5 * 0.0011);
 }
 
 TEST(Decode, RefusesRandom8x8) {
-    // Each axis has 2^64 patterns and 2^34.6 places, so none of these draws is in the code.
+    // Only 2^34.6 of the 2^64 possible patterns of an axis are in the code, so a random window is
+    // practically never in the code.
     std::mt19937 rng(kSeed);
     for (int n = 0; n < 20'000; ++n) {
         Grid grid{8, 8, std::vector<Symbol>(64)};
@@ -285,7 +288,8 @@ TEST(Decode, RefusesOneSymbolAllOver) {
     }
 }
 
-/// Returns a window whose columns, starting at `cut`, belong to another section.
+/// Returns a window across the border of two sections. The columns from `cut` on are in the section
+/// `other_u`.
 Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int cut) {
     Grid seam = reference_window(CodeVariant::anoto, place, columns, 8);
     const Place other{place.cell, {other_u, place.section.v}};
@@ -299,8 +303,9 @@ Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int 
 }
 
 TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
-    // One of the 10 differences is wrong. The five differences on one side of it determine a
-    // position, and the wrong difference contradicts this position.
+    // Of the ten differences, the one across the border is wrong. At least five differences are on
+    // the same side of the border. They determine a position, which the wrong difference
+    // contradicts.
     std::mt19937 rng(kSeed);
     int found_in_8 = 0;
     constexpr int kDraws = 20'000;
@@ -318,13 +323,14 @@ TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
         ASSERT_TRUE(shows(CodeVariant::anoto, place, eight)) << describe(CodeVariant::anoto, place);
         ++found_in_8;
     }
-    // Eight columns do not always suffice. An independent simulation in another language (400,000
-    // draws) gives 0.75 %. The standard deviation here is 0.06 %.
+    // 0.75 % of the windows with eight columns occur elsewhere in the code, according to an
+    // independent simulation in another language (400,000 draws). The standard deviation of the
+    // result here is 0.06 %.
     EXPECT_NEAR(static_cast<double>(found_in_8) / kDraws, 0.0075, 0.0025);
 }
 
-// A window must be decoded in the code variant of its sheet. The expected numbers of windows were
-// computed from the sequences by a program in another language.
+// If a window is decoded in the wrong code variant, the place may be wrong. The expected numbers of
+// windows were computed from the sequences by a program in another language.
 TEST(Decode, TheOtherProfileReadsSomeWindowsWrong) {
     using Pair = std::pair<CodeVariant, CodeVariant>;
     for (const auto& [printed, read] : {Pair{CodeVariant::anoto, CodeVariant::libdots},

@@ -1,5 +1,5 @@
-// Tests the symbols of positions against reference vectors, a direct sum, and an independent
-// formula.
+// Tests symbols and rolls against test vectors, a direct count of the digits, and the reference
+// implementation.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::uint32_t kSeed = 20130;
 
-/// Returns the roll by counting: digit i of a sequence occurs ceil((p - i) / length) times before
-/// position p.
+/// Returns the roll at position p, which is the sum of all differences before p. Digit i of a
+/// sequence occurs ceil((p - i) / length) times before p.
 int roll_by_counting(CodeVariant code, std::uint64_t p) {
     const auto texts = secondary_texts(code);
     std::uint64_t sum = 5 * p;
@@ -121,7 +121,8 @@ TEST(Encode, RollAtRandomPositionsIsTheCountedSum) {
     std::mt19937 rng(kSeed);
     for (const CodeVariant code : kCodeVariants) {
         for (int i = 0; i < 20'000; ++i) {
-            // A tenth of the random numbers are below L, the number of positions.
+            // Nine of ten of these numbers exceed L, the number of positions. `roll` must accept
+            // them, too.
             const auto p = static_cast<std::uint32_t>(rng());
             const int expected = roll_by_counting(code, p);
             ASSERT_EQ(roll(code, p), expected) << "p " << p << " seed " << kSeed;
@@ -143,8 +144,9 @@ TEST(Encode, RollStepsByDeltaAcrossTheWrap) {
 
 // Over one period of L positions, the roll increases by 5 L plus the sum of w_i (L / length_i)
 // (digit sum of a_i), where w_i is the weight of the sequence a_i. Modulo 63, this is 52 for the
-// sequences of the patent, and 25 for the a4 of py-microdots. The misprint does not change the sum,
-// because it drops a 1, and the published a4 has an additional 1.
+// sequences of the patent, and 25 for the a4 of py-microdots. The a4 of `libdots` has the same
+// digit sum as the a4 of the patent: it lacks a 1 because of the misprint, but has an additional 1
+// at its end.
 TEST(Encode, ThePatternContinuesPastTheLastPosition) {
     EXPECT_EQ(kPositionsPerAxis, kL);
     EXPECT_EQ(kL, 410'815'348U);

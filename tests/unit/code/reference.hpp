@@ -71,8 +71,8 @@ inline int reference_delta(CodeVariant code, std::uint64_t p) {
     return d;
 }
 
-/// Returns the sum of the differences before p: whole periods of each sequence, then the remaining
-/// digits.
+/// Returns the roll at position p: the sum of the differences before p, modulo 63. Whole periods of
+/// each sequence are added first, and then the remaining digits.
 inline int reference_roll(CodeVariant code, std::uint64_t p) {
     const auto texts = secondary_texts(code);
     std::uint64_t sum = 5 * p;
@@ -175,7 +175,8 @@ inline Symbol turned(Symbol symbol) {
     return symbol;
 }
 
-/// Returns the window on a page turned clockwise. Its bottom left symbol moves to the top left.
+/// Returns the window as seen after turning the page clockwise by a quarter turn. The bottom left
+/// symbol moves to the top left.
 inline Grid turned(const Grid& grid) {
     Grid result{grid.rows, grid.columns, grid.symbols};
     for (int r = 0; r < grid.rows; ++r) {
@@ -187,7 +188,7 @@ inline Grid turned(const Grid& grid) {
     return result;
 }
 
-/// Returns true if `place` is valid, and the pattern shows the window there.
+/// Returns true if `place` is valid, and the pattern contains the window `grid` at this place.
 inline bool shows(CodeVariant code, const Place& place, const Grid& grid) {
     return place.cell.x < kL && place.cell.y < kL && place.section.u < 63 && place.section.v < 63 &&
            reference_window(code, place, grid.columns, grid.rows) == grid;

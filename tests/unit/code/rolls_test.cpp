@@ -1,5 +1,5 @@
-// Tests the rolls of consecutive lines against rolls that are computed individually, and against a
-// second implementation.
+// Tests the rolls of consecutive lines against `roll`, `symbol_at` and the reference
+// implementation.
 #include "code/rolls.hpp"
 
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ TEST(FollowRolls, CountFromTheFirstRollGiven) {
 }
 
 TEST(FollowRolls, CarryOverTheEndOfTheCode) {
-    // All sequences end at the end of the code and restart there, but the roll continues.
+    // At the end of the code, all sequences restart, but the roll does not return to 0.
     for (const CodeVariant code : kCodeVariants) {
         for (const std::uint32_t before : {1U, 2U, 31U, 200U}) {
             const std::uint32_t position = kL - before;

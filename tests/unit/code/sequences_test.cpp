@@ -149,8 +149,8 @@ TEST(MainSequence, LongerStringsDifferInMorePlaces) {
     EXPECT_EQ(smallest_distance_to_turned(17), 2);
 }
 
-// Flips one bit of each string of 8 bits, and chooses the nearest string of the main sequence, with
-// ties broken at random. The paper (II-B.7) states that 36 % of these choices are right.
+// Flips each bit of each 8-bit string of the main sequence, and chooses the nearest 8-bit string,
+// with ties broken at random. The paper (II-B.7) states that 36 % of these choices are right.
 // Enumeration gives 8/21.
 TEST(MainSequence, TheNearestStringIsTheRightOneIn38Percent) {
     const auto all = main_strings(8);

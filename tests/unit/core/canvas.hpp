@@ -1,4 +1,4 @@
-// Draws small images by hand, and runs the pixel stages on them.
+// Functions that draw small test images, and run the pixel stages on them.
 #pragma once
 
 #include <cmath>
@@ -32,8 +32,8 @@ inline void fill(GreyImage& image, int u0, int v0, int u1, int v1, int level) {
     }
 }
 
-/// Returns the fraction of a Gaussian with standard deviation `sigma` about `centre` that is on the
-/// pixel at `u`.
+/// Returns the integral of a Gaussian over the pixel at `u`. The Gaussian has mean `centre`,
+/// standard deviation `sigma` and integral 1.
 inline double gaussian_share(int u, double centre, double sigma) {
     const double scale = sigma * std::numbers::sqrt2;
     return 0.5 * (std::erf((u + 0.5 - centre) / scale) - std::erf((u - 0.5 - centre) / scale));

@@ -130,7 +130,8 @@ struct View {
     Vec2 image_px{188, 120};
 
     Vec2 centre_px() const { return {(image_px.x - 1) / 2, (image_px.y - 1) / 2}; }
-    /// Pattern steps per image step, in spacings per px: the columns of R(theta) / spacing.
+    /// Movement on the pattern per px of movement in the image, in spacings: the columns of
+    /// R(theta) / spacing_px.
     Vec2 du() const { return {std::cos(theta_rad) / spacing_px, std::sin(theta_rad) / spacing_px}; }
     Vec2 dv() const { return {-du().y, du().x}; }
     Vec2 pattern(Vec2 p_px) const {
@@ -143,8 +144,9 @@ struct View {
         m.origin = centre_px() - at_centre.x * m.u - at_centre.y * m.v;
         return m;
     }
-    /// Returns the same grid in another orientation, as a stage may find it. `turn` maps its steps
-    /// to pattern steps, and its cell (0, 0) is the pattern's intersection `zero`.
+    /// Returns the same grid in another orientation, as a stage may find it. `turn` maps steps of
+    /// the returned grid to steps of the pattern. Cell (0, 0) of the returned grid is the
+    /// intersection `zero` of the pattern.
     Mesh mesh_turned(QuarterTurn turn, FixedVec zero) const {
         const Mesh m = mesh();
         const auto along = [&](FixedVec step) { return step.x * m.u + step.y * m.v; };

@@ -66,7 +66,8 @@ const Range kRanges[] = {
     [[maybe_unused]] const auto& [max_p_wrong, max_bit_error] = integrity;
 }
 
-/// Expects that all ways to locate refuse the options, or that all accept them.
+/// Expects that all ways to locate refuse the options if `is_refused` is set, and accept the
+/// options otherwise.
 void expect_refusal(const DeviceOptions& options, bool is_refused, const char* field, int value) {
     static const auto kMemory = std::make_unique<LargeMemory>();
     static const GreyImage kFrame = a_frame();

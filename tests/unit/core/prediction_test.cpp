@@ -1,4 +1,5 @@
-// Tests the motion of predictions with the camera against plane geometry in double precision.
+// Tests how predictions follow the motion of the camera, against plane geometry in double
+// precision.
 #include "dotpose/prediction.hpp"
 
 #include <gtest/gtest.h>

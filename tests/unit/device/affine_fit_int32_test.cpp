@@ -1,5 +1,5 @@
-// Tests least-squares maps from image points to cells against double precision and against
-// affine_fit_int64.hpp.
+// Tests the least-squares fit of maps from image points to cells, against double precision and
+// against affine_fit_int64.hpp.
 #include "device/affine_fit_int32.hpp"
 
 #include <gtest/gtest.h>

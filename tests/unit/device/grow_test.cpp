@@ -1,5 +1,5 @@
-// Tests the growth of the grid without perspective over the whole image, from a rough estimate in
-// the middle.
+// Tests `grow_grid`, which starts from a rough estimate in the middle and finds a grid without
+// perspective over the whole image.
 #include "device/grow.hpp"
 
 #include <gtest/gtest.h>
@@ -40,8 +40,8 @@ TEST(GrowGrid, ReachesOverTheLargestImage) {
     }
 }
 
-/// With more dots than `grow_grid` remembers between fits, each fit sums up all dots, instead of
-/// only the dots whose cell has changed.
+/// If there are more dots than `grow_grid` remembers between fits, each fit sums up all dots, not
+/// only the dots whose cell has changed. The result must be the same.
 TEST(GrowGrid, IsTheSameWithManyMoreDotsFarOff) {
     Rng rng(kSeed);
     for (int i = 0; i < 50; ++i) {

@@ -61,7 +61,7 @@ TEST(Origin, IsThatOfAPlainGrid) {
     for_many_grids([](const Mesh& mesh, Rng&) {
         const auto dots =
             dots_of(placed_dots(mesh, 20, kImage_px, [](int, int) { return Vec2{}; }));
-        // Dots are rounded to 1/8 px.
+        // The tolerance allows for the rounding of dots to 1/8 px.
         expect_origin(dots, mesh, kCentre_px, 0.02);
     });
 }

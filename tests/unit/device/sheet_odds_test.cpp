@@ -38,7 +38,8 @@ int wrong_bits(const core::HardBlock& block, int quarters, const Place& corner) 
     return wrong;
 }
 
-/// Returns the sum of the odds of all places except the upright place at `corner`.
+/// Returns the sum of the odds of all places, relative to the upright place at `corner`. Excludes
+/// the place at `corner`.
 double odds_of_others(const core::HardBlock& block, const Place& corner) {
     const int wrong = wrong_bits(block, 0, corner);
     const double per_bit =
@@ -74,7 +75,7 @@ TEST(SheetOdds, BoundIsAboveTheSumOverAllPlaces) {
         const double sum_log2 = std::log2(odds_of_others(block, corner));
         EXPECT_GE(fix.p_wrong_log2, sum_log2) << trial;
         // `chance` is the probability that random bits have at most `fix.bit_errors` errors at one
-        // place. There are 4 * 145 * 135 possible places of the corner.
+        // place. The corner has 145 * 135 possible places in each of 4 orientations.
         double chance = 0;
         double term = std::exp2(-2 * block.dots());
         for (int k = 0; k <= fix.bit_errors; ++k) {

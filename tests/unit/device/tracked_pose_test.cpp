@@ -1,4 +1,4 @@
-// Tests the fit of a tracked frame against the map by which its dots were displaced.
+// Tests the fit of a tracked frame against the affine map that displaced its dots.
 #include "device/tracked_pose.hpp"
 
 #include <array>

@@ -43,7 +43,7 @@ bool is_right(const Fix& fix, const Shot& shot) {
 
 class DeviceTracked : public testing::Test {
   protected:
-    /// Locates with the tracked attempt of devices only.
+    /// Locates an image with the tracked attempt of devices only.
     Fix tracked(const GreyImage& image, const Prediction& prediction) {
         static_cast<void>(locator_.begin(image.width_px, image.height_px, prediction));
         for (int v = 0; v < image.height_px; ++v)
@@ -249,8 +249,8 @@ TEST_F(DeviceTracked, RefusesFramesThatEndTooSoonOrHaveNoRoom) {
     EXPECT_EQ(locator_.finish().status, Status::not_tracked);
     EXPECT_EQ(locator_.begin(63, 64, prediction), Status::image_too_small);
     EXPECT_EQ(locator_.begin(188, 4096, prediction), Status::not_tracked);
-    // A frame begun without a prediction is located and not tracked, regardless of the error of the
-    // last prediction.
+    // If a frame begins without a prediction, it is located without tracking, even if the last
+    // prediction was wrong.
     const Prediction wrong = moved(prediction, CodeVariant::anoto, {50 << 16, 0}, 0, {});
     EXPECT_EQ(tracked(image, wrong).status, Status::not_tracked);
     ASSERT_EQ(locator_.begin(188, 120), Status::ok);

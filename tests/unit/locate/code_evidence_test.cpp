@@ -59,8 +59,8 @@ TEST(CodeEvidence, CountsAPlaceAtMost32BitsHoweverManyFramesSayMore) {
     for (int frame = 0; frame < 3; ++frame)
         evidence.add(kPlace, against(CodeVariant::anoto, 60));
     EXPECT_EQ(evidence.log2_q8(CodeVariant::anoto), -32 * 256);
-    // Now 255 of 256 frames are neutral. The factor of each other frame is limited to 2^40, so the
-    // mean factor is 2^40 / 256 = 2^32.
+    // Now 255 of 256 frames are neutral. The factor of each of the remaining frames is limited to
+    // 2^40, so the mean factor is 2^40 / 256 = 2^32.
     for (int frame = 0; frame < 3 * 255; ++frame)
         evidence.add(kPlace, against(CodeVariant::anoto, 0));
     EXPECT_NEAR(evidence.log2_q8(CodeVariant::anoto), -32 * 256, kRounding);

@@ -120,7 +120,7 @@ TEST(LocateRefuses, AFrameWithoutAnyDotIsRefusedEvenIfNoDotIsAskedFor) {
 }
 
 TEST(LocateRefuses, EveryStageCanRefuse) {
-    // A frame of the pattern is degraded step by step until each stage has refused it.
+    // Options and frames are chosen so that each stage refuses a frame.
     SmallMemory memory;
     Shot shot = shot_of({.preset = Preset::clean}, kSeed, 0);
     const GreyImage frame = render(shot);

@@ -1,5 +1,5 @@
-// Tests the whole pipeline, with images and with single rows, with any memory, and with frames in
-// any order.
+// Tests the whole pipeline on simulated frames. A fix must not depend on whether the frame is
+// passed as an image or as rows, on the memory, or on earlier frames.
 #include "dotpose/locate.hpp"
 
 #include <cmath>
@@ -144,7 +144,7 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
         errors_um.push_back(
             std::hypot(fix.x_grid() - x_grid(shot.pose), fix.y_grid() - y_grid(shot.pose)) *
             spacing_um);
-        // An error of a tenth of a spacing would indicate a wrong place.
+        // A larger error would mean that the fix is at a wrong place.
         EXPECT_LT(errors_um.back(), 0.1 * spacing_um);
         EXPECT_EQ(fix.section, shot.page.pattern.section);
         EXPECT_LT(
@@ -314,14 +314,14 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
             options.reference_dy_q8 = static_cast<std::int32_t>(offset.y * 256);
             const Fix fix = Locator(memory, options).locate(frame.view());
             ASSERT_EQ(fix.status, Status::ok);
-            // The expected place of the pixel follows from the camera's geometry, in spacings from
-            // the cell of the pose.
+            // Place of the pixel according to the camera model, in spacings from the true pose.
             const Vec2 pixel = Vec2{93.5, 59.5} + offset;
             const Vec2 from_pose = 1 / kDefaultSpacing_mm *
                                    Projection(shot.camera, shot.pose).offset_from_pixel(pixel);
             const double x = fix.x_grid() - shot.pose.cell.x - shot.pose.fraction_x;
             const double y = fix.y_grid() - shot.pose.cell.y - shot.pose.fraction_y;
-            // The tolerance is 1/100 spacing at the image border, and more outside of the image.
+            // The tolerance is 1/100 spacing at the image centre, and increases with the distance
+            // from the centre.
             const double tolerance = 0.01 + length(offset) * 1e-4;
             EXPECT_NEAR(x, from_pose.x, tolerance);
             EXPECT_NEAR(y, from_pose.y, tolerance);

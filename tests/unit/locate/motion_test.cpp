@@ -1,5 +1,5 @@
-// Tests locators that receive the motion between frames. Frames are then read together, and a
-// motion predicts the next frame.
+// Tests locators that receive the motion between frames. They combine the bits of several frames,
+// and predict the next frame from the motion.
 #include <array>
 #include <cmath>
 #include <memory>
@@ -38,7 +38,8 @@ Shot moved_shot(const Shot& shot, const MeasuredMotion& motion) {
     return next;
 }
 
-/// Draws a motion by half of `view_mm` in any direction.
+/// Returns a random motion: a displacement by half of `view_mm` in any direction, and a rotation of
+/// up to 0.5 rad.
 MeasuredMotion draw_motion(double view_mm, Rng& rng) {
     const double direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
     MeasuredMotion motion;
@@ -122,7 +123,7 @@ class FramesReadTogether : public testing::Test {
     Locator locator_{*memory_, DeviceOptions{}};
 };
 
-// Alone, views of 7.3 cells are never certain on the whole plane.
+// A single view of 7.3 cells per side never gives a certain place on the whole plane.
 TEST_F(FramesReadTogether, SmallViewsOfTheWholePlaneBecomeCertain) {
     const Series series =
         run_series(locator_, {.width_px = 80, .height_px = 80}, 40, 0.02F, 0.005F, false);
@@ -155,8 +156,8 @@ TEST_F(FramesReadTogether, CommonDotsReplaceAnInaccurateMotion) {
     EXPECT_EQ(series.located[5], 40);
 }
 
-// The robot is lifted between frames, and its odometry does not detect this. Its place becomes
-// certain after more frames, and is never wrong.
+// The robot is put down at another place before each frame, but its odometry reports no motion. No
+// frame may be located, because the bits of these frames must not be combined.
 TEST_F(FramesReadTogether, AWrongMotionGivesNoWrongFix) {
     constexpr ShotSize kSize{.width_px = 80, .height_px = 80};
     const MeasuredMotion none{.sigma_mm = 0.05F, .sigma_rad = 0.02F};

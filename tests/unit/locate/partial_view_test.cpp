@@ -1,4 +1,4 @@
-// Tests views that the pattern covers only partly, with the first attempt of `locate`.
+// Tests that views that the pattern covers only partly are located by a single attempt.
 #include <memory>
 
 #include <gtest/gtest.h>

@@ -17,8 +17,7 @@ std::int32_t bam(double rad) {
     return static_cast<std::int32_t>(std::lround(rad * kBamPerRadian));
 }
 
-/// Returns the prediction that matches the geometry of the shot. The camera looks straight down or
-/// is tilted.
+/// Returns a prediction that agrees exactly with the shot, including the tilt of the camera.
 Prediction true_prediction(const Shot& shot) {
     Prediction prediction;
     const Pattern& pattern = shot.page.pattern;

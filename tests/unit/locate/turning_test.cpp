@@ -46,11 +46,11 @@ Counts locate_turned(const ShotSize& size, double turn_deg, Vec2 motion, int fra
         if (fix.status != Status::ok) continue;
         ++counts.located;
         EXPECT_TRUE(is_right(fix, shot)) << turn_deg << ", frame " << i;
-        // A hundredth of a spacing is 5 um.
+        // 0.012 spacings are 6 um.
         const double off_x = fix.x_grid() - x_grid(shot.pose);
         const double off_y = fix.y_grid() - y_grid(shot.pose);
         EXPECT_LT(std::hypot(off_x, off_y), 0.012) << turn_deg << ", frame " << i;
-        // Theta decreases if the scene turns clockwise.
+        // The signs differ, because theta decreases if the scene turns clockwise.
         EXPECT_NEAR(fix.readout_turn_rad, -shot.camera.readout_turn_rad, 0.5 * kDegree) << i;
         counts.squares += off_x * off_x / double{fix.covariance[0][0]} +
                           off_y * off_y / double{fix.covariance[1][1]};
@@ -102,7 +102,7 @@ TEST(Turning, EveryFrameOfADriveIsTracked) {
         Tracker tracker;
         const Shot first = turned_shot(kLarge, -drive.turn_deg, {}, 0);
         constexpr int kFrames = 30;
-        constexpr int kFresh = 3;  // the tracker needs some frames to measure the velocity
+        constexpr int kFresh = 3;  // the tracker needs a few frames to measure the velocity
         Fix last;
         Sighting seen;
         double x = x_grid(first.pose);

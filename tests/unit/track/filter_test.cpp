@@ -88,8 +88,8 @@ std::array<double, 6> solved(const Covariance9& covariance, std::array<double, 6
 }
 
 /// A robot that moves as the filter assumes for an agility of 1. Its accelerations have the
-/// standard deviations in TrackOptions. They decrease by 1 % (0.5 / 0.505) per frame, and are
-/// constant within a frame.
+/// standard deviations in TrackOptions, and are constant within a frame. From frame to frame, each
+/// acceleration is multiplied by 0.5 / 0.505, and random noise is added.
 struct ModelRobot {
     explicit ModelRobot(Rng& rng) {
         pose[2] = rng.uniform(-kPi, kPi);
@@ -114,8 +114,9 @@ struct ModelRobot {
 };
 
 TEST(Filter, ItsCovarianceIsThatOfItsErrors) {
-    // Errors of the measurement are correlated. The squared error, in units of the covariance, has
-    // the mean 6 and the variance 12.
+    // In each measurement, the errors of x, y and angle are correlated. The squared error of the
+    // estimate (three pose components and their speeds), normalised by its covariance, is
+    // chi-squared distributed with six degrees of freedom: its mean is 6 and its variance 12.
     TrackOptions options;
     options.min_sigma_mm = options.min_sigma_rad = 0;
     constexpr std::array<float, 3> kOwn = {0.004F, 0.004F, 0.0004F};
@@ -160,11 +161,11 @@ TEST(Filter, ItsCovarianceIsThatOfItsErrors) {
     EXPECT_NEAR(sum / kRuns, 6, 4 * std::sqrt(12.0 / kRuns));
 }
 
-/// Root mean square errors, per axis of the position.
+/// Rms errors of the position, per axis.
 struct Errors {
     double raw_mm = 0;
     double filtered_mm = 0;
-    double normalised = 0;  ///< mean square in units of the variance
+    double normalised = 0;  ///< mean squared error divided by the variance
 
     double gain() const { return filtered_mm / raw_mm; }
 };
@@ -263,7 +264,7 @@ TEST(Filter, IsNotThrownByASightingThatIsOff) {
         const double x_mm = frame == 200 ? 0.1 : 0;
         const Sighting sighting =
             at(frame, disturbed({x_mm, 0, 0}, 0.001, rng), round_covariance(0.001));
-        // A motion of 0.1 mm per frame would be a speed of 20 mm/s.
+        // A motion of 0.1 mm in one frame would be a speed of 20 mm/s.
         EXPECT_NEAR(tracker.update(sighting.time_us, &sighting).pose.vx_mm_s, 0, 3) << frame;
     }
 }

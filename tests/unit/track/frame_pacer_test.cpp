@@ -32,7 +32,7 @@ class Device {
   public:
     explicit Device(const PacerOptions& options = {}) : pacer_(options) {}
 
-    /// Takes frames until `time_us`, at a place that depends on the time.
+    /// Takes frames until `time_us`. `fix_at` returns the fix of a frame at a given time.
     template <typename FixAt>
     void run_until(std::int64_t time_us, FixAt fix_at) {
         while (next_us_ < time_us) {
@@ -76,8 +76,8 @@ TEST(FramePacer, TakesAFrameASecondAfterFiveSecondsOfRest) {
     EXPECT_EQ(device.frames_us.back(), 64 * kSecond_us);
 }
 
-/// Checks whether a device at rest wakes. The device rests for 10.5 s and then changes its place,
-/// so the frame at 11 s shows the new place.
+/// Expects that a device at rest wakes, or does not wake, if its fix changes from `rest` to
+/// `after`. The fix changes at 10.5 s, so the frame at 11 s is the first with the new fix.
 void expect_wakes(const Fix& rest, const Fix& after, bool wakes, const PacerOptions& options = {}) {
     Device device(options);
     device.run_until(12 * kSecond_us,

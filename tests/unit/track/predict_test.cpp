@@ -21,7 +21,7 @@ std::int32_t bam(double angle_rad) {
         static_cast<std::int64_t>(std::llround(angle_rad / kPi * 2147483648.0)) & 0xFFFFFFFF);
 }
 
-/// Pose in the pattern frame, in spacings and rad. The angle of the image is from +x towards +y,
+/// Pose in the pattern frame, in spacings and rad. `theta_rad` is the angle from +x towards +y,
 /// with y down.
 struct Pose {
     double x = 0;

@@ -234,7 +234,7 @@ TEST(Tracker, TellsRestFromMovement) {
     EXPECT_EQ(events[0].second, "fix ");
     EXPECT_EQ(events[1].second, "stationary ");
     // The time at rest starts when the robot is within 0.1 mm of its resting place. After the
-    // sudden stop, the filter needs some frames to settle.
+    // sudden stop, the filter needs a few frames to settle.
     EXPECT_NEAR(static_cast<double>(events[1].first), 1.5e6, 30e3);
     EXPECT_EQ(events[2].second, "moving ");
     EXPECT_NEAR(static_cast<double>(events[2].first), 2.0e6, 10e3);  // moving by 0.1 mm takes 2 ms

@@ -1,4 +1,4 @@
-// Tests blocks of bits that are cut from the code and rotated, against `symbol_at`.
+// Tests the rotation and the decoding of blocks of bits. The blocks are made with `symbol_at`.
 #include "core/decode/bit_lines.hpp"
 
 #include <gtest/gtest.h>
@@ -44,8 +44,8 @@ void set_bit(core::BitLines& lines, int line, int cell, bool value) {
     if (value) lines.bits[at] |= bit;
 }
 
-/// Returns the block of a rectangle of cells as seen by a camera rotated by `quarters` quarter
-/// turns. The displacement of a dot rotates with the paper.
+/// Returns the bits of the cells from `least` to `most` - 1, as seen by a camera rotated by
+/// `quarters` quarter turns. The displacements of the dots rotate with the paper.
 BitBlock seen_block(CodeVariant code, const Place& zero, int quarters, FixedVec least,
                     FixedVec most, const Damage& damage, Rng& rng) {
     BitBlock block;
@@ -77,7 +77,7 @@ void expect_same(const BitBlock& a, const BitBlock& b) {
     }
 }
 
-/// Returns a random place, often near the ends of the plane.
+/// Returns a random place. Three of four places have a coordinate near an end of the code.
 Place some_place(int i, Rng& rng) {
     Place place = random_place(rng);
     if (i % 4 == 1) place.cell.x = i % 8 == 1 ? 3 : kPositionsPerAxis - 4;
@@ -121,7 +121,7 @@ TEST(BitLines, APlaneTurnsAsItsCellsDo) {
             const auto x = static_cast<float>(rng.uniform(-90, 90));
             const auto y = static_cast<float>(rng.uniform(-60, 60));
             const Vec2 before = at(plane, x, y);
-            // `turned` must move points between cells in the same way as the cells of a block.
+            // The plane must be rotated in the same way as the cells.
             const FixedVec zero = cell_turned(quarters, {});
             const FixedVec right = cell_turned(quarters, {1, 0}) - zero;
             const FixedVec down = cell_turned(quarters, {0, 1}) - zero;
@@ -223,7 +223,7 @@ TEST(BitLines, LinesOfTwoPlacesAreNotOnePlace) {
         const CodeVariant code = kCodeVariants[static_cast<std::size_t>(i % 3)];
         BitBlock block = seen_block(code, some_place(i, rng), 0, {-8, -8}, {8, 8}, {}, rng);
         const BitBlock other = seen_block(code, random_place(rng), 0, {-8, -8}, {8, 8}, {}, rng);
-        // The first columns belong to another place.
+        // The first four columns belong to another place.
         for (std::size_t line = 24; line < 28; ++line)
             block.columns.bits[line] = other.columns.bits[line];
         Place place;

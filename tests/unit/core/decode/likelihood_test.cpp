@@ -37,8 +37,8 @@ DetectedDot dot_in(int i, int j, Vec2 offset) {
     return dot_at(kMesh.at(i + offset.x, j + offset.y));
 }
 
-/// Returns dots at two corners of `columns` x `rows` cells from (i0, j0), which determine the
-/// extent of the grid.
+/// Returns one dot in the first cell and one in the last cell of `columns` x `rows` cells from (i0,
+/// j0). The two dots determine the extent of the grid.
 std::vector<DetectedDot> corners(int i0, int j0, int columns, int rows) {
     return {dot_in(i0, j0, {0, -1 / 6.0}), dot_in(i0 + columns - 1, j0 + rows - 1, {0, -1 / 6.0})};
 }
@@ -75,7 +75,8 @@ TEST(Likelihood, TheLikelierOfTwoDotsInACellStaysWhateverTheOrder) {
         ASSERT_EQ(assign_likelihoods(dots, kPlane, owned.grid), Status::ok);
         const GridCell& cell = owned.grid.at(1, 2);
         EXPECT_EQ(cell.dot, good_first ? 2 : 3);
-        // In eq. 7-8 with y down, the x bit comes from dy - dx, the y bit from dy + dx.
+        // According to eq. 7-8 with y down, the x bit is computed from dy - dx, and the y bit from
+        // dy + dx.
         EXPECT_NEAR(cell.x / 127.0, f(0.01 - 0.16), 0.03);
         EXPECT_NEAR(cell.y / 127.0, f(0.01 + 0.16), 0.03);
         EXPECT_EQ(quality(cell), std::abs(cell.x * cell.y));
@@ -100,7 +101,8 @@ TEST(Likelihood, TheMiddleOfALargerGridIsKept) {
     EXPECT_EQ(owned.grid.j0, -5);
     EXPECT_EQ(owned.grid.i0, -8);
     EXPECT_EQ(owned.grid.at(3, 2).dot, 2);
-    // If all cells are on one side of the origin, the cells nearest to the origin are kept.
+    // The dots extend over more cells than the grid can hold, all on one side of the origin. The
+    // grid keeps the cells nearest to the origin.
     ASSERT_EQ(assign_likelihoods(corners(2, -5, 40, 12), kPlane, owned.grid), Status::ok);
     EXPECT_EQ(owned.grid.i0, 2);
     ASSERT_EQ(assign_likelihoods(corners(-45, -5, 40, 12), kPlane, owned.grid), Status::ok);
@@ -109,7 +111,6 @@ TEST(Likelihood, TheMiddleOfALargerGridIsKept) {
 }
 
 TEST(Likelihood, PerspectiveAndLensAreUndone) {
-    // Dots are placed by the formula of PlaneFromImage.
     PlaneFromImage bent = kPlane;
     bent.perspective_q30 = {1 << 19, -(1 << 18)};
     bent.lens_q40 = 3 << 20;

@@ -77,7 +77,8 @@ TEST(Position, IsReadAcrossBothEndsOfTheCode) {
 }
 
 TEST(Position, IsReadFromManyDotsThoughSomeAreWrong) {
-    // 6 % of the dots have another symbol, and another 6 % are missing.
+    // 8 % of the dots have a random symbol, which is wrong in three of four cases. Another 6 % of
+    // the dots are missing.
     Rng rng(kSeed);
     for_many_views(60, [&](const View& view, QuarterTurn turn) {
         std::vector<DetectedDot> dots;

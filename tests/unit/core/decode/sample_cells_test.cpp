@@ -1,4 +1,4 @@
-// Tests bits that are sampled directly from drawn frames with known dots.
+// Tests the bits that are sampled from drawn images with known dots.
 #include "core/decode/sample_cells.hpp"
 
 #include <gtest/gtest.h>
@@ -39,8 +39,8 @@ struct Sampled {
         sample_cells(image.view(), paper, FixedLens{}, plane, owned.grid);
     }
     const Grid& grid() const { return owned.grid; }
-    /// Calls `use` for all cells, with the cell, its place in px, its bits rotated to the upright
-    /// orientation, and the symbol of the code.
+    /// Calls use(cell, px, bits, symbol) for all cells. `px` is the place of the cell in the image,
+    /// `bits` are the bits of the cell for an upright grid, and `symbol` is the symbol of the code.
     template <typename Use>
     void visit(Use use) const {
         for (int j = grid().j0; j < grid().j0 + grid().rows; ++j) {

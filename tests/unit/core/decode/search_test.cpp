@@ -1,4 +1,4 @@
-// Tests the search for the position on an axis. The lines contain wrong bits.
+// Tests the search for the position on an axis, in lines with wrong bits.
 #include "core/decode/search.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 43;
 
-/// The x bits of a window as weights, and their scores.
+/// A window whose x bits are stored as weights, with storage for the scores of its columns.
 struct ScoredWindow {
     ScoredWindow(int columns, int rows) : owned(std::max(columns, rows)) {
         owned.grid.columns = columns;
@@ -53,7 +53,7 @@ int roll_at(CodeVariant code, const Place& place) {
     return (code_test::reference_roll(code, place.cell.x) + place.section.u + cross) % 63;
 }
 
-/// Returns the number of windows that are found, among 200 windows of 20 columns.
+/// Returns how many of 200 random windows with 20 columns are found.
 int found_of_200(CodeVariant code, int rows, double flipped) {
     Rng rng(kSeed);
     int found = 0;
@@ -84,8 +84,6 @@ TEST(ScoreLines, TellsByHowMuchTheBestOfEachLineLeads) {
 }
 
 TEST(FindAxis, FindsThePositionAmongWrongBits) {
-    // The search finds the position if some run of lines has the correct roll among the best rolls
-    // of each of its lines, or if the correct place is among the best places of each sequence.
     // Longer lines tolerate more wrong bits. For example, with 12 rows and every fifth bit wrong,
     // only half of the windows are found.
     for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::microdots}) {
@@ -159,9 +157,8 @@ TEST(FindAxis, RandomBitsAreNotInTheCodeOrScoreLow) {
         ScoredWindow lines = window(CodeVariant::anoto, random_place(rng), 20, 12, 0.5, rng);
         AxisReading reading;
         if (lines.find(CodeVariant::anoto, reading) == Status::not_in_code) continue;
-        // A line of 12 random bits agrees with its best roll in 9 or 10 bits. Only the 6 lines of
-        // the selected run reach this score, because the other 14 lines score 0 on average. The
-        // best of 15 runs scores slightly more than an average run.
+        // Each of the 6 lines of the selected run agrees with its best roll in 9 or 10 of 12 bits.
+        // The other 14 lines score 0 on average, so the total score is far below the maximum.
         EXPECT_FALSE(reading.is_clear()) << i << ", seed " << kSeed;
         EXPECT_LT(reading.score, reading.max_possible * 7 / 10) << i << ", seed " << kSeed;
     }
@@ -175,7 +172,7 @@ TEST(FindAxis, FewerLinesThanCarryAPositionAreNotInTheCode) {
                       .find(CodeVariant::anoto, reading),
                   Status::not_in_code);
     }
-    // Because of the misprint in a4, the code `libdots` needs two more lines.
+    // Because of the misprint in a4, the code `libdots` needs eight lines instead of six.
     const Place place = random_place(rng);
     EXPECT_EQ(
         window(CodeVariant::libdots, place, 7, 12, 0, rng).find(CodeVariant::libdots, reading),

@@ -13,7 +13,8 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 71;
 
-/// Reads the lines, with `bits` bits each. Hidden lines have no bits.
+/// Appends lines with `bits` bits each, of which the fraction `wrong` is wrong. Hidden lines have
+/// no bits.
 template <typename IsHidden>
 void read_lines(RatiosCase& c, int bits, double wrong, Rng& rng, IsHidden is_hidden) {
     for (std::size_t i = 0; i < c.rolls.size(); ++i) {
@@ -36,8 +37,8 @@ TEST(SearchBySteps, ReadsLinesOnBothSidesOfHiddenOnes) {
     Rng rng(kSeed);
     int right = 0;
     for (int i = 0; i < 300; ++i) {
-        // On each side of the hidden lines, five consecutive lines have bits. The window decoder
-        // needs six.
+        // Only five consecutive lines on each side of the hidden lines have bits, and the window
+        // decoder needs six.
         const std::size_t hidden = 1 + rng.below(3);
         RatiosCase c = at_random_place(rng, 10 + static_cast<int>(hidden));
         read_lines(c, 12, 0.03, rng,

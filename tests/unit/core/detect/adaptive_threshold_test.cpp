@@ -11,8 +11,8 @@ namespace {
 
 using namespace core;
 
-/// Returns an image of uniform paper with dark squares of 2 x 2 px every 8 px. The squares are in
-/// rows in which the tiles are measured.
+/// Returns an image of uniform paper with dark squares of 2 x 2 px every 8 px. Only some rows of a
+/// tile are measured, and each square covers such a row.
 GreyImage dotted(int width_px, int height_px, int paper, int ink) {
     GreyImage image = blank(width_px, height_px, paper);
     for (int v = 2; v + 2 <= height_px; v += 8) {
@@ -32,7 +32,7 @@ void for_each_band(const GreyImage& image, const ThresholdOptions& options,
         const int ready = take_row(image.view().row(v), threshold);
         ASSERT_GE(ready, 0);
         for (int i = 0; i < ready; ++i, ++next) {
-            // All rows of the band, and of the band below, have been received.
+            // The band and the band below it must have been received completely.
             ASSERT_LE(std::min(band_end(threshold, next + 1), image.height_px), v + 1);
             measure_levels(next, options, threshold);
             visit(next);
@@ -71,8 +71,8 @@ TEST(AdaptiveThreshold, ThresholdsLieAtTheirSharesOfTheContrast) {
                       [&, p = paper, i = ink](int) {
                           for (int t = 0; t < 8; ++t) {
                               const Levels level = levels_of_tile(w.threshold, t);
-                              // The third and seventh row of a tile are measured. A quarter of the
-                              // third row is ink.
+                              // The third and the seventh row of a tile are measured. A quarter of
+                              // the third row is ink, which is an eighth of the measured pixels.
                               const double mean = std::floor(p - (p - i) / 8.0);
                               // The contrast is quantised to 1/64 of the paper's level.
                               const double step = mean / 64 + 1;
@@ -89,8 +89,8 @@ TEST(AdaptiveThreshold, ThresholdsLieAtTheirSharesOfTheContrast) {
 
 TEST(AdaptiveThreshold, LevelsAreTheSameInAllColumnsOfATile) {
     LargeWorkspace w;
-    // Tiles have several heights, and some are cut by the border. The light changes from tile to
-    // tile.
+    // The images have tiles of different heights, and tiles that the border cuts. The light changes
+    // from tile to tile.
     for (const auto& [width, height] :
          {std::pair{120, 80}, std::pair{101, 64}, std::pair{400, 256}, std::pair{397, 250}}) {
         SCOPED_TRACE(testing::Message() << width << " x " << height);
@@ -149,8 +149,8 @@ TEST(AdaptiveThreshold, ADefectPixelIsHalfAsDarkAsInk) {
                         dark_tiles += levels_of_tile(w.threshold, t).low > 0;
                 });
                 const bool is_pair = width == 2 && u % 2 == 0;
-                // The tile of the mark and its eight neighbours count as dark. If the mark is split
-                // over two tiles, the two tiles and their ten neighbours count as dark.
+                // The tile of the mark and its eight neighbours count as dark. A mark across the
+                // border of two tiles makes these tiles and their ten neighbours dark.
                 const bool is_split = width == 2 && u == 31;
                 EXPECT_EQ(dark_tiles, min_contrast == 100 && !is_pair ? 0
                                       : is_split                      ? 12
@@ -170,8 +170,8 @@ TEST(AdaptiveThreshold, BlankAreasHaveNoInk) {
             }
         });
     }
-    // A contrast below the minimum counts as blank, and a contrast above it does not. Tiles far
-    // from the ink remain blank.
+    // If the contrast of the ink is below the minimum, all tiles are blank. Otherwise, only the
+    // tiles near the ink are not blank.
     ThresholdOptions options;
     options.min_contrast = 20;
     for (const int ink : {185, 150}) {
@@ -191,8 +191,8 @@ TEST(AdaptiveThreshold, WhatIsAsPaleAsNoiseIsBlankOnceOthersShowInk) {
     SmallWorkspace w;
     ThresholdOptions options;
     options.min_contrast = 8;
-    // From top to bottom, the image has a spot as pale as noise, a spot of ink, and another pale
-    // spot.
+    // From top to bottom, the image contains a pale spot, a spot of ink, and another pale spot. The
+    // pale spots have the contrast of noise.
     GreyImage image = blank(120, 120);
     fill(image, 18, 18, 20, 20, 190);
     fill(image, 98, 50, 100, 52, 80);

@@ -21,8 +21,8 @@ constexpr std::uint64_t kSeed = 22;
 constexpr double kWorstShift_px = 0.25;
 constexpr double kUsualShift_px = 0.11;
 
-/// Returns an image with a picture, whose top left corner is at (u0, 30). Each letter other than
-/// '.' is a square of ink of 2 x 2 px.
+/// Returns an image with ink that is drawn from text. Each letter other than '.' is a square of 2 x
+/// 2 px of ink. The first letter is at (u0, 30).
 GreyImage drawn(std::initializer_list<std::string_view> picture, int u0 = 30) {
     GreyImage image = blank(96, 80);
     int v = 30;
@@ -75,7 +75,7 @@ TEST(Blobs, DotsThatTouchAreOneAndDotsThatDoNotAreTwo) {
     }
 }
 
-/// Expects one blob that consists of all pixels drawn, with the same centroid.
+/// Expects that the picture gives one blob, with the area and the centroid of all its ink.
 void expect_one(std::initializer_list<std::string_view> picture) {
     Vec2 sum;
     int area = 0;
@@ -90,13 +90,13 @@ void expect_one(std::initializer_list<std::string_view> picture) {
         shape.append(line).append("\n");
         ++v;
     }
-    // At these columns the shape is within one tile, or across the border of two tiles.
+    // Depending on `u0`, the shape is within one tile, or across the border of two tiles.
     for (const int u0 : {24, 29, 33}) {
         const auto dots = blobs_of(drawn(picture, u0));
         ASSERT_EQ(dots.size(), 1u) << shape << "at " << u0;
         EXPECT_EQ(dots[0].area_px, 4 * area) << shape << "at " << u0;
         const Vec2 centre = Vec2{u0 + 0.5, 30.5} + 2.0 / area * sum;
-        // Levels and weights vary by a few percent from tile to tile.
+        // The weights of the pixels vary by a few percent from tile to tile.
         EXPECT_LT(nearest_px(dots, centre), 0.3) << shape << "at " << u0;
     }
 }
@@ -299,7 +299,8 @@ void compare_with_flooding(GreyImage image) {
                 continue;
             }
             ++all;
-            // With any lens and spacing, dots are smaller than this limit.
+            // Larger sets may be rejected, because dots are smaller than 30 px with any lens and at
+            // any spacing.
             if (blob.right - blob.left > 30 || blob.bottom - blob.top > 30) continue;
             ++least;
             ASSERT_TRUE(contains(blob))
@@ -332,7 +333,7 @@ TEST(Blobs, RandomPixelsFormTheSetsThatFloodingFinds) {
     }
 }
 
-/// The list after the size filter, and the number of dots that the filter keeps.
+/// Dots after the size filter. The first `count` dots are those that the filter keeps.
 struct Sifted {
     std::vector<DetectedDot> dots;
     int count = 0;
@@ -351,7 +352,7 @@ TEST(Blobs, TheSizeFilterIsRelativeToTheMedianDot) {
         for (int i = 0; i < 300; ++i)
             dots.push_back(dot_at({i * 1.0, 50}, 1000 * scale, 8 * scale));
         BlobOptions options;
-        options.min_mass_q8 = 64;  // a quarter of the median mass
+        options.min_mass_q8 = 64;  // a quarter of the upper quartile
         options.max_area_ratio = 3;
         dots[10] = dot_at({10, 50}, 240 * scale, 8 * scale);
         dots[20] = dot_at({20, 50}, 260 * scale, 8 * scale);

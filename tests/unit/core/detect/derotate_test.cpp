@@ -1,5 +1,5 @@
-// Tests that the rotation during the readout is removed from images and from points. The simulated
-// camera gives the expected results.
+// Tests that the rotation during the readout is removed from images and from points. The expected
+// results come from a simulated camera that does not rotate.
 #include "core/detect/derotate.hpp"
 
 #include <cmath>
@@ -32,7 +32,7 @@ core::ReadoutTurn turn_of(const CameraModel& camera) {
 }
 
 TEST(ReadoutTurn, SeparatesTheRotationFromTheMotion) {
-    // Renders one scene twice: with motion only, and with motion and rotation.
+    // Projects each point twice: with motion only, and with motion and rotation.
     const Vec2 motion{20, -12};
     const CameraModel moving = turning_camera(0, motion);
     for (const double turn_rad : {-0.9, 0.05, 0.6}) {
@@ -70,7 +70,7 @@ TEST(ReadoutTurn, ThePlaneOfASquareGridShowsTheDrift) {
 }
 
 TEST(Derotated, IsTheImageOfAStillScene) {
-    constexpr int kBorder_px = 40;  // the rotation moves new parts of the scene into the corners
+    constexpr int kBorder_px = 40;  // the rotation moves other parts of the scene into this border
     // Maximum mean difference, in grey levels. It is small, because most pixels are paper and do
     // not differ.
     constexpr double kMaxMeanDifference = 1;

@@ -69,15 +69,14 @@ std::unique_ptr<Patch> lit_patch(int width_px, int height_px, int paper, int dar
 TEST(PatchContrast, IsThatOfTheTypicalTile) {
     for (const int darkest : {20, 60, 100, 140, 170}) {
         const auto patch = lit_patch(160, 96, 200, darkest);
-        // A few tiles are black, and a few tiles are blank.
+        // A few black tiles and a few blank tiles must not change the result.
         for (std::size_t i = 0; i < 3; ++i)
             patch->darkness[i] = 255;
         for (std::size_t i = 5; i < 8; ++i)
             patch->darkness[i] = 55;
         ASSERT_TRUE(core::measure_contrast(*patch));
         EXPECT_NEAR(patch->dot_contrast_q8, 256.0 * (200 - darkest) / 200, 4.1);
-        // The threshold is between the levels of dot and paper, closer to the dot. In a darker
-        // tile, it is scaled with the light.
+        // The threshold is darker than the paper by 150 / 256 of the contrast.
         const double depth = (200 - darkest) / 200.0;
         EXPECT_NEAR(patch->thresholds[2], 200 * (1 - depth * 150 / 256), 3);
     }
@@ -99,7 +98,7 @@ TEST(PatchContrast, ThresholdsFollowTheLight) {
 TEST(PatchContrast, WhatIsBlankHasNone) {
     EXPECT_FALSE(core::measure_contrast(*lit_patch(160, 96, 200, 195)));
     EXPECT_FALSE(core::measure_contrast(*lit_patch(160, 96, 0, 0)));
-    // Only a few tiles contain dark pixels.
+    // A patch is blank if only a few of its tiles contain dark pixels.
     const auto patch = lit_patch(160, 96, 200, 199);
     for (std::size_t i = 0; i < 10; ++i)
         patch->darkness[i] = 200;

@@ -17,14 +17,15 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 61;
 
-/// A row of an image, with levels that vary from tile to tile.
+/// A row of an image, with random thresholds that vary from tile to tile.
 struct Row {
     LargeWorkspace workspace;
     AdaptiveThreshold& threshold = workspace.threshold;
 
     void draw(Rng& rng, int width_px) {
         std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width_px));
-        // Rows range from a few specks to almost no paper, with grey levels near the thresholds.
+        // Random fraction of dark pixels. In half of the tiles, all grey levels are at the
+        // thresholds, or one level below them.
         const double dark_share = rng.uniform(0, 1);
         begin_threshold(width_px, kMinFrameSide_px, threshold);
         for (int u = 0; u < whole_width(threshold); u += kTileWidth_px) {

@@ -58,7 +58,7 @@ TEST(Smooth, SinglePixelsVanish) {
         }
         EXPECT_NEAR(found.view().row(60)[90], kNormalLevel, 1);
     }
-    // Two adjacent pixels are a dark spot and not an impulse.
+    // Two adjacent pixels are not removed, because they are not an impulse.
     GreyImage image = blank(188, 120);
     fill(image, 90, 60, 92, 61, 0);
     EXPECT_LT(smoothed(image).view().row(60)[90], kNormalLevel - 30);

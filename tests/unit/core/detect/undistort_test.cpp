@@ -75,15 +75,16 @@ TEST(Undistort, TheLensMayBeCentredElsewhere) {
     }
 }
 
-// Regression: on a plane seen edge-on, the fuzzer found points far outside the image.
+// Regression: the distortion of points far outside the image overflowed. The fuzzer found such
+// points on a plane seen edge-on.
 TEST(Undistort, PointsFarOutsideTheImageKeepTheirDirection) {
     for (const std::int32_t k_q40 : {-385875968, INT32_MIN, INT32_MAX}) {
         const FixedLens lens{k_q40};
         for (const int far_px : {4096, 11'500, 1'000'000}) {
             const FixedVec r{far_px * 256, -far_px * 128};
-            // `distorted` multiplies by 2 / (1 + root), with the root limited to 0 to 4. For barrel
-            // distortion, the root is 4. For pincushion distortion, no image point maps to this
-            // distance, and the root is 0.
+            // `distorted` multiplies by 2 / (1 + root), where the root is limited to the range 0 to
+            // 4. For barrel distortion, the root is 4. For pincushion distortion, no image point
+            // maps to this distance, and the root is 0.
             const int fifths = k_q40 < 0 ? 2 : 10;
             const FixedVec seen = core::distorted(lens, {}, r);
             EXPECT_NEAR(seen.x, r.x / 5 * fifths, far_px) << k_q40;

@@ -17,7 +17,7 @@ using namespace core;
 constexpr std::uint64_t kSeed = 61;
 constexpr int kReach_px = 94;
 
-/// Returns the plane of a camera that is tilted by some degrees and has lens distortion.
+/// Returns the plane of a camera that is tilted by a few degrees and has lens distortion.
 PlaneFromImage random_plane(Rng& rng) {
     const double theta = rng.uniform(-std::numbers::pi, std::numbers::pi);
     const double per_px = 1 / rng.uniform(8, 14);
@@ -42,7 +42,7 @@ ScaledPlane scaled(const PlaneFromImage& plane) {
     return {float_plane(plane), kReach_px};
 }
 
-/// Returns the places of four pixels: `pixel_q8`, and three arbitrary pixels.
+/// Projects four pixels to the pattern: `pixel_q8`, and three arbitrary pixels.
 FourVecs project(const ScaledPlane& scaled, const PlaneFromImage& plane, FixedVec pixel_q8) {
     const auto x = static_cast<float>(pixel_q8.x - plane.centre_q8.x) / 256;
     const auto y = static_cast<float>(pixel_q8.y - plane.centre_q8.y) / 256;
@@ -126,14 +126,15 @@ TEST(ScaledPlane, DistortionsAreWhatMakesItDifferFromAPlainCamera) {
         value = -value;
     const FloatPlane plain = scaled(plane).changed(off);
     EXPECT_NEAR(plain.bend, 0, 1e-11);
-    // Removing the shear, which is 1 %, slightly rotates the remaining tilt.
+    // The tilt is not exactly 0, because removing the shear of about 1 % slightly rotates it.
     EXPECT_NEAR(plain.tilt_x, 0, 2e-5);
     EXPECT_NEAR(plain.tilt_y, 0, 2e-5);
     EXPECT_NEAR(plain.du_x, plain.dv_y, 2e-5);
     EXPECT_NEAR(plain.du_y, -plain.dv_x, 2e-5);
 }
 
-/// Normal equations of many points. The change `step` of the parameters causes all residuals.
+/// Normal equations of many points. Their residuals are those caused by changing the parameters by
+/// `step`.
 struct Problem {
     static constexpr int kPoints = 150;
     PlaneNormal normal;
@@ -183,7 +184,8 @@ TEST(PlaneNormal, FindsTheStepThatExplainsTheResiduals) {
                     1e-4 * problem.squared_residuals);
         ASSERT_TRUE(problem.normal.decompose());
         const Parameters white = problem.normal.whitened(problem.normal.right());
-        // The known step explains all residuals.
+        // The step explains all residuals, so the explained sum equals the sum of the squared
+        // residuals.
         double explained = 0;
         for (const float part : white)
             explained += static_cast<double>(part * part);

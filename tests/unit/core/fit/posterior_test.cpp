@@ -1,4 +1,4 @@
-// Tests the posterior of the distortion terms against integrals over all their values.
+// Tests the posterior of the distortion terms against numerical integration.
 #include "core/fit/posterior.hpp"
 
 #include <cmath>
@@ -16,8 +16,8 @@ constexpr std::uint64_t kSeed = 62;
 constexpr DistortionPrior kTwo{kTilt, 2, {{{0.3F, 0}, {0.5F, 0.02F}, {0.2F, 0.2F}}}};
 constexpr DistortionPrior kOne{kBend, 1, {{{0.6F, 0}, {0.3F, 0.02F}, {0.1F, 0.2F}}}};
 
-/// Returns the normal equations of random points, which determine all parameters. The errors of the
-/// parameters are correlated.
+/// Returns the normal equations of random points. The points determine all parameters, and the
+/// errors of the parameters are correlated.
 PlaneNormal random_normal(Rng& rng) {
     const auto random = [&] {
         Four values;

@@ -58,11 +58,10 @@ TEST(Alternatives, GetFewerWithEveryColumn) {
             ASSERT_LT(log2, before) << columns << " columns, window " << i << ", seed " << kSeed;
             before = log2;
         }
-        // Positions that share five of 17 lines differ in twelve lines, by at least two of twelve
-        // bits each. The odds of each of these 2^29 positions are at most 2^-120. The result is
-        // larger than these odds, because small odds count as 2^-56.
+        // Positions that share five of 17 lines differ in twelve lines, by at least two bits each.
+        // With odds of 2^-5 per bit, the odds of each of these 2^29 positions are at most 2^-120.
+        // The result is larger than these odds, because small odds count as 2^-56.
         EXPECT_LE(before, -40);
-        // Higher odds per bit reduce the odds of the alternatives.
         EXPECT_LT(alternatives_of_window(code, place, 8, 2 * kOdds_q8),
                   alternatives_of_window(code, place, 8, kOdds_q8));
     }
@@ -81,9 +80,9 @@ TEST(Alternatives, FewLinesExcludeNone) {
 using Odds = std::array<float, kSections>;
 
 /// Returns the expected sum of the odds of all alternatives that differ in two or more sequences,
-/// for two adjacent lines. `first` and `second` are the odds of these lines at each roll offset.
-/// The first line of the reading is at `position`. Enumerates every digit of every sequence that
-/// differs. The result is multiplied by `factor`, once for the step between the lines.
+/// for a reading of two adjacent lines. The first line is at `position`. `first` and `second` are
+/// the odds of the two lines at each roll offset. `factor` is the safety factor for the step
+/// between the lines.
 double two_lines(std::uint32_t position, const Odds& first, const Odds& second, double factor) {
     constexpr std::array<int, 4> kBases{3, 3, 2, 3};
     const auto texts = code_test::secondary_texts(CodeVariant::anoto);
@@ -99,7 +98,7 @@ double two_lines(std::uint32_t position, const Odds& first, const Odds& second, 
         if (sequences < 2) continue;
         int cases = 0;
         double sum = 0;
-        // The digits of the alternative are packed into one number: 3 x 3 x 2 x 3.
+        // `alternative` contains one digit of each sequence, in the mixed radix 3 x 3 x 2 x 3.
         for (int alternative = 0; alternative < 54; ++alternative) {
             int difference = 0;
             bool counts = true;
@@ -152,8 +151,9 @@ TEST(ExpectedAlternatives, OfOneLineAreAllInProportion) {
     Odds odds{};
     odds[0] = 1;
     odds[17] = 0.25F;
-    // The number of alternatives that differ in two or more sequences: (1 + a1) ... (1 + a4), minus
-    // the reading itself and the alternatives that differ in one sequence.
+    // Expected number of alternatives that differ in two or more sequences: the product of 1 +
+    // length over all sequences, minus 1 for the reading itself, minus the alternatives that differ
+    // in one sequence.
     const double alternatives = 237.0 * 234 * 32 * 242 - 1 - (236 + 233 + 31 + 241);
     EXPECT_NEAR(static_cast<double>(sum_of(7, 4, {odds})) / (1.25 * alternatives), 1, 1e-5);
 }

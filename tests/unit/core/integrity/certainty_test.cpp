@@ -77,9 +77,8 @@ TEST(IsCertain, AcceptsWhatIsClearlyRead) {
     }
 }
 
-/// Returns a block that its own place and an alternative explain equally well. In the columns where
-/// they differ, half of the distinguishing bits agree with the own place, and half with the
-/// alternative.
+/// Returns a block that agrees with its own place and with an alternative equally well. Of the bits
+/// in which the two places differ, half agree with each place.
 Block between(const Block& block, const std::vector<int>& own,
               const std::vector<int>& alternative) {
     Block mixed = block;
@@ -106,7 +105,8 @@ TEST(IsCertain, RefusesWhatAnAlternativeExplainsAsWell) {
         const Block block = cut_block(code_test::kCodeVariants[static_cast<std::size_t>(i % 3)],
                                       any_place(rng), 11, 12);
         const auto own = rolls_of(block, true, 0, 0, 0);
-        // The worst alternative differs in the minimum number of bits.
+        // Select the worst alternative: the one that contradicts the fewest bits of the block, but
+        // at least one.
         std::vector<int> worst;
         int fewest = INT32_MAX;
         const auto texts = code_test::secondary_texts(block.code);
@@ -162,7 +162,7 @@ TEST(IsCertain, RefusesTwoPatternsWhateverTheLimit) {
     }
 }
 
-/// Returns the verdict of `verify` on the same bits.
+/// Returns the verdict of `verify` on the bits of a block.
 Verdict verify_block(const Block& block, const IntegrityOptions& options) {
     std::vector<GridCell> cells(block.x.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {

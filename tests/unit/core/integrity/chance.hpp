@@ -1,4 +1,4 @@
-// Computes the exact probability of a match by chance.
+// Computes the exact probability that random bits agree with the code.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace dotpose::core_test {
 
 /// Returns log2((L * 63 * 4) * P(Binomial(n, 1/2) <= e)) for e = 0 to n. The sum of the binomial
-/// coefficients is scaled by a power of two.
+/// coefficients is computed in logarithms.
 inline std::vector<long double> exact_chance_log2(int n) {
     const long double hypotheses = std::log2(410815348.0L * 63 * 4);
     std::vector<long double> result;

@@ -65,8 +65,8 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
 }
 
 TEST(OddsPerBit, GrowWithTheWeightOfWhatIsRight) {
-    // If the same fraction of bits with half the weight is wrong, log2 of the odds of a bit with
-    // full weight is about twice as large.
+    // The odds are those of a bit with full weight. If bits with half the weight have the same
+    // fraction of errors, log2 of the odds is about twice as large.
     const double full = odds_per_bit_q8(confidence(1000, 124, 50));
     const double half = odds_per_bit_q8(confidence(1000, 60, 50));
     EXPECT_GT(half, 1.7 * full);
@@ -132,7 +132,7 @@ TEST(Chance, InFineStepsOfThreeTimesAsManyHypothesesIsABoundToo) {
             const double fine = chance_log2_q8(bits, odds, kThree_q8) / 256.0;
             ASSERT_GE(fine, exact[static_cast<std::size_t>(e)] + std::log2(3.0L) - 1e-9L);
             ASSERT_LE(fine, chance_log2(bits, odds) + kThree_q8 / 256.0);
-            // Without errors, the odds of certain bits give the best bound, which is nearly exact.
+            // Without errors, the bound is nearly exact.
             if (e == 0) {
                 ASSERT_LE(fine, exact[0] + std::log2(3.0L) + 0.05L);
             }

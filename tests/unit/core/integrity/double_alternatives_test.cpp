@@ -18,12 +18,12 @@ using namespace core;
 constexpr std::uint64_t kSeed = 46;
 constexpr int kLines = 9;
 constexpr int kOdds_q8 = 3 * 256;
-/// Minimum of the sum, because each of the 190,027 pairs of places counts at least 2^-64 at each
-/// shift.
+/// Minimum of the computed sum, because each of the 190,027 pairs of places counts at least 2^-64
+/// at each shift.
 constexpr double kFloor = 190'027.0 * 63 * 0x1p-64;
 
-/// Lines that agree with a position. The rolls of the position have the score 1000. All other rolls
-/// have random scores from `least` to `least` + 600.
+/// Lines that agree with a position. In each line, the roll of the position has the score 1000. The
+/// other rolls have random scores from `least` to `least` + 599.
 struct Case {
     Case(Rng& rng, int least) : position(rng.below(kPositionsPerAxis)) {
         lines.all = storage;
@@ -46,8 +46,9 @@ struct Case {
     AxisReading reading;
 };
 
-/// Returns the sum over every pair of places in two sequences, at every shift that shares some
-/// line.
+/// Returns the sum of the odds of all double alternatives, relative to the position. A double
+/// alternative is at another place in two of the sequences. Each is counted at every shift (0 to
+/// 62) at which at least one line has the same roll as the position.
 double exact_sum(const Case& c) {
     const auto texts = code_test::secondary_texts(CodeVariant::anoto);
     const int first_roll = roll(CodeVariant::anoto, c.position);
@@ -95,7 +96,8 @@ double exact_sum(const Case& c) {
 
 TEST(DoubleAlternativesAtLength, AreSummedOneByOne) {
     Rng rng(kSeed);
-    // The score of the reading is 1000, so in the last case other rolls fit some lines better.
+    // In each line, the roll of the position has the score 1000. The scores of the other rolls are
+    // at most `least` + 599, so only at 420 can they exceed 1000.
     for (const int least : {-600, -200, 420}) {
         const Case c(rng, least);
         const LikelihoodRatios ratios(CodeVariant::anoto, c.lines, c.reading, kOdds_q8);

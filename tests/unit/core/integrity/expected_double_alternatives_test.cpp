@@ -1,5 +1,5 @@
 // Tests the expected odds of double alternatives (positions that differ in two sequences) against a
-// sum in double precision over every digit of every pair of places.
+// sum in double precision over all strings of digits in both sequences.
 #include "core/integrity/expected_double_alternatives.hpp"
 
 #include <gtest/gtest.h>
@@ -16,9 +16,9 @@ constexpr std::array<int, 4> kBases{3, 3, 2, 3};
 
 using ByAnchors = std::array<double, kMinFound>;
 
-/// Adds the odds of the alternatives with these roll offsets, at each of the 63 shifts, to `sums`.
-/// Alternatives that share n anchors are added to sums[n]. The anchors are the first `anchors`
-/// lines by rank.
+/// For each of the 63 shifts, adds the odds of the alternative with these roll offsets to sums[n],
+/// where n is the number of anchors that the alternative shares. The anchors are the lines with a
+/// rank below `anchors`.
 void add_alternative(const RatiosCase& c, const RankedLines& lines, int anchors,
                      const std::array<int, kLines>& offsets, double weight, ByAnchors& sums) {
     for (int first = 0; first < 63; ++first) {

@@ -62,7 +62,8 @@ core::BitBlock block_of(const Cells& cells) {
     return block;
 }
 
-/// Returns the number of bits of a block that contradict the code with cell (0, 0) at `place`.
+/// Returns, for each axis, the number of bits that contradict the code if cell (0, 0) of the block
+/// is at `place`.
 std::array<int, 2> wrong_bits(const core::BitBlock& block, CodeVariant code, const Place& place) {
     std::array<int, 2> wrong{};
     for (int column = -kMiddle; column < kMiddle; ++column) {
@@ -169,8 +170,8 @@ TEST(KnownPlaces, UnknownSheetsMayHaveTheSameRows) {
         const auto best = core::find_known_place(core::kernels(), block, sheets);
         return best ? wrong_at(block, sheets, *best) : 1;
     };
-    // An unknown sheet may have the same rows and, by chance, the same 25 bits of the other axis.
-    // The factor 4 is the product of two axes and two positions with each roll.
+    // An unknown sheet may have the same rows and, by chance, also the same 25 bits of the other
+    // axis. The factor 4 stands for two axes, and for two positions with each roll.
     EXPECT_GE(wrong_if(OtherSheets::possible), 4 * std::exp2(-25.0));
     EXPECT_LT(wrong_if(OtherSheets::impossible), std::exp2(-25.0));
 }

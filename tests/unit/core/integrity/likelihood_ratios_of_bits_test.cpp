@@ -105,8 +105,8 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanThereIs) {
     for (int round = 0; round < 200; ++round) {
         Columns columns(rng);
         const int estimate_q8 = quick_alternatives_log2_q8(columns.of_bits());
-        // The exact sum counts alternatives one by one, and is rounded up to a power of two several
-        // times.
+        // The exact sum is rounded up to a power of two several times, which may make it four times
+        // too large.
         const int counted = alternatives_log2(kernels(), columns.of_weights());
         // The exact sum counts small odds as 2^-56. For several thousand alternatives, this adds up
         // to 2^-42.

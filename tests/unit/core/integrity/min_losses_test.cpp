@@ -40,7 +40,8 @@ int min_loss_of_patterns(const std::vector<int>& losses, int max_shared) {
     return least;
 }
 
-/// Returns the loss of the best other roll of each line. A gain counts as 0.
+/// Returns, for each line, the score of its roll minus the maximum score of the other rolls. A
+/// negative difference counts as 0.
 std::vector<int> losses_of(const RatiosCase& c) {
     std::vector<int> losses;
     for (std::size_t line = 0; line < c.rolls.size(); ++line) {

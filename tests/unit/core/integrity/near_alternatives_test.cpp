@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 52;
 
-/// Returns the places of line 0 in the sequence `text` for which the `digits` digits after line
-/// `run` equal those of the reading. In the reading, line 0 is at place `own`.
+/// Returns the places p in the sequence `text` for which digits p + run to p + run + digits - 1
+/// equal the corresponding digits of the place `own`.
 std::vector<std::uint32_t> places_with_digits(const std::string& text, std::uint32_t own, int run,
                                               int digits) {
     const auto digit = [&](std::uint32_t place, int n) {

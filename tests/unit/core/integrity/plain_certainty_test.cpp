@@ -16,8 +16,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 79;
 
-/// Returns the verdict on the claim that the bits of a block are at the place `claimed`. The
-/// verdict is computed from the bits alone.
+/// Returns the verdict on the claim that the bits of a block are at the place `claimed`.
 Verdict judge_plainly(const Block& block, const Place& claimed,
                       const IntegrityOptions& options = {}) {
     Block there = block;

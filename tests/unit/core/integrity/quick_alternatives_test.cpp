@@ -27,8 +27,8 @@ RatiosCase random_case(Rng& rng) {
     return c;
 }
 
-/// Returns the sum of the odds of all other places of one sequence, at every shift that shares a
-/// line with the reading.
+/// Returns the sum of the odds of all other places of one sequence, over the shifts at which a
+/// place shares a line with the reading.
 double sum_of_singles(const RatiosCase& c) {
     const auto texts = code_test::secondary_texts(c.code);
     const std::size_t count = c.rolls.size();
@@ -54,7 +54,8 @@ double sum_of_singles(const RatiosCase& c) {
                     lost += c.storage[line].scores[static_cast<std::size_t>(c.rolls[line])] -
                             c.storage[line].scores[static_cast<std::size_t>(other)];
                 }
-                // The loss of score is twice the weight of the bits that change sign.
+                // Each bit that contradicts only the alternative reduces the score by twice its
+                // weight.
                 if (shares) sum += std::exp2(-lost / 2 / 127 * c.odds_q8 / 256);
             }
         }
@@ -132,8 +133,9 @@ TEST(QuickAlternatives, AreNoFewerThanACloseLookShows) {
         if (quick == 0) continue;
         ++told;
         const int counted = alternatives_log2(kernels(), c.ratios());
-        // The exact sum may count alternatives twice, and is rounded up to a power of two. Below
-        // the usual limit, expectations may be multiplied by 32.
+        // The exact sum may be up to four times too large, because alternatives may count twice,
+        // and the sum is rounded up to a power of two. Small sums are not compared, because they
+        // may contain expectations multiplied by 32.
         if (counted <= -33) continue;
         EXPECT_GE(quick, counted - 2) << "case " << i << ", seed " << kSeed;
         ++compared;

@@ -28,8 +28,8 @@ struct RatiosCase {
     LikelihoodRatios ratios() const { return {code, lines(), reading(), odds_q8}; }
 };
 
-/// Returns a line of `bits` bits of the main sequence with weights up to `most`. The fraction
-/// `wrong` of the bits is flipped.
+/// Returns a line of `bits` bits of the main sequence, with random weights between `most` / 2 and
+/// `most`. The fraction `wrong` of the bits is flipped.
 inline ScoredLine scored_line(int roll, int bits, double wrong, int most, Rng& rng) {
     std::vector<std::int8_t> weights;
     for (int i = 0; i < bits; ++i) {
@@ -45,7 +45,8 @@ inline ScoredLine scored_line(int roll, int bits, double wrong, int most, Rng& r
     return line;
 }
 
-/// Returns a case with the rolls of lines at a random place. The caller adds the lines.
+/// Returns a case at a random place, with the rolls of `lines` lines. The caller adds the scores of
+/// the lines to `storage`.
 inline RatiosCase at_random_place(Rng& rng, int lines) {
     RatiosCase c;
     c.code = code_test::kCodeVariants[rng.below(3)];
@@ -60,7 +61,7 @@ inline RatiosCase at_random_place(Rng& rng, int lines) {
     return c;
 }
 
-/// Returns lines of 6 to 11 bits, a tenth of which are wrong.
+/// Returns a case at a random place, with lines of 6 to 11 bits. A tenth of the bits are wrong.
 inline RatiosCase read_at_random(Rng& rng, int lines) {
     RatiosCase c = at_random_place(rng, lines);
     c.odds_q8 = 3 * 256;
@@ -80,8 +81,8 @@ inline PlacesOfAlternative own_places(const RatiosCase& c) {
     return places;
 }
 
-/// Returns the rolls of the lines that start at these places, shifted to give line `shared` the
-/// roll of the reading.
+/// Returns the rolls of the lines of an alternative that starts at `places`. The rolls are shifted
+/// so that line `shared` has the same roll as in the reading.
 inline std::vector<int> rolls_from(const RatiosCase& c, const PlacesOfAlternative& places,
                                    std::size_t shared) {
     const auto texts = code_test::secondary_texts(c.code);
@@ -111,7 +112,8 @@ inline double odds_of_rolls(const RatiosCase& c, const std::vector<int>& rolls) 
     return std::max(std::exp2(-lost * c.odds_q8 / 256 / 254), 0x1p-64);
 }
 
-/// Returns the first line in which `rolls` agrees with the rolls of the reading.
+/// Returns the first line in which `rolls` agrees with the rolls of the reading, or the number of
+/// lines if there is none.
 inline std::size_t first_shared(const RatiosCase& c, const std::vector<int>& rolls) {
     std::size_t line = 0;
     while (line < rolls.size() && rolls[line] != c.rolls[line])

@@ -49,8 +49,8 @@ std::vector<Alternative> all_alternatives(const RatiosCase& c) {
     return alternatives;
 }
 
-/// Returns the minimum loss of an alternative in the lines [first, end), over the shifts at which
-/// it shares a line in view.
+/// Returns the loss of an alternative in the lines [first, end), at the shift that minimises it.
+/// Only shifts at which the alternative shares a line with the reading count.
 double min_loss(const RatiosCase& c, const Alternative& alternative, std::size_t first,
                 std::size_t end) {
     double least = std::numeric_limits<double>::infinity();
@@ -72,14 +72,15 @@ struct Sum {
     int terms = 0;
 };
 
-/// Returns the sum of the odds over all alternatives and borders. Excludes negligible odds.
+/// Returns the sum of the odds of all alternatives at all borders. Excludes alternatives whose odds
+/// are at most 2^kMinLog2 without the factor for the seam.
 Sum sum_of_all(const RatiosCase& c) {
     Sum sum;
     for (const Alternative& alternative : all_alternatives(c)) {
         for (std::size_t border = 1; border < c.rolls.size(); ++border) {
             const double lost = min_loss(c, alternative, 0, border) +
                                 min_loss(c, alternative, border, c.rolls.size());
-            // The loss of score is twice the weight of the bits that change sign.
+            // Each bit that contradicts only the alternative reduces the score by twice its weight.
             const double odds = -lost / 2 / 127 * c.odds_q8 / 256;
             if (odds <= kMinLog2) continue;
             sum.odds += std::exp2(odds + kSeamLog2);
@@ -89,7 +90,7 @@ Sum sum_of_all(const RatiosCase& c) {
     return sum;
 }
 
-/// Returns lines of 10 to 16 certain bits.
+/// Returns lines of 10 to 16 bits, all of which are correct.
 RatiosCase clear_lines(Rng& rng, int lines) {
     RatiosCase c = at_random_place(rng, lines);
     for (const int own : c.rolls)
@@ -107,7 +108,7 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
         RatiosCase c = at_random_place(rng, 6 + static_cast<int>(rng.below(12)));
         const double wrong = rng.uniform(0, 0.1);
         for (const int own : c.rolls) {
-            // Some lines have few bits, or bits that belong to a random roll.
+            // Some lines have only 3 bits, or bits that belong to a random roll.
             const int shown = rng.below(15) == 0 ? static_cast<int>(rng.below(63)) : own;
             const int bits = rng.below(3) == 0 ? 3 : 6 + static_cast<int>(rng.below(10));
             c.storage.push_back(scored_line(shown, bits, wrong, 127, rng));
@@ -132,8 +133,9 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
 }
 
 TEST(SeamAlternatives, ASeamExplainsTenLinesAsWell) {
-    // Ten lines have nine steps. The counted alternatives have the digits of the reading in all
-    // steps except the step at the border.
+    // The counted alternatives have the rolls of the reading on one side of the border, and rolls
+    // with a constant shift on the other side. With a seam at the border, they explain all ten
+    // lines as well as the reading.
     constexpr std::size_t kLines = 10;
     constexpr std::size_t kBorder = 5;
     Rng rng(kSeed);
@@ -167,8 +169,9 @@ TEST(SeamAlternatives, NoneExplainsManyClearLines) {
 }
 
 TEST(SeamAlternatives, WhatTheLinesShowBetterIsDoubt) {
-    // The bits show an alternative that shares five lines with the reading on each side of the
-    // border. Only the first and the last line may distinguish the alternative from the reading.
+    // The bits are those of an alternative with a seam. On each side of the border, the alternative
+    // agrees with the reading in five lines, up to a shift. Only the first and the last line can
+    // therefore distinguish it from the reading.
     Rng rng(kSeed);
     int shown = 0;
     for (int i = 0; i < 2000; ++i) {

@@ -1,4 +1,5 @@
-// Tests bounds from tables against sums over all alternatives in double precision.
+// Tests the upper bounds that are computed from tables against sums over all alternatives in double
+// precision.
 #include "core/integrity/tabled_alternatives.hpp"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ class Comparison {
             EXPECT_LE(bound, enough);
             EXPECT_GE(bound, exact) << sequence << " by " << unshared.tables();
             if (enough < 1) ++settled_;
-            // Odds below 2^-64 are counted as 2^-64.
+            // Smaller sums are not compared, because the bound counts odds below 2^-64 as 2^-64.
             if (exact > 0x1p-50) min_factor_ = std::min(min_factor_, bound / exact);
         }
     }

@@ -52,7 +52,6 @@ TEST(Verify, CountsEveryBitThatContradicts) {
         IntegrityOptions any;
         any.max_p_wrong_log2 = 0;
         Verdict quick_before = judge(reading, any, verify_quickly);
-        // Flips x bits of the grid one after another.
         int flipped = 0;
         for (GridCell& cell : reading.owned.cells) {
             if (cell.dot == GridCell::kNoDot || flipped == bits / 4) continue;
@@ -60,12 +59,11 @@ TEST(Verify, CountsEveryBitThatContradicts) {
             ++flipped;
             const Verdict now = judge(reading);
             ASSERT_EQ(now.fix.bit_errors, flipped);
-            // Additional contradictions must not make a position more certain, unless they cause
-            // the exact sums to be computed.
+            // Additional contradictions must not reduce the quick estimate of p_wrong.
             const Verdict quick = judge(reading, any, verify_quickly);
             ASSERT_EQ(quick.fix.bit_errors, flipped);
-            // Below 2^-36 on either axis, the quick estimate is coarse, and both values are
-            // rounded. Values below 2^-34 are therefore not compared.
+            // The quick estimate is coarse below 2^-36 on either axis, so estimates below 2^-34
+            // count as equal. Rounding may change each estimate by 1.
             constexpr int kCoarse = -34;
             ASSERT_GE(std::max(quick.fix.p_wrong_log2, kCoarse),
                       std::max(quick_before.fix.p_wrong_log2, kCoarse) - 1);
@@ -74,7 +72,8 @@ TEST(Verify, CountsEveryBitThatContradicts) {
             ASSERT_GE(now.fix.p_wrong_log2, std::min(chance, 0.0L));
             before = now;
         }
-        // Now a quarter of the bits of one axis contradict, as if a second pattern were in view.
+        // Now a quarter of the bits of one axis contradict the position, as if a second pattern
+        // were in view.
         EXPECT_EQ(before.status, Status::not_certain);
     }
 }
@@ -199,8 +198,8 @@ Reading troubled(Rng& rng, int turn) {
     return Reading(view, QuarterTurn{turn}, dots);
 }
 
-/// Returns the probability of a match by chance plus the odds of all alternatives on both axes.
-/// Uses the exact sums.
+/// Returns log2 of the probability of a match by chance plus the odds of all alternatives, summed
+/// over both axes. Uses the exact sums.
 double exact_p_wrong(const Reading& reading) {
     const Decoding truth = reading.truth();
     const CodeVariant code = reading.view.code;
@@ -256,7 +255,8 @@ TEST(VerifyQuickly, NeverClaimsMoreThanACloseLookBears) {
         const Verdict quick = judge(reading, options, verify_quickly);
         if (quick.status != Status::ok) continue;
         ++accepted;
-        // Sums of alternatives are rounded up to powers of two.
+        // exact_p_wrong rounds sums of alternatives up to powers of two, so it may be too large by
+        // 1.
         EXPECT_GE(quick.fix.p_wrong_log2, exact_p_wrong(reading) - 1);
         const Verdict close = judge(reading, options);
         EXPECT_EQ(close.status, Status::ok);

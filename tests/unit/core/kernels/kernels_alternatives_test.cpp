@@ -15,7 +15,8 @@ namespace {
 
 using namespace core;
 
-/// Places in the four sequences, and the roll offsets of an alternative in one of them.
+/// The places of a reading in the four sequences. Also computes how much the roll of a line at
+/// another place of a sequence differs from the reading.
 struct OwnPlaces {
     const code::Basis& basis;
     std::array<std::uint32_t, 4> own;
@@ -196,9 +197,9 @@ TEST(KernelsAlternatives, ExpectationsHaveTheSameBitsInEachForm) {
 using OddsByRun = std::array<std::array<double, 66>, 63>;
 
 /// Calls `use` for every choice of digits at one step in the sequences of the bit set `different`,
-/// from sequence `k` on. Its first argument is the change of the roll modulo 63. Its second
-/// argument is true if all digits equal those of the reading. `shift` and `are_equal` are the
-/// values of these arguments for the sequences below `k`.
+/// from sequence `k` on. The first argument of `use` is the change of the roll modulo 63. The
+/// second argument is true if all digits equal those of the reading. `shift` and `are_equal` are
+/// the values of these arguments for the sequences below `k`.
 void visit_digits(const OwnPlaces& places, unsigned different, std::size_t line, std::size_t k,
                   int shift, bool are_equal, const auto& use) {
     if (k == 4) return use((shift + 63 * 63) % 63, are_equal);

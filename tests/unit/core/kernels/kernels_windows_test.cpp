@@ -12,7 +12,8 @@ namespace {
 
 using namespace core;
 
-/// Expects the sums of a window to equal the sums over its pixels.
+/// Expects that the paper level and the sums of dot `k` equal those of a loop over the pixels of
+/// its window.
 void expect_sums(const Picture& picture, int half_px, int cut_q8, const MeasuredDots& dots,
                  std::size_t k) {
     const int u = dots.window_u[k];
@@ -146,8 +147,9 @@ TEST(KernelsWindows, CentresFarFromTheirDotsStay) {
 
 TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
     repeat_with_each_form(100, [](const Kernels& kernels, Rng& rng) {
-        // Lists one dot several times with different predictions around it. From the predictions
-        // close to the dot, the kernel estimates how the moment depends on the offset.
+        // The list contains one dot eight times, with different predicted centres. Four predictions
+        // are close to the dot, because the kernel estimates from them how the moment depends on
+        // the offset.
         const double u = rng.uniform(20, OneDot::kSide_px - 21);
         const double v = rng.uniform(20, OneDot::kSide_px - 21);
         OneDot dot(u, v, rng.uniform(0.9, 1.5), 0);
@@ -168,8 +170,8 @@ TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
         double across = 0;
         for (std::size_t k = 0; k < 8; ++k) {
             if (k == 5) continue;
-            // A large dot with a large offset extends beyond the window. Its weight then decreases
-            // faster than at small offsets.
+            // The tolerance increases with the offset, because a large dot with a large offset
+            // extends beyond the window.
             const double max_px = 0.02 + 0.2 * std::pow(std::abs(off[k]), 3);
             EXPECT_NEAR(dots.x[k], u, max_px) << off[k];
             EXPECT_NEAR(dots.y[k], v, max_px) << off[k];
@@ -189,8 +191,8 @@ TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
     });
 }
 
-/// Sixteen Gaussian dots in a square, on paper with the level level(x, y). Each prediction has an
-/// error of up to a tenth of a pixel per axis.
+/// Sixteen Gaussian dots in a square grid, on paper with the grey level level(x, y). Each
+/// prediction has an error of up to a tenth of a pixel per axis.
 struct LitDots {
     static constexpr int kSide_px = 80;
     static constexpr std::size_t kDots = 16;

@@ -196,8 +196,8 @@ inline core::FloatPlane random_plane(Rng& rng, double spacing_px, double tilt, d
     return plane;
 }
 
-/// Returns `count` measured dots, row by row. Some dots are missing, and some dots have another
-/// symbol than their place suggests.
+/// Returns `count` measured dots, row by row. An eighth of the dots are missing, and a tenth have a
+/// wrong x bit.
 inline DotTable random_measures(const core::FloatPlane& plane, int count, float displacement,
                                 Rng& rng) {
     DotTable table(count);

@@ -60,9 +60,9 @@ TEST(Axes, AreFoundAtAnyAngleAndSpacing) {
             EXPECT_NEAR(std::remainder(degrees(found.v) - degrees(found.u) - 90, 360), 0, 1e-6);
         }
     }
-    // Displacements change an edge by up to a third of its length, so the axes have an error of
-    // some percent. The refinement starts with dots up to 4 cells away, where an error of 5 % is
-    // 1/5 cell.
+    // Displacements change an edge by up to a third of its length, so the axes have an error of a
+    // few percent. The limit is 5 %, because the refinement starts with dots up to 4 cells away,
+    // where 5 % of the distance is 1/5 cell.
     const auto worst = [](std::vector<double>& errors, double share) {
         std::sort(errors.begin(), errors.end());
         return errors[static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1))];
@@ -144,8 +144,8 @@ TEST(Axes, APlaneHasASpacingOfAtLeastFourPixels) {
 }
 
 TEST(Axes, BlobsFarApartDoNotOverflow) {
-    // In a row of the largest image, 40 blobs may be 100 px apart or more, but no grid has such a
-    // spacing.
+    // The largest image is 4096 px wide, so 40 blobs in a row may be 100 px apart. No grid has such
+    // a spacing, but the sums must not overflow.
     Lattice lattice;
     for (const int step_px : {70, 100, 300, 1000}) {
         std::vector<SeedEdge> edges;

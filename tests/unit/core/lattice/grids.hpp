@@ -23,8 +23,8 @@ inline Mesh spoilt(const Mesh& mesh, Rng& rng) {
     return result;
 }
 
-/// Expects the plane to map every dot to its cell, and intersections to their places within a
-/// tolerance in spacings. The origins of grid and mesh may be different intersections.
+/// Expects that the plane maps the intersection of each dot to the dot's cell, within a tolerance
+/// in spacings. The origin of the plane may be another intersection than the origin of the mesh.
 inline void expect_grid(const PlaneFromImage& plane, const std::vector<PlacedDot>& dots,
                         const std::vector<Vec2>& intersections_px, double tolerance) {
     const auto at = [&](Vec2 p) { return real(core::plane_point_q16(plane, fixed(p, 8)), 16); };

@@ -37,9 +37,9 @@ bool may_be_neighbours(const DetectedDot& a, const DetectedDot& b) {
 
 constexpr int kKinds = 6;
 
-/// Returns points of one of several kinds: scattered, in clumps, on a line, on a grid, or partly
-/// duplicated. In the last kind, the points are on a grid, and the list is full when its last row
-/// has a single dot.
+/// Returns points of a kind: 0 for scattered points, 1 for clumps, 2 for a line, 3 for a grid, 4
+/// for points some of which coincide, and 5 for a grid in which the last point of a full list is
+/// alone in its row.
 std::vector<DetectedDot> points(Rng& rng, int count, int kind) {
     std::vector<DetectedDot> dots;
     for (int i = 0; i < count; ++i) {

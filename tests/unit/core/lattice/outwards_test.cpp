@@ -64,7 +64,8 @@ std::unique_ptr<Patch> patch_of(const FloatPlane& plane, const Trouble& trouble,
     return patch;
 }
 
-/// Returns the maximum difference of two planes, up to a whole number of cells and quarter turns.
+/// Returns the maximum distance between the pattern points of two planes, for image points up to
+/// `half_px` from the centre. Ignores an offset of whole cells and a rotation by quarter turns.
 double difference(const FloatPlane& found, const FloatPlane& truth, Vec2 half_px) {
     double least = 1e9;
     for (int quarters = 0; quarters < 4; ++quarters) {
@@ -105,9 +106,9 @@ TEST(FindGrid, FindsThePlaneOfTiltedCameras) {
         EXPECT_LT(difference(grid.grid_from_image, truth, {20, 20}), 0.1);
         EXPECT_NEAR(grid.displacement, 1 / 6.0, 0.03);
         EXPECT_LT(grid.variance, 0.003);
-        // The plane must be accurate enough for windows around the intersections to contain the
-        // dots. If the growth of a grid ended early, the windows may miss dots farther out. Such a
-        // grid is refused when its dots are measured.
+        // The plane must be accurate enough for the windows around the intersections to contain the
+        // dots. One grid may be less accurate, because its growth ended early. Such a grid is
+        // refused when its dots are measured.
         exact += difference(grid.grid_from_image, truth, {56, 40}) < 0.15 &&
                  difference(grid.grid_from_image, truth, {112, 80}) < 0.45;
     }
@@ -139,8 +140,8 @@ TEST(FindGrid, FindsCoarseGridsInReducedPatches) {
         ASSERT_TRUE(core::find_grid(core::kernels(), *patch, core::whole_view(*patch), grid))
             << scale;
         EXPECT_LT(difference(grid.grid_from_image, truth, {112.0 * scale, 80.0 * scale}), 0.05);
-        // At another scale, the spacing is too large or too small. The search must not find a wrong
-        // grid.
+        // With the wrong scale, the spacing is too large or too small for the search. The search
+        // may still find the true grid, but no other grid.
         patch->scale = scale == 2 ? 4 : 1;
         EXPECT_FALSE(core::find_grid(core::kernels(), *patch, core::whole_view(*patch), grid) &&
                      difference(grid.grid_from_image, truth, {40, 40}) > 0.2);

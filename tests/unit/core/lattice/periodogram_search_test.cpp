@@ -13,7 +13,8 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 46;
 
-/// Returns the difference of two directions of a square grid, in degrees.
+/// Returns the difference between two directions in degrees, modulo the quarter turns of a square
+/// grid.
 double turned_degrees(double a_rad, double b_rad) {
     return std::remainder(a_rad - b_rad, std::numbers::pi / 2) * 180 / std::numbers::pi;
 }
@@ -58,8 +59,8 @@ TEST(SearchPeriodogram, RecoversTheGridWithAThirdOfTheDotsMissing) {
 }
 
 TEST(SearchPeriodogram, RecoversTheGridThatATiltedCameraSees) {
-    // The camera is tilted by 30 degrees about any axis, so one direction is shorter by a factor of
-    // cos 30.
+    // The camera is tilted by 30 degrees about any axis, which shortens the grid in one direction
+    // by a factor of cos 30.
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
@@ -78,7 +79,8 @@ TEST(SearchPeriodogram, RecoversTheGridThatATiltedCameraSees) {
         const std::vector<DetectedDot> dots = dots_of(placed_dots(mesh, 40, image, displacement));
         std::array<std::uint16_t, kMaxSeeds> seeds;
         const int count = choose_seeds(dots, fixed(centre, 8), seeds);
-        // The first estimate, which comes from clustered edges, is about square.
+        // The search starts from a square grid with a spacing that is 3 % too small, as if it came
+        // from clustered edges.
         Lattice lattice = lattice_of({0.97 * flat.u, 0.97 * flat.v, centre});
         search_periodogram(dots, std::span(seeds).first(static_cast<std::size_t>(count)),
                            fixed(centre, 8), 12, lattice);
@@ -98,7 +100,7 @@ TEST(SearchPeriodogram, LeavesAGoodEstimateGood) {
     search_periodogram(dots, std::span(seeds).first(static_cast<std::size_t>(count)),
                        fixed(centre, 8), 12, lattice);
     const Mesh found = mesh_of(lattice);
-    // The finest steps of the search are an eighth of a degree and an eightieth of the spacing.
+    // The last steps of the search are an eighth of a degree and 1/640 of the spacing.
     EXPECT_NEAR(length(found.u), 12, 12.0 / 640);
     EXPECT_NEAR(turned_degrees(std::atan2(found.u.y, found.u.x), 0.3), 0, 0.13);
     const Vec2 at = mesh.inverse(found.origin);

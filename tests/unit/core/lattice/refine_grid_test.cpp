@@ -1,4 +1,4 @@
-// Tests the refinement of the grid over the whole image. It starts from a rough estimate in the
+// Tests the refinement of a grid over the whole image, starting from a rough estimate in the
 // middle.
 #include "core/lattice/refine_grid.hpp"
 

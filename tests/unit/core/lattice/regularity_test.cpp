@@ -18,9 +18,9 @@ using namespace core;
 constexpr std::uint64_t kSeed = 47;
 constexpr Vec2 kImage_px{188, 120};
 
-/// Returns the tolerance of a fit to displaced dots. The displacements act as noise of 0.12
-/// spacings per axis. The error is largest at the corners, where a fit of 8 parameters to at least
-/// 100 dots has 2 to 3 times the error 0.12 sqrt(8 / 100).
+/// Returns the tolerance of a fit to displaced dots, in spacings. The displacements act as noise of
+/// 0.12 spacings rms per axis. A fit of 8 parameters to at least 100 dots has an rms error of 0.12
+/// sqrt(8 / 100) = 0.034, and up to 3 times as much at the corners.
 double perspective_tolerance(const std::vector<PlacedDot>&) {
     return 0.25;
 }
@@ -39,7 +39,7 @@ void PrintTo(const Stage& stage, std::ostream* out) {
 class OutwardGrid : public testing::TestWithParam<Stage> {};
 INSTANTIATE_TEST_SUITE_P(
     , OutwardGrid,
-    testing::Values(Stage{"grown", grow_grid, affine_tolerance, 0.006},  // uses dots in 1/8 px
+    testing::Values(Stage{"grown", grow_grid, affine_tolerance, 0.006},  // rounds dots to 1/8 px
                     Stage{"refined", refine_grid, perspective_tolerance, 0.002}),
     [](const auto& test) { return test.param.name; });
 
@@ -52,7 +52,7 @@ TEST_P(OutwardGrid, ReachesOverTheWholeImage) {
         SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed << ", " << image.x
                                         << " x " << image.y << " at " << spacing);
         Mesh mesh = square_mesh(spacing, rng.uniform(0, 6.3), {image.x / 2, image.y / 2});
-        if (i % 2 == 1) mesh.v = mesh.v + rng.uniform(-0.1, 0.1) * mesh.u;  // seen at an angle
+        if (i % 2 == 1) mesh.v = mesh.v + rng.uniform(-0.1, 0.1) * mesh.u;  // shear
         const auto placed = displaced_dots(mesh, 45, image, rng);
         PlaneFromImage plane;
         ASSERT_EQ(GetParam().find_grid(dots_of(placed), {}, centre_q8(image),
@@ -96,7 +96,8 @@ TEST_P(OutwardGrid, RefusesScatteredDots) {
     }
 }
 
-/// Cases at the limits: 7 of 10 dots near their intersections, and mean squares of 1/10 and 1/256.
+/// The limits are 7 of 10 dots near their intersections, and mean squared offsets from 1/256 to
+/// 1/10.
 TEST(Regularity, JudgesByItsBounds) {
     const auto verdict = [](int near, double mean_square) {
         const Regularity regularity{100, near, 9};

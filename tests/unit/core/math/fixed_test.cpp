@@ -17,7 +17,8 @@ using namespace core;
 constexpr std::uint64_t kSeed = 20;
 constexpr double kBamPerRad = 2147483648.0 / std::numbers::pi;
 
-/// Returns the difference a - b of two binary angles, along the shorter arc.
+/// Returns the difference a - b along the shorter arc, as a binary angle. `a` is a binary angle,
+/// and `b_rad` is in radians.
 double bam_difference(std::int32_t a, double b_rad) {
     return std::remainder(a - b_rad * kBamPerRad, 4294967296.0);
 }

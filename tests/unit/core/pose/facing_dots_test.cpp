@@ -20,7 +20,8 @@ constexpr std::uint64_t kSeed = 95;
 constexpr double kDisplacement = 1 / 6.0;
 constexpr double kNoise = 0.005;  // in spacings
 
-/// Dots with their true places in the image.
+/// Measured dots, and their true places in the image. The measured centres of facing dots are
+/// shifted towards each other.
 class FacingFrame {
   public:
     /// `pull` is the shift of each of two facing dots towards the other, in spacings.
@@ -60,8 +61,8 @@ class FacingFrame {
         const Symbol symbol = symbols_[{i, j}];
         return {i + kDisplacement * dx(symbol), j + kDisplacement * dy(symbol)};
     }
-    /// Returns the direction to the neighbour that faces the dot, or 0 if no neighbour faces the
-    /// dot.
+    /// Returns the direction from a dot to the neighbour that it faces, or 0 if it does not face a
+    /// neighbour.
     Vec2 facing(int i, int j) {
         const Symbol own = symbols_[{i, j}];
         const std::pair<int, int> other{i + dx(own), j + dy(own)};

@@ -17,7 +17,8 @@ constexpr std::uint64_t kSeed = 78;
 constexpr double kDisplacement = 1 / 6.0;
 constexpr int kReach_px = 95;
 
-/// Adds all dots of the plane that are in an image of 188 x 120 px.
+/// Adds the dots of the plane that are in an image of 188 x 120 px. The fraction `wrong` of the
+/// dots is displaced by up to 4 px per axis.
 void show_dots(const FloatPlane& plane, double noise_px, double wrong, Rng& rng, OwnedDots& owned) {
     for (int j = -14; j <= 14; ++j) {
         for (int i = -14; i <= 14; ++i) {
@@ -31,8 +32,8 @@ void show_dots(const FloatPlane& plane, double noise_px, double wrong, Rng& rng,
     }
 }
 
-/// Returns a plane with an error of up to a tenth of a spacing, slightly rotated, and without
-/// perspective.
+/// Returns `truth` without perspective, with errors of up to 0.08 spacings in position, and with
+/// small errors in scale and rotation.
 FloatPlane guess_of(const FloatPlane& truth, Rng& rng) {
     FloatPlane guess = truth;
     const auto some = [&](double size) { return static_cast<float>(rng.uniform(-size, size)); };
@@ -121,7 +122,7 @@ TEST(FitPlane, FollowsTiltsOfTwentyDegreesAndALens) {
         ASSERT_TRUE(core::fit_plane(core::kernels(), owned.dots, kReach_px, 9,
                                     static_cast<float>(kDisplacement), plane, fit));
         EXPECT_LT(worst_difference(plane, truth), 0.01);
-        // Another fit improves the plane only slightly, by less than half a standard deviation.
+        // A second fit must change the plane by less than half a standard deviation.
         FloatPlane again = plane;
         ASSERT_TRUE(core::fit_plane(core::kernels(), owned.dots, kReach_px, 9,
                                     static_cast<float>(kDisplacement), again, fit));

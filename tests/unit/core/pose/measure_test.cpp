@@ -36,9 +36,9 @@ bool is_inside(const View& view, Vec2 point_px, double margin_px) {
            point_px.y < far.y;
 }
 
-/// Expects the centre of every measured dot to be within the tolerance of the dot of its cell, or
-/// within a third of a pixel where the border of the image cuts the window. No dot that is at least
-/// `margin_px` inside the image may be missing.
+/// Expects that dots at least `margin_px` inside the image are measured, with errors below the
+/// tolerance. Dots closer to the border may be missing, or have an error of up to a third of a
+/// pixel, because the border cuts the centroid window.
 void expect_measured(const View& view, const std::vector<PlacedDot>& placed, int quarters,
                      double margin_px, double tolerance_px, Rng& rng) {
     const GreyImage image = drawn(view, placed, rng.uniform(0, 6.3));
@@ -46,7 +46,7 @@ void expect_measured(const View& view, const std::vector<PlacedDot>& placed, int
     ASSERT_EQ(reading.status, Status::ok);
     const Nominal nominal(reading.grid(), view.code, reading.truth());
     PlaneFromImage pose = upright_plane(reading.plane, reading.turn);
-    // The pose of the first attempt has an error of some hundredths of a spacing.
+    // The pose of the first attempt has an error of a few hundredths of a spacing.
     const Vec2 off{rng.uniform(-0.03, 0.03), rng.uniform(-0.03, 0.03)};
     pose.at_centre_q16 = fixed(real(pose.at_centre_q16, 16) + off, 16);
     std::vector<DetectedDot> measured(1000);
@@ -102,8 +102,8 @@ TEST(MeasureDots, FindsBadlyPrintedOnesWhereTheyAre) {
             Vec2& at = placed[d].centre_px;
             at = at + 0.15 * view.spacing_px * Vec2{std::cos(direction), std::sin(direction)};
         }
-        // A dot may be half a spacing away from a neighbour, so that the rim of the neighbour is in
-        // the window.
+        // The tolerance is large, because a displaced dot may be only half a spacing from a
+        // neighbour. The rim of the neighbour is then in the window.
         expect_measured(view, placed, i % 4, 7, 0.14, rng);
     }
 }

@@ -19,15 +19,15 @@ constexpr double kContrast = 0.85;
 constexpr double kNoise = 3;
 constexpr double kBlur_px = 0.3;
 
-/// Error of the mean of the measured centres, in px.
+/// Error of the mean of the measured centres before and after the correction, in px.
 struct MeanError {
     Vec2 before;
     Vec2 after;
     core::FloatVec variance_px2;
 };
 
-/// A frame of dots with equal sub-pixel phases. The spacing is a whole number of pixels, and the
-/// displacement is two pixels.
+/// A frame of dots with equal sub-pixel phases, because the spacing and the displacement are whole
+/// numbers of pixels.
 class AlikeFrame {
   public:
     AlikeFrame(const InkAt& ink, Vec2 phase, Rng& rng)
@@ -115,7 +115,7 @@ class AlikeFrame {
     std::vector<Vec2> truth_;
 };
 
-/// Returns the root of the mean squared error of each axis, over frames of all phases.
+/// Returns the rms errors per axis over frames with random phases.
 MeanError typical_error(const InkAt& ink, float dot_radius_px) {
     constexpr int kFrames = 40;
     Rng rng(kSeed);

@@ -59,7 +59,7 @@ inline std::vector<DetectedDot> dots_with_outliers(const View& view, double min_
     return dots;
 }
 
-/// Returns dots whose displacement differs from a sixth of the spacing.
+/// Returns the dots of a view. They are displaced by `displacement` spacings instead of a sixth.
 inline std::vector<DetectedDot> dots_displaced_by(double displacement, const View& view) {
     std::vector<DetectedDot> dots;
     for (const PlacedDot& d : pattern_dots(view)) {
