@@ -331,7 +331,7 @@ TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
 
 // If a window is decoded in the wrong code variant, the place may be wrong. The expected numbers of
 // windows were computed from the sequences by a program in another language.
-TEST(Decode, TheOtherProfileReadsSomeWindowsWrong) {
+TEST(Decode, AnotherVariantReadsSomeWindowsWrong) {
     using Pair = std::pair<CodeVariant, CodeVariant>;
     for (const auto& [printed, read] : {Pair{CodeVariant::anoto, CodeVariant::libdots},
                                         Pair{CodeVariant::libdots, CodeVariant::anoto}}) {

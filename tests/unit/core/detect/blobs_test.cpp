@@ -346,7 +346,7 @@ Sifted sift(std::vector<DetectedDot> dots, const BlobOptions& options) {
     return {dots, count};
 }
 
-TEST(Blobs, TheSizeFilterIsRelativeToTheMedianDot) {
+TEST(Blobs, TheSizeFilterIsRelativeToTheUpperQuartile) {
     for (const int scale : {1, 6}) {
         std::vector<DetectedDot> dots;
         for (int i = 0; i < 300; ++i)

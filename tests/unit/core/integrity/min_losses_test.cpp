@@ -5,7 +5,7 @@
 
 #include "ratios_case.hpp"
 
-namespace dotpose::core_test::least_losses_test {
+namespace dotpose::core_test::min_losses_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 77;
@@ -97,4 +97,4 @@ TEST(MinLosses, ABorderSeparatesTwoPatterns) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test::least_losses_test
+}  // namespace dotpose::core_test::min_losses_test

@@ -5,7 +5,7 @@
 
 #include "poses.hpp"
 
-namespace dotpose::core_test::survey_test {
+namespace dotpose::core_test::observation_batches_test {
 namespace {
 
 using namespace core;
@@ -71,4 +71,4 @@ TEST(ObservationBatches, FillsBatchesUpWithDotsFarAway) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test::survey_test
+}  // namespace dotpose::core_test::observation_batches_test
