@@ -1,5 +1,5 @@
-/// Simulates a printer and a flatbed scanner independently of src/simulate. Draws discs at their
-/// true places on a page, with anti-aliasing, blur and noise.
+/// Simulates a printer and a flatbed scanner, independently of src/simulate. Dots are discs at
+/// their true places, drawn with anti-aliasing, blur and noise.
 #pragma once
 
 #include <cstdint>

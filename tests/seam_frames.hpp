@@ -1,6 +1,6 @@
 /// Frames of two adjacent sheets with a straight seam. Their renderer shares no code with the
-/// simulator and therefore cannot repeat its errors. It samples each dot, a disc that is cut off at
-/// the seam, within each pixel. Then it applies blur, light and noise to the image.
+/// simulator and therefore cannot repeat its errors. Dots are discs that are cut off at the seam.
+/// The renderer samples them within each pixel, and then adds blur, light and noise.
 #pragma once
 
 #include <algorithm>

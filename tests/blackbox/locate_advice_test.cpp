@@ -119,7 +119,8 @@ Shot wide_shot() {
     return draw_shot(setup, 0);
 }
 
-// Both dimensions of the image are odd, so the image centre moves when the image is reduced.
+// The width and the height are odd. Halving the image omits the last column and row, which moves
+// the image centre.
 TEST_F(LocateCommand, an_image_beyond_the_limit_is_reduced_and_that_is_told) {
     const Shot wide = wide_shot();
     write_pgm(directory_ / "wide.pgm", render(wide).view());

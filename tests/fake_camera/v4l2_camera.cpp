@@ -1,8 +1,8 @@
 // A fake camera for machines without a camera. Loaded with LD_PRELOAD, it intercepts OpenCV's
 // system calls on /dev/video0. It repeats the raw grey frames of the file FAKE_CAMERA, which have
-// the size FAKE_CAMERA_SIZE. Without the file, the camera is unplugged. It writes the requested
-// settings, and the times of its frames in µs, to the file FAKE_CAMERA_LOG. The camera also offers
-// 640x480 at 15 frames/s.
+// the size FAKE_CAMERA_SIZE. If this file does not exist, the camera is unplugged. The requested
+// settings and the times of the frames in µs are written to the file FAKE_CAMERA_LOG. The camera
+// also offers 640x480 at 15 frames/s.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>

@@ -15,7 +15,8 @@ class Robots {
 
     int count() const { return static_cast<int>(topics_.size()); }
     const std::string& topic(int robot) const { return topics_[index(robot)]; }
-    /// Returns the state with a number, sent at `timestamp`.
+    /// Returns the message with the given number of a robot. `timestamp` is the time of the
+    /// message.
     std::string state(int robot, std::int64_t number, const std::string& timestamp) const;
 
   private:

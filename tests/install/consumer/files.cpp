@@ -46,7 +46,8 @@ bool keep_camera(const std::filesystem::path& folder) {
 
 }  // namespace
 
-// The program only reads camera and sheet files, so it needs neither printing nor calibration.
+// Uses only the component `files`, so it must link without the libraries for printing and
+// calibration.
 int main() {
     const std::filesystem::path folder = "consumer-out";
     std::filesystem::create_directories(folder);

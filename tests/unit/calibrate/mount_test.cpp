@@ -131,7 +131,7 @@ TEST(CalibrateSpin, IsExactWithAnEstimatedLens) {
         again.reference_px = reference_in(again, spin.camera);
         EXPECT_LT(off_mm(robot_error(again, model, seed + 20)), 0.02) << "seed " << seed;
 
-        // The heading is the direction at the image centre, independent of the reference.
+        // The heading is defined at the image centre, so it does not depend on the reference point.
         const auto drive_frame = [&](int i) {
             return robot_frame(model, seed + 40, i, kPivot_x_mm + 5 * i, kPivot_y_mm, 0);
         };

@@ -121,7 +121,8 @@ TEST(Follower, TracksInTheWorldOfReplacedSheets) {
     EXPECT_FALSE(placed.track.is_lost);
     EXPECT_NEAR(placed.track.pose.x_mm(), 1000 + placed.located.place->x_mm, 0.05);
     EXPECT_NEAR(placed.track.pose.y_mm(), 2000 - placed.located.place->y_mm, 0.05);
-    // The sheet moves by far more than a robot can drive between two frames.
+    // The sheet is moved in the world. The track must move with it, although no robot can drive
+    // this far between two frames.
     sheets[0].world = WorldPose{-4, 2, 0};
     follower.set_sheets(sheets);
     const Followed moved = follow(6);
