@@ -72,7 +72,8 @@ std::string get(const Server& server, const std::string& path, const std::string
     return socket.receive(end);
 }
 
-/// A WebSocket client. Its frames are shorter than 126 bytes.
+/// A WebSocket client. The payloads of its frames are shorter than 126 bytes, so their length is a
+/// single byte.
 class WebSocket : public Socket {
   public:
     explicit WebSocket(const Server& server) : Socket(server.url()) {
