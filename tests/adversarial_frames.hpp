@@ -180,7 +180,7 @@ inline void render_overlay(const Shot& shot, Rng& rng, AdversarialFrame& frame) 
                      {other.pose, other.page.pattern.section}};
 }
 
-/// Renders the pattern with some symbols changed. The pose of the shot remains correct.
+/// Renders the pattern with some symbols changed. The correct answer is still the pose of the shot.
 inline void render_changed(Adversary adversary, const Shot& shot, Rng& rng,
                            AdversarialFrame& frame) {
     const Pattern pattern = shot.page.pattern;

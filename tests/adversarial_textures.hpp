@@ -101,7 +101,7 @@ inline GreyImage halftone(const Shot& shot, Rng& rng) {
     });
 }
 
-/// Noise at the nodes of a lattice, with linear interpolation between them.
+/// Random values at the nodes of a lattice, with linear interpolation between the nodes.
 class ValueNoise {
   public:
     ValueNoise(std::uint64_t seed, const CameraModel& camera, double nodes_per_px)

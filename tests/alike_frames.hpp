@@ -17,7 +17,6 @@ struct AlikeDots {
     double angle_deg = 0;  ///< at 0 and 90 degrees, all dots have the same sub-pixel phase
 };
 
-/// Returns a camera with 188 x 120 px, or with 640 x 480 px for a spacing of at least 16 px.
 inline CameraModel camera_of(const AlikeDots& dots) {
     CameraModel camera;
     if (dots.spacing_px >= 16) {

@@ -100,7 +100,6 @@ class Drive {
     DrivePlan plan_;
 };
 
-/// Returns the two sheets with their world poses.
 inline std::vector<SheetEntry> drive_sheets() {
     std::vector<SheetEntry> sheets;
     for (int i = 0; i < 2; ++i) {

@@ -260,7 +260,6 @@ inline void add_sizes(std::vector<Limit>& limits) {
     }
 }
 
-/// Adds conditions in which the pattern covers a part of the view.
 inline void add_partial(std::vector<Limit>& limits) {
     for (const int spacing_px : {11, 14, 20}) {
         const std::string seen = ", 640 x 480 at " + std::to_string(spacing_px) + " px";

@@ -56,8 +56,8 @@ class MappedPrint {
     const SheetEntry& entry() const { return entry_; }
     const MappedPrintOptions& options() const { return options_; }
 
-    /// Offset of the dots at a place. The wave is along y, the direction of paper feed. A tenth of
-    /// the amplitude is along x.
+    /// Returns the displacement of the dots at a place by the wave. The wave is along y, the
+    /// direction of paper feed. A tenth of its amplitude is along x.
     Vec2 wave(Vec2 at_mm) const {
         const double phase = 2 * std::numbers::pi * at_mm.y / options_.wavelength_mm;
         return {0.1 * options_.wave_mm * std::cos(phase), options_.wave_mm * std::sin(phase)};
@@ -179,7 +179,7 @@ struct MapTest {
     int not_covered = 0;
 };
 
-/// Locates `frames` frames that were not used for the map.
+/// Locates `frames` frames that were not used for the map, with and without the map.
 inline MapTest test_map(const MappedPrint& print, const PrintMap& map, int frames,
                         std::uint64_t series = 200, const std::optional<Camera>& camera = {}) {
     MapTest result;

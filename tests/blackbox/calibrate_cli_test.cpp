@@ -204,7 +204,8 @@ TEST_F(CalibrateCommand, ASpacingThatTheCameraFileContradictsIsReported) {
 }
 
 TEST_F(CalibrateCommand, TakesTheSpacingFromTheSheetFile) {
-    // The first sheet of a sheet file begins at cell 1024,1024.
+    // The first sheet of a sheet file begins at cell 1024,1024, so frames at the following cells
+    // show it.
     ASSERT_EQ(run("print -o fine.svg --spacing 0.3 --sheets sheets.json --name fine"), 0);
     std::string frames;
     for (const int at : {1100, 1130, 1160, 1190, 1220}) {

@@ -127,8 +127,8 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     const json image = result();
     EXPECT_EQ(image["located"], 5);
     EXPECT_LT(image["position_um"]["max"], 5);
-    // The scale and tilt in the camera file are also used. The fit then has five parameters instead
-    // of eight, so the angle differs.
+    // The scale and tilt in the camera file are also used, so the fit has five parameters instead
+    // of eight. The angle therefore differs from that of the fit with only the lens.
     EXPECT_NE(image["angle_deg"]["max"], lens_alone["angle_deg"]["max"]);
     ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --format json"), 0) << errors_;
     EXPECT_EQ(result()["wrong"], 5);  // truth.csv contains the pose of the image centre

@@ -144,7 +144,8 @@ TEST_F(LiveCalibration, TakesFramesOfARobotThatDoesNotStop) {
     EXPECT_THAT(errors_, HasSubstr(" and 0 taken (0 out of focus, "));
 }
 
-/// Returns commands that send Ctrl-C after `frames` frames of an endless source.
+/// Returns shell commands that calibrate with an endless source, and send Ctrl-C after `frames`
+/// frames have been taken.
 std::string interrupted_after(int frames) {
     return fmt::format(
         "mkfifo pipe; touch told; (cat resting.raw; exec sleep 60) > pipe & writer=$!\n"

@@ -45,7 +45,6 @@ inline std::vector<std::string> cells_of(const std::string& line) {
     return cells;
 }
 
-/// Returns a nominal shot with a known pose.
 inline Shot shot(std::uint64_t index) {
     Setup setup;
     setup.seed = 20;

@@ -91,7 +91,7 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
 struct Claims {
     int fixes = 0;
     int within_4_sigmas = 0;
-    /// Mean squared error of x, divided by the variance in the fix.
+    /// Mean of the squared errors of x, each divided by the variance that the fix reports.
     double mean_square = 0;
 
     explicit Claims(double wrinkled_by) {

@@ -117,7 +117,7 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     EXPECT_THAT(output_, HasSubstr("scale       by the camera's mm per px"));
     EXPECT_THAT(output_, Not(HasSubstr("UNKNOWN")));
     EXPECT_THAT(file("sheets.svg"), HasSubstr("</svg>"));
-    // The scales are accurate to 0.1 mm in 200 mm.
+    // The required accuracy of the scales is 0.1 mm in 200 mm.
     for (const SheetEntry& entry : read_sheets(directory_ / "sheets.json")) {
         EXPECT_NEAR(entry.print_scale_x, 1, 5e-4) << entry.name;
         EXPECT_NEAR(entry.print_scale_y, 1, 5e-4) << entry.name;

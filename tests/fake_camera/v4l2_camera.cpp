@@ -83,7 +83,8 @@ void tell_format(v4l2_format& format) {
     pixels.sizeimage = pixels.bytesperline * pixels.height;
 }
 
-/// Returns the next frame when it is due. Missed frames are not repeated.
+/// Waits until the next frame is due, and writes it to a waiting buffer. If the call is late by
+/// more than a period, all following frames are due later.
 int give_frame(v4l2_buffer& buffer) {
     while (now_s() < camera.next_s)
         usleep(500);
@@ -112,7 +113,7 @@ int give_frame(v4l2_buffer& buffer) {
     return 0;
 }
 
-/// Returns the frame size with an index, or 0 x 0 after the last size.
+/// Returns the frame size number `index`, or 0 x 0 if there is none.
 v4l2_frmsize_discrete size_at(unsigned index) {
     if (index == 0) {
         return {static_cast<unsigned>(camera.width_px), static_cast<unsigned>(camera.height_px)};

@@ -23,8 +23,8 @@ class Robots {
     static std::size_t index(int robot) { return static_cast<std::size_t>(robot); }
 
     std::vector<std::string> topics_;
-    /// Parts of messages after the number and the time, for each robot and some points of its
-    /// circle.
+    /// For each robot and each point of its circle, the part of a message after the number and the
+    /// time.
     std::vector<std::vector<std::string>> tails_;
 };
 

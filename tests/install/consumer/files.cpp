@@ -34,7 +34,6 @@ bool place(const std::filesystem::path& folder) {
            place->covariance[0][0] > 0 && world->covariance[1][1] > 0;
 }
 
-/// Writes a camera file and reads it again.
 bool keep_camera(const std::filesystem::path& folder) {
     Camera camera;
     camera.width_px = 188;

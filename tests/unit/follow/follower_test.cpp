@@ -68,8 +68,7 @@ TEST(Follower, TellsWhereTheRobotIsByItsCameraFile) {
         EXPECT_LT(turn_between(now.track.pose.theta_rad(), theta_rad + 30 * kDegree_rad), 0.01);
         tracked += fix.attempt == Attempt::tracked ? 1 : 0;
     }
-    // The predictions also take the mount into account, so the pattern is found at the predicted
-    // positions.
+    // The predictions take the mount into account, so most frames are tracked.
     EXPECT_GE(tracked, kFrames - 3);
     EXPECT_FALSE(follower.is_in_world());
 }

@@ -58,7 +58,8 @@ TEST(labels, say_what_is_on_the_page) {
     EXPECT_THAT(content, HasSubstr("dotpose print -o door.pdf"));
     EXPECT_THAT(content, HasSubstr("0 0 0 1 k 0 0 0 1 K"));
     EXPECT_THAT(content, HasSubstr("(0 mm) Tj"));
-    // The ruler starts at the edge of the page. The dots begin at 10.2 mm and span 79.8 mm.
+    // The ruler counts from the edge of the page and ends before the end of the dots, which is at
+    // 10.2 mm + 79.8 mm. Its last number is therefore 80.
     EXPECT_THAT(content, HasSubstr("(80) Tj"));
     EXPECT_THAT(content, Not(HasSubstr("(90) Tj")));
 }

@@ -237,8 +237,7 @@ TEST(Preset, RangesAreThoseOfTheTable) {
     EXPECT_STREQ(name(Preset::nominal), "nominal");
 }
 
-// The offsets of the pixels of a sensor are the same in every frame, so the mean of frames with
-// different noise shows them.
+// Each pixel of the sensor has an offset that is the same in every frame.
 TEST(Frame, TheFixedPatternIsTheSameInEveryFrame) {
     Shot shot = shot_of(Preset::clean, 0);
     shot.imperfections.fixed_pattern = 4;
