@@ -54,7 +54,6 @@ constexpr std::string_view name(Adversary adversary) {
     return kNames[static_cast<std::size_t>(adversary)];
 }
 
-/// A pose that may be reported.
 struct Answer {
     CameraPose pose;
     Section section;

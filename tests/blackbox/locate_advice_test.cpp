@@ -46,7 +46,6 @@ TEST_F(LocateCommand, bits_that_contradict_a_position_are_not_counted_by_dots) {
     EXPECT_TRUE(is_doubted);
 }
 
-/// Returns a shot without blur and noise.
 Shot clean_shot(double px_per_spacing) {
     Setup setup;
     setup.seed = 9;

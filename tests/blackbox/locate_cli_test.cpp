@@ -137,7 +137,7 @@ TEST_F(LocateCommand, sixteen_bits_and_transparency_change_nothing) {
     const GreyImage image = render(shot(2));
     write_pgm(directory_ / "grey.pgm", image.view());
     std::vector<std::uint16_t> deep;
-    std::vector<std::uint8_t> ink;  // black pixels, whose transparency contains the image
+    std::vector<std::uint8_t> ink;  // black pixels, with the image in their opacity
     for (const std::uint8_t level : image.pixels) {
         deep.push_back(static_cast<std::uint16_t>(level * 257));
         ink.push_back(0);

@@ -57,7 +57,6 @@ class RawType : public TopicDataType {
     using Bytes = std::vector<unsigned char>;
 };
 
-/// Returns the DDS name of a ROS type.
 std::string dds_name(const std::string& type) {
     const std::size_t slash = type.find('/');
     return type.substr(0, slash) + "::msg::dds_::" + type.substr(slash + 1) + '_';

@@ -121,7 +121,6 @@ v4l2_frmsize_discrete size_at(unsigned index) {
     return index == 1 ? v4l2_frmsize_discrete{640, 480} : v4l2_frmsize_discrete{};
 }
 
-/// Answers requests for the capabilities of the camera.
 int tell_entry(unsigned long request, void* argument) {
     if (request == VIDIOC_ENUM_FMT) {
         auto& format = *static_cast<v4l2_fmtdesc*>(argument);

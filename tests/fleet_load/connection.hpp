@@ -51,7 +51,6 @@ class Connection {
     bool is_ready_ = false;  ///< true after a connect answer or a subscribe request was received
 };
 
-/// Returns the time of the monotonic clock.
 std::int64_t monotonic_us();
 
 }  // namespace dotpose::test

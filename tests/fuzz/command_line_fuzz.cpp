@@ -14,7 +14,6 @@ namespace {
 
 using namespace dotpose;
 
-/// Values that the options set.
 struct Values {
     CodeVariant code = CodeVariant::anoto;
     Section section;

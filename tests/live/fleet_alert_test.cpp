@@ -84,7 +84,6 @@ class TerminalFleet {
     std::string output_;
 };
 
-/// Collects the alerts that are published to a broker.
 class Alerts {
   public:
     explicit Alerts(publish::MqttOptions options)

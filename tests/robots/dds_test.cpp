@@ -64,7 +64,6 @@ class Dds : public WatchCommand {
     }
 };
 
-/// Skips a test if one of its requirements is missing.
 #define DOTPOSE_NEEDS_DDS()                                                                  \
     DOTPOSE_NEEDS_NPM();                                                                     \
     if (kReader == nullptr) GTEST_SKIP() << "built without Cyclone DDS or without Fast DDS"; \

@@ -73,7 +73,6 @@ inline void expect_poses_of(const std::vector<nlohmann::json>& lines,
     EXPECT_EQ(next, poses.size()) << "there are poses without a fix";
 }
 
-/// Compares all messages of a run.
 inline void expect_messages_of(const std::vector<nlohmann::json>& lines,
                                const std::vector<nlohmann::json>& messages,
                                const std::string& robot, const MessageTolerance& tolerance) {

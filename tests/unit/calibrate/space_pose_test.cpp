@@ -234,7 +234,7 @@ TEST(SpaceFit, ReportsTheMirroredTiltOfANarrowView) {
         ASSERT_TRUE(fit && fit->second) << n;
         ambiguous += fit->second_odds_log2 > SpacePose::kMaxOdds_log2;
         EXPECT_LE(fit->second_odds_log2, 0);
-        // One of the two poses is the true pose.
+        // One of the two poses must be the true pose, and the other one the mirrored pose.
         const double first = angle_between(view.rotation, rotation_of(fit->state));
         const double second = angle_between(view.rotation, rotation_of(*fit->second));
         EXPECT_LT(std::min(first, second), 5 * kDegree_rad) << n;
@@ -318,7 +318,6 @@ Camera camera_of(const CameraModel& model) {
     return camera;
 }
 
-/// Locates a simulated frame and fits its pose in space.
 std::optional<SpacePose> located(const Shot& shot, const Camera& camera) {
     DeviceOptions options;
     use_camera(camera, camera.width_px, camera.height_px, options);

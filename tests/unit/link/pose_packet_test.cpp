@@ -156,7 +156,6 @@ class DamagedStream : public testing::TestWithParam<int> {
     }
     void flip(std::size_t bit) { stream_[bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8); }
 
-    /// Expects that only undamaged packets are received.
     void expect_only_undamaged(std::size_t a, std::size_t b) {
         flip(a);
         if (b != a) flip(b);

@@ -31,7 +31,6 @@ void wait_until(const std::function<bool()>& holds) {
     }
 }
 
-/// A TCP connection to a port of this computer.
 class Socket {
   public:
     explicit Socket(const std::string& url) : descriptor_(socket(AF_INET, SOCK_STREAM, 0)) {
