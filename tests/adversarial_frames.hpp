@@ -1,5 +1,5 @@
 /// Frames that are designed to cause wrong fixes, and the poses that may be reported for each of
-/// them. A frame depends only on its class, seed and index.
+/// them. The adversary, the seed and the index determine a frame.
 #pragma once
 
 #include <array>
@@ -25,8 +25,8 @@ enum class Adversary : std::uint8_t {
     random_symbols,  ///< a perfect grid with random symbols
     random_offsets,  ///< dots displaced by the nominal length in a random direction
     scattered_dots,
-    seam,        ///< two sections with a border anywhere in the frame
-    cut,         ///< two places of the pattern that meet at a cut
+    seam,        ///< two sections that meet at a border anywhere in the frame
+    cut,         ///< two places of the pattern that meet at a border
     overlay,     ///< two patterns printed on top of each other
     mirrored,    ///< the mirrored pattern
     replaced,    ///< 30 to 60 % of the symbols are random
@@ -34,7 +34,7 @@ enum class Adversary : std::uint8_t {
     half_empty,  ///< a pattern that is printed on only one side of the frame
     few_lines,   ///< 5 to 8 columns or rows on blank paper
     slip,        ///< one column or row of dots is missing or occurs twice
-    other_code,  ///< a pattern in anoto that is read in another code, or vice versa
+    other_code,  ///< a pattern printed in the code anoto and read in libdots, or vice versa
 };
 inline constexpr std::array kAdversaries = {Adversary::noise,          Adversary::text,
                                             Adversary::halftone,       Adversary::texture,
@@ -54,7 +54,6 @@ constexpr std::string_view name(Adversary adversary) {
     return kNames[static_cast<std::size_t>(adversary)];
 }
 
-/// A pose that may be reported.
 struct Answer {
     CameraPose pose;
     Section section;
@@ -63,8 +62,8 @@ struct Answer {
 struct AdversarialFrame {
     GreyImage image;
     DeviceOptions options;
-    /// The first answer is the place at the image centre. There are no answers if every fix is
-    /// wrong.
+    /// The first answer is the pose of the pattern at the image centre. Without answers, every fix
+    /// is wrong.
     std::vector<Answer> answers;
     Pattern printed;
 };
@@ -72,8 +71,8 @@ struct AdversarialFrame {
 enum class Verdict : std::uint8_t {
     refused,
     right,
-    second,  ///< a place that is printed elsewhere in the frame, extrapolated to the image centre
-    twin,    ///< a place in the code of the options that has the symbols in view
+    second,  ///< the pose of another part of the pattern, extrapolated to the image centre
+    twin,    ///< a place in the code of the options whose bits agree with the print, see `is_twin`
     wrong,
 };
 
@@ -87,9 +86,9 @@ inline bool agrees(const Fix& fix, const Answer& answer) {
            std::abs(theta) < 0.1 && fix.section == answer.section;
 }
 
-/// Returns true if a fix in another code than the printed one is consistent with the frame. This is
-/// the case if, around the fix, at least three quarters of its bits agree with the printed bits
-/// around the answer.
+/// Returns true if the pattern was printed in another code than the locator reads, and the print
+/// also agrees with the fix: around the fix, at least three quarters of the bits in the code of the
+/// options are equal to the printed bits around the first answer.
 inline bool is_twin(const Fix& fix, const AdversarialFrame& frame) {
     if (frame.answers.empty() || frame.options.code == frame.printed.code) return false;
     const Answer& answer = frame.answers.front();
@@ -180,7 +179,7 @@ inline void render_overlay(const Shot& shot, Rng& rng, AdversarialFrame& frame) 
                      {other.pose, other.page.pattern.section}};
 }
 
-/// Renders the pattern with some symbols changed. The pose of the shot remains correct.
+/// Renders the pattern with some symbols changed. The correct answer is still the pose of the shot.
 inline void render_changed(Adversary adversary, const Shot& shot, Rng& rng,
                            AdversarialFrame& frame) {
     const Pattern pattern = shot.page.pattern;
@@ -204,7 +203,8 @@ inline void render_part(Adversary adversary, Shot shot, Rng& rng, AdversarialFra
     const int reach = reach_cells(shot);
     const bool has_few = adversary == Adversary::few_lines;
     std::uint32_t lines = has_few ? 5 + rng.below(4) : kFar;
-    // The few lines may be anywhere in view. A half pattern begins near the middle.
+    // A few lines may be anywhere in the view. A half-empty pattern has its border near the middle
+    // of the view.
     const int spread = has_few ? reach : reach / 3;
     const auto offset = static_cast<int>(rng.below(static_cast<unsigned>(2 * spread + 1))) - spread;
     const bool is_vertical = rng.below(2) == 0;

@@ -45,8 +45,8 @@ inline GreyImage noise(const Shot& shot, Rng& rng) {
     });
 }
 
-/// sin and cos of a + k * i for i = 0, 1, ... along one axis. A plane wave is a combination of the
-/// sines and cosines of both axes.
+/// Sine and cosine of a + k i for i = 0, 1, ..., `count` - 1. With such a table for each image
+/// axis, `Wave` computes a plane wave without further trigonometric functions.
 struct Phases {
     std::vector<double> sin, cos;
 
@@ -58,8 +58,8 @@ struct Phases {
     }
 };
 
-/// A plane wave over an image: the sine or cosine of a phase that increases by `ku` and `kv` per
-/// pixel.
+/// A plane wave over an image: the sine or cosine of a phase that increases by `ku` per column and
+/// by `kv` per row.
 class Wave {
   public:
     Wave(const CameraModel& camera, double ku, double kv)
@@ -101,7 +101,7 @@ inline GreyImage halftone(const Shot& shot, Rng& rng) {
     });
 }
 
-/// Noise at the nodes of a lattice, with linear interpolation between them.
+/// Random values at the nodes of a lattice, with linear interpolation between the nodes.
 class ValueNoise {
   public:
     ValueNoise(std::uint64_t seed, const CameraModel& camera, double nodes_per_px)

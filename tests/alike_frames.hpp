@@ -1,5 +1,5 @@
-/// Frames in which all dots have almost the same sub-pixel phase. A frame depends only on its dots,
-/// seed and index.
+/// Frames in which all dots have almost the same sub-pixel phase. The properties of the dots, the
+/// seed and the index determine a frame.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,9 @@ struct AlikeDots {
     int spacing_px = 11;
     double dot = 1.0 / 6;  ///< diameter, in spacings
     double blur_px = 0.7;
-    double angle_deg = 0;  ///< at 0, 45 and 90 degrees, all dots have the same sub-pixel phase
+    double angle_deg = 0;  ///< at 0 and 90 degrees, all dots have the same sub-pixel phase
 };
 
-/// Returns a camera with 188 x 120 px, or with 640 x 480 px for a spacing of at least 16 px.
 inline CameraModel camera_of(const AlikeDots& dots) {
     CameraModel camera;
     if (dots.spacing_px >= 16) {

@@ -1,4 +1,5 @@
-/// Renders patterns whose symbols differ from the code, in the same way as the simulator.
+/// Renders patterns with symbols that differ from the code. All else is rendered as by the
+/// simulator.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +13,14 @@ inline Vec2 displacement_of(Symbol symbol) {
     return {static_cast<double>(dx(symbol)), static_cast<double>(dy(symbol))};
 }
 
-/// Returns the random number generator of a cell. Its numbers are the same in every call.
+/// Returns the random number generator of a cell. For the same seed and cell, its sequence is the
+/// same.
 inline Rng rng_of(std::uint64_t seed, Cell cell) {
     return Rng(seed, (std::uint64_t{cell.x} << 32) | cell.y);
 }
 
-/// Returns the symbol of the code after each of its two bits was flipped with this probability.
+/// Returns the symbol of the code in a cell, with each of its two bits flipped with the probability
+/// `probability`.
 inline Symbol flipped_symbol(const Pattern& pattern, double probability, std::uint64_t seed,
                              Cell cell) {
     Rng rng = rng_of(seed, cell);

@@ -100,7 +100,6 @@ class Drive {
     DrivePlan plan_;
 };
 
-/// Returns the two sheets with their world poses.
 inline std::vector<SheetEntry> drive_sheets() {
     std::vector<SheetEntry> sheets;
     for (int i = 0; i < 2; ++i) {
@@ -194,7 +193,7 @@ class DriveCamera {
                       imperfections, seed);
     }
 
-    /// Returns the image of a lifted robot, which is out of focus and shows no dots.
+    /// Returns the image of the camera of a lifted robot, which is out of focus and shows no dots.
     GreyImage empty(std::uint64_t seed) const {
         GreyImage image{{}, camera_.width_px, camera_.height_px};
         Rng rng(seed);

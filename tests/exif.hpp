@@ -49,15 +49,16 @@ inline std::string exif_of(const std::vector<std::uint16_t>& tags, bool big_endi
     add_entry(34665, kLong, kHeader + kFirst);
     add(0, 4);
     add(static_cast<std::uint32_t>(tags.size()), 2);
-    // The eight bytes after the header serve as the two numbers of a ratio.
+    // All ratios refer to the eight bytes after the header, because their values do not matter.
     for (const std::uint16_t tag : tags)
         add_entry(tag, tag == sensitivity ? kShort : kRational, kHeader);
     add(0, 4);
     return bytes;
 }
 
-/// Returns a JPEG with EXIF data in a segment before the byte at `position`. Position 2 is the
-/// beginning of the file, as in files of phones. Position 20 is after the density.
+/// Returns a JPEG with EXIF data in a segment before the byte at `position`. Position 2 is directly
+/// after the start marker, where phones write it. Position 20 is after the segment with the
+/// density.
 inline std::string with_exif(std::string jpeg, const std::string& exif, std::size_t position = 20) {
     const std::size_t length = 2 + 6 + exif.size();
     std::string segment = "\xFF\xE1";

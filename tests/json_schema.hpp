@@ -1,5 +1,5 @@
-/// Checks JSON against a JSON Schema (draft 2020-12), with the keywords used in docs/schema. A
-/// schema with any other keyword throws an exception, to leave no part of the schema unchecked.
+/// Checks JSON against a JSON Schema (draft 2020-12), with the keywords used in docs/schema. Throws
+/// an exception if the schema contains another keyword, so that no part of it remains unchecked.
 #pragma once
 
 #include <algorithm>

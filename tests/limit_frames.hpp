@@ -1,5 +1,5 @@
-/// The conditions of docs/limits.md. In each, nominal frames have one property at its worst
-/// permitted value. A frame depends only on its condition, seed and index.
+/// The conditions of docs/limits.md. In each condition, one property of nominal frames has its
+/// worst permitted value. The condition, the seed and the index determine a frame.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,7 @@ inline CameraModel camera_of(int width_px, int height_px, double spacing_px) {
     return camera;
 }
 
-/// Returns a random direction in the image for each frame.
+/// Returns a random direction in the image. It depends only on the seed of the shot.
 inline Vec2 direction_of(const Shot& shot) {
     const double angle_rad = Rng(shot.seed, 1).uniform(-std::numbers::pi, std::numbers::pi);
     return {std::cos(angle_rad), std::sin(angle_rad)};
@@ -57,8 +57,8 @@ inline double covered_share(Shot shot) {
     return static_cast<double>(dark) / static_cast<double>(image.pixels.size());
 }
 
-/// Adds dirt or graphics in steps of `step` until they cover a fraction of the frame from `from` to
-/// `to`.
+/// Adds dirt or graphics in steps of `step` until the covered fraction of the frame is between
+/// `from` and `to`.
 inline void cover(Shot& shot, int Imperfections::*count, int step, double from, double to) {
     for (std::uint64_t trial = 0;; ++trial) {
         shot.seed = Rng(shot.seed, trial).bits();
@@ -80,7 +80,7 @@ inline void add_light(std::vector<Limit>& limits) {
                               constexpr double kLeft = 0.3;
                               Imperfections& worse = shot.imperfections;
                               worse.fall = 2 * (1 - kLeft) / (1 + kLeft);
-                              worse.paper_level /= 1 + worse.fall / 2;  // of the lighter side
+                              worse.paper_level /= 1 + worse.fall / 2;  // level of the lighter side
                               worse.vignetting = vignetting;
                           }});
     }
@@ -182,7 +182,7 @@ inline void add_camera_faults(std::vector<Limit>& limits) {
                  },
                  camera});
             // If the scene moves in the direction of the readout, the image contains fewer rows of
-            // cells, which may be too few.
+            // cells. In the small frames of the device, there may be too few.
             limits.back().is_held = percent == 10 || !is_device;
         }
         for (const int degrees : {2, 10, 20, 40, 60}) {
@@ -260,7 +260,6 @@ inline void add_sizes(std::vector<Limit>& limits) {
     }
 }
 
-/// Adds conditions in which the pattern covers a part of the view.
 inline void add_partial(std::vector<Limit>& limits) {
     for (const int spacing_px : {11, 14, 20}) {
         const std::string seen = ", 640 x 480 at " + std::to_string(spacing_px) + " px";

@@ -1,5 +1,6 @@
-/// A simulated print with jitter and a feed wave, frames for its map, and other frames that test
-/// the map.
+/// Simulates a print whose dots have random errors (jitter) and a periodic error along the paper
+/// feed (wave). Provides frames from which the map of the print is computed, and other frames that
+/// test the map.
 #pragma once
 
 #include <cmath>
@@ -55,18 +56,19 @@ class MappedPrint {
     const SheetEntry& entry() const { return entry_; }
     const MappedPrintOptions& options() const { return options_; }
 
-    /// Offset of the dots at a place. The wave is along y, the direction of paper feed. A tenth of
-    /// the amplitude is along x.
+    /// Returns the displacement of the dots at a place by the wave. The wave is along y, the
+    /// direction of paper feed. A tenth of its amplitude is along x.
     Vec2 wave(Vec2 at_mm) const {
         const double phase = 2 * std::numbers::pi * at_mm.y / options_.wavelength_mm;
         return {0.1 * options_.wave_mm * std::cos(phase), options_.wave_mm * std::sin(phase)};
     }
 
     struct Pose {
-        Vec2 at_mm;  ///< place under the image centre, from the first intersection
+        Vec2 at_mm;  ///< place under the image centre, in mm from the first intersection
         double theta_rad;
     };
-    /// Returns a random pose whose view is on the page.
+    /// Returns a random pose on the page. Its distance from the edges is at least 0.6 times half
+    /// the diagonal of the view.
     Pose pose(std::uint64_t series, std::uint64_t index) const {
         Rng rng(series, index);
         const double reach =
@@ -109,10 +111,11 @@ class PlaceErrors {
     }
     std::size_t count() const { return places_.size(); }
 
-    /// Returns the rms error per axis, without the mean offset, scale and turn.
+    /// Returns the rms error per axis after a fit of offset, scale and turn.
     double absolute_um() const { return left_um(4, 0); }
-    /// Returns the rms error per axis, without the part that changes slowly over the page: the
-    /// given wave, which moves fixes to the other side, and cubic polynomials.
+    /// Returns the rms error per axis, without errors that change slowly over the page. Adds
+    /// `wave_share` times the wave to each error, because a displaced dot moves the fix in the
+    /// opposite direction, and then subtracts a fit of cubic polynomials.
     double repeatability_um(double wave_share) const { return left_um(20, wave_share); }
     double sigma_um() const {
         return 1000 * std::sqrt(variance_ / static_cast<double>(places_.size()));
@@ -176,7 +179,7 @@ struct MapTest {
     int not_covered = 0;
 };
 
-/// Locates `frames` frames that were not used for the map.
+/// Locates `frames` frames that were not used for the map, with and without the map.
 inline MapTest test_map(const MappedPrint& print, const PrintMap& map, int frames,
                         std::uint64_t series = 200, const std::optional<Camera>& camera = {}) {
     MapTest result;

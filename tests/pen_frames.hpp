@@ -28,12 +28,12 @@ inline Shot pen_shot(std::uint64_t seed, std::uint64_t index) {
     setup.camera.working_distance_mm = 16;
     setup.seed = seed;
     Shot shot = draw_shot(setup, index);
-    // Dots of half the usual size have half the print error.
+    // The print errors are assumed to be proportional to the size of the dots.
     shot.imperfections.jitter_mm = 0.005;
     return shot;
 }
 
-/// Returns the camera file of this camera, without the tip.
+/// Returns the camera file for the camera of `pen_shot`, without the tip.
 inline Camera pen_camera() {
     Camera camera;
     camera.width_px = 320;
@@ -43,8 +43,8 @@ inline Camera pen_camera() {
     return camera;
 }
 
-/// Returns a pose of a pen that is tilted by up to 40 degrees to any side, with its tip at (x_mm,
-/// y_mm).
+/// Returns a random pose of a pen with its tip at (x_mm, y_mm). The pen is tilted by up to
+/// `max_tilt_rad` in any direction.
 inline PenPose pivoted(double x_mm, double y_mm, double max_tilt_rad, Rng& rng) {
     PenPose pose;
     pose.x_mm = x_mm;

@@ -73,7 +73,6 @@ class InkLayer {
         }
     }
 
-    /// Convolves the rows and then the columns with a Gaussian.
     void blur(double sigma_px) {
         const int reach = static_cast<int>(std::ceil(3.5 * sigma_px));
         if (reach == 0) return;

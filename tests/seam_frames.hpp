@@ -1,6 +1,6 @@
 /// Frames of two adjacent sheets with a straight seam. Their renderer shares no code with the
-/// simulator and therefore cannot repeat its errors. It samples each dot, a disc that is cut off at
-/// the seam, within each pixel. Then it applies blur, light and noise to the image.
+/// simulator and therefore cannot repeat its errors. Dots are discs that are cut off at the seam.
+/// The renderer samples them within each pixel, and then adds blur, light and noise.
 #pragma once
 
 #include <algorithm>
@@ -32,16 +32,16 @@ struct SeamShot {
 
     double seam_px = 0;        ///< distance from the image centre to the seam
     double direction_rad = 0;  ///< direction from the image centre to the seam, in the image
-    double along_px = 0;    ///< position, along the seam, of the centre of the far side's rotation
-    double turn_rad = 0;    ///< rotation of the far side
-    double shift_x_px = 0;  ///< shift of the far side
+    double along_px = 0;       ///< position of the far side's centre of rotation along the seam
+    double turn_rad = 0;       ///< rotation of the far side
+    double shift_x_px = 0;     ///< shift of the far side
     double shift_y_px = 0;
 
     double paper_level = 190;
     double fall = 0.1;  ///< relative decrease of the light from the left to the right side
     double blur_px = 0.6;
     double noise = 3;
-    double jitter_grid = 0.02;  ///< standard deviation of a printed dot's place, along each axis
+    double jitter_grid = 0.02;  ///< standard deviation of the positions of printed dots, per axis
     std::uint64_t seed = 1;
 
     Truth truth() const {

@@ -16,9 +16,9 @@ namespace dotpose::test {
 
 /// A line, and the displacement and rotation of the dots beyond it.
 struct Slip {
-    double distance_grid = 0;  ///< distance of the line from the pose point
+    double distance_grid = 0;  ///< distance of the line from the image centre
     double direction_rad = 0;  ///< direction of the normal of the line, from +x towards +y
-    Vec2 shift_grid;  ///< displacement at the point of the line that is closest to the pose point
+    Vec2 shift_grid;  ///< displacement at the point of the line that is closest to the image centre
     double turn_rad = 0;
 };
 
@@ -81,7 +81,7 @@ inline void wrinkle(double amplitude_grid, Shot& shot) {
                 {amplitude_mm * std::cos(moves_rad), amplitude_mm * std::sin(moves_rad)}};
     }
     // The waves are corrected by a shift and a rotation, so that the paper is neither displaced nor
-    // rotated at the pose point.
+    // rotated at the image centre.
     const Vec2 axis{std::cos(shot.pose.theta_rad), std::sin(shot.pose.theta_rad)};
     Vec2 shift_there_mm;
     double turn_mm = 0;  // per spacing

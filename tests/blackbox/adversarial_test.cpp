@@ -47,9 +47,8 @@ TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
     }
 }
 
-// In these frames, a seam between two sections changes the digits that are read, and the changed
-// digits also occur elsewhere in the code. Regression: each of these frames was located at that
-// other place.
+// The digits that are read across the seam of two sections belong to neither section, but occur
+// elsewhere in the code. Regression: `locate` reported that other place for each of these frames.
 TEST(Adversarial, WhatASeamExplainsBetterIsNoFix) {
     const auto memory = std::make_unique<LargeMemory>();
     struct Seam {

@@ -59,8 +59,9 @@ TEST_F(Afternoon, OfARoboticist) {
     ASSERT_EQ(lines.size(), 20U);
     const json last = json::parse(lines.back());
     EXPECT_EQ(last["sheet"], "table");
-    // The page's upper edge points along the world's y axis, and the page's y axis along the
-    // world's x axis.
+    // The last frame is 49 mm from the left and 25 mm from the upper edge of the page. The page has
+    // a yaw of 90 degrees and its y axis points down, so its x axis is the world's y axis, and its
+    // y axis is the world's x axis.
     EXPECT_NEAR(last["x_m"], 1.000 + 0.025, 2e-5);
     EXPECT_NEAR(last["y_m"], 2.000 + 0.049, 2e-5);
     EXPECT_NEAR(last["yaw_rad"], std::numbers::pi / 2, 0.005);

@@ -45,8 +45,8 @@ TEST_P(DotsAlike, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     const Score score = score_of(outcomes);
     EXPECT_EQ(score.wrong, 0);
     EXPECT_GE(score.located, kFramesOfCase * 9 / 10);
-    // If the reported variances are correct, a mean of kFramesOfCase squared errors in units of the
-    // variance exceeds 1.85 once in 20,000 cases.
+    // If the reported variances are correct, the mean of kFramesOfCase squared errors, each divided
+    // by its variance, exceeds 1.85 with a probability of 1/20,000.
     for (const double normalised : score.normalised)
         EXPECT_LT(normalised, 1.85);
     const double px = kDefaultSpacing_mm / GetParam().dots.spacing_px;
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.7, .angle_deg = 0}, 0.006},
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.7, .angle_deg = 90}, 0.006}));
 
-// Sharp dots with details finer than a pixel. Without correction of the pixel bias, the error is
+// Dots with edges that are sharper than a pixel. Without correction of the pixel bias, the error is
 // 0.0100 px at 12 px per spacing.
 INSTANTIATE_TEST_SUITE_P(
     HardlyBlurred, DotsAlike,

@@ -19,9 +19,11 @@ namespace {
 using testing::AnyOf;
 using testing::HasSubstr;
 
-/// Positions modulo 241, the period of the sequence a4. At the positions 222 to 238, a4 differs
-/// between the codes anoto and libdots (docs/position-code.md): from 222 on, the digits of one code
-/// are those of the other code, shifted by one position.
+/// Positions modulo 241, the period of the sequence a4. From position 222 to position 238, the
+/// digits of a4 in one of the codes anoto and libdots are those of the other code, shifted by one
+/// position (docs/position-code.md). A view at kShifted therefore occurs in both codes, at
+/// different places, and a view at kCommon at the same place. A view at kBorder occurs in only one
+/// code.
 constexpr std::uint32_t kPeriod = 241;
 constexpr std::uint32_t kShifted = 231;
 constexpr std::uint32_t kBorder = 221;
@@ -92,8 +94,8 @@ TEST_F(AnyCode, two_places_are_told_where_both_explain_the_frame) {
 
 TEST_F(AnyCode, other_frames_of_the_call_decide) {
     for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::libdots}) {
-        // The dots of the first two frames occur in only one code. The dots of the third frame
-        // occur in both codes.
+        // The first two frames are at kBorder, and therefore occur in only one code. The third
+        // frame occurs in both codes.
         write_at("1.pgm", code, kCommon, kBorder);
         write_at("2.pgm", code, kBorder + kPeriod, kCommon);
         const Shot truth = write_at("3.pgm", code, kCommon, kShifted);

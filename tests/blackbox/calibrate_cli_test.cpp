@@ -13,7 +13,8 @@ using testing::HasSubstr;
 
 class CalibrateCommand : public ToolCommand {
   protected:
-    /// Simulates frames with the lens of the paper, and writes them to a folder.
+    /// Simulates frames with the lens distortion of the camera in the paper, and writes them to a
+    /// folder.
     void simulate(const std::string& folder, int frames, const std::string& more = "") {
         ASSERT_EQ(run("simulate -o " + folder + " --seed 91 --k -8.7e-6 --frames " +
                       std::to_string(frames) + " " + more),
@@ -38,8 +39,8 @@ TEST_F(CalibrateCommand, WritesACameraFileThatLocateReads) {
     EXPECT_EQ(json::parse(output_)["wrong"], 0);
 }
 
-// Locates frames with lens distortion, but without a camera file. The lens moves the image corner
-// by up to 5 % of its distance from the centre, both inwards and outwards.
+// Locates frames with lens distortion, but without a camera file. The distortion moves the image
+// corner by up to 5 % of its distance from the centre, inwards or outwards.
 TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
     const auto corner_px = [](int width, int height) {
         return std::hypot((width - 1) / 2.0, (height - 1) / 2.0);
@@ -103,8 +104,8 @@ TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
         2);
     EXPECT_NEAR(u, 93.5, 0.3);
     EXPECT_NEAR(v, 59.5, 0.3);
-    // The robot drives along x, so its heading is 0. The image x axis points to -90 degrees, so the
-    // offset is 90 degrees.
+    // The robot drives along the x axis of the pattern, so its heading is 0 degrees. The image x
+    // axis has an angle of -90 degrees, so 90 degrees must be added to obtain the heading.
     double offset_rad = 0;
     ASSERT_EQ(std::sscanf(yaml.c_str() + yaml.find("theta_offset_rad: "), "theta_offset_rad: %lf",
                           &offset_rad),
@@ -203,7 +204,8 @@ TEST_F(CalibrateCommand, ASpacingThatTheCameraFileContradictsIsReported) {
 }
 
 TEST_F(CalibrateCommand, TakesTheSpacingFromTheSheetFile) {
-    // The first sheet of a sheet file begins at cell 1024,1024.
+    // The first sheet of a sheet file begins at cell 1024,1024, so frames at the following cells
+    // show it.
     ASSERT_EQ(run("print -o fine.svg --spacing 0.3 --sheets sheets.json --name fine"), 0);
     std::string frames;
     for (const int at : {1100, 1130, 1160, 1190, 1220}) {
@@ -245,7 +247,7 @@ TEST_F(CalibrateCommand, KeepsTheMountOfTheFileThatItReplaces) {
     EXPECT_THAT(file("camera.yaml"), HasSubstr("reference_px: ["));
     EXPECT_THAT(file("camera.yaml"), HasSubstr("gain: 3"));
 
-    // The lens is also kept if only the heading is calibrated.
+    // If only the heading is calibrated, the file keeps the lens parameters.
     std::ofstream(directory_ / "camera.yaml") << kMountedCamera;
     std::string drive;
     for (const int at : {5000, 5040, 5080}) {
@@ -257,8 +259,7 @@ TEST_F(CalibrateCommand, KeepsTheMountOfTheFileThatItReplaces) {
     EXPECT_THAT(file("camera.yaml"), HasSubstr("k_per_px2: -8.7e-06"));
     EXPECT_THAT(file("camera.yaml"), HasSubstr("reference_px: [500, 59.5]"));
 
-    // A file of another camera, or of another format, is not overwritten, because its mount would
-    // be lost.
+    // Files of other cameras or formats are not overwritten, because their contents would be lost.
     for (const char* other : {kLargeCamera, "{format: another}"}) {
         std::ofstream(directory_ / "camera.yaml") << other;
         EXPECT_EQ(run("calibrate frames/*.pgm -o camera.yaml"), 1);

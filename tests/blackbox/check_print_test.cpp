@@ -135,7 +135,8 @@ TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
     EXPECT_EQ(exit_code_, 0) << output_;
     EXPECT_THAT(output_, HasSubstr("note:  scale was not checked, because this is a photo"));
 
-    // The first scan states no resolution, and the second scan states a wrong one.
+    // The file scan.jpg contains no resolution. The file screen.jpg contains 72 dpi, which is not
+    // the resolution of a scan.
     const GreyImage scan = test::scan_page(sheet, {});
     write_jpeg("scan.jpg", scan, 0);
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json"), 1);
@@ -175,8 +176,9 @@ TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
     EXPECT_EQ(run("check-print photo.jpg --format json"), 0);
     EXPECT_EQ(json::parse(output_)["exif_of_camera"], true);
 
-    // The EXIF data of a scanner contain no exposure. The check therefore uses the resolution of
-    // the file, 300 dpi. The option --dpi has the same effect.
+    // The EXIF data of a scanner contain no exposure, so the check uses the resolution of the file.
+    // The image has 330 dpi and the file contains 300 dpi, so the page seems to be scaled to 110 %.
+    // For a photo, the scale is checked only if --dpi is given.
     write("scan.jpg", {test::date_taken, test::file_source});
     EXPECT_EQ(run("check-print scan.jpg"), 3);
     EXPECT_THAT(output_, HasSubstr("FAULT: the driver scaled the page to 110.0 %"));
@@ -219,7 +221,7 @@ TEST_F(CheckPrintCommand, judges_every_sheet_on_the_scan_by_what_the_sheet_file_
     EXPECT_NEAR(fitted[1].print_scale_y, 0.96, 2e-4);
     EXPECT_EQ(fitted[2].print_scale_x, 1);
 
-    // Without the file, all sheets are checked against one pattern.
+    // Without the sheet file, the check expects one pattern on the whole scan.
     run("check-print scan.jpg");
     EXPECT_THAT(output_, HasSubstr("FAULT: from cell "));
 }
@@ -351,7 +353,7 @@ TEST_F(CheckPrintCommand, wrong_usage_is_status_2) {
         "print --test-page -o test.txt",                //
         "print --test-page -o test.png --spacing 0.5",  // a test page has several spacings
         "print --test-page -o test.png --origin 1,1",   //
-        "print --test-page -o test.png --dpi 300",      // too coarse for 0.381 mm
+        "print --test-page -o test.png --dpi 300",      // too coarse for a spacing of 0.381 mm
         "print --test-page -o test.png --paper 40x40",  // no room
     };
     for (const char* arguments : wrong) {

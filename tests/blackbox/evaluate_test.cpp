@@ -78,8 +78,8 @@ TEST_F(EvaluateCommand, AFolderGivesTheNumbersOfTheSameFramesInMemory) {
     ASSERT_EQ(run("evaluate --preset nominal --frames 10 --seed 7 --format json"), 0) << errors_;
     const json memory = result();
     EXPECT_EQ(memory["located"], folder["located"]);
-    // The results differ because the positions in truth.csv are rounded to 8 decimals, in grid
-    // spacings.
+    // The results differ slightly, because truth.csv contains positions rounded to 8 decimals of a
+    // grid spacing.
     EXPECT_NEAR(memory["position_um"]["median"], folder["position_um"]["median"], 1e-4);
     EXPECT_NEAR(memory["angle_deg"]["max"], folder["angle_deg"]["max"], 1e-6);
 }
@@ -127,8 +127,8 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     const json image = result();
     EXPECT_EQ(image["located"], 5);
     EXPECT_LT(image["position_um"]["max"], 5);
-    // The scale and tilt in the camera file are also used. The fit then has five parameters instead
-    // of eight, so the angle differs.
+    // The scale and tilt in the camera file are also used, so the fit has five parameters instead
+    // of eight. The angle therefore differs from that of the fit with only the lens.
     EXPECT_NE(image["angle_deg"]["max"], lens_alone["angle_deg"]["max"]);
     ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --format json"), 0) << errors_;
     EXPECT_EQ(result()["wrong"], 5);  // truth.csv contains the pose of the image centre
@@ -182,8 +182,8 @@ TEST_F(EvaluateCommand, TheProtocolWritesItsTableAndFigures) {
     }
 }
 
-/// Frames on a sheet, whose poses were measured by a motion stage. The coordinate system of the
-/// stage has another origin, direction and unit.
+/// Frames of a sheet with poses that were measured in two ways: by a ruler, in the coordinates of
+/// the sheet, and by a motion stage, whose coordinates have another origin, direction and unit.
 class EvaluateMeasured : public EvaluateCommand {
   protected:
     void SetUp() override {
@@ -201,8 +201,8 @@ class EvaluateMeasured : public EvaluateCommand {
                       frame_of(sheet, x_mm, y_mm, 0.4 * i, static_cast<std::uint64_t>(i)).view());
             by_ruler << name << ",table," << x_mm << ',' << y_mm << ',' << 0.4 * i * kDegrees
                      << '\n';
-            // In the coordinate system of the stage, y points up and the axes are rotated by a
-            // quarter turn. Its coordinates are 0.3 % too large.
+            // The x axis of the stage is the y axis of the sheet, and its y axis is the x axis of
+            // the sheet. It measures in metres, and its lengths are 0.3 % too large.
             by_stage << name << ',' << 1.003 * y_mm / 1000 << ',' << 1.003 * x_mm / 1000 << ','
                      << 90 - 0.4 * i * kDegrees << '\n';
         }

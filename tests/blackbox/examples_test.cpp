@@ -60,8 +60,8 @@ TEST_F(Examples, FollowGoesWithTheRobot) {
         ASSERT_EQ(std::sscanf(lines[i].c_str(), "x %*f mm, y %*f mm, %lf and %lf mm/s", &vx, &vy),
                   2)
             << lines[i];
-        // Frames are tracked from the third frame on, because the velocity is estimated from two
-        // fixes. Without the velocity, the robot moves too far between frames.
+        // The second frame gives the first estimate of the velocity, so frames are tracked from the
+        // third frame on. Without the velocity, the prediction is too far from the true pose.
         EXPECT_EQ(lines[i].ends_with("tracked"), i >= 2) << lines[i];
         const DriveState truth = drive.at(first + static_cast<int>(i));
         if (i >= 4) {

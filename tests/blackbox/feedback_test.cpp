@@ -29,7 +29,7 @@ class Feedback : public ToolCommand {
     }
 
     /// Runs shell commands that start the tool and write its process id to the file pid, waits
-    /// until `condition` holds, and sends Ctrl-C.
+    /// until the shell command `condition` succeeds, and sends SIGINT to the tool, as Ctrl-C does.
     int interrupt(const std::string& commands, const std::string& condition) {
         return shell("export T; { " + commands + "; } & job=$!; until [ -s pid ] && { " +
                      condition +

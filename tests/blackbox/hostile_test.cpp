@@ -104,7 +104,7 @@ TEST_F(Hostile, NestingAndSizeOfTextFilesAreBounded) {
     EXPECT_THAT(errors_, HasSubstr("/dev/zero has more than 1 MB"));
 }
 
-/// Returns a PNG of 16,000 x 16,000 px that ends before its pixels.
+/// Returns a PNG of 16,000 x 16,000 px that is cut off at the beginning of the pixel data.
 std::string png_header() {
     using namespace std::string_literals;
     return "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x3e\x80\0\0\x3e\x80\x08\0\0\0\0\x64\x15\x80\x02"

@@ -70,7 +70,8 @@ TEST_F(LiveCalibration, EndsByItselfOnceNothingIsMissing) {
     EXPECT_GE(used(), 5);
     EXPECT_LT(used(), 45);
     EXPECT_EQ(std::distance(fs::directory_iterator(directory_ / "kept"), {}), used());
-    // In a video, the camera rests at each place. The calibration uses the same frames of it.
+    // In the video, each image is repeated three times. The calibration must use it only once, so
+    // the results are equal.
     const std::string report = output_;
     const std::string file_of_images = file("camera.yaml");
     put_raw("resting.raw");
@@ -131,19 +132,20 @@ TEST_F(LiveCalibration, TakesFramesOfARobotThatDoesNotStop) {
                   static_cast<std::streamsize>(image.pixels.size()));
     }
     raw.close();
-    // The drive takes 6 s at 10 frames per second. For the first 3 s, the program waits for a frame
-    // at rest.
+    // At 10 frames per second, the drive takes 6 s. After 3 s without a frame at rest, the program
+    // accepts frames in motion.
     EXPECT_EQ(calibrate("--size 188x120 --fps 10 - <drive.raw"), 0) << errors_;
     EXPECT_TRUE(has_file());
     EXPECT_GE(used(), 10);
-    // At 30 frames per second, the frames end after 2 s, before the program stops waiting.
+    // At 30 frames per second, the drive takes 2 s, so the program accepts no frame in motion.
     fs::remove(directory_ / "camera.yaml");
     EXPECT_EQ(calibrate("--size 188x120 --fps 30 - <drive.raw"), 1);
     EXPECT_FALSE(has_file());
     EXPECT_THAT(errors_, HasSubstr(" and 0 taken (0 out of focus, "));
 }
 
-/// Returns commands that send Ctrl-C after `frames` frames of an endless source.
+/// Returns shell commands that calibrate with an endless source, and send Ctrl-C after `frames`
+/// frames have been taken.
 std::string interrupted_after(int frames) {
     return fmt::format(
         "mkfifo pipe; touch told; (cat resting.raw; exec sleep 60) > pipe & writer=$!\n"
@@ -199,7 +201,7 @@ TEST_F(LiveCalibration, RefusesWhatItCannotDo) {
         EXPECT_THAT(errors_, HasSubstr("cannot be given together")) << other;
     }
     EXPECT_EQ(run("calibrate --no-window frames"), 2);
-    // The tool checks the output path before the user moves the camera.
+    // The output path is checked first, so the user does not move the camera in vain.
     EXPECT_EQ(run("calibrate --live --no-window frames -o nowhere/camera.yaml"), 1);
     EXPECT_THAT(errors_, HasSubstr("nowhere/camera.yaml"));
     EXPECT_THAT(errors_, Not(HasSubstr("taken")));

@@ -46,7 +46,6 @@ TEST_F(LocateCommand, bits_that_contradict_a_position_are_not_counted_by_dots) {
     EXPECT_TRUE(is_doubted);
 }
 
-/// Returns a shot without blur and noise.
 Shot clean_shot(double px_per_spacing) {
     Setup setup;
     setup.seed = 9;
@@ -119,7 +118,8 @@ Shot wide_shot() {
     return draw_shot(setup, 0);
 }
 
-// Both dimensions of the image are odd, so the image centre moves when the image is reduced.
+// The width and the height are odd. Halving the image omits the last column and row, which moves
+// the image centre.
 TEST_F(LocateCommand, an_image_beyond_the_limit_is_reduced_and_that_is_told) {
     const Shot wide = wide_shot();
     write_pgm(directory_ / "wide.pgm", render(wide).view());

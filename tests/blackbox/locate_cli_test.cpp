@@ -137,7 +137,7 @@ TEST_F(LocateCommand, sixteen_bits_and_transparency_change_nothing) {
     const GreyImage image = render(shot(2));
     write_pgm(directory_ / "grey.pgm", image.view());
     std::vector<std::uint16_t> deep;
-    std::vector<std::uint8_t> ink;  // black pixels with different transparency
+    std::vector<std::uint8_t> ink;  // black pixels, with the image in their opacity
     for (const std::uint8_t level : image.pixels) {
         deep.push_back(static_cast<std::uint16_t>(level * 257));
         ink.push_back(0);
@@ -331,8 +331,8 @@ TEST_F(LocateCommand, the_lens_is_used) {
     EXPECT_LT(with_lens["residual_px"], 0.5);
     run("a.pgm");
     const json without = records().at(0);
-    // Without --k, the lens term of the pose fit still explains most of the dots, but less
-    // accurately.
+    // Without --k, the pose fit estimates the lens distortion. It uses fewer dots, and the fix is
+    // less accurate.
     if (without["status"] == "ok") {
         EXPECT_LT(without["dots_used"], 0.95 * with_lens["dots_used"].get<double>()) << without;
         EXPECT_GT(without["sigma_x_mm"], 1.2 * with_lens["sigma_x_mm"].get<double>()) << without;
@@ -405,7 +405,7 @@ TEST_F(LocateCommand, draws_a_picture_for_each_image) {
     EXPECT_THAT(pictures, testing::UnorderedElementsAre("a.svg", "a-2.svg", "flat<&>.svg"));
 
     fs::create_directory(directory_ /
-                         "new/folder/b.svg");  // this directory has the name of a picture
+                         "new/folder/b.svg");  // a directory, so b.svg cannot be written
     write_frame("b.pgm", 2);
     run("--draw new/folder b.pgm a.pgm");
     EXPECT_EQ(exit_code_, 1);
@@ -436,8 +436,8 @@ TEST_F(LocateCommand, output_can_go_to_a_file) {
 
 TEST_F(LocateCommand, lines_leave_at_once) {
     write_frame("a.pgm", 0);
-    // Writes one name, and keeps the list open until the tool has printed the first line, or for 10
-    // seconds.
+    // Writes a script that prints one name and keeps the list open until the tool has printed the
+    // first line, for at most 10 seconds.
     write("names.sh",
           "echo a.pgm\n"
           "for i in $(seq 100); do [ -s out ] && echo yes > came && break; sleep 0.1; done\n");

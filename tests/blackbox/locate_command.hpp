@@ -45,7 +45,6 @@ inline std::vector<std::string> cells_of(const std::string& line) {
     return cells;
 }
 
-/// Returns a nominal shot with a known pose.
 inline Shot shot(std::uint64_t index) {
     Setup setup;
     setup.seed = 20;
@@ -82,8 +81,8 @@ class LocateCommand : public ToolCommand {
         image.pixels.assign(static_cast<std::size_t>(width_px * height_px), 200);
         write_pgm(directory_ / name, image.view());
     }
-    /// Writes an image with libpng's simplified interface. 2-byte samples are linear, as in the
-    /// 16-bit formats of libpng.
+    /// Writes an image with libpng's simplified interface. libpng requires that samples of two
+    /// bytes are proportional to the light (linear).
     void write_as_png(const std::string& name, const GreyImage& image, png_uint_32 format,
                       const void* samples) const {
         png_image png{};

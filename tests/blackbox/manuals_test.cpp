@@ -39,7 +39,6 @@ class ShellFiles : public ToolCommand {
         return words_of(output_);
     }
 
-    /// Returns the long options listed in the help of a command.
     Words options_in_help(const std::string& command) {
         EXPECT_EQ(run(command + " --help"), 0);
         Words options;

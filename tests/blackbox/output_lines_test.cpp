@@ -46,7 +46,7 @@ Matrix propagated(const Matrix& j, const Matrix& c) {
     return result;
 }
 
-/// Compares two matrices that were printed with seven digits.
+/// Compares two matrices. The tolerance allows for their seven printed digits.
 void expect_equal(const Matrix& actual, const Matrix& expected) {
     for (std::size_t i = 0; i < 9; ++i) {
         const double scale = std::sqrt(expected[i / 3][i / 3] * expected[i % 3][i % 3]);
@@ -197,7 +197,8 @@ TEST_F(OutputLines, HaveTheCovarianceOfEachPose) {
     EXPECT_NEAR(std::sqrt(pattern[0][0]), line["sigma_x_mm"].get<double>(), 1e-6);
     EXPECT_NEAR(std::sqrt(pattern[1][1]), line["sigma_y_mm"].get<double>(), 1e-6);
     EXPECT_NEAR(std::sqrt(pattern[2][2]), line["sigma_theta_deg"].get<double>(), 1e-6);
-    // The sheet is printed at its nominal scale, so its covariance is that of the pattern.
+    // The sheet is printed at its nominal scale, so the covariance on the sheet is that in the
+    // pattern.
     expect_equal(matrix_of(line["covariance_sheet_mm_deg"]), pattern);
     EXPECT_EQ(line["theta_sheet_deg"], line["theta_deg"]);
     // docs/sheet-files.md defines the pose in the world, for example x_m = world.x_m + (x cos(yaw)
@@ -232,7 +233,8 @@ TEST_F(OutputLines, OfRosAreRightHandedInMetresAndRadians) {
 }
 
 TEST_F(OutputLines, OfATrackTurnOverOnlyWhereYPointsDown) {
-    // y points down in the bare pattern, and up in the world.
+    // Without sheets, the track is in the pattern, where y points down. With sheets, it is in the
+    // world, where y points up.
     for (const std::string sheets : {"", " --sheets sheets.json"}) {
         const double sign = sheets.empty() ? -1 : 1;
         const std::string command = "watch frames --fps 200 --no-window" + sheets + " --units ";

@@ -25,7 +25,8 @@ class PdfCommands : public ToolCommand {
 TEST_F(PdfCommands, print_makes_pages_with_text_that_can_be_selected) {
     run("$T print -o 'my sheet.pdf' --pages 3 --paper A6 --section 1,2 --origin 9,8");
     EXPECT_EQ(exit_code_, 0);
-    // Margins of 10 mm leave 85 x 128 mm, which is enough for 167 x 252 cells of 0.508 mm.
+    // Margins of 10 mm leave 85 x 128 mm. n cells of 0.508 mm need (n - 0.5) * 0.508 mm, so there
+    // are 167 x 252 cells.
     EXPECT_THAT(output_, HasSubstr("my sheet.pdf: 1/3, page 105 x 148 mm, cells 9,8 to 175,259 "));
     EXPECT_THAT(output_, HasSubstr("3/3, page 105 x 148 mm, cells 343,8 to 509,259 "));
     run("qpdf --check 'my sheet.pdf' && pdftotext -f 2 -l 2 'my sheet.pdf' -");
@@ -71,7 +72,7 @@ TEST_F(PdfCommands, overlay_says_which_region_each_page_got) {
     run("$T print -o in.pdf --pages 3 --paper 80x60 > /dev/null && "
         "$T overlay in.pdf -o out.pdf --pages 1,z --origin 5000,10 --spacing 1");
     EXPECT_EQ(exit_code_, 0);
-    // Margins of 5 mm leave 70 x 50 mm.
+    // Margins of 5 mm leave 70 x 50 mm, which is 70 x 50 cells of 1 mm.
     EXPECT_THAT(output_, HasSubstr("out.pdf 1: page 80 x 60 mm, cells 5000,10 to 5069,59 "));
     EXPECT_THAT(output_, HasSubstr("out.pdf 3: page 80 x 60 mm, cells 5070,10 to 5139,59 "));
     EXPECT_THAT(output_, HasSubstr("warning: pages 1, 3: black text or drawings hide dots"));
@@ -96,8 +97,8 @@ TEST_F(PdfCommands, overlay_enters_its_pages_in_a_sheet_file) {
         int origin_y;
         int columns;
     } expected[] = {
-        // With margins of 5 mm, n dots need (n - 0.5) * 0.508 mm. Automatically assigned regions
-        // are kSheetGap_cells = 1024 cells apart.
+        // Between margins of 5 mm, n cells need (n - 0.5) * 0.508 mm. Automatically assigned
+        // regions are kSheetGap_cells = 1024 cells apart.
         {"desk", 1, 1024, 1024, 59},
         {"form-1", 1, 1024 + 59 + 1024, 1024, 138},
         {"form-3", 3, 1024 + 59 + 1024 + 138 + 1024, 1024, 138},

@@ -149,7 +149,7 @@ TEST_F(RunFiles, pictures_of_frames_are_outputs_too) {
     EXPECT_THAT(errors_, HasSubstr("would overwrite the input --list p/frame_000000.svg"));
     EXPECT_EQ(file("p/frame_000000.svg"), list);
     EXPECT_TRUE(fs::exists(directory_ / "p/frame_000001.svg"));
-    // Images whose names differ only in case have different pictures.
+    // The pictures of images whose names differ only in case do not overwrite each other.
     ASSERT_EQ(shell("cp g/frame_000000.pgm a.pgm && cp g/frame_000001.pgm A.pgm"), 0);
     EXPECT_EQ(run("locate a.pgm A.pgm --draw p"), 0) << errors_;
 }

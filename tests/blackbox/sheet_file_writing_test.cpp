@@ -92,7 +92,8 @@ TEST_F(SheetFileWriting, no_page_is_written_where_its_entry_cannot_be) {
 }
 
 TEST_F(SheetFileWriting, a_page_that_cannot_be_written_leaves_no_entry) {
-    // The entry has about 700 bytes, and the page exceeds the limit of 2 KB.
+    // The limit of 4 blocks of 512 bytes is enough for the entry of about 700 bytes, but not for
+    // the page.
     EXPECT_EQ(
         shell("trap '' XFSZ; ulimit -f 4; $T print -o a.svg --paper 40x40 --sheets sheets.json "
               "--name a"),
@@ -139,7 +140,7 @@ TEST_F(SheetFileWriting, prints_at_the_same_time_all_get_regions_of_their_own) {
     std::vector<std::uint32_t> origins;
     for (const json& sheet : sheets())
         origins.push_back(sheet["origin_x"]);
-    // Each region has 59 columns, and the gaps have 1024 columns. All regions fit in one row.
+    // Each region has 59 columns. The gaps before and between the regions have 1024 columns.
     EXPECT_THAT(origins, ElementsAre(1024, 2107, 3190, 4273, 5356, 6439, 7522, 8605));
 }
 

@@ -26,8 +26,9 @@ using testing::IsEmpty;
 
 constexpr double kPi = std::numbers::pi;
 
-// Tolerance of positions. In nominal frames, dots are jittered by 0.010 mm and about 170 dots are
-// in view, so a fix is accurate to 0.001 mm. An error of half a camera pixel would be 0.02 mm.
+// Tolerance of positions. It is much larger than the error of a nominal frame, which is 0.001 mm (a
+// jitter of 0.010 mm, averaged over about 170 dots), and smaller than half a camera pixel (0.023
+// mm).
 constexpr double kTolerance_mm = 0.02;
 
 using SheetFiles = SheetsCommand;
@@ -85,7 +86,8 @@ TEST_F(SheetFiles, only_sheets_excludes_others_and_reads_small_views) {
     ASSERT_EQ(print("-o table.svg --paper 80x60 --sheets sheets.json --name table"), 0) << errors_;
     json sheet = sheets().at(0);
     const GreyImage frame = frame_of(sheet, 40, 30, 0.3, 1);
-    // The middle of the frame is a square with a side of six to seven cells.
+    // Cuts out the middle of the frame. It is 6.5 cells wide, which is too small for a position
+    // unless the sheets are known.
     constexpr int kSide_px = 72;
     const ImageView whole = frame.view();
     const std::uint8_t* first =
@@ -105,8 +107,8 @@ TEST_F(SheetFiles, only_sheets_excludes_others_and_reads_small_views) {
 }
 
 /// Returns the image of a camera above the printed page, cropped from the image of the page. Each
-/// camera pixel covers 2 x 2 printer pixels, and the image centre is at the corner (u, v) of the
-/// printer pixels. The table around the page is white.
+/// camera pixel covers 2 x 2 printer pixels, and the image centre is at the upper left corner of
+/// the printer pixel (u, v). The surroundings of the page are white.
 GreyImage cut_out(const GreyImage& page, int u, int v, int width_px = 188, int height_px = 120) {
     const auto level_at = [&page](int column, int row) {
         const bool is_inside =
@@ -131,8 +133,8 @@ TEST_F(SheetFiles, agree_with_a_ruler_on_the_printed_page) {
     ASSERT_EQ(print("-o other.svg --paper 40x40 --sheets sheets.json --name other"), 0);
     ASSERT_EQ(print("-o page.png --dpi 1200 --paper 50x40 --sheets sheets.json --name page"), 0);
     const GreyImage page = read_image((directory_ / "page.png").string());
-    // The last two places are on the margins: one to the left of the first intersection, and one
-    // above it.
+    // The last two places are on the margins: one to the left of the first column of dots, and one
+    // above the first row.
     for (const auto& [u, v] :
          {std::pair(500, 500), {1111, 700}, {1800, 1333}, {200, 900}, {1200, 190}}) {
         const json record = locate_with_sheets(cut_out(page, u, v, 280, 260));
@@ -183,7 +185,7 @@ TEST_F(SheetFiles, a_frame_under_the_ruler_s_50_mm_lies_at_50_mm) {
     const json record =
         locate_with_sheets(cut_out(page, u, static_cast<int>(30 * kPxPerMm), 280, 260));
     ASSERT_EQ(record["status"], "ok") << record;
-    // The tick is 0.1 mm wide. Any of its columns may be the darkest.
+    // The tick is 0.1 mm wide, so the darkest column is within 0.05 mm of its middle.
     EXPECT_NEAR(record["x_sheet_mm"], 50, 0.05 + kTolerance_mm);
     EXPECT_NEAR(record["y_sheet_mm"], 30, kTolerance_mm + 0.03);
 }
@@ -235,7 +237,8 @@ TEST_F(SheetFiles, csv_has_the_same_columns_for_every_frame) {
     const std::vector<json> expected = records();
     ASSERT_EQ(expected.size(), 4U);
     EXPECT_EQ(expected[2]["status"], "ok");
-    // All sheets have the same spacing, so it also applies outside of the sheets.
+    // All sheets have the same spacing, so the record of the frame that is not on a sheet also
+    // contains lengths in mm.
     EXPECT_TRUE(expected[2].contains("x_mm"));
     run("--format csv " + arguments);
     EXPECT_EQ(lines_of(output_).front(),
@@ -296,7 +299,7 @@ TEST_F(SheetFiles, the_print_scale_is_applied) {
 TEST_F(SheetFiles, a_frame_of_two_sheets_is_never_on_the_wrong_one) {
     ASSERT_EQ(print("-o a.png --margin 0 --dpi 1200 --paper 30x30 --sheets sheets.json --name a"),
               0);
-    // The margin is so wide that frames centred on b may show only dots of a.
+    // The margin is so wide that some frames with their centre on b show only dots of a.
     ASSERT_EQ(print("-o b.png --margin 9 --dpi 1200 --paper 50x30 --sheets sheets.json --name b"),
               0);
     const GreyImage a = read_image((directory_ / "a.png").string());
@@ -401,8 +404,8 @@ TEST_F(SheetFiles, pictures_show_the_profile_that_was_found) {
     ASSERT_EQ(print("-o b.svg --paper 40x40 --sheets sheets.json --name b --code microdots "
                     "--spacing 0.6"),
               0);
-    // Because this position is not on any sheet, the tool also tries the second code variant. The
-    // picture must still show the fix in the first variant.
+    // Because this position is not on any sheet, the tool also tries the code of the second sheet.
+    // The picture must still show the fix in the code of the first sheet.
     write_frame("elsewhere.pgm", 0);
     run("--sheets sheets.json --draw pictures elsewhere.pgm");
     EXPECT_EQ(records().at(0)["status"], "ok");

@@ -147,7 +147,7 @@ TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
         }
         sheets.insert(record["sheet"]);
         // The sheets span 120 x 40 mm. The figure eight keeps a distance of 5 mm plus half a view
-        // of the camera from their edges.
+        // of the camera (about 5 mm) from the outer edges.
         EXPECT_GT(record["x_m"], 0.0095);
         EXPECT_LT(record["x_m"], 0.1105);
         if (last) {

@@ -83,7 +83,7 @@ TEST(SimulatedFrames, NominalFramesAreLocated) {
     EXPECT_GE(tally.located_share(), 0.995) << "seed " << kFramesSeed;
     EXPECT_EQ(tally.wrong, 0u);
     EXPECT_LE(tally.median_um(), 1.2) << "seed " << kFramesSeed;
-    // The view is 8.6 mm wide. An error of 3 µm at its border corresponds to 0.7 mrad.
+    // The view is 8.6 mm wide, so an angle error of 1 mrad moves its borders by 4 µm.
     EXPECT_LE(tally.percentile(tally.errors_mrad, 0.5), 1);
 }
 
@@ -140,8 +140,8 @@ TEST(SimulatedFrames, OtherProfilesAreNotTakenForOnesOwn) {
 
 TEST(SimulatedFrames, BothEndsOfTheCodeAreReadAsTheMiddle) {
     const auto memory = std::make_unique<LargeMemory>();
-    // The camera sees 10 cells in each direction from its centre, so the whole view is on the
-    // plane.
+    // The view extends 10 cells in each direction from its centre, so it is just inside the range
+    // of positions.
     constexpr std::uint32_t kNear = 12;
     constexpr std::uint32_t kFar = kPositionsPerAxis - 13;
     Tally tally;

@@ -38,8 +38,8 @@ double sigmas_off(const Fix& fix, const Shot& shot) {
     return sigmas_off(fix, truth_of(shot));
 }
 
-// In the current version, 99.8 % of the errors are within 4 sigmas. Before `locate` detected small
-// steps in the middle of the view, the fraction was 97.6 %.
+// Regression: small steps in the middle of the view were not detected, and only 97.6 % of the
+// errors were within 4 sigmas. Now 99.8 % are.
 TEST(SeamedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     constexpr int kFrames = 400;
     constexpr double kAnywhere_px = std::numeric_limits<double>::infinity();
@@ -91,7 +91,7 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
 struct Claims {
     int fixes = 0;
     int within_4_sigmas = 0;
-    /// Mean squared error of x, divided by the variance in the fix.
+    /// Mean of the squared errors of x, each divided by the variance that the fix reports.
     double mean_square = 0;
 
     explicit Claims(double wrinkled_by) {
@@ -111,8 +111,9 @@ struct Claims {
     }
 };
 
-// Wrinkles with wavelengths of 8 mm and more cannot be observed in a view of 9 x 6 mm. Regression:
-// only 62 % (slight wrinkles) and 72 % (stronger wrinkles) of the errors were within 4 sigmas.
+// Wrinkles with wavelengths of 8 mm and more cannot be detected in a view of 9 x 6 mm, so the
+// covariance must allow for them. Regression: only 62 % (slight wrinkles) and 72 % (stronger
+// wrinkles) of the errors were within 4 sigmas.
 TEST(WrinkledSheet, MostErrorsAreAsLargeAsTheyAreSaidToBe) {
     const Claims slightly(0.02);
     EXPECT_EQ(slightly.fixes, 150);
@@ -151,8 +152,8 @@ TEST(SlippedSheet, PredictionsAreNoHelpToTheOtherSide) {
     EXPECT_LT(sigmas_off(tracked, shot), 4);
 }
 
-// Blurred dots have low contrast, so a gradient of the background causes a comparatively large
-// bias.
+// Blurred dots have low contrast, so a gradient of the background causes a comparatively large bias
+// of their centroids.
 TEST(BlurredFrames, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     constexpr int kFrames = 150;
     const auto memory = std::make_unique<LargeMemory>();
@@ -171,7 +172,8 @@ TEST(BlurredFrames, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         y += off.y_grid * off.y_grid / double{fix.covariance[1][1]};
     }
     EXPECT_EQ(fixes, kFrames);
-    // The mean of 150 squared standard normal variables has a standard deviation of 0.12.
+    // The mean of 150 squared standard normal variables is 1, with a standard deviation of 0.12.
+    // The limit is 4 standard deviations above the mean.
     EXPECT_LT(x / fixes, 1.5);
     EXPECT_LT(y / fixes, 1.5);
 }

@@ -19,7 +19,8 @@ using testing::Not;
 
 constexpr double kSpacing_mm = kDefaultSpacing_mm;
 constexpr int kSide_cells = 60;
-/// The second sheet is to the right of the first sheet and lower. It is rotated clockwise.
+/// Position of the upper left corner of the second sheet in the first sheet, and its clockwise
+/// rotation.
 constexpr double kRight_mm = 31.5;
 constexpr double kDown_mm = 0.7;
 constexpr double kTurn_rad = 0.012;
@@ -49,8 +50,8 @@ GreyImage sheet_frame(const Shot& like, const SheetEntry& entry, double x_mm, do
 }
 
 /// Returns a frame centred on a position of the table, in the coordinates of the first sheet.
-/// Combines frames of both sheets by taking the darker pixel, which belongs to a dot because both
-/// frames have equal light and noise.
+/// Renders each sheet alone with the same light and noise, and takes the darker value of each
+/// pixel, so the frame shows the dots of both sheets.
 GreyImage table_frame(std::uint64_t index, double x_mm, double y_mm, double theta_rad) {
     Setup setup;
     setup.camera.width_px = 376;
@@ -87,7 +88,8 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     ASSERT_EQ(run("calibrate --stitch --sheets sheets.json seam*.pgm"), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("frames      12 of 12 show two sheets"));
     EXPECT_THAT(output_, HasSubstr("sheet       left: stays where it is"));
-    // Without a camera file, the scale of the image in mm per px is unknown.
+    // Without a camera file, the mm per px of the image are unknown, and so are the scales of the
+    // prints.
     EXPECT_THAT(output_, HasSubstr("(UNKNOWN) along x"));
     EXPECT_THAT(output_, HasSubstr("UNKNOWN:    these frames do not determine the scales"));
     const auto sheets = read_sheets(directory_ / "sheets.json");
@@ -96,7 +98,8 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     EXPECT_NEAR(sheets[1].world->y_m, 1 - kDown_mm / 1000, 3e-5);
     EXPECT_NEAR(sheets[1].world->yaw_rad, -kTurn_rad, 0.02 * std::numbers::pi / 180);
 
-    // Both sheets give the same position in the world.
+    // A frame on the right sheet gives the world position that follows from the pose of the left
+    // sheet.
     write_pgm(directory_ / "right.pgm", table_frame(20, 45, 12, 0.3).view());
     ASSERT_EQ(run("locate --sheets sheets.json right.pgm"), 0) << errors_;
     const json record = json::parse(output_);
@@ -105,7 +108,7 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     EXPECT_NEAR(record["y_m"].get<double>(), 1 - 0.012, 3e-5);
     EXPECT_NEAR(record["yaw_rad"].get<double>(), -0.3, 0.001);
 
-    // A mounted camera also determines the scales of the prints.
+    // With a camera file that contains mm per px, the scales of the prints are also determined.
     std::ofstream(directory_ / "camera.yaml")
         << "{format: dotpose-camera, version: 1, width_px: 376, height_px: 240, k_per_px2: 0, "
            "centre_px: [187.5, 119.5], mm_per_px: [0.046, 0.046]}";
@@ -114,7 +117,7 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     EXPECT_THAT(output_, HasSubstr("scale       by the camera's mm per px"));
     EXPECT_THAT(output_, Not(HasSubstr("UNKNOWN")));
     EXPECT_THAT(file("sheets.svg"), HasSubstr("</svg>"));
-    // The scales are accurate to 0.1 mm in 200 mm.
+    // The required accuracy of the scales is 0.1 mm in 200 mm.
     for (const SheetEntry& entry : read_sheets(directory_ / "sheets.json")) {
         EXPECT_NEAR(entry.print_scale_x, 1, 5e-4) << entry.name;
         EXPECT_NEAR(entry.print_scale_y, 1, 5e-4) << entry.name;

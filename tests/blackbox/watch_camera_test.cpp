@@ -22,7 +22,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr int kFrames = 8;
-constexpr int kMoving = 220;  ///< first frame, in which the robot drives on the first sheet
+constexpr int kMoving = 220;  ///< first frame, driving on the first sheet
 
 class WatchCamera : public ToolCommand {
   protected:
@@ -77,8 +77,8 @@ TEST_F(WatchCamera, ThePoseIsThatOfTheRobot) {
             30, 0.05);
         tracked += watched[i]["attempt"] == "tracked" ? 1 : 0;
     }
-    // The track contains the pose of the robot, and its predictions of the camera's view are
-    // correct, so most frames are tracked.
+    // The track contains the pose of the robot. Most frames are tracked, so the view of the camera
+    // is predicted correctly from this pose.
     EXPECT_GE(tracked, kFrames - 3);
     EXPECT_NEAR(watched.back()["track_x_mm"].get<double>(),
                 watched.back()["x_m"].get<double>() * 1000, 0.1);

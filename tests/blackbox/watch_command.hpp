@@ -47,7 +47,6 @@ class WatchCommand : public ToolCommand {
         if (known != frames.end()) return known->second;
         return frames.emplace(index, camera.frame(drive, index)).first->second;
     }
-    /// Writes frames of the drive as drive.raw.
     void put_raw(int frames, int first = 0) {
         std::ofstream raw(directory_ / "drive.raw", std::ios::binary);
         for (int i = 0; i < frames; ++i) {
@@ -56,7 +55,6 @@ class WatchCommand : public ToolCommand {
                       static_cast<std::streamsize>(image.pixels.size()));
         }
     }
-    /// Writes frames of the drive as a lossless video.
     void put_video(int frames, const std::string& name) {
         put_raw(frames);
         encode("-c:v ffv1", name);

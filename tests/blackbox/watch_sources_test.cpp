@@ -24,7 +24,7 @@ int count(const std::string& text, const std::string& part) {
 
 TEST_F(WatchSources, SaysOnceWhyMostFramesFail) {
     const DriveCamera camera(188, 120);
-    // This frame is dark, with the noise of the camera.
+    // This frame is almost black and contains noise, as from a camera in the dark.
     GreyImage dark{{}, 188, 120};
     for (std::uint32_t i = 0; i < 188 * 120; ++i)
         dark.pixels.push_back(static_cast<std::uint8_t>((i * 2654435761U >> 20) % 2 * 2));

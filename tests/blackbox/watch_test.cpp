@@ -84,8 +84,8 @@ void expect_events(const std::vector<json>& lines, const Drive& drive) {
     // The tracker reports the loss 70 ms, or 14 frames, after the last frame in which the robot was
     // on a sheet.
     EXPECT_EQ(events[3].first, frame_at(plan.lift) - 1 + 14);
-    // The tracker reports the event in the third frame in which the robot is too far away to have
-    // driven there at 400 mm/s.
+    // The event `kidnapped` is reported in the third frame in which the robot is too far away to
+    // have driven there at 400 mm/s.
     EXPECT_EQ(events[4].first, frame_at(plan.put_down) + 2);
     EXPECT_EQ(events[5].first, frame_at(plan.second_lift) - 1 + 14);
     EXPECT_EQ(events[6].first, frame_at(plan.second_put_down));
@@ -105,7 +105,7 @@ void expect_accurate(const std::vector<json>& lines, const Drive& drive) {
     EXPECT_LT(errors.turn_deg_s(), 1);
 }
 
-/// Expects that frames that show both sheets are located as accurately as all others.
+/// Expects that frames that show both sheets are located as accurately as the other frames.
 void expect_accurate_at_seam(const std::vector<json>& lines, const Drive& drive) {
     int frames = 0;
     for (const json& line : lines) {
@@ -240,8 +240,8 @@ TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
         EXPECT_EQ(lines[i]["verdict"], "accepted") << i;
     }
     EXPECT_GE(with_prior, 3);
-    // If every frame shows only this window, there is no track, and no frame is accepted with a
-    // prior.
+    // If every frame shows only this window, no frame is certain, so there is no track that could
+    // provide a prior.
     ASSERT_EQ(run(std::string("watch - --size 188x120 --fps 200 --max-p-wrong 1e-13 --roi "
                               "56,22,76x76 ") +
                       kTrack,
@@ -276,7 +276,8 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
     encode("-c:v mjpeg -q:v 2", "whole.mkv");
     encode("-c:v mjpeg -q:v 2", "whole.avi");
     for (const std::string name : {"hole.mp4", "hole.mkv", "hole.avi"}) {
-        // The last tenth of AVI and MP4 files contains the index and is left intact.
+        // Overwrites 2 % of the file in the middle. The index of AVI and MP4 files is at the end
+        // and remains intact.
         std::string video = file("whole" + name.substr(4));
         std::fill_n(video.begin() + static_cast<std::ptrdiff_t>(video.size() / 2),
                     video.size() / 50, '\0');
@@ -284,8 +285,8 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
         EXPECT_LT(watch(name), std::size_t{kLength});
         EXPECT_GT(parsed(output_).size(), std::size_t{kLength} * 8 / 10) << name;
         EXPECT_GT(parsed(output_).back()["t_s"], 0.29) << name;
-        // A Matroska file does not contain the number of frames, so missing frames may be damage or
-        // may never have been recorded.
+        // A Matroska file does not contain the number of frames, so the tool cannot distinguish
+        // damage from frames that were never recorded.
         const bool is_counted = name != "hole.mkv";
         EXPECT_EQ(exit_code_, is_counted ? 1 : 0);
         EXPECT_THAT(errors_,

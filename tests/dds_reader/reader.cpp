@@ -1,6 +1,6 @@
-// Reads topics with eProsima Fast DDS, a DDS implementation of another vendor, as a ROS 2 node with
-// Fast DDS does. Prints each sample as a line: topic, ROS type, and the received bytes in
-// hexadecimal.
+// Reads topics with eProsima Fast DDS, as a ROS 2 node with this middleware does. dotpose publishes
+// with Cyclone DDS, so this program tests that both work together. Prints each sample as a line:
+// topic, ROS type, and the received bytes in hexadecimal.
 //
 //   dotpose_dds_reader best-effort|reliable NAME TOPIC TYPE [TOPIC TYPE]...
 //
@@ -57,7 +57,6 @@ class RawType : public TopicDataType {
     using Bytes = std::vector<unsigned char>;
 };
 
-/// Returns the DDS name of a ROS type.
 std::string dds_name(const std::string& type) {
     const std::size_t slash = type.find('/');
     return type.substr(0, slash) + "::msg::dds_::" + type.substr(slash + 1) + '_';

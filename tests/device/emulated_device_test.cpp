@@ -1,6 +1,6 @@
-// Tests the whole way from the frames of a drive to the lines of `dotpose listen`, with the device
-// program of embedded/ in an emulator. The packets must be bit-identical to those of the desktop
-// program, and the poses close to those of the device attempt on the desktop. All frames must be on
+// Runs the device program of embedded/ in an emulator, on the frames of a simulated drive. `dotpose
+// listen` receives its packets. The packets must be bit-identical to those of the desktop program,
+// and the poses close to those of a `DeviceLocator` without predictions. All frames must be on
 // time, and no frame may be lost.
 #include <algorithm>
 #include <array>
@@ -205,8 +205,8 @@ class EmulatedDevice : public testing::Test {
     test::TemporaryDirectory directory_;
 };
 
-/// Compares the packets of the desktop program with the true poses. The packets of the emulator
-/// must be the same.
+/// Tests the packets of the desktop program. The next test requires that the packets of the
+/// emulator are the same.
 TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
     PacketReader reader;
     DeviceMemory memory;
@@ -222,7 +222,8 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
         const bool was_missed = is_missed;
         is_missed = packet.status != Status::ok;
         if (is_missed) {
-            // The rows of this frame are lost, and the next frame is located without a prediction.
+            // The rows of a frame that is not tracked have been discarded, so only the next frame
+            // can be located without a prediction.
             EXPECT_EQ(packet.status, Status::not_tracked);
             EXPECT_FALSE(was_missed) << packet.time_us;
             ++missed;
@@ -231,7 +232,7 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
         const CameraPose truth = pose_at(packet.time_us / 1e6);
         EXPECT_NEAR(packet.x_grid(), x_grid(truth), 0.012) << packet.time_us;
         EXPECT_NEAR(packet.y_grid(), y_grid(truth), 0.012) << packet.time_us;
-        // Compares the pose with that of the device attempt without a prediction.
+        // A `DeviceLocator` without a prediction gives the same pose.
         const Fix fix =
             alone.locate(camera[static_cast<std::size_t>(packet.time_us / kFrameTime_us)].view());
         ASSERT_EQ(fix.status, Status::ok);
@@ -239,7 +240,8 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
         EXPECT_NEAR(packet.y_grid(), fix.y_grid(), 0.012) << packet.time_us;
     }
     EXPECT_EQ(reader.damaged(), 0U);
-    // 99.6 % of the frames are tracked (docs/firmware.md).
+    // In the long run, 99.6 % of the frames are tracked (docs/firmware.md). The limit is 1 % of
+    // about 300 frames.
     EXPECT_LE(missed, 3);
     ASSERT_GT(times_us.size(), 300U);
     // During the drive and for 5 s after it, every frame is processed. Later, one frame per second

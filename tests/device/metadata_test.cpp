@@ -41,7 +41,7 @@ std::set<std::string> names_in(const fs::path& folder) {
     return names;
 }
 
-// Files required by https://arduino.github.io/arduino-cli/latest/library-specification.
+// Properties required by https://arduino.github.io/arduino-cli/latest/library-specification.
 TEST(Metadata, ArduinoHasAllThatItsSpecificationWants) {
     const auto found = properties();
     for (const char* key : {"name", "version", "author", "maintainer", "sentence", "paragraph",

@@ -1,5 +1,5 @@
-// A C++ program that uses only the exported folder. It locates a white frame, which has no dots.
-// The receiver of the packet must get the status no_contrast.
+// A C++ program that uses only the exported folder. It locates a uniform frame, which shows no
+// dots. The receiver of the packet must get the status no_contrast.
 #include <cstdint>
 #include <cstdio>
 
@@ -9,7 +9,7 @@ namespace {
 
 using namespace dotpose;
 
-/// Locates a white frame of this size, with memory for frames of this size.
+/// Locates a uniform frame of this size, with memory for frames of this size.
 template <int Width, int Height>
 Fix locate_white() {
     static DeviceMemoryFor<Width, Height> memory;

@@ -1,8 +1,8 @@
 // A fake camera for machines without a camera. Loaded with LD_PRELOAD, it intercepts OpenCV's
 // system calls on /dev/video0. It repeats the raw grey frames of the file FAKE_CAMERA, which have
-// the size FAKE_CAMERA_SIZE. Without the file, the camera is unplugged. It writes the requested
-// settings, and the times of its frames in µs, to the file FAKE_CAMERA_LOG. The camera also offers
-// 640x480 at 15 frames/s.
+// the size FAKE_CAMERA_SIZE. If this file does not exist, the camera is unplugged. The requested
+// settings and the times of the frames in µs are written to the file FAKE_CAMERA_LOG. The camera
+// also offers 640x480 at 15 frames/s.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -83,7 +83,8 @@ void tell_format(v4l2_format& format) {
     pixels.sizeimage = pixels.bytesperline * pixels.height;
 }
 
-/// Returns the next frame when it is due. Missed frames are not repeated.
+/// Waits until the next frame is due, and writes it to a waiting buffer. If the call is late by
+/// more than a period, all following frames are due later.
 int give_frame(v4l2_buffer& buffer) {
     while (now_s() < camera.next_s)
         usleep(500);
@@ -112,7 +113,7 @@ int give_frame(v4l2_buffer& buffer) {
     return 0;
 }
 
-/// Returns the frame size with an index, or 0 x 0 after the last size.
+/// Returns the frame size number `index`, or 0 x 0 if there is none.
 v4l2_frmsize_discrete size_at(unsigned index) {
     if (index == 0) {
         return {static_cast<unsigned>(camera.width_px), static_cast<unsigned>(camera.height_px)};
@@ -120,7 +121,6 @@ v4l2_frmsize_discrete size_at(unsigned index) {
     return index == 1 ? v4l2_frmsize_discrete{640, 480} : v4l2_frmsize_discrete{};
 }
 
-/// Answers requests for the capabilities of the camera.
 int tell_entry(unsigned long request, void* argument) {
     if (request == VIDIOC_ENUM_FMT) {
         auto& format = *static_cast<v4l2_fmtdesc*>(argument);

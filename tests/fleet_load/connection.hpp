@@ -14,16 +14,16 @@ class Connection {
   public:
     /// Connects to a broker on this computer. Throws std::runtime_error if that fails.
     static Connection to_broker(int port, const std::string& client);
-    /// Waits for a subscriber, and accepts any subscription. Throws std::runtime_error if there is
-    /// none.
+    /// Waits until a subscriber connects, and accepts any subscription. Throws std::runtime_error
+    /// if no subscriber connects.
     static Connection to_subscriber(int port);
 
     ~Connection();
     Connection(Connection&& other) noexcept;
     Connection& operator=(Connection&&) = delete;
 
-    /// Returns true if another message may be published. The number of unanswered messages is then
-    /// below its limit.
+    /// Returns true if the number of unanswered messages is below the limit, so another message may
+    /// be published.
     bool has_room() const { return published_ - answered_ < kMaxUnanswered; }
     void publish(const std::string& topic, const std::string& payload);
 
@@ -51,7 +51,6 @@ class Connection {
     bool is_ready_ = false;  ///< true after a connect answer or a subscribe request was received
 };
 
-/// Returns the time of the monotonic clock.
 std::int64_t monotonic_us();
 
 }  // namespace dotpose::test

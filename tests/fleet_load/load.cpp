@@ -35,8 +35,8 @@ struct Outcome {
     std::int64_t latest_us = 0;  ///< maximum delay between due time and publication of a state
 };
 
-/// Publishes all states of the robots over a connection. The states of different robots are
-/// distributed evenly over the period of a robot.
+/// Publishes all states of the robots over a connection. Within each publication period, the states
+/// of the robots are distributed evenly.
 Outcome publish_all(Connection& connection, const Robots& robots, const Arguments& arguments) {
     constexpr std::int64_t kBatch_us = 1000;
     constexpr std::int64_t kPatience_us = 30'000'000;

@@ -15,15 +15,16 @@ class Robots {
 
     int count() const { return static_cast<int>(topics_.size()); }
     const std::string& topic(int robot) const { return topics_[index(robot)]; }
-    /// Returns the state with a number, sent at `timestamp`.
+    /// Returns the message with the given number of a robot. `timestamp` is the time of the
+    /// message.
     std::string state(int robot, std::int64_t number, const std::string& timestamp) const;
 
   private:
     static std::size_t index(int robot) { return static_cast<std::size_t>(robot); }
 
     std::vector<std::string> topics_;
-    /// Parts of messages after the number and the time, for each robot and some points of its
-    /// circle.
+    /// For each robot and each point of its circle, the part of a message after the number and the
+    /// time.
     std::vector<std::vector<std::string>> tails_;
 };
 

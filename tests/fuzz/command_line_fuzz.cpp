@@ -1,5 +1,5 @@
-// Fuzzes the options that several commands share. Each line of the input is an argument. Every
-// argument must be accepted or refused.
+// Fuzzes the options that several commands share. Each line of the input is an argument. An
+// argument that is not accepted must be refused with an error.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -14,7 +14,6 @@ namespace {
 
 using namespace dotpose;
 
-/// Values that the options set.
 struct Values {
     CodeVariant code = CodeVariant::anoto;
     Section section;

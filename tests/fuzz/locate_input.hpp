@@ -16,7 +16,7 @@
 
 namespace dotpose::fuzz {
 
-/// Header of an input, in the byte order of the machine. No value of a member may cause a fault.
+/// Header of an input, in the byte order of the machine. All values are permitted.
 struct LocateHeader {
     enum Flag : std::uint8_t {
         default_options = 1,
@@ -140,7 +140,9 @@ inline void draw_dots(const LocateHeader& header, std::span<const std::uint8_t> 
     }
 }
 
-/// Returns the pixels of an image. Missing pixels are filled by repeating the given pixels.
+/// Returns the image of a fuzz input. If the flag `drawn` is set, `rest` contains the symbols of a
+/// pattern to draw. Otherwise, `rest` contains grey values, row by row, and is repeated until the
+/// image is full. If `rest` is empty, the image is blank paper.
 inline Pixels pixels_of(const LocateHeader& header, std::span<const std::uint8_t> rest) {
     constexpr std::uint8_t kPaper = 200;
     Pixels image(header, kPaper);

@@ -22,12 +22,14 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// Shell functions that wait until `$3` lines of a file contain a word, while the tool is running.
+/// Shell function `has FILE WORD N`: waits until N lines of the file contain the word. Fails if the
+/// tool ends.
 constexpr const char* kWaiting =
     "has() { until [ $(grep -c \"$2\" $1) -ge $3 ]; do kill -0 $watch; sleep 0.05; done; }\n"
     "set -e; touch lines told; trap 'kill $camera $watch 2>/dev/null || true' EXIT\n";
-/// Runs the tool from the first frames to the end. The commands `unplug` and `plug_in` control the
-/// camera.
+/// Shell commands of a run: wait for 30 fixes, disconnect the camera until the robot is lost,
+/// connect it again, wait for 30 more fixes, and end the tool. The test defines the commands
+/// `unplug` and `plug_in`.
 constexpr const char* kRun =
     "has lines '\"ok\"' 30; unplug\n"
     "has told 'does not answer; waiting for it' 1; has lines '\"lost\"' 2\n"
@@ -119,8 +121,8 @@ TEST_F(Cameras, AtThisComputer) {
     }
 }
 
-/// In /proc/net/tcp, the socket of the camera is in state 0A (listening) until a client connects,
-/// which may be immediately, and then in state 01.
+/// `plug_in` waits until the camera listens. In /proc/net/tcp, its socket is then in state 0A
+/// (listening), or in state 01 if a client has already connected.
 TEST_F(Cameras, InTheNetwork) {
     ASSERT_EQ(
         shell(fmt::format("port={}\n", free_port()) + kWaiting +
@@ -212,7 +214,7 @@ TEST_F(Window, ShowsTheFramesAndEndsWithAKey) {
                     "wait $watch"),
               0)
         << errors_ << file("told");
-    // The recording shows the frame, 800 px wide, and a panel of 400 px beside it.
+    // The window shows the frame, 800 px wide, and a panel of 400 px beside it.
     EXPECT_THAT(output_, HasSubstr("Geometry: 1200x"));
 }
 

@@ -84,7 +84,6 @@ class TerminalFleet {
     std::string output_;
 };
 
-/// Collects the alerts that are published to a broker.
 class Alerts {
   public:
     explicit Alerts(publish::MqttOptions options)
@@ -203,7 +202,7 @@ TEST_F(FleetAlert, KilledSilentLostAndRemovedRobotsAreShownWithinTwoSeconds) {
     EXPECT_EQ(output_, "removed killed\n");
     wait_until([&] { return alerts.has("killed removed (); "); }, kLimit);
     wait_until([&] { return !shows("killed"); }, kLimit);
-    // The broker must also have removed the robot.
+    // The messages of the robot must also have been removed from the broker.
     EXPECT_EQ(run("fleet remove killed --mqtt " + broker.url()), 1);
     EXPECT_THAT(errors_, HasSubstr("knows no robot killed"));
     EXPECT_EQ(fleet.finish("q"), 0);

@@ -53,7 +53,7 @@ std::set<std::string> metric_names(const std::string& text) {
     return names;
 }
 
-/// Returns metrics in which every metric has a sample.
+/// Returns a text with at least one sample of every metric.
 std::string complete_metrics() {
     Receiver r;
     nlohmann::json camera = {{"rate", 30}, {"frames", 30}, {"refused", {{"no_grid", 1}}}};

@@ -27,8 +27,7 @@ class Receiver {
                    connection_json(state, timestamp(now().system_us - sent_ago_us)), now());
     }
     void pass(double seconds) { elapsed_us_ += static_cast<std::int64_t>(seconds * 1e6); }
-    /// Advances the time while the broker is not available, which does not advance
-    /// `Now::watched_us`.
+    /// Advances the time, but not `Now::watched_us`, as if the broker was not available.
     void pass_blind(double seconds) {
         pass(seconds);
         blind_us_ += static_cast<std::int64_t>(seconds * 1e6);

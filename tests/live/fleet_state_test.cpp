@@ -50,7 +50,7 @@ TEST(FleetConditions, FollowTheStatesAndTheSilence) {
 TEST(FleetConditions, FollowTheConnection) {
     Receiver r;
     r.receive({.robot = "anna"});
-    // The last will contains the time at which the robot started, an hour ago.
+    // The time in the last will is that of the connection, here an hour ago.
     r.connect("anna", "CONNECTIONBROKEN", 3600 * kSecond);
     EXPECT_EQ(r.condition("anna"), Condition::silent);
     EXPECT_EQ(r.robot("anna").reason, "connection broke");
@@ -97,7 +97,7 @@ TEST(FleetConditions, AClockThatIsSetBackOrDriftsDoesNotSilenceARobot) {
     r.pass(0.1);
     r.receive({.robot = "anna"}, 0, -3600 * kSecond);
     EXPECT_EQ(r.condition("anna"), Condition::moving);
-    // A clock that is slow by 1 % lags by 18 s after half an hour.
+    // A clock that is slow by 1 % loses 18 s in half an hour.
     Receiver slow;
     for (int i = 0; i < 1800; ++i) {
         slow.receive({.robot = "anna"}, 0, -i * kSecond / 100);
@@ -182,7 +182,7 @@ TEST(NaturalOrder, ComparesNumbersByValue) {
         for (std::size_t j = 0; j < sorted.size(); ++j)
             EXPECT_EQ(less(sorted[i], sorted[j]), i < j) << sorted[i] << " " << sorted[j];
     }
-    EXPECT_NE(less("a01", "a1"), less("a1", "a01"));  // different names are never equal
+    EXPECT_NE(less("a01", "a1"), less("a1", "a01"));  // different names never compare equal
 }
 
 /// Returns the lines of the page on a terminal of 24 rows and 80 columns.

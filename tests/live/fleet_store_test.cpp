@@ -23,7 +23,6 @@ using testing::StartsWith;
 
 class FleetStore : public Mqtt {
   protected:
-    /// Publishes `states` states of each robot, 20 per second.
     void publish(const Broker& broker, int robots, int states, int first = 0) {
         const ShellOutcome outcome = run_shell(fmt::format(
             "'{}' --port {} --robots {} --hz 20 --seconds {} --first {}",

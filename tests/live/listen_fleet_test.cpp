@@ -157,7 +157,8 @@ TEST_F(ListenFleet, AStatusOfANewerVersionIsReportedAsOther) {
     std::ofstream(directory_ / "packets.bin", std::ios::binary) << bytes;
     WatchedFleet fleet(directory_, "--qos 1 --metrics fleet.prom --mqtt " + broker.url());
     ASSERT_EQ(run("listen packets.bin --robot m0 --qos 1 --mqtt " + broker.url()), 0) << errors_;
-    // Counting begins with the first report of the camera. The second report has one more frame.
+    // The fleet counts from the first report of the camera. The second report contains one more
+    // refused frame, so the count is 1.
     wait_until([&] {
         return file("fleet.prom").find("refused_frames_total{reason=\"other\"} 1\n") !=
                std::string::npos;

@@ -14,7 +14,8 @@ using testing::HasSubstr;
 
 class LiveCalibration : public ToolCommand {
   protected:
-    /// Writes camera.raw. Its camera rests at 30 places, with three frames at each.
+    /// Writes camera.raw with three frames at each of 30 places, as from a camera that rests at
+    /// each place.
     void SetUp() override {
         ToolCommand::SetUp();
         ASSERT_EQ(run("simulate -o frames --seed 5 --k -8.7e-6 --frames 30"), 0) << errors_;
@@ -29,7 +30,7 @@ TEST_F(LiveCalibration, OfACameraEndsByItself) {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "the sanitizer must be loaded first";
 #endif
-    // After the last frame, the camera begins again.
+    // After the last frame, the fake camera begins again with the first frame.
     ASSERT_EQ(shell("export FAKE_CAMERA=$PWD/camera.raw FAKE_CAMERA_SIZE=188x120 "
                     "FAKE_CAMERA_LOG=$PWD/log\n"
                     "LD_PRELOAD='" +

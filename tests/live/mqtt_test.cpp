@@ -98,8 +98,8 @@ std::vector<int> header_ids(const std::string& lines) {
 }
 
 TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
-    // Publishes 50 frames per second, or fewer on a slow machine. The broker is stopped and
-    // restarted at given frames.
+    // Publishes 50 frames per second, or fewer on a slow machine. The broker is stopped after kGone
+    // frames and restarted after kBack frames.
     constexpr int kFrames = 700;
     constexpr auto kFrame = 20ms;
     constexpr int kGone = 100;

@@ -57,7 +57,6 @@ inline std::string timestamp(std::int64_t us) {
     return text;
 }
 
-/// Returns the current time in the format of messages.
 inline std::string time_now() {
     const auto now = std::chrono::system_clock::now().time_since_epoch();
     return timestamp(std::chrono::duration_cast<std::chrono::microseconds>(now).count());

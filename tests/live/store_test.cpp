@@ -218,7 +218,6 @@ INSTANTIATE_TEST_SUITE_P(Both, Databases, testing::Values(Kind::sqlite, Kind::po
                              return kind.param == Kind::sqlite ? "SQLite" : "PostgreSQL";
                          });
 
-/// Returns the message of the error that `action` throws.
 template <typename Action>
 std::string message_of(const Action& action) {
     try {

@@ -69,8 +69,9 @@ TEST(Cdr, HasTheBytesOfAnotherSerialiser) {
 }
 
 TEST(Cdr, CountsTheBytesOfATextAndItsEnd) {
-    // The expected bytes follow the standard, because the other serialiser counts characters
-    // instead of bytes: 2 bytes of UTF-8 and the terminating 0.
+    // The expected bytes follow the standard, in which the length 3 counts the two bytes of UTF-8
+    // and the terminating 0. The other serialiser counts characters instead of bytes, so it cannot
+    // provide them.
     const std::string bytes = hex(to_cdr(CompressedImage{{{1, 2}, "\u00e4"}, "", {}}));
     EXPECT_EQ(bytes,
               "00010000"

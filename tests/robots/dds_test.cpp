@@ -64,7 +64,6 @@ class Dds : public WatchCommand {
     }
 };
 
-/// Skips a test if one of its requirements is missing.
 #define DOTPOSE_NEEDS_DDS()                                                                  \
     DOTPOSE_NEEDS_NPM();                                                                     \
     if (kReader == nullptr) GTEST_SKIP() << "built without Cyclone DDS or without Fast DDS"; \
@@ -93,8 +92,7 @@ TEST_F(Dds, SendsSensorDataAsRosDoes) {
 TEST_F(Dds, IsFoundOnThisComputerAloneIfRosSaysSo) {
     DOTPOSE_NEEDS_DDS();
     put_raw(20);
-    // With LOCALHOST, programs discover each other without multicast, and the reader must not
-    // receive any multicast packets.
+    // With LOCALHOST, `dotpose watch` and the reader must discover each other without multicast.
     const auto messages = read_drive("cat drive.raw", "reliable", "--dds-reliable",
                                      "export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; ");
     EXPECT_EQ(of_topic(messages, "/anna/pose").size(), 20U);

@@ -23,8 +23,8 @@ struct MessageTolerance {
     double turn_rad_s = 0.6e-6;
 };
 inline constexpr MessageTolerance kAsWatched;
-/// For logs, which contain degrees with six decimals, and velocities in mm/s and degrees/s with
-/// three decimals.
+/// Tolerance for messages from a log. A log contains degrees with six decimals, and velocities in
+/// mm/s and degrees/s with three decimals.
 inline constexpr MessageTolerance kAsLogged = {2e-9, 2e-8, 2e-6, 1e-5};
 
 inline double yaw_of(const nlohmann::json& rotation) {
@@ -73,7 +73,6 @@ inline void expect_poses_of(const std::vector<nlohmann::json>& lines,
     EXPECT_EQ(next, poses.size()) << "there are poses without a fix";
 }
 
-/// Compares all messages of a run.
 inline void expect_messages_of(const std::vector<nlohmann::json>& lines,
                                const std::vector<nlohmann::json>& messages,
                                const std::string& robot, const MessageTolerance& tolerance) {
@@ -131,7 +130,8 @@ inline void expect_odometry_of(const std::vector<nlohmann::json>& lines,
         EXPECT_NEAR(
             map["translation"]["y"].get<double>() + std::sin(angle) * x + std::cos(angle) * y,
             line["track_y_m"].get<double>(), 1e-9);
-        // At the maximum speed of 300 mm/s, the robot moves by 1.5 mm between frames.
+        // At the maximum speed of 300 mm/s, the robot moves by 1.5 mm between frames. The limit is
+        // twice as large.
         EXPECT_LT(std::hypot(x - before_x, y - before_y), 0.003);
         if (map != map_before) ++jumps;
         map_before = map;

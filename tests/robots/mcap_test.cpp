@@ -104,7 +104,7 @@ TEST_F(Mcap, LargeMessagesEndTheirChunk) {
     const McapChannel channel = file.add_channel("/image", type_of(image));
     for (int i = 0; i < 5; ++i)
         file.write(channel, i, to_cdr(image));
-    // Two images were written for each of two topics.
+    // A chunk ends after two images. The fifth image is in a chunk that is not finished.
     EXPECT_EQ(read_mcap(path_).size(), 4U);
     file.finish();
     EXPECT_EQ(read_mcap(path_).size(), 5U);
@@ -114,8 +114,8 @@ TEST_F(Mcap, TheIndexStaysSmallerThanTheData) {
     McapFile file(path_, {.chunk_ns = 1});
     write(file, 20'000);
     file.finish();
-    // The chunks grow with the index, so that writing the index again with each chunk takes no more
-    // bytes than the data.
+    // The index is written again with each chunk. The chunks grow with the index, so all copies of
+    // the index together need less space than the data.
     constexpr std::size_t kRecord = 420;  // bytes per pose: headers of 9 + 22, CDR of 4 + 384
     EXPECT_LT(std::filesystem::file_size(path_), 20'000 * kRecord * 3 / 2);
 }

@@ -25,7 +25,6 @@ inline std::string npm_folder() {
 #define DOTPOSE_NEEDS_NPM() \
     if (npm_folder().empty()) GTEST_SKIP() << "no npm, or no network to get its packages"
 
-/// Runs a program of the npm folder with node.
 inline ShellOutcome run_node(const std::string& command) {
     return run_shell("node '" + npm_folder() + "'/" + command);
 }

@@ -22,8 +22,8 @@ class Recording : public WatchCommand {
   protected:
     using ToolCommand::shell;
 
-    /// Records frames from a pipe, sends the signal after a number of frames, and returns the exit
-    /// code.
+    /// Records frames from a pipe, sends the signal to the tool when it has processed `frames`
+    /// frames, and returns its exit code.
     int stop_after(int frames, const std::string& signal) {
         return shell("mkfifo frames; : >lines; \"$T\" watch - " + std::string(kRaw) + " " + kTrack +
                      " --no-window --mcap run.mcap -o lines <frames & tool=$!; exec 3>frames; "
@@ -53,7 +53,7 @@ TEST_F(Recording, HasThePosesAndTheOdometryOfTheLines) {
     expect_messages_of(lines, messages, "anna", kAsWatched);
     expect_odometry_of(lines, messages, "anna");
 
-    // The log has rounded numbers, and contains the covariances of the velocities only in part.
+    // The tolerance is larger for the log, because its numbers are rounded.
     ASSERT_EQ(run("replay run.csv -o again.mcap --robot anna"), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("frames with a fix "));
     expect_messages_of(lines, recorded("again.mcap"), "anna", kAsLogged);

@@ -79,8 +79,8 @@ class Documents : public testing::Test {
     test::TemporaryDirectory directory_;
 };
 
-/// Returns the renderers that draw a document unchanged. mutool of Debian 13 refuses the documents
-/// that it has converted itself, because it loses a resource.
+/// Returns the renderers that draw a document unchanged. mutool of Debian 13 loses a resource when
+/// it converts a document, and then refuses the converted document.
 std::vector<const char*> renderers_of(const fs::path& pdf) {
     try {
         render("mutool", pdf, 72);

@@ -43,7 +43,6 @@ std::string name_of(int robot) {
     return fmt::format("robot{}", robot);
 }
 
-/// Simulated robots that drive in circles.
 class Robots {
   public:
     explicit Robots(int count) {

@@ -34,7 +34,6 @@ bool place(const std::filesystem::path& folder) {
            place->covariance[0][0] > 0 && world->covariance[1][1] > 0;
 }
 
-/// Writes a camera file and reads it again.
 bool keep_camera(const std::filesystem::path& folder) {
     Camera camera;
     camera.width_px = 188;
@@ -46,7 +45,8 @@ bool keep_camera(const std::filesystem::path& folder) {
 
 }  // namespace
 
-// The program only reads camera and sheet files, so it needs neither printing nor calibration.
+// Uses only the component `files`, so it must link without the libraries for printing and
+// calibration.
 int main() {
     const std::filesystem::path folder = "consumer-out";
     std::filesystem::create_directories(folder);

@@ -14,7 +14,6 @@ namespace {
 
 using namespace dotpose;
 
-/// Writes a small sheet in three formats, and prints dots over the PDF.
 void print(const std::filesystem::path& folder) {
     SheetOptions options;
     options.paper = {20, 20};
@@ -25,7 +24,6 @@ void print(const std::filesystem::path& folder) {
     std::printf("%d x %d dots on %zu page\n", sheet.columns, sheet.rows, report.pages.size());
 }
 
-/// Simulates a frame, writes and reads its image, locates it, and draws the result.
 bool locate_simulated(const std::filesystem::path& folder) {
     const Shot shot = draw_shot(Setup{}, 0);
     write_png(folder / "frame.png", render(shot).view());
@@ -37,7 +35,6 @@ bool locate_simulated(const std::filesystem::path& folder) {
     return fix.status == Status::ok && fix.cell == shot.pose.cell;
 }
 
-/// Calibrates a simulated camera, and writes the camera file.
 bool calibrate(const std::filesystem::path& folder) {
     const auto frame_at = [](int i) { return render(draw_shot(Setup{}, i)); };
     const LensCalibration lens = calibrate_lens(kWantedFrames, frame_at, {});

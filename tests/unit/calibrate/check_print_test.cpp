@@ -89,7 +89,8 @@ TEST(CheckPrint, says_when_a_scan_is_too_coarse) {
 
 TEST(CheckPrint, finds_dots_that_run_together) {
     // The dots have a diameter of 0.31 mm. If two neighbours are displaced towards each other,
-    // their centres are 0.339 mm apart, and the dots run together in the scan.
+    // their centres are 0.339 mm apart. The gap between them is smaller than a pixel of the scan
+    // (0.042 mm), so they run together.
     ScanSettings settings;
     settings.dot_growth = 3.7;
     const PrintCheck result = check(scan_page(small_sheet(), settings), 600);

@@ -23,7 +23,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using Kind = CalibrationNeed::Kind;
 
-/// With this size of the image, its parts are squares of 10 px.
+/// At this size, the 12 x 8 parts of the image are squares of 10 px.
 constexpr int kWidth_px = 120;
 constexpr int kHeight_px = 80;
 
@@ -86,7 +86,8 @@ TEST(CalibrationCoverage, CountsPlacesDirectionsAndNewParts) {
     EXPECT_EQ(coverage.parts_added_by(view_at(0, 0, 0, {{3, 4}})), 95);
     coverage.add(view_at(0, 0, 0, {{3, 4}}));
     EXPECT_EQ(coverage.parts_added_by(view_at(0, 0, 0)), 1);
-    // The shorter side of the image spans 8 spacings.
+    // A frame shows a new place if it is at least a quarter of the shorter side of the image away
+    // from the others. The shorter side is 8 spacings long, so the limit is 2 spacings.
     coverage.add(view_at(1.9, 0, 44));
     EXPECT_EQ(coverage.places(), 1);
     EXPECT_EQ(coverage.directions(), 1);
@@ -147,8 +148,8 @@ TEST(CornerSigma, IsThatOfTheDivisionModel) {
     const double y = 60;
     const double d = 1 + camera.k_per_px2 * (x * x + y * y);
     camera.sigma = {{"k_per_px2", 2e-8}, {"centre_u_px", 0}, {"centre_v_px", 0}};
-    // Eq. 2 of the paper is p = r / (1 + k r^2), so dp/dk = -r r^2 / (1 + k r^2)^2. In the middle
-    // of the image, half a pixel from the centre, the derivative is zero to eight digits.
+    // Eq. 2 of the paper is p = r / (1 + k r^2), so dp/dk = -r r^2 / (1 + k r^2)^2. The result is
+    // relative to the middle of the image, where the derivative is zero to eight digits.
     const double by_k = std::pow(std::hypot(x, y), 3) / (d * d) * 2e-8;
     EXPECT_NEAR(corner_sigma_px(camera), by_k, 1e-5 * by_k);
 

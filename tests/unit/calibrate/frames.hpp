@@ -164,8 +164,8 @@ inline CameraModel wide_camera() {
     return camera;
 }
 
-/// Returns the camera's frame at a place of the table. Each pixel is the darkest of the frames of
-/// all sheets.
+/// Returns the camera's frame at a place of the table. Renders each sheet alone, and takes the
+/// darkest value of each pixel.
 inline GreyImage table_frame(const Table& table, const CameraModel& camera, std::uint64_t seed,
                              int index, double x_mm, double y_mm, double theta_rad) {
     Setup setup;

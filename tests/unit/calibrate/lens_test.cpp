@@ -19,8 +19,8 @@ using namespace dotpose::calibrate_test;
 using testing::HasSubstr;
 
 constexpr int kFrames = 20;
-/// Residual of nominal frames, in px: printing errors of 0.010 mm, and measurement noise of about
-/// 0.05 px.
+/// Residual of nominal frames, in px: the root of the sum of squares of the printing errors (0.010
+/// mm, which is 0.217 px) and of the measurement noise (about 0.05 px).
 constexpr double kNominalResidual_px = 0.222;
 
 /// Limit of errors, in reported standard deviations. By chance, one error in 16,000 exceeds the

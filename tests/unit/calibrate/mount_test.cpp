@@ -79,7 +79,8 @@ TEST(CalibrateSpin, TheReferenceStaysPutAfterwards) {
         ASSERT_EQ(fix.status, Status::ok);
         EXPECT_NEAR(fix.x_mm(), kPivot_x_mm, 0.03);
         EXPECT_NEAR(fix.y_mm(), kPivot_y_mm, 0.03);
-        // At 16 mm from the camera, the angle contributes most of the error.
+        // At 16 mm from the camera, the angle contributes most of the error, so the variance must
+        // include it.
         const auto variance = static_cast<double>(fix.covariance[0][0]);
         EXPECT_LT(std::abs(fix.x_mm() - kPivot_x_mm), 5 * kDefaultSpacing_mm * std::sqrt(variance));
     }
@@ -125,13 +126,13 @@ TEST(CalibrateSpin, IsExactWithAnEstimatedLens) {
             << "seed " << seed;
         EXPECT_LT(off_mm(robot_error(spin.camera, model, seed + 20)), 0.02) << "seed " << seed;
 
-        // The reference of the old calibration is used with a new calibration of the lens.
+        // The lens is calibrated again, and the reference point is converted to the new lens.
         const auto other_frame = [&](int i) { return nominal_frame(model, seed + 30, i); };
         Camera again = calibrate_lens(20, other_frame, {}).camera;
         again.reference_px = reference_in(again, spin.camera);
         EXPECT_LT(off_mm(robot_error(again, model, seed + 20)), 0.02) << "seed " << seed;
 
-        // The heading is the direction at the image centre, independent of the reference.
+        // The heading is defined at the image centre, so it does not depend on the reference point.
         const auto drive_frame = [&](int i) {
             return robot_frame(model, seed + 40, i, kPivot_x_mm + 5 * i, kPivot_y_mm, 0);
         };

@@ -79,7 +79,8 @@ TEST(Optics, IsThatOfAThinLens) {
     EXPECT_NEAR(report.blur_px, 0.5, 1e-9);
     EXPECT_NEAR(report.longest_exposure_s, 0.002, 1e-9);
     EXPECT_NEAR(report.fastest_mm_s, 12, 1e-9);
-    // A point at the near end is imaged behind the sensor, where its cone is one pixel wide.
+    // A point at either end of the depth of field is imaged in front of or behind the sensor. At
+    // the sensor, its cone of light is one pixel (6 µm) wide.
     for (const double end_mm : {report.near_mm, report.far_mm}) {
         const double image_mm = 1 / (1 / optics.focal_mm - 1 / end_mm);
         const double aperture_mm = optics.focal_mm / optics.f_number;

@@ -83,7 +83,8 @@ TEST(CalibratePivot, FindsTheTip) {
 }
 
 TEST(CalibratePivot, HasTrueDeviationsThoughAllFramesShowTheSamePrint) {
-    // If the covariance treated the frames as independent, the mean would be 3.3.
+    // If the covariance treated the frames as independent, the mean of the squares would be 3.3
+    // instead of 1.
     constexpr int kPens = 10;
     double squares = 0;
     for (std::uint64_t pen = 0; pen < kPens; ++pen) {
@@ -99,7 +100,8 @@ TEST(CalibratePivot, HasTrueDeviationsThoughAllFramesShowTheSamePrint) {
         squares += std::pow((camera.tip->x_mm - kTip.x_mm) / camera.sigma.at("tip_x_mm"), 2) +
                    std::pow((camera.tip->y_mm - kTip.y_mm) / camera.sigma.at("tip_y_mm"), 2);
     }
-    // The mean of 20 squared standard normal variables has a standard deviation of 0.32.
+    // The mean of 20 squared standard normal variables has a standard deviation of 0.32. The limit
+    // is three standard deviations.
     EXPECT_NEAR(squares / (2 * kPens), 1, 0.95);
 }
 

@@ -200,8 +200,8 @@ TEST(SpaceFit, HasTrueCovariancesForErrorsOfPrintAndImage) {
             const auto fit = calibrate::fit_space(
                 dots_of(view, 30, 0.5, noise.print_mm, noise.centre_px, rng), {600, 600});
             ASSERT_TRUE(fit);
-            // The rotation vector of the error is in the camera frame, and is valid for small
-            // angles.
+            // Because the angle of the error is small, the antisymmetric part of the rotation is
+            // its rotation vector, in the camera frame.
             const Matrix3 turn = product(transposed(rotation_of(fit->state)), view.rotation);
             const std::array error = {view.position_mm[0] - fit->state.position_mm.x(),
                                       view.position_mm[1] - fit->state.position_mm.y(),
@@ -234,7 +234,7 @@ TEST(SpaceFit, ReportsTheMirroredTiltOfANarrowView) {
         ASSERT_TRUE(fit && fit->second) << n;
         ambiguous += fit->second_odds_log2 > SpacePose::kMaxOdds_log2;
         EXPECT_LE(fit->second_odds_log2, 0);
-        // One of the two poses is the true pose.
+        // One of the two poses must be the true pose, and the other one the mirrored pose.
         const double first = angle_between(view.rotation, rotation_of(fit->state));
         const double second = angle_between(view.rotation, rotation_of(*fit->second));
         EXPECT_LT(std::min(first, second), 5 * kDegree_rad) << n;
@@ -318,7 +318,6 @@ Camera camera_of(const CameraModel& model) {
     return camera;
 }
 
-/// Locates a simulated frame and fits its pose in space.
 std::optional<SpacePose> located(const Shot& shot, const Camera& camera) {
     DeviceOptions options;
     use_camera(camera, camera.width_px, camera.height_px, options);

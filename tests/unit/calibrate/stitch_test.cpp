@@ -30,8 +30,8 @@ GreyImage plain_frame(const CameraModel& camera, int index) {
     return table_frame(kTable, camera, 62, index, 30, 30, 0.1 * index);
 }
 
-/// Returns a table of sheets with usual printing errors of up to 0.3 %. The errors differ between
-/// the axes. The mean scale of the first sheet is 1.
+/// Returns a table of sheets whose print scales have usual errors of up to 0.3 %, different along x
+/// and y. The mean scale of the first sheet is 1.
 Table printed_table() {
     Table table = kTable;
     table[0].print = {1.0012, 1 / 1.0012};
@@ -98,8 +98,7 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
     }
 }
 
-// In the whole image, `locate` finds only one of the two sheets, and its fix uses only the dots of
-// this sheet.
+// A fix of the whole image is on only one of the two sheets. The other sheet must also be found.
 TEST(StitchSheets, FindsBothSheetsOfAPhotoWithWideMargins) {
     CameraModel model = wide_camera();
     model.width_px = 1000;
@@ -191,8 +190,8 @@ TEST(DrawStitching, ShowsSheetsBeforeAndAfter) {
         return text.str();
     };
     EXPECT_THAT(picture(), HasSubstr("not all of these sheets had a world pose"));
-    // In the sheet file, the sheet is 1 mm to the right of its true place. The error is 0.71 mm rms
-    // per axis.
+    // In the sheet file, the sheet is 1 mm to the right of its true place, which is an error of
+    // 0.71 mm rms per axis.
     before[1].world =
         WorldPose{(kTable[1].x_mm + 1) / 1000, -kTable[1].y_mm / 1000, -kTable[1].turn_rad};
     EXPECT_THAT(picture(), testing::AllOf(HasSubstr(">Before<"), HasSubstr(">After<"),

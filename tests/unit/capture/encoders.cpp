@@ -71,7 +71,6 @@ void append_chunk(Writer& png, std::string_view type, const Bytes& content) {
     png.integers(4, {content.size()}).bytes(body).integers(4, {crc_of(body)});
 }
 
-/// Packs the codes of a JPEG scan.
 class BitWriter {
   public:
     void put(unsigned code, int bits) {

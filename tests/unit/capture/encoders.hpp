@@ -12,7 +12,7 @@ namespace dotpose::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Appends bytes, and integers of either byte order.
+/// Appends bytes, and integers in either byte order.
 class Writer {
   public:
     explicit Writer(bool big_endian = true) : big_endian_(big_endian) {}

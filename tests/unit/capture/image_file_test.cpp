@@ -158,7 +158,7 @@ TEST_F(ImageFileTest, reads_the_pages_of_tiff) {
     EXPECT_EQ(count_pages(write(text(loop))), 2);
 }
 
-/// Returns the level of each block of 8 x 8 px. All its pixels must be equal.
+/// Returns the level of each block of 8 x 8 px. All pixels of a block must be equal.
 Bytes block_levels(const GreyImage& image) {
     Bytes levels;
     for (int v = 0; v < image.height_px; ++v) {

@@ -59,7 +59,8 @@ TEST_F(ResolutionTest, is_read_from_png_and_tiff) {
             write_sheet(make_sheet(options), directory_ / name, print);
             const auto resolution = read_origin(directory_ / name).resolution;
             ASSERT_TRUE(resolution) << name;
-            // PNG stores integer pixels per metre.
+            // PNG stores an integer number of pixels per metre, so the error is up to 0.5 px/m,
+            // which is 0.0127 dpi.
             EXPECT_NEAR(resolution->x_dpi, dpi, 0.013) << name;
             EXPECT_NEAR(resolution->y_dpi, dpi, 0.013) << name;
         }

@@ -10,7 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// An application with three kinds of options.
+/// An application with an option that has choices, an option with another check, and a flag.
 struct Options {
     Options() {
         app.add_option("--code", code)->check(one_of({"anoto", "libdots"}));

@@ -135,12 +135,12 @@ TEST(DrawFrame, shows_every_dot_where_it_is) {
 }
 
 TEST(DrawFrame, connects_only_the_dots_that_were_connected) {
-    // Uses the attempt of devices, because the first attempt finds its grid without edges.
+    // Uses the device attempt, because the first attempt finds the grid without connecting dots.
     DeviceOptions device;
     device.effort = Effort::device;
     const Located at_once(render(clean_shot()), device);
     EXPECT_GT(count(group(at_once.drawn(), "connections"), "<line "), 100u);
-    // The second attempt measures all dots again, in another order, so no edges are drawn.
+    // The second attempt measures all dots again, in another order, so no connections are drawn.
     dotpose::Setup setup;
     setup.preset = Preset::hard;
     for (std::uint64_t i = 0;; ++i) {
@@ -193,7 +193,7 @@ TEST_P(DrawTurned, letters_are_those_of_the_pattern) {
         const char expected = letter(symbol_at(pattern.code, place.cell, place.section));
         if (std::tolower(mark.letter) != expected) ++errors;
     }
-    // The drawing marks misread dots. Most of them have one or two wrong bits.
+    // A misread dot has one or two wrong bits, so there are no more misread dots than bit errors.
     EXPECT_LE(errors, static_cast<std::size_t>(located.fix.bit_errors));
     EXPECT_LE(errors, 1U);
     EXPECT_EQ(count(symbols, "stroke=\"#d500f9\""), errors);

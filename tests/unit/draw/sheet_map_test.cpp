@@ -106,8 +106,8 @@ TEST(sheet_map, shows_sheets_without_a_pose_beside_the_world) {
         for (std::size_t j = 1; j < i; ++j)
             EXPECT_NE(found[i][0], found[j][0]) << "one over the other";
     }
-    // On a map that contains the origin, which is two metres away, a page of 0.1 m would be too
-    // small to be visible.
+    // The map does not contain the origin, which is two metres away, because a page of 0.1 m would
+    // then be too small to be visible.
     EXPECT_THAT(svg, Not(HasSubstr(R"(class="axis")")));
 }
 

@@ -56,7 +56,7 @@ class CameraFile : public testing::Test {
         }
         return "not refused";
     }
-    /// Returns the error message for the file with one part replaced.
+    /// Returns the error message for kWhole with `part` replaced by `other`.
     std::string refusal_with(const std::string& part, const std::string& other) const {
         std::string text = kWhole;
         text.replace(text.find(part), part.size(), other);
@@ -196,7 +196,7 @@ TEST(CameraGeometry, IsEquations1And2AndTheirInverse) {
 }
 
 TEST(CameraGeometry, TheScaleIsThatOfATiltedCamera) {
-    // Compares the simulator's pinhole camera with the paper scale of its pixels.
+    // Compares `on_paper` with the simulator's pinhole camera.
     CameraModel model;
     CameraPose pose;
     pose.tilt_x_rad = 0.3;
@@ -205,9 +205,10 @@ TEST(CameraGeometry, TheScaleIsThatOfATiltedCamera) {
     const double f = model.working_distance_mm / model.mm_per_px;
     Camera camera;
     camera.centre_px = {93.5, 59.5};
-    // With the sines and cosines sx, cx, sy and cy of the two tilts, the axes of the paper's plane
-    // are (cy, sx sy, -cx sy) and (0, cx, sx). The divisor is 0 for rays perpendicular to the
-    // normal of the plane.
+    // The axes of the paper in the camera frame are (cy, sx sy, -cx sy) and (0, cx, sx), where sx,
+    // cx, sy and cy are the sines and cosines of the two tilts. Their cross product is the normal
+    // n. The depth of a pixel is inversely proportional to the scalar product of n and its viewing
+    // ray.
     const double nx = std::sin(-0.2);
     const double ny = -std::sin(0.3) * std::cos(-0.2);
     const double nz = std::cos(0.3) * std::cos(-0.2);
@@ -243,7 +244,8 @@ rectification_matrix:
   data: [1, 0, 0, 0, 1, 0, 0, 0, 1]
 )";
 
-/// Returns the pixel of the camera of kRos for a direction, with OpenCV's lens model.
+/// Returns the pixel at which the camera of kRos sees the point (x, y, 1), with OpenCV's lens
+/// model.
 PixelPoint seen_by_ros(double x, double y) {
     const double r2 = x * x + y * y;
     const double radial = 1 - 0.25 * r2 + 0.1 * r2 * r2;
@@ -256,8 +258,8 @@ TEST_F(CameraFile, ALensOfRosIsConvertedNotRelabelled) {
     EXPECT_NEAR(camera.focal_px.value(), 600, 1e-9);
     EXPECT_NEAR(camera.centre_px.u, 330, 2);
     EXPECT_NEAR(camera.centre_px.v, 236, 2);
-    // Straight lines are straight all over the image, up to the error of a lens model with a single
-    // coefficient.
+    // Undistorted lines must be straight in the whole image, except for the error of a lens model
+    // with a single coefficient.
     for (const double offset : {-0.3, -0.1, 0.2, 0.3}) {
         for (const bool is_row : {true, false}) {
             const auto point = [&](double along) {

@@ -58,7 +58,7 @@ TEST_F(SheetReservations, that_are_given_up_leave_the_file_as_it_was) {
     write_file(path_, by_hand);
     { const SheetReservation reservation(path_, enter_a); }
     EXPECT_EQ(read_file(path_), by_hand);
-    // Concurrent changes by other programs are kept.
+    // A reservation that is not confirmed is removed, but the changes by other programs are kept.
     {
         const SheetReservation reservation(path_, enter_a);
         SheetFile file(path_);

@@ -46,7 +46,7 @@ TEST(FlatField, BelongsToOneSizeOfImages) {
     EXPECT_THROW(correction.corrected(image.view()), BadArgument);
 }
 
-/// Returns the number of frames of an optical mouse that are located on a known sheet.
+/// Returns how many frames of the sensor of an optical mouse are located on a known sheet.
 int located_frames(const FollowerOptions& options) {
     Setup setup;
     setup.preset = Preset::mouse;
@@ -78,8 +78,8 @@ TEST(FlatField, LetsAFollowerLocateFramesWithVignetting) {
     options.sheets = {page};
     options.has_only_sheets = true;
     const int without = located_frames(options);
-    // The simulator darkens the corners to 1 - vignetting, with the square of the distance from the
-    // image centre.
+    // The simulated light decreases with the square of the distance from the image centre, to 1 -
+    // vignetting = 0.5 in the corners.
     std::vector<std::vector<double>> field(9, std::vector<double>(9));
     for (int row = 0; row < 9; ++row) {
         for (int column = 0; column < 9; ++column) {

@@ -68,8 +68,7 @@ TEST(Follower, TellsWhereTheRobotIsByItsCameraFile) {
         EXPECT_LT(turn_between(now.track.pose.theta_rad(), theta_rad + 30 * kDegree_rad), 0.01);
         tracked += fix.attempt == Attempt::tracked ? 1 : 0;
     }
-    // The predictions also take the mount into account, so the pattern is found at the predicted
-    // positions.
+    // The predictions take the mount into account, so most frames are tracked.
     EXPECT_GE(tracked, kFrames - 3);
     EXPECT_FALSE(follower.is_in_world());
 }
@@ -121,7 +120,8 @@ TEST(Follower, TracksInTheWorldOfReplacedSheets) {
     EXPECT_FALSE(placed.track.is_lost);
     EXPECT_NEAR(placed.track.pose.x_mm(), 1000 + placed.located.place->x_mm, 0.05);
     EXPECT_NEAR(placed.track.pose.y_mm(), 2000 - placed.located.place->y_mm, 0.05);
-    // The sheet moves by far more than a robot can drive between two frames.
+    // The sheet is moved in the world. The track must move with it, although no robot can drive
+    // this far between two frames.
     sheets[0].world = WorldPose{-4, 2, 0};
     follower.set_sheets(sheets);
     const Followed moved = follow(6);

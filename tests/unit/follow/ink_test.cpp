@@ -72,7 +72,8 @@ TEST(Ink, SmoothsStrokesAndFindsTheirEnds) {
     const std::vector<InkPage> pages = ink_of(noisy(path, kSigma_mm));
     ASSERT_EQ(pages.size(), 1U);
     expect_strokes(pages[0], path);
-    // Both axes of the noise contribute to the distance.
+    // The distance of a noisy sample is sqrt(2) kSigma_mm rms. The strokes are smoothed, so their
+    // error must be smaller.
     EXPECT_LT(rms_mm(pages[0], path), 0.8 * std::sqrt(2) * kSigma_mm);
 }
 

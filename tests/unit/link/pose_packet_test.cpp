@@ -107,8 +107,9 @@ TEST(PosePacket, CrcIsThatOfTheCatalogue) {
 }
 
 TEST(PosePacket, NoFourBitsCancelInTheCrc) {
-    // The CRC is linear, so only the changes of the CRC by single bits matter. If no two pairs of
-    // changes are equal, no errors of up to four bits cancel.
+    // The CRC is linear, so an error of several bits changes the CRC by the XOR of the changes by
+    // each bit. If the XORs of all pairs of changes are different, no error of up to four bits
+    // leaves the CRC unchanged.
     Bytes coded(link::kCodedBytes, 0);
     const unsigned none = link::crc16(coded);
     std::vector<unsigned> changes;
@@ -155,7 +156,6 @@ class DamagedStream : public testing::TestWithParam<int> {
     }
     void flip(std::size_t bit) { stream_[bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8); }
 
-    /// Expects that only undamaged packets are received.
     void expect_only_undamaged(std::size_t a, std::size_t b) {
         flip(a);
         if (b != a) flip(b);

@@ -58,7 +58,8 @@ TEST(labels, say_what_is_on_the_page) {
     EXPECT_THAT(content, HasSubstr("dotpose print -o door.pdf"));
     EXPECT_THAT(content, HasSubstr("0 0 0 1 k 0 0 0 1 K"));
     EXPECT_THAT(content, HasSubstr("(0 mm) Tj"));
-    // The ruler starts at the edge of the page. The dots begin at 10.2 mm and span 79.8 mm.
+    // The ruler counts from the edge of the page and ends before the end of the dots, which is at
+    // 10.2 mm + 79.8 mm. Its last number is therefore 80.
     EXPECT_THAT(content, HasSubstr("(80) Tj"));
     EXPECT_THAT(content, Not(HasSubstr("(90) Tj")));
 }
@@ -97,7 +98,8 @@ TEST(labels, rulers_count_from_the_corner_of_the_page) {
     const Sheet sheet = make_sheet(small_page(10));
     const Marks marks = marks_of(content_of_labels(sheet, {1, 1}, named()), sheet.height_mm);
     // The rulers end at 89 mm above the dots and at 49 mm beside them, the last whole millimetres
-    // before the end of the dots. Between 4 and 10 mm, rulers and arrows would intersect.
+    // before the end of the dots. The ticks from 5 to 9 mm are omitted, because the arrows are
+    // there.
     std::vector<double> expected_x = {1, 2, 3, 4};
     std::vector<double> expected_y = expected_x;
     for (int mm = 10; mm <= 89; ++mm) {
@@ -137,7 +139,6 @@ TEST(labels, show_the_origin_and_its_pattern_coordinates) {
     EXPECT_THAT(narrow, HasSubstr(fmt::format("{:.3f}", 508 - sheet.origin_x_mm)));
 }
 
-// Checks the positions of all texts and ticks on pages with different margins.
 TEST(labels, stay_clear_of_the_dots) {
     for (const double margin_mm : {3.0, 5.0, 7.0, 10.0, 20.0}) {
         const Sheet sheet = make_sheet(small_page(margin_mm));

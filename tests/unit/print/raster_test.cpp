@@ -39,14 +39,15 @@ Sheet small_sheet() {
     return make_sheet(options);
 }
 
-// With a spacing of 0.508 mm, the spacing and the displacement are whole numbers of pixels. A
-// margin of 2 mm and a reach of 0.127 mm are 25.12 pixels of 1/300 inch. The first intersection is
-// therefore the centre of pixel 25, and an intersection follows every 6 pixels.
+// With a spacing of 0.508 mm, the spacing and the displacement are whole numbers of pixels. The
+// margin of 2 mm, plus the 0.127 mm by which ink extends beyond an intersection, is 25.12 pixels of
+// 1/300 inch. The first intersection is therefore the centre of pixel 25, and an intersection
+// follows every 6 pixels.
 constexpr int kFirst_px = 25;
 constexpr int kSpacing_px = 6;
 
-/// Returns the shape of a dot in pixels of 300, 600 or 1200 dpi, from the top left corner of its
-/// 300 dpi pixel.
+/// Returns the pixels of a dot at `scale` times 300 dpi, relative to the top left corner of its
+/// pixel at 300 dpi.
 Pixels dot_shape(int scale) {
     if (scale == 1) return {{0, 0}};
     if (scale == 2) return {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
@@ -66,7 +67,7 @@ void expect_exact_dots(const Bitmap& page, const Sheet& sheet, int scale) {
             }
         }
     }
-    // The expected pixels are all different, so equal numbers mean that the page contains no other
+    // All expected pixels are distinct and contain ink, so equal counts mean that there is no other
     // ink.
     EXPECT_EQ(page.count_ink(), sheet.columns * sheet.rows * static_cast<int>(shape.size()));
 }

@@ -26,7 +26,7 @@ TEST(regions, begin_a_new_line_below_the_highest_of_the_last) {
 TEST(make_sheets, gives_every_page_cells_of_its_own) {
     SheetOptions options;
     options.origin = {kPositionsPerAxis - 1000,
-                      5};  // room for two regions of 394 columns beside it
+                      5};  // room for two regions of 394 columns side by side
     const std::vector<Sheet> sheets = make_sheets(options, 5);
     ASSERT_EQ(sheets.size(), 5U);
     for (std::size_t a = 0; a < sheets.size(); ++a) {

@@ -22,7 +22,7 @@ using testing::StartsWith;
 
 constexpr Page kPages[] = {{"/", "text/html", "<p>start"}};
 
-/// Waits until a condition holds. Fails after a time that is long enough for a busy computer.
+/// Waits until a condition holds. Fails after a minute, which is long enough for a busy computer.
 void wait_until(const std::function<bool()>& holds) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (!holds()) {
@@ -31,7 +31,6 @@ void wait_until(const std::function<bool()>& holds) {
     }
 }
 
-/// A TCP connection to a port of this computer.
 class Socket {
   public:
     explicit Socket(const std::string& url) : descriptor_(socket(AF_INET, SOCK_STREAM, 0)) {
@@ -72,7 +71,8 @@ std::string get(const Server& server, const std::string& path, const std::string
     return socket.receive(end);
 }
 
-/// A WebSocket client. Its frames are shorter than 126 bytes.
+/// A WebSocket client. The payloads of its frames are shorter than 126 bytes, so their length is a
+/// single byte.
 class WebSocket : public Socket {
   public:
     explicit WebSocket(const Server& server) : Socket(server.url()) {

@@ -63,8 +63,9 @@ TEST(Frame, NoiseHasItsMeanDeviationAndTails) {
     const auto count = static_cast<double>(image.pixels.size());
     EXPECT_NEAR(sum / count, 0, 0.03);
     EXPECT_NEAR(std::sqrt(square / count), std::sqrt(16 + 1.0 / 12), 0.02);
-    // An error of at least 12.5 after rounding is 3.125 sigma. A normal distribution exceeds this
-    // limit in 0.178 % of all cases.
+    // A rounded error above 12.4 levels is at least 13, so the error before rounding is at least
+    // 12.5 levels, which is 3.125 sigma. A normal distribution exceeds this limit in 0.178 % of all
+    // cases.
     EXPECT_NEAR(beyond_3_sigma / count, 0.00178, 0.0003);
 }
 
@@ -236,8 +237,7 @@ TEST(Preset, RangesAreThoseOfTheTable) {
     EXPECT_STREQ(name(Preset::nominal), "nominal");
 }
 
-// The offsets of the pixels of a sensor are the same in every frame, so the mean of frames with
-// different noise shows them.
+// Each pixel of the sensor has an offset that is the same in every frame.
 TEST(Frame, TheFixedPatternIsTheSameInEveryFrame) {
     Shot shot = shot_of(Preset::clean, 0);
     shot.imperfections.fixed_pattern = 4;

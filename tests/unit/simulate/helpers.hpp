@@ -25,8 +25,8 @@ inline Page one_dot_page() {
     return page;
 }
 
-/// Returns the offset of the dot's centre from the pose point, from the definitions of code.hpp
-/// alone.
+/// Returns the offset of the dot's centre from the pose point, computed only from the definitions
+/// of code.hpp.
 inline Vec2 dot_offset_mm(const Page& page, const CameraPose& pose) {
     const Symbol symbol = symbol_at(page.pattern.code, kDotCell, page.pattern.section);
     const double cells_x = static_cast<double>(kDotCell.x) - pose.cell.x - pose.fraction_x;
@@ -44,7 +44,7 @@ inline std::vector<float> exact_levels(const Page& page, const CameraModel& came
     return expose(ink, view, page, seen);
 }
 
-/// The light missing relative to bare paper, and its position.
+/// The light that the ink removes, relative to bare paper.
 struct Darkness {
     double mass = 0;  ///< sum over pixels of (paper - level) / paper
     Vec2 centroid_px;
