@@ -11,7 +11,7 @@ using namespace dotpose;
 
 /// Locates a uniform frame of this size, with memory for frames of this size.
 template <int Width, int Height>
-Fix locate_white() {
+Fix locate_black() {
     static DeviceMemoryFor<Width, Height> memory;
     static DeviceLocator locator(memory);
     static const std::uint8_t row[Width] = {};
@@ -24,10 +24,10 @@ Fix locate_white() {
 }  // namespace
 
 int main() {
-    const Fix fix = locate_white<188, 120>();
+    const Fix fix = locate_black<188, 120>();
     if (fix.status != Status::no_contrast) return 1;
-    if (locate_white<160, 120>().status != Status::no_contrast) return 2;
-    if (locate_white<320, 240>().status != Status::no_contrast) return 6;
+    if (locate_black<160, 120>().status != Status::no_contrast) return 2;
+    if (locate_black<320, 240>().status != Status::no_contrast) return 6;
 
     Tracker tracker;
     if (!tracker.update(20'000, nullptr).is_lost) return 3;
