@@ -128,6 +128,9 @@ class Finder {
             all_[k].fill(0);
             for (std::size_t place = 0; place < sequence.length; ++place)
                 all_[k][place / 32] |= std::uint32_t{1} << place % 32;
+            const std::uint32_t own = lines.ratios.places[k];
+            own_[k].fill(0);
+            own_[k][own / 32] = std::uint32_t{1} << own % 32;
             set_equal_places(sequence, k);
         }
         newest_.fill(kNone);
@@ -171,10 +174,16 @@ class Finder {
             return visit(line + 1, lost, places, with_line);
         PlaceSets fewer;
         const PlaceSets& equal = equal_[static_cast<std::size_t>(line - 1)];
+        int different = 0;  // number of sequences with other places than the place of the reading
         for (std::size_t k = 0; k < fewer.size(); ++k) {
-            for (std::size_t word = 0; word < fewer[k].size(); ++word)
+            std::uint32_t others = 0;
+            for (std::size_t word = 0; word < fewer[k].size(); ++word) {
                 fewer[k][word] = places[k][word] & equal[k][word];
+                others |= fewer[k][word] & ~own_[k][word];
+            }
+            different += others != 0 ? 1 : 0;
         }
+        if (different < 2) return true;
         return visit(line + 1, lost, fewer, with_line);
     }
 
@@ -186,7 +195,6 @@ class Finder {
             lists_[k].list(places[k]);
             combinations *= lists_[k].count();
         }
-        if (combinations == 1) return true;  // only the reading
         if (shared == 0) return false;
         const Gaps gaps(shared);
         for (std::size_t gap = 0; gap < gaps.count; ++gap)
@@ -269,7 +277,8 @@ class Finder {
     int count_;
     int loss_limit_;
     float max_odds_;
-    PlaceSets all_;
+    PlaceSets all_;  ///< all places
+    PlaceSets own_;  ///< the places of the reading
     /// For each step, the places at which the digit is equal to the digit of the reading.
     std::array<PlaceSets, kMaxLines> equal_;
     std::array<PlaceList, 4> lists_;
@@ -289,7 +298,7 @@ constexpr float kTilt = 0.9F;
 
 /// Loss limit if a smaller limit would suffice, in bits. Up to this limit, the search takes little
 /// time.
-constexpr float kMinBits = 24;
+constexpr float kMinBits = 28;
 
 /// Returns log2 of kMargin times the expected sum of 2^(kTilt * least) times the odds, over all
 /// alternatives that differ in at least two sequences. `least` is the sum of the minimum losses in
