@@ -190,6 +190,7 @@ bool locate_first(const Kernels& kernels, const ImageView& image, const DeviceOp
         if (together == Confirmation::ok) confirmation = together;
     }
     w.fix.attempt = Attempt::first;
+    w.has_clear_bits = confirmation == Confirmation::too_few_bits;
     if (confirmation == Confirmation::uncertain || confirmation == Confirmation::too_few_bits)
         w.fix.status = Status::not_certain;
     return confirmation == Confirmation::ok;

@@ -105,6 +105,7 @@ class Cascade {
         bool shows_too_few_cells = false;
         for (const Step step : steps) {
             for (const CodeVariant code : worth_trying(step)) {
+                if (step == Step::turning && w_.has_clear_bits && codes_.is_known()) break;
                 if (!attempt(step, code)) {
                     shows_too_few_cells |= w_.shows_too_few_cells;
                     // A failed search for a rotation does not determine the status of the frame.

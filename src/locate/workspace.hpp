@@ -80,6 +80,9 @@ struct DesktopWorkspace : DeviceWorkspace {
     /// True if the first attempt found fewer cells than a certain position needs without known
     /// sheets.
     bool shows_too_few_cells = false;
+    /// True if all dots that the first attempt measured are clear and agree with the code, but are
+    /// too few. A rotation during the readout would misplace some of them.
+    bool has_clear_bits = false;
 
     /// Sets the known sheets. On known sheets, smaller images and patches can be located.
     void set_known(const KnownSheets& sheets) {

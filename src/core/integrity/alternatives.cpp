@@ -5,6 +5,7 @@
 
 #include "core/integrity/double_alternatives.hpp"
 #include "core/integrity/expected_alternatives.hpp"
+#include "core/integrity/likely_alternatives.hpp"
 #include "core/integrity/near_alternatives.hpp"
 #include "core/integrity/ranked_lines.hpp"
 #include "core/integrity/single_alternatives.hpp"
@@ -82,16 +83,20 @@ int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, in
     if (ratios.lines.count() <= kMaxSharedInARow) return 0;
     const RankedLines lines(ratios);
     const float limit = power_of_two_exactly(limit_log2);
+    // Computes the fastest sums first, and stops when a sum exceeds the limit.
+    float known = sum_of_single_alternatives(kernels, lines) + sum_of_other_sections(lines);
+    if (known >= limit) return log2_rounded_up(known);
+    const float max_rest = std::min(limit, kUsualLimit) / 32;
+    if (const auto others = sum_of_likely_alternatives(kernels, lines, max_rest, limit - known))
+        return log2_rounded_up(known + *others);
     const auto expected_of = [&](int min_different, int max_different) {
         return sum_of_expected_alternatives(kernels, lines, kMaxSharedInARow - 1, min_different,
                                             max_different);
     };
     const Expectation expected{expected_of(2, 2), expected_of(3, 4)};
     const float far = expected.of_two + expected.of_more;
-    // Computes the fastest sums first, and stops when a sum exceeds the limit.
     if (far >= std::max(limit, kBeyondHelp)) return log2_rounded_up(far);
-    float known = sum_of_single_alternatives(kernels, lines) + sum_of_other_sections(lines);
-    if (known < limit) known += sum_of_near_alternatives(kernels, lines, kMaxSharedInARow);
+    known += sum_of_near_alternatives(kernels, lines, kMaxSharedInARow);
     const float sum = known + far;
     const bool needs_detail =
         sum > std::min(limit, kUsualLimit) / 1024 && far > known && far < kBeyondHelp;

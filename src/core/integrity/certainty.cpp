@@ -147,11 +147,12 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
     return sum;
 }
 
-/// Returns an upper bound on the summed odds of all alternatives except seam alternatives.
+/// Returns an upper bound on the summed odds of all alternatives except seam alternatives. Skips
+/// the single alternatives if the other alternatives already exceed `limit`.
 float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                    const UnsharedLines& unshared, float limit) {
-    return far_alternatives(kernels, ratios) + sharing_none(ratios) +
-           single_alternatives(kernels, ratios, unshared, limit);
+    const float sum = far_alternatives(kernels, ratios) + sharing_none(ratios);
+    return sum > limit ? sum : sum + single_alternatives(kernels, ratios, unshared, limit);
 }
 
 /// Returns the summed odds of the seam alternatives, rounded up.

@@ -172,7 +172,8 @@ int LikelihoodRatios::loss_of_bits(int line, int roll) const {
     const ComparedLine& bits = bits_[static_cast<std::size_t>(line)];
     const std::uint32_t differ =
         (bits.code ^ code::kMainWords[static_cast<std::size_t>(roll)]) & bits.seen;
-    return bits_in(differ) - 2 * bits_in(differ & bits.wrong);
+    const std::uint32_t corrected = differ & bits.wrong;
+    return bits_in(differ) - (corrected != 0 ? 2 * bits_in(corrected) : 0);
 }
 
 std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOffsets& offsets,

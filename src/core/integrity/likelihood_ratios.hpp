@@ -112,7 +112,8 @@ class LikelihoodRatios {
         // Emscripten's standard library has no `std::bit_cast`.
         const auto power =
             __builtin_bit_cast(float, static_cast<std::uint32_t>(whole - 16 + 127) << 23);
-        return static_cast<float>(exp2_q16(log2_q8 - whole * 256)) * power;
+        // The cast to 32 bits lets compilers vectorise loops over odds.
+        return static_cast<float>(static_cast<std::int32_t>(exp2_q16(log2_q8 & 255))) * power;
     }
     /// Returns true if an alternative with the loss `lost` so far is negligible, regardless of its
     /// gains in the remaining lines.

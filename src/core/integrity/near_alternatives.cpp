@@ -13,6 +13,11 @@ namespace {
 /// places.
 constexpr std::uint32_t kPeriods = kMaxLines / code::kA3.size() + 1;
 
+/// Alternatives that lose at least 56 bits are not evaluated line by line. For 2^15 such
+/// alternatives, the upper bounds on their odds add up to 2^-41.
+constexpr int kSkippedBits = 56;
+constexpr float kSkippedOdds = 0x1p-56F;
+
 /// Roll offsets of 16 lines, or sums of two roll offsets in each of 16 lines.
 using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
 static_assert(kMaxLines % sizeof(Bytes) == 0);
@@ -129,7 +134,7 @@ class RunSum {
                 is_first_ = false;
                 for (; similar != 0; similar &= similar - 1)
                     sum_ += odds(static_cast<std::size_t>(std::countr_zero(similar)), opposite);
-                sum_ += static_cast<float>(in_batch_) * CoarseLosses::skipped_odds;
+                sum_ += static_cast<float>(in_batch_) * kSkippedOdds;
             }
         }
         in_batch_ = 0;
@@ -159,7 +164,7 @@ class RunSum {
 }  // namespace
 
 float sum_of_near_alternatives(const Kernels& kernels, const RankedLines& lines, int shared_lines) {
-    const CoarseLosses losses(lines.ratios);
+    const CoarseLosses losses(lines.ratios, kSkippedBits);
     float sum = 0;
     for (int run = 0; run + shared_lines <= lines.count(); ++run)
         sum += RunSum(kernels, lines, losses, run, shared_lines).sum();

@@ -14,11 +14,15 @@ RankedLines::RankedLines(const LikelihoodRatios& of) : ratios(of) {
     for (std::size_t line = 0; line < static_cast<std::size_t>(count()); ++line) {
         auto& losses = losses_[line];
         OddsByOffset& odds = odds_[line];
+        const LineScores& scores = ratios.lines[static_cast<int>(line)];
+        const auto own = static_cast<std::size_t>(ratios.own_roll(static_cast<int>(line)));
         for (std::size_t offset = 0; offset < kSections; ++offset) {
-            const int lost = ratios.loss(static_cast<int>(line), static_cast<int>(offset));
-            losses[offset] = static_cast<std::int16_t>(lost);
-            odds[offset] = ratios.odds(lost);
+            const std::size_t roll = own + offset;
+            losses[offset] = static_cast<std::int16_t>(
+                scores[own] - scores[roll < kSections ? roll : roll - kSections]);
         }
+        for (std::size_t offset = 0; offset < kSections; ++offset)
+            odds[offset] = ratios.odds(losses[offset]);
         odds.back() = 0;
         for (std::size_t n = kSections; n < losses.size(); n += kSections) {
             const auto end = losses.begin() +
@@ -67,9 +71,9 @@ void RankedLines::set_offsets(std::size_t sequence, std::uint32_t place,
     }
 }
 
-CoarseLosses::CoarseLosses(const LikelihoodRatios& ratios) {
+CoarseLosses::CoarseLosses(const LikelihoodRatios& ratios, int skipped_bits) {
     constexpr int kMaxLimit = 200;
-    const int loss_limit = ratios.loss_for(-56 * 256) + ratios.max_gain();
+    const int loss_limit = ratios.loss_for(-skipped_bits * 256) + ratios.max_gain();
     const int unit = loss_limit / kMaxLimit + 1;
     limit = loss_limit / unit + 1;
     for (int line = 0; line < ratios.count(); ++line) {

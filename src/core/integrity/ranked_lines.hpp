@@ -43,11 +43,10 @@ class RankedLines {
 /// Minimum losses of the lines, rounded down to coarse units so that sums of losses fit in bytes.
 /// Each loss is at most `limit`.
 struct CoarseLosses {
-    explicit CoarseLosses(const LikelihoodRatios& ratios);
+    /// Alternatives that lose at least `skipped_bits` bits, regardless of their gains in other
+    /// lines, reach the limit.
+    CoarseLosses(const LikelihoodRatios& ratios, int skipped_bits);
 
-    /// Upper bound on the odds of an alternative that loses at least `limit`, regardless of its
-    /// gains in other lines. For 2^15 such alternatives, these bounds add up to 2^-41.
-    static constexpr float skipped_odds = 0x1p-56F;
     int limit;  ///< at most 200, the maximum of `Kernels::list_similar_places`
     std::array<std::uint8_t, kMaxLines> losses;
 };
