@@ -1,12 +1,13 @@
-// Writes frames and the exact bits of their fixes. Tests compare the fixes of the wrappers with
-// them.
+// Writes frames and the exact bits of their fixes. The tests of the wrappers compare their fixes
+// with these bits.
 //
 //   dotpose_golden_files DIRECTORY [TIMES]
 //
 // Writes two files for each set. The sets are `nominal` (200 frames), `hard` (150 frames) and `vga`
 // (40 frames). TIMES multiplies their numbers of frames.
 //
-//   SET.frames  a sequence of binary PGM images: each frame, followed by its next frame
+//   SET.frames  a sequence of binary PGM images, two for each frame: the frame, and the frame after
+//               a small motion of the camera, for the tracked attempt
 //   SET.csv     a line for each frame and method of locating; wrappers/golden/README.md
 //               describes the columns
 //

@@ -168,8 +168,8 @@ CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
 PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
 
 /// Returns the reference point of `camera` as an undistorted pixel of `other`, which is another
-/// calibration of the same camera. If the view of either camera is not known, returns the reference
-/// pixel unchanged.
+/// calibration of the same camera. Returns nullopt if `camera.reference_px` is none. If the view of
+/// either camera is not known, returns `camera.reference_px` unchanged.
 std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera);
 
 /// Returns the camera for crops of the images of `camera`. A crop has `width_px` x `height_px`

@@ -141,8 +141,8 @@ struct PrintField {
     /// Returns the relative increase of the dot diameter from its nominal value. Negative if the
     /// dots are smaller than intended.
     double gain() const { return dot_mm / pattern.dot_mm - 1; }
-    /// Returns the fraction of the cells that cannot be used, because they are covered, missing,
-    /// merged or have a wrong bit.
+    /// Returns the sum of the four fractions above, at most 1. It estimates the fraction of the
+    /// cells that are covered, have no dot, have a merged dot or have a wrong bit.
     double bad_share() const;
 };
 

@@ -4,8 +4,8 @@
 ///     for (const InkPage& page : pages)
 ///         write_file(page.name + ".svg", ink_svg(page));
 ///
-/// `ink_of` is in the library for following robots and pens. The functions that write files are in
-/// the library for drawing. All functions are pure and thread-safe.
+/// `ink_of` is in the library for following robots and pens. `ink_svg` and `ink_ml`, which return
+/// the contents of files, are in the library for drawing. All functions are pure and thread-safe.
 #pragma once
 
 #include <span>

@@ -89,8 +89,8 @@ struct SpacePose {
     /// The second pose that explains the view, if there is one. It may be improbable.
     std::optional<SecondPose> second;
 
-    /// Maximum odds (as log2) of a second pose that the dots exclude. The limit is low because the
-    /// errors of dots on bent paper are not independent.
+    /// Limit of `SecondPose::odds_log2`. The dots exclude a second pose if its odds are at most
+    /// this limit. The limit is low because the errors of dots on bent paper are not independent.
     static constexpr double kMaxOdds_log2 = -30;
     /// Returns true if the dots do not exclude the second pose.
     bool is_ambiguous() const { return second && second->odds_log2 > kMaxOdds_log2; }

@@ -15,7 +15,8 @@ constexpr float kAmbiguousOdds = 1e-3F;
 /// A code is ruled out by earlier frames if its odds relative to the likeliest code are at most
 /// this value. The locator makes no attempt in a code that is ruled out.
 constexpr float kRuledOutOdds = 1e-9F;
-/// Maximum factor that is considered to be a rounding error.
+/// Maximum ratio of two odds that count as equal. The code attributes a difference this small to
+/// rounding.
 constexpr float kRoundings = 1.01F;
 
 std::size_t index(CodeVariant code) {

@@ -20,8 +20,9 @@ constexpr int kSeam_q8 = -32 * 256;
 /// odds exclude the prior.
 constexpr int kMin_q8 = -8 * 256;
 
-/// Minimum losses of an alternative before and after each border. Each minimum is over all shifts
-/// at which the loss on the same side of the border is less than `loss_limit`.
+/// Minimum losses of an alternative in the lines before and in the lines after each border, over
+/// all shifts. Shifts at which the loss is certain to reach `loss_limit` may be skipped. If all
+/// shifts are skipped, the minimum is kNone.
 class LossesByBorder {
   public:
     LossesByBorder(const LikelihoodRatios& ratios, const RollOffsets& offsets, int loss_limit)

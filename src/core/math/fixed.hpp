@@ -109,7 +109,8 @@ std::int64_t log2_q16(std::uint32_t n);
 /// Interpolates linearly between powers of two and subtracts a correction.
 constexpr std::int64_t exp2_q16(int n_q8) {
     const std::int32_t fraction_q8 = n_q8 & 255;
-    // 1 + f exceeds 2^f by about f (1 - f) / 3, which is at most 0.086. 21846 / 2^16 is about 1/3.
+    // 1 + f exceeds 2^f by at most 0.086, about f (1 - f) / 3, where f is the fraction. 21846 /
+    // 2^16 is about 1/3.
     const std::int32_t mantissa_q16 =
         65536 + fraction_q8 * 256 - (fraction_q8 * (256 - fraction_q8) * 21846 >> 16);
     return std::int64_t{mantissa_q16} << (n_q8 >> 8);

@@ -143,9 +143,9 @@ inline constexpr float kOutlierFraction = 0.02F;
 /// kFewAlong.
 inline constexpr int kManyDots = 1000;
 /// Number of blocks along each side of the image, for at most kManyDots dots: the largest number
-/// from kMinAlong to kFewAlong for which a block contains kDotsPerBlock dots on average. With only
-/// one or two dots per block, the scatter within blocks would be unknown, and flat sheets would
-/// seem uneven.
+/// from kMinAlong to kFewAlong for which a block contains at least kDotsPerBlock dots on average.
+/// With only one or two dots per block, the scatter within blocks would be unknown, and flat sheets
+/// would seem uneven.
 inline constexpr int kMinAlong = 2;
 inline constexpr int kFewAlong = 6;
 inline constexpr int kDotsPerBlock = 4;

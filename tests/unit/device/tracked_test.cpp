@@ -35,7 +35,7 @@ double y_off(const Fix& fix, const Shot& shot) {
     return std::remainder(fix.y_grid() - y_grid(shot.pose), double{kPositionsPerAxis});
 }
 
-/// Returns true if the cell and section are correct.
+/// Returns true if the position is within 0.3 spacings of the truth and the section is correct.
 bool is_right(const Fix& fix, const Shot& shot) {
     return std::hypot(x_off(fix, shot), y_off(fix, shot)) < 0.3 &&
            fix.section == shot.page.pattern.section;

@@ -1,4 +1,7 @@
-"""Tests the package as users install it, without a network: a wheel, and pip in a virtual environment."""
+"""Tests the package as users install it: builds a wheel, and installs it with pip in a virtual environment.
+
+Needs no network.
+"""
 
 import os
 import re

@@ -140,8 +140,8 @@ TEST(PixelSets, AreThoseDarkerThanTheirTilesLevel) {
 }
 
 TEST(PixelSets, RunsBeginAndEndAtAnyColumn) {
-    // Bars of every length that begin at each of eight columns. Each bar has a gap of one pixel in
-    // one row.
+    // Eight rows of bars for each length. The rows begin at eight successive columns, and the bars
+    // of a row are separated by one pixel.
     for (int length = 2; length <= 26; ++length) {
         GreyImage image = blank(200, 140);
         std::size_t bars = 0;
