@@ -1,5 +1,6 @@
 /// Calibrates the camera of a running `dotpose watch`, step by step: the lens, the mount by a turn
-/// on the spot, the direction by a straight drive, and the readout time by a fast drive.
+/// on the spot, the direction by a straight drive, the readout time by a fast drive, and the tip of
+/// a pen by pivoting.
 ///
 /// The main thread passes frames and commands to the guide. These calls return immediately, and
 /// copy only frames that are needed. A thread with a lower priority selects the frames for the
@@ -29,7 +30,7 @@
 namespace dotpose::cli {
 
 /// A step of the calibration.
-enum class GuideStep { lens, spin, drive, readout };
+enum class GuideStep { lens, spin, drive, readout, pivot };
 /// Returns the identifier, such as "spin".
 const char* name(GuideStep step);
 /// Returns the step with an identifier, or none.
@@ -73,7 +74,9 @@ struct GuideState {
     std::vector<video::Gauge> gauges;
     std::string advice;                     ///< what to do now
     std::optional<CalibrationStatus> lens;  ///< coverage, of the step `lens` only
-    std::vector<bool> directions;           ///< directions of a turn that were seen
+    std::vector<bool> directions;           ///< directions of a turn or of tilts that were seen
+    std::vector<PenLean> leans;             ///< tilts of a pen
+    std::vector<std::string> needs;         ///< unmet requirements of a step with a moving robot
     std::string problem;                    ///< failure of the step, or of writing the file
     std::optional<GuideResult> result;
     std::optional<Camera> camera;  ///< the camera of the run
