@@ -5,8 +5,8 @@ import type { Connection, Value } from "../live/connection.js";
 import { element, make, show } from "../page/dom.js";
 import { listen } from "../page/gestures.js";
 import { MarkPixels } from "./mark_pixels.js";
-import { drawNames, drawPath, drawRing, drawRobots, drawScale, drawTrailEnds, drawTrails } from "./marks.js";
-import { Positions, trailsOf, type KnownMap, type Robot, type Setup, type Trails } from "./messages.js";
+import { drawNames, drawPath, drawRing, drawRobots, drawScale, drawTrack, drawTrailEnds, drawTrails } from "./marks.js";
+import { Positions, trailsOf, type KnownMap, type Robot, type Setup, type Track, type Trails } from "./messages.js";
 import { boundsOf, touches, union, Viewport, type Bounds_mm } from "./viewport.js";
 
 const kAskPeriod_ms = 150;
@@ -38,6 +38,8 @@ export class FleetMap {
     #positions: Positions | null = null;
     #trails: Trails | null = null;
     #chosen: Robot | null = null;
+    /** Stored tracks of the chosen robot, by map. */
+    #tracks: readonly Track[] = [];
     #is_frame_due = false;
     #ask_timer: number | undefined;
     #asked = "";
@@ -85,6 +87,19 @@ export class FleetMap {
     takeChosen(robot: Robot | null): void {
         this.#chosen = robot;
         this.#requestFrame();
+    }
+
+    /** Shows the stored tracks of the chosen robot, the longest one completely. */
+    takeTracks(tracks: readonly Track[]): void {
+        this.#tracks = tracks;
+        this.#is_ground_old = true;
+        this.#requestFrame();
+        const points = tracks.map(({ strokes_mm }) => strokes_mm.flat());
+        const longest = points.reduce((best, { length }, i) => (length > (points[best]?.length ?? 0) ? i : best), 0);
+        const pairs = (points[longest] ?? []).flatMap((x, i, all) => (i % 2 === 0 ? [[x, all[i + 1]!] as const] : []));
+        if (pairs.length === 0) return;
+        this.showMap(tracks[longest]!.map);
+        this.#move(() => this.#view.fit(boundsOf(pairs)));
     }
 
     showMap(name: string): void {
@@ -264,6 +279,7 @@ export class FleetMap {
             drawPaper(context, { name, corners }, ({ x_mm, y_mm }) => [this.#view.x(x_mm), this.#view.y(y_mm)]);
         }
         if (this.#trails !== null) drawTrails(context, this.#trails, this.#view);
+        for (const track of this.#tracks) if (track.map === this.#map) drawTrack(context, track, this.#view);
         if (this.#map !== "") drawScale(context, this.#view);
         if (this.#copies()) this.#marks.setGround(context, scale, this.#positions!.count);
         this.#is_ground_old = false;

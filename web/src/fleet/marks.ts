@@ -1,6 +1,6 @@
 // Draws robots on a map. Conditions differ in shape and colour.
 import { themed } from "../draw/surface.js";
-import { kConditions, type Condition, type Positions, type Trails } from "./messages.js";
+import { kConditions, type Condition, type Positions, type Track, type Trails } from "./messages.js";
 import type { Viewport } from "./viewport.js";
 
 /** Names of the colours in the style sheet. */
@@ -146,6 +146,20 @@ export function drawPath(context: CanvasRenderingContext2D, path_mm: ArrayLike<n
     context.lineJoin = "round";
     context.beginPath();
     addLine(context, path_mm, view);
+    context.stroke();
+}
+
+/** Draws the stored track of the chosen robot, wider than the newest part of its path, which covers it. */
+export function drawTrack(context: CanvasRenderingContext2D, { strokes_mm }: Track, view: Viewport): void {
+    context.strokeStyle = themed("--warn");
+    context.lineWidth = 5;
+    context.lineJoin = context.lineCap = "round";
+    context.beginPath();
+    for (const stroke of strokes_mm) {
+        addLine(context, stroke, view);
+        // A stroke of one point is a dot.
+        if (stroke.length === 2) context.lineTo(view.x(stroke[0]!), view.y(stroke[1]!));
+    }
     context.stroke();
 }
 

@@ -9,6 +9,8 @@ export type Condition = (typeof kConditions)[number];
 export interface Setup {
     /** Name of the robot of `dotpose listen`; empty for a fleet. */
     device: string;
+    /** True if the page can read stored states. */
+    has_history: boolean;
     /** Name of the map of the sheet file; empty without a file. */
     map: string;
     sheets: { name: string; corners_mm: Pair[] }[];
@@ -93,6 +95,40 @@ export interface Robot extends Row {
     path_mm: number[];
     /** Newest first. */
     events: Alert[];
+}
+
+/** Stored states of a robot, thinned to spans of time. The arrays have one element for each span. */
+export interface StoredHistory {
+    /** Number of the request that this answers. */
+    ask: number;
+    is_reading?: boolean;
+    /** Why there are no states. */
+    problem?: string;
+    states: number;
+    counts: Record<"moving" | "still" | "lost", number>;
+    first_us: number;
+    last_us: number;
+    span_ms: number;
+    max_speed_mm_s: number;
+    is_cut: boolean;
+    maps: string[];
+    /** From `first_us`. */
+    times_ms: number[];
+    /** First place in the span; null if the robot was lost. */
+    x_mm: (number | null)[];
+    y_mm: (number | null)[];
+    /** Index in `maps`. */
+    map_of: (number | null)[];
+    /** Maximum speed in the span. */
+    speeds_mm_s: number[];
+    /** 2 if the robot was lost in the span, otherwise 0 if it moved, 1 if it was still. */
+    motions: number[];
+}
+
+/** A stored track on a map: strokes with x and y alternately. */
+export interface Track {
+    map: string;
+    strokes_mm: number[][];
 }
 
 interface Head {
