@@ -227,6 +227,7 @@ test("the page calibrates lens, mount, direction and readout time, and the run u
         assert.ok(field_px < kCorner_px * 0.01, String(field_px));
 
         await calibrate(page, run, "spin", shots.turn);
+        await picture(page, "web-calibration-mount");
         camera = cameraIn(file);
         const mount = mountOf(camera);
         assert.ok(Math.hypot(mount.x - kMount_mm.x, mount.y - kMount_mm.y) < 0.1, JSON.stringify(mount));
@@ -308,6 +309,14 @@ async function requireAccessible(page) {
     }
 }
 
+/** Takes a picture for docs/web.md if the environment names the folder DOTPOSE_PICTURES. */
+async function picture(page, name) {
+    if (!process.env.DOTPOSE_PICTURES) return;
+    await page.emulateMedia({ colorScheme: "light" });
+    await page.setViewportSize({ width: 1200, height: 900 });
+    await page.screenshot({ path: join(process.env.DOTPOSE_PICTURES, `${name}.png`), fullPage: true });
+}
+
 /** Returns the newest JSON line of a frame. */
 function newestLine(page) {
     return page.evaluate(
@@ -352,11 +361,7 @@ test("the tip of a pen is calibrated by pivoting, and the run uses it", async ()
         await page.waitForFunction(() => /[1-8] of 8/.test(document.getElementById("calibration-turns-text").textContent));
         assert.match(await page.textContent("#calibration-tilts-text"), /up to \d+°/);
         await requireAccessible(page);
-        if (process.env.PICTURE) {
-            await page.emulateMedia({ colorScheme: "light" });
-            await page.setViewportSize({ width: 1200, height: 900 });
-            await page.screenshot({ path: process.env.PICTURE, fullPage: true });
-        }
+        await picture(page, "web-calibration-pen");
         await page.click("#calibration-cancel");
         const report = await calibrate(page, run, "pivot", shots.pivot);
         assert.match(report, /tip.*±.*residual/s);

@@ -132,7 +132,10 @@ export class HistoryPanel {
         const per_ms = width / (times_ms.at(-1)! + span_ms);
         const per_mm_s = (ground - top) / Math.max(max_speed_mm_s, 1);
         times_ms.forEach((time_ms, i) => {
-            const [x, columns] = [time_ms * per_ms, Math.max(1, span_ms * per_ms)];
+            // A bar reaches to the next span, except before a pause.
+            const length_ms = Math.min((times_ms[i + 1] ?? Infinity) - time_ms, 3 * span_ms);
+            const x = Math.floor(time_ms * per_ms);
+            const columns = Math.ceil((time_ms + length_ms) * per_ms) - x;
             context.fillStyle = themed("--accent");
             const bar = speeds_mm_s[i]! * per_mm_s;
             context.fillRect(x, ground - bar, columns, bar);
