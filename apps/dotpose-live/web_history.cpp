@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <exception>
 #include <mutex>
 #include <optional>
 #include <string_view>
@@ -156,7 +157,7 @@ std::string WebHistory::Queries::read_states(const HistoryRequest& request) {
 std::string WebHistory::Queries::read(const HistoryRequest& request) {
     try {
         return read_states(request);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
         return problem_text(json_of(request), error.what());
     }
 }

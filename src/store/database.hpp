@@ -90,7 +90,8 @@ class Database {
     /// Removes the states of all days before the day of `time_us`. Throws Error.
     virtual void remove_days_before(std::int64_t time_us) = 0;
 
-    /// Calls `take` with the selected states in the order of their times. Throws Error.
+    /// Calls `take` with the selected states in the order of their times. An exception of `take`
+    /// ends the reading. Throws Error.
     virtual void read(const Query& query, const std::function<void(const State&)>& take) = 0;
 
     /// Returns all robots in the order of their names. Throws Error.

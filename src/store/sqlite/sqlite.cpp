@@ -170,6 +170,8 @@ class Sqlite : public Database {
 
     void read(const Query& query, const std::function<void(const State&)>& take) override {
         run([&](const Connection& connection) {
+            // The places and the states must be of the same moment.
+            connection_->run("BEGIN");
             const auto robot = std::make_shared<const std::string>(query.robot);
             const auto places = all_places(connection);
             Statement select(
@@ -188,6 +190,7 @@ class Sqlite : public Database {
                 state.place = places.at(*integers[5]);
                 take(state);
             }
+            connection_->run("COMMIT");
         });
     }
 
@@ -209,12 +212,13 @@ class Sqlite : public Database {
 
   private:
     /// Calls `work(connection)`. After an Error, closes the file, which rolls back the transaction.
+    /// Calls `work`. After an exception, closes the connection, which ends its transaction.
     template <typename Work>
     void run(const Work& work) {
         try {
             prepare();
             work(*connection_);
-        } catch (const Error&) {
+        } catch (...) {
             robots_.clear();
             places_.clear();
             connection_.reset();
