@@ -110,7 +110,7 @@ TEST_P(Databases, AReaderSeesThePlacesOfAllItsStates) {
     const auto place_of = [](int i) { return fmt::format("sheet {}", i); };
     open()->prepare();
     std::atomic<bool> is_written = false;
-    std::thread writer([&] {
+    std::jthread writer([&] {
         const auto database = open();
         for (int i = 0; i < kPlaces; ++i) {
             State state = state_of("anna", kNoon_us + i, i);
