@@ -21,6 +21,17 @@
 #include "thinned_history.hpp"
 
 namespace dotpose::cli {
+
+/// Time span that a page shows. `last_s` is set, or `from_s` and `to_s`, in s since 1970.
+struct HistoryRequest {
+    std::string robot;
+    double last_s = 0;
+    double from_s = 0;
+    double to_s = 0;
+    double ask = 0;  ///< number that the page chooses to read the same span again
+    bool operator==(const HistoryRequest&) const = default;
+};
+
 namespace {
 
 using nlohmann::json;
@@ -33,16 +44,6 @@ constexpr double kMaxSpan_s = 31 * 86'400.0;
 constexpr double kMaxTime_s = 4.1e9;
 /// Maximum number of states that a query reads: 23 days of a robot at 10 Hz.
 constexpr std::int64_t kMaxReadStates = 20'000'000;
-
-/// Time span that a page shows. `last_s` is set, or `from_s` and `to_s`, in s since 1970.
-struct HistoryRequest {
-    std::string robot;
-    double last_s = 0;
-    double from_s = 0;
-    double to_s = 0;
-    double ask = 0;  ///< number that the page chooses to read the same span again
-    bool operator==(const HistoryRequest&) const = default;
-};
 
 double seconds_of(const serve::Command& request, std::string_view key, double max) {
     const auto* value = request.argument<double>(key);
