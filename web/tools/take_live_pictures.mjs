@@ -22,13 +22,13 @@ function pause(seconds) {
     return new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
 }
 
-/** Takes a picture, if given when an element has a text. */
-async function take(page, name, { size = kDesktop, colorScheme = "light", fullPage = true, when = null } = {}) {
+/** Takes a picture, if given when a frame shows a minimum number of dots. */
+async function take(page, name, { size = kDesktop, colorScheme = "light", fullPage = true, min_dots = 0 } = {}) {
     await page.setViewportSize(size);
     await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
     await page.evaluate(() => scrollTo(0, 0));
     await pause(1.5);
-    if (when !== null) await page.waitForFunction(([id, text]) => document.getElementById(id).textContent === text, when);
+    if (min_dots > 0) await page.waitForFunction((min) => Number(document.getElementById("live-dots").textContent) >= min, min_dots);
     await page.screenshot({ path: fileURLToPath(new URL(`../../docs/pictures/${name}.png`, import.meta.url)), fullPage });
 }
 
@@ -63,10 +63,10 @@ const kParts = {
         await pause(8);
         await page.click("#live-record");
         await pause(11);
-        const when = ["live-state", "moving"];
-        await take(page, "web-light", { when });
-        await take(page, "web-phone", { size: kPhone, when });
-        await take(page, "web-dark", { colorScheme: "dark", when });
+        const min_dots = 250;
+        await take(page, "web-light", { min_dots });
+        await take(page, "web-phone", { size: kPhone, min_dots });
+        await take(page, "web-dark", { colorScheme: "dark", min_dots });
         await page.close();
         await run.stop();
     },
