@@ -21,11 +21,24 @@ constexpr std::chrono::milliseconds kOfferPeriod = 50ms;
 /// Maximum number of waiting jobs. Further commands of a page are ignored.
 constexpr std::size_t kMaxJobs = 8;
 
-constexpr std::array<const char*, 4> kSteps = {"lens", "spin", "drive", "readout"};
+constexpr std::array<const char*, 5> kSteps = {"lens", "spin", "drive", "readout", "pivot"};
 constexpr std::array<const char*, 6> kPhases = {"idle",   "collecting", "solving",
                                                 "solved", "failed",     "saved"};
 
-std::unique_ptr<GuidedFrames> frames_for(GuideStep step) {
+/// Returns the reason why a step cannot start with this camera, or an empty string.
+std::string problem_before(GuideStep step, const std::optional<Camera>& camera) {
+    if (step == GuideStep::readout && !(camera && camera->paper)) {
+        return "the camera file has no view of the paper: first calibrate the lens of the mounted "
+               "camera";
+    }
+    if (step == GuideStep::pivot && !(camera && camera->focal_px)) {
+        return "the camera file has no focal length: first calibrate the lens, and tilt the pen by "
+               "20 to 40 degrees to all sides while the frames are taken";
+    }
+    return {};
+}
+
+std::unique_ptr<GuidedFrames> frames_for(GuideStep step, const std::optional<Camera>& camera) {
     switch (step) {
         case GuideStep::spin:
             return std::make_unique<SpinFrames>();
@@ -33,6 +46,8 @@ std::unique_ptr<GuidedFrames> frames_for(GuideStep step) {
             return std::make_unique<DriveFrames>();
         case GuideStep::readout:
             return std::make_unique<ReadoutFrames>();
+        case GuideStep::pivot:
+            return std::make_unique<PivotFrames>(camera.value().focal_px.value());
         default:
             return nullptr;
     }
@@ -40,10 +55,16 @@ std::unique_ptr<GuidedFrames> frames_for(GuideStep step) {
 
 void show(const GuidedFrames& frames, GuideState& state) {
     state.frames = static_cast<int>(frames.images().size());
-    state.gauges = {frames.gauge()};
+    state.gauges = frames.gauges();
     state.advice = frames.advice();
+    state.needs = frames.needs();
     if (const auto* spin = dynamic_cast<const SpinFrames*>(&frames))
         state.directions.assign(spin->directions().begin(), spin->directions().end());
+    if (const auto* pivot = dynamic_cast<const PivotFrames*>(&frames)) {
+        const auto directions = pivot->directions();
+        state.directions.assign(directions.begin(), directions.end());
+        state.leans = pivot->leans();
+    }
 }
 
 }  // namespace
@@ -134,16 +155,14 @@ void CalibrationGuide::begin(GuideStep step) {
     cancels_ = false;
     reset();
     const std::optional<Camera> camera = state().camera;
-    if (step == GuideStep::readout && !(camera && camera->paper)) {
+    if (const std::string problem = problem_before(step, camera); !problem.empty()) {
         update([step](GuideState& state) { state.step = step; });
-        fail(
-            "the camera file has no view of the paper: first calibrate the lens of the mounted "
-            "camera");
+        fail(problem);
         return;
     }
     if (step == GuideStep::lens) collector_ = std::make_unique<LensCollector>(options_.calibrate);
     update([&](GuideState& state) {
-        guided_ = frames_for(step);
+        guided_ = frames_for(step, camera);
         state.step = step;
         state.phase = GuidePhase::collecting;
         state.advice = "move the camera over the sheet, and rest for a moment at each place";
@@ -301,6 +320,11 @@ GuideResult CalibrationGuide::result_of(GuideStep step) {
             const DriveCalibration drive =
                 calibrate_drive(count, frame_at, camera, options_.calibrate);
             return {drive.camera, drive_report(drive)};
+        }
+        case GuideStep::pivot: {
+            const PivotCalibration pivot =
+                calibrate_pivot(count, frame_at, camera.value(), options_.calibrate);
+            return {pivot.camera, pivot_report(pivot)};
         }
         default: {
             if (count < 2) throw Error("too few frames: drive fast over the sheet");

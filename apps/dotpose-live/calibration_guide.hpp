@@ -1,6 +1,6 @@
-/// Calibrates the camera of a running `dotpose watch` in four steps: the lens, the mount of the
-/// camera from a turn on the spot, the forward direction from a straight drive, and the readout
-/// time from a fast drive.
+/// Calibrates the camera of a running `dotpose watch` in five steps: the lens, the mount of the
+/// camera from a turn on the spot, the forward direction from a straight drive, the readout time
+/// from a fast drive, and the tip of a pen from pivoting.
 ///
 /// The main thread passes frames and commands to the guide. These calls return immediately and copy
 /// only the frames that the guide needs. A thread with a lower priority selects the frames for the
@@ -29,7 +29,7 @@
 
 namespace dotpose::cli {
 
-enum class GuideStep { lens, spin, drive, readout };
+enum class GuideStep { lens, spin, drive, readout, pivot };
 /// Returns the identifier, such as "spin".
 const char* name(GuideStep step);
 /// Returns the step with the identifier `name`, or none if there is no such step.
@@ -72,8 +72,11 @@ struct GuideState {
     std::vector<video::Gauge> gauges;
     std::string advice;                     ///< what to do now
     std::optional<CalibrationStatus> lens;  ///< coverage; only for the step `lens`
-    std::vector<bool> directions;           ///< for each direction, true if a frame was taken
-    std::string problem;                    ///< failure of the step, or of writing the file
+    /// For each direction of a turn or of a tilt, true if a frame was taken.
+    std::vector<bool> directions;
+    std::vector<PenLean> leans;      ///< tilts of a pen
+    std::vector<std::string> needs;  ///< unmet requirements of a step with a moving robot
+    std::string problem;             ///< failure of the step, or of writing the file
     std::optional<GuideResult> result;
     std::optional<Camera> camera;  ///< the camera of the run
 };

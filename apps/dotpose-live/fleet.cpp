@@ -109,6 +109,7 @@ std::optional<FleetWebOptions> web_options(const FleetArguments& arguments,
     FleetWebOptions options;
     options.server = *server;
     options.limits = limits_of(arguments);
+    options.store = arguments.store.where;
     options.remove = [remover = std::make_shared<RobotRemover>(mqtt)](const std::string& robot) {
         remover->remove(robot);
     };

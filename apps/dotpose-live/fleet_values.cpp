@@ -199,7 +199,7 @@ const FleetEntry* robot_with(const FleetRobots& robots, double id) {
 }
 
 std::string setup_value(const FleetMap& map, const ConditionLimits& limits,
-                        const std::string& device) {
+                        const std::string& device, bool has_history) {
     nlohmann::json sheets = nlohmann::json::array();
     for (const draw::MapSheet& sheet : map.outlines) {
         nlohmann::json corners = nlohmann::json::array();
@@ -208,6 +208,7 @@ std::string setup_value(const FleetMap& map, const ConditionLimits& limits,
         sheets.push_back({{"name", printable(sheet.name)}, {"corners_mm", std::move(corners)}});
     }
     return text_of({{"device", printable(device)},
+                    {"has_history", has_history},
                     {"map", printable(map.id)},
                     {"sheets", std::move(sheets)},
                     {"silent_after_s", static_cast<double>(limits.silent_after_us) * 1e-6},

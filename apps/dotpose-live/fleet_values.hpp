@@ -28,9 +28,10 @@ inline constexpr std::size_t kMaxTableRows = 200;
 inline constexpr std::size_t kMaxAlerts = 200;
 
 /// Returns the map, the sheets of the sheet file, and the limits of the conditions. `device` is the
-/// name of the robot of `dotpose listen`, or empty for a fleet.
+/// name of the robot of `dotpose listen`, or empty for a fleet. `has_history` is true if the page
+/// can read stored states.
 std::string setup_value(const FleetMap& map, const ConditionLimits& limits,
-                        const std::string& device);
+                        const std::string& device, bool has_history);
 
 /// Returns the number of robots by state and map, the counts of messages, and the alerts. `alerts`
 /// must be sorted by time.

@@ -39,15 +39,18 @@ FleetWeb::FleetWeb(FleetWebOptions options, const FleetState& fleet, const Fleet
       table_{server_.add_topic("table", serve::Format::text), kListPeriod},
       robot_{server_.add_topic("robot", serve::Format::text), kRobotPeriod},
       positions_{server_.add_topic("positions", serve::Format::binary), kEachTick},
-      trails_{server_.add_topic("trails", serve::Format::binary), kTrailPeriod} {
+      trails_{server_.add_topic("trails", serve::Format::binary), kTrailPeriod},
+      history_topic_(server_.add_topic("history", serve::Format::text)) {
     server_.start();
     server_.set_route("/metrics", [this] {
         return serve::Answer{
             .type = kMetricsType,
             .body = metrics_text(fleet_, fleet_.robots(options_.now()), map_, options_.services())};
     });
-    server_.publish(setup_,
-                    [text = setup_value(map_, options_.limits, options_.device)] { return text; });
+    const bool has_history = !options_.store.empty();
+    server_.publish(setup_, [text = setup_value(map_, options_.limits, options_.device,
+                                                has_history)] { return text; });
+    if (has_history) history_.emplace(options_.store, server_, history_topic_);
     options_.server.tell("the page is at " + server_.url());
     thread_ = std::thread([this] { run(); });
 }

@@ -15,12 +15,14 @@
 #include "fleet_alerts.hpp"
 #include "fleet_values.hpp"
 #include "serve/server.hpp"
+#include "web_history.hpp"
 
 namespace dotpose::cli {
 
 struct FleetWebOptions {
     serve::ServerOptions server;
     ConditionLimits limits = {};
+    std::string store = {};   ///< database of `--store`, which the page reads; empty for none
     std::string device = {};  ///< the robot of `dotpose listen`; empty for a fleet
     // The following functions are called on any thread.
     std::function<Now()> now;
@@ -78,6 +80,8 @@ class FleetWeb {
     TimedTopic robot_;
     TimedTopic positions_;
     TimedTopic trails_;
+    serve::Topic& history_topic_;
+    std::optional<WebHistory> history_;
     std::atomic<bool> ends_ = false;
     std::thread thread_;
 };

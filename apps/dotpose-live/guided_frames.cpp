@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "dotpose/files/degrees.hpp"
 #include "image_copy.hpp"
 
 namespace dotpose::cli {
@@ -23,6 +24,37 @@ constexpr std::size_t kMinRun = 15;
 /// Minimum motion between two frames of a fast drive, in spacings.
 constexpr double kMinMotion = 0.5;
 
+/// Number of frames of a pivoting pen, and the number at which a step with unmet requirements ends.
+constexpr std::size_t kWantedPivots = 30;
+constexpr std::size_t kMaxPivots = 80;
+/// Minimum difference between the tilts of two frames, as a tangent.
+constexpr double kMinLeanStep = 0.08;
+/// Minimum tilt of a frame that counts for a direction, and minimum number of these frames.
+constexpr double kMinLean_deg = 10;
+constexpr int kMinLeans = 2;
+/// Largest tilt that a pen must reach.
+constexpr double kWantedLean_deg = 20;
+constexpr std::array<const char*, PivotFrames::kDirections> kSides = {
+    "right edge", "lower right corner", "bottom edge", "lower left corner",
+    "left edge",  "upper left corner",  "top edge",    "upper right corner"};
+
+double degrees_of(const PenLean& lean) {
+    return std::atan(std::hypot(lean.x, lean.y)) * kDegrees;
+}
+
+/// Returns the index of the side to which a pen is tilted.
+std::size_t side_of(const PenLean& lean) {
+    const double turns = std::atan2(lean.y, lean.x) / (2 * std::numbers::pi);
+    const auto side = std::lround(turns * PivotFrames::kDirections);
+    return static_cast<std::size_t>((side + PivotFrames::kDirections) % PivotFrames::kDirections);
+}
+
+video::Gauge gauge_of(const char* label, std::size_t count, std::size_t wanted, const char* unit) {
+    return {label, fmt::format("{} of {} {}", count, wanted, unit),
+            std::min(1.0, static_cast<double>(count) / static_cast<double>(wanted)),
+            count >= wanted};
+}
+
 }  // namespace
 
 void GuidedFrames::keep(ImageView image) {
@@ -38,10 +70,8 @@ void SpinFrames::take(const GuidedFrame& frame) {
     keep(frame.image);
 }
 
-video::Gauge SpinFrames::gauge() const {
-    const double share = static_cast<double>(images_.size()) / kDirections;
-    return {"turn", fmt::format("{} of {} directions", images_.size(), kDirections), share,
-            is_complete()};
+std::vector<video::Gauge> SpinFrames::gauges() const {
+    return {gauge_of("turn", images_.size(), kDirections, "directions")};
 }
 
 std::string SpinFrames::advice() const {
@@ -69,9 +99,9 @@ bool DriveFrames::is_complete() const {
     return length_mm_ >= kWantedLength_mm || images_.size() >= kMaxFrames;
 }
 
-video::Gauge DriveFrames::gauge() const {
-    return {"drive", fmt::format("{:.0f} of {:.0f} mm", length_mm_, kWantedLength_mm),
-            std::min(1.0, length_mm_ / kWantedLength_mm), is_complete()};
+std::vector<video::Gauge> DriveFrames::gauges() const {
+    return {{"drive", fmt::format("{:.0f} of {:.0f} mm", length_mm_, kWantedLength_mm),
+             std::min(1.0, length_mm_ / kWantedLength_mm), is_complete()}};
 }
 
 std::string DriveFrames::advice() const {
@@ -106,14 +136,85 @@ void ReadoutFrames::end_run() {
     seen_.clear();
 }
 
-video::Gauge ReadoutFrames::gauge() const {
-    return {"drive", fmt::format("{} of {} frames", images_.size(), kWantedRun),
-            static_cast<double>(images_.size()) / static_cast<double>(kWantedRun), is_complete_};
+std::vector<video::Gauge> ReadoutFrames::gauges() const {
+    video::Gauge gauge = gauge_of("drive", images_.size(), kWantedRun, "frames");
+    gauge.is_reached = is_complete_;
+    return {gauge};
 }
 
 double ReadoutFrames::interval_ms() const {
     const auto steps = static_cast<double>(seen_.size() - 1);
     return static_cast<double>(seen_.back().time_us - seen_.front().time_us) / 1000 / steps;
+}
+
+/// Along the image, the scale changes with the tangent of the tilt divided by the focal length. The
+/// camera leans away from the part of the paper that is farther.
+PenLean lean_in(const Fix& fix, double focal_px) {
+    const FixedVec& perspective_q30 = fix.pattern_from_image.perspective_q30;
+    const double u = std::ldexp(focal_px * perspective_q30.x, -30);
+    const double v = std::ldexp(focal_px * perspective_q30.y, -30);
+    const double c = std::cos(fix.theta_rad());
+    const double s = std::sin(fix.theta_rad());
+    return {c * u - s * v, s * u + c * v};
+}
+
+void PivotFrames::take(const GuidedFrame& frame) {
+    const PenLean lean = lean_in(frame.fix, focal_px_);
+    const auto is_near = [&lean](const PenLean& taken) {
+        return std::hypot(lean.x - taken.x, lean.y - taken.y) < kMinLeanStep;
+    };
+    if (std::ranges::any_of(leans_, is_near)) return;
+    leans_.push_back(lean);
+    keep(frame.image);
+}
+
+std::array<bool, PivotFrames::kDirections> PivotFrames::directions() const {
+    std::array<int, kDirections> counts{};
+    for (const PenLean& lean : leans_) {
+        if (degrees_of(lean) >= kMinLean_deg) ++counts[side_of(lean)];
+    }
+    std::array<bool, kDirections> seen{};
+    std::ranges::transform(counts, seen.begin(), [](int count) { return count >= kMinLeans; });
+    return seen;
+}
+
+double PivotFrames::max_tilt_deg() const {
+    double tilt_deg = 0;
+    for (const PenLean& lean : leans_)
+        tilt_deg = std::max(tilt_deg, degrees_of(lean));
+    return tilt_deg;
+}
+
+bool PivotFrames::is_complete() const {
+    return leans_.size() >= kMaxPivots || (leans_.size() >= kWantedPivots && needs().empty());
+}
+
+std::vector<video::Gauge> PivotFrames::gauges() const {
+    const auto seen = static_cast<std::size_t>(std::ranges::count(directions(), true));
+    const double tilt_deg = max_tilt_deg();
+    return {gauge_of("sides", seen, kDirections, "directions"),
+            {"tilt", fmt::format("up to {:.0f} degrees", tilt_deg),
+             std::min(1.0, tilt_deg / kWantedLean_deg), tilt_deg >= kWantedLean_deg},
+            gauge_of("frames", leans_.size(), kWantedPivots, "frames")};
+}
+
+std::vector<std::string> PivotFrames::needs() const {
+    std::vector<std::string> needs;
+    if (max_tilt_deg() < kWantedLean_deg)
+        needs.push_back(
+            fmt::format("tilt the pen farther, to {:.0f} to 40 degrees", kWantedLean_deg));
+    const std::array<bool, kDirections> seen = directions();
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        if (!seen[i])
+            needs.push_back(fmt::format("tilt the pen towards the {} of the sheet", kSides[i]));
+    }
+    return needs;
+}
+
+std::string PivotFrames::advice() const {
+    const std::vector<std::string> missing = needs();
+    return missing.empty() ? "go on, with other tilts"
+                           : missing.front() + "; the tip stays at its point";
 }
 
 }  // namespace dotpose::cli

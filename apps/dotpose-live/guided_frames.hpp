@@ -1,4 +1,4 @@
-/// Selects the frames of a turn, of a straight drive and of a fast drive, while the robot moves.
+/// Selects the frames of a turn, of a straight drive, of a fast drive and of a pivoting pen.
 #pragma once
 
 #include <array>
@@ -37,8 +37,11 @@ class GuidedFrames {
 
     /// Returns true if no more frames are needed.
     virtual bool is_complete() const = 0;
-    virtual video::Gauge gauge() const = 0;
+    /// Returns the progress towards each goal.
+    virtual std::vector<video::Gauge> gauges() const = 0;
     virtual std::string advice() const = 0;
+    /// Returns advice about each unmet requirement, most urgent first.
+    virtual std::vector<std::string> needs() const { return {}; }
 
     const Images& images() const { return images_; }
 
@@ -55,7 +58,7 @@ class SpinFrames : public GuidedFrames {
 
     void take(const GuidedFrame& frame) override;
     bool is_complete() const override { return images_.size() == kDirections; }
-    video::Gauge gauge() const override;
+    std::vector<video::Gauge> gauges() const override;
     std::string advice() const override;
 
     const std::array<bool, kDirections>& directions() const { return directions_; }
@@ -69,7 +72,7 @@ class DriveFrames : public GuidedFrames {
   public:
     void take(const GuidedFrame& frame) override;
     bool is_complete() const override;
-    video::Gauge gauge() const override;
+    std::vector<video::Gauge> gauges() const override;
     std::string advice() const override;
 
   private:
@@ -90,7 +93,7 @@ class ReadoutFrames : public GuidedFrames {
     void take(const GuidedFrame& frame) override;
     void lose() override { end_run(); }
     bool is_complete() const override { return is_complete_; }
-    video::Gauge gauge() const override;
+    std::vector<video::Gauge> gauges() const override;
     std::string advice() const override { return advice_; }
 
     /// Returns the mean interval between two frames. There must be at least two frames.
@@ -108,6 +111,43 @@ class ReadoutFrames : public GuidedFrames {
     std::vector<Seen> seen_;  ///< the frames of the current run of consecutive frames
     bool is_complete_ = false;
     std::string advice_ = "drive fast over the sheet";
+};
+
+/// Tilt of a pen: the tangent of the angle between its camera and the normal of the paper, towards
+/// the right (x) and the bottom (y) of the sheet.
+struct PenLean {
+    double x = 0;
+    double y = 0;
+};
+
+/// Returns the tilt of the camera in a frame. The perspective of the dots shows it.
+PenLean lean_in(const Fix& fix, double focal_px);
+
+/// A pen that pivots about its tip: frames with different tilts.
+class PivotFrames : public GuidedFrames {
+  public:
+    /// Number of directions into which the tilts are divided. The first one is to the right, the
+    /// third one to the bottom of the sheet.
+    static constexpr int kDirections = 8;
+
+    explicit PivotFrames(double focal_px) : focal_px_(focal_px) {}
+
+    void take(const GuidedFrame& frame) override;
+    bool is_complete() const override;
+    std::vector<video::Gauge> gauges() const override;
+    std::string advice() const override;
+    std::vector<std::string> needs() const override;
+
+    /// Tilts of the frames that were taken.
+    const std::vector<PenLean>& leans() const { return leans_; }
+    /// Directions with enough tilted frames.
+    std::array<bool, kDirections> directions() const;
+
+  private:
+    double max_tilt_deg() const;
+
+    double focal_px_;
+    std::vector<PenLean> leans_;
 };
 
 }  // namespace dotpose::cli

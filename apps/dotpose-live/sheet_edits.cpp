@@ -129,11 +129,48 @@ SheetEntry SheetEdits::change(const Target& target, const std::string& what, con
     take(file.sheets());
     const SheetEntry before = require(target);
     const SheetEntry after = change(before);
-    file.replace(after);
-    save(file, {fmt::format("{} '{}'", what, target.name),
-                {{target.name, values_of(before), values_of(after)}}});
+    const SheetStep step{before, after};
+    apply(file, step);
+    save(file, {fmt::format("{} '{}'", what, target.name), {step}});
     redo_.clear();
     return after;
+}
+
+void SheetEdits::remove(const Target& target) {
+    SheetFile file(path(), wait_);
+    take(file.sheets());
+    const SheetStep step{require(target), std::nullopt};
+    if (file.sheets().size() < 2) {
+        throw Error(
+            fmt::format("'{}' is the only sheet of the file, and this run needs a sheet: end the "
+                        "run, and remove it with 'dotpose sheets remove'",
+                        target.name));
+    }
+    apply(file, step);
+    save(file, {fmt::format("remove '{}'", target.name), {step}});
+    redo_.clear();
+}
+
+/// Returns true if the file contains the sheet as it was before the step.
+bool SheetEdits::is_unchanged(const SheetStep& step) const {
+    if (!step.before) return true;
+    const SheetEntry* entry = find(sheets_, step.before->name);
+    return entry != nullptr && is_same_sheet(*entry, *step.before);
+}
+
+/// Makes the change of a step in the file.
+void SheetEdits::apply(SheetFile& file, const SheetStep& step) {
+    if (!step.after) {
+        file.remove(step.before->name);
+        return;
+    }
+    if (!step.before) {
+        file.add(*step.after);
+        return;
+    }
+    const std::string& name = step.after->name;
+    if (step.before->name != name) file.rename(step.before->name, name);
+    file.replace(with_values(*find(file.sheets(), name), values_of(*step.after)));
 }
 
 void SheetEdits::change_all(const std::vector<Target>& targets,
@@ -150,7 +187,7 @@ void SheetEdits::change_all(const std::vector<Target>& targets,
         after.print_scale_x = entry.print_scale_x;
         after.print_scale_y = entry.print_scale_y;
         file.replace(after);
-        step.sheets.push_back({entry.name, values_of(before), values_of(after)});
+        step.sheets.push_back({before, after});
     }
     save(file, std::move(step));
     redo_.clear();
@@ -180,16 +217,20 @@ std::string SheetEdits::move_step(std::vector<Step>& from, std::vector<Step>& to
     SheetFile file(path(), wait_);
     take(file.sheets());
     const Step step = from.back();
-    for (const SheetStep& sheet : step.sheets) {
-        const SheetEntry* entry = find(sheets_, sheet.name);
-        if (entry == nullptr || values_of(*entry) != (is_undo ? sheet.after : sheet.before)) {
-            from.pop_back();
-            throw Error(fmt::format(
-                "'{}' was changed by someone else since, so \"{}\" can no longer be {}; "
-                "nothing was written",
-                sheet.name, step.text, is_undo ? "undone" : "redone"));
+    for (const SheetStep& done : step.sheets) {
+        const SheetStep sheet = is_undo ? SheetStep{done.after, done.before} : done;
+        std::string reason;
+        if (!is_unchanged(sheet))
+            reason = fmt::format("'{}' was changed by someone else since", sheet.before->name);
+        try {
+            if (reason.empty()) apply(file, sheet);
+        } catch (const BadArgument& error) {
+            reason = error.what();
         }
-        file.replace(with_values(*entry, is_undo ? sheet.before : sheet.after));
+        if (reason.empty()) continue;
+        from.pop_back();
+        throw Error(fmt::format("{}, so \"{}\" can no longer be {}; nothing was written", reason,
+                                step.text, is_undo ? "undone" : "redone"));
     }
     file.save();
     take(file.sheets());

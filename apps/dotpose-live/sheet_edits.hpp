@@ -44,9 +44,13 @@ class SheetEdits {
     };
     using Change = std::function<SheetEntry(const SheetEntry& before)>;
 
-    /// Changes place, print scale or offset of a sheet. `what` describes the edit for `undo`, such
-    /// as "move". Returns the new entry.
+    /// Changes name, place, print scale or offset of a sheet. `what` describes the edit for `undo`,
+    /// such as "move". Returns the new entry.
     SheetEntry change(const Target& target, const std::string& what, const Change& change);
+
+    /// Removes a sheet. Throws Error if it is the only one, because a run needs a sheet. An undone
+    /// removal puts the sheet at the end of the file, without keys that dotpose does not know.
+    void remove(const Target& target);
 
     /// Replaces the places and print scales of several sheets in one edit. `targets` are the
     /// revisions of the sheets at the start of the measurement.
@@ -77,10 +81,10 @@ class SheetEdits {
         std::array<double, 2> origin_mm{};
         bool operator==(const Values&) const = default;
     };
+    /// A changed sheet. `after` is missing if the sheet was removed.
     struct SheetStep {
-        std::string name;
-        Values before;
-        Values after;
+        std::optional<SheetEntry> before;
+        std::optional<SheetEntry> after;
     };
     struct Step {
         std::string text;
@@ -104,6 +108,8 @@ class SheetEdits {
     void take(const std::vector<SheetEntry>& sheets);
     SheetEntry require(const Target& target) const;
     void save(SheetFile& file, Step step);
+    bool is_unchanged(const SheetStep& step) const;
+    static void apply(SheetFile& file, const SheetStep& step);
     std::string move_step(std::vector<Step>& from, std::vector<Step>& to, bool is_undo);
 
     std::string path_;

@@ -134,9 +134,17 @@ std::string reference_text(const Camera& camera) {
                        sigma_text(camera, "reference_u_px", camera.paper->mm_per_px_x, 4));
 }
 
+std::string tip_text(const Camera& camera) {
+    const PenTip& tip = *camera.tip;
+    return fmt::format("{:.3f}{}, {:.3f}{}, {:.3f}{} mm from the camera", tip.x_mm,
+                       sigma_text(camera, "tip_x_mm", 1, 4), tip.y_mm,
+                       sigma_text(camera, "tip_y_mm", 1, 4), tip.z_mm,
+                       sigma_text(camera, "tip_z_mm", 1, 4));
+}
+
 /// Returns the values in the camera file, by step. The text of a missing value is empty.
 json values_of(const std::optional<Camera>& camera) {
-    json values = {{"lens", ""}, {"spin", ""}, {"drive", ""}, {"readout", ""}};
+    json values = {{"lens", ""}, {"spin", ""}, {"drive", ""}, {"readout", ""}, {"pivot", ""}};
     if (!camera) return values;
     values["lens"] = lens_text(*camera);
     if (camera->reference_px) values["spin"] = reference_text(*camera);
@@ -148,7 +156,15 @@ json values_of(const std::optional<Camera>& camera) {
         values["readout"] = fmt::format("{:.3f}{} ms", *camera->readout_ms,
                                         sigma_text(*camera, "readout_ms", 1, 3));
     }
+    if (camera->tip) values["pivot"] = tip_text(*camera);
     return values;
+}
+
+json json_of(const std::vector<PenLean>& leans) {
+    json all = json::array();
+    for (const PenLean& lean : leans)
+        all.push_back({lean.x, lean.y});
+    return all;
 }
 
 json json_of(const GuideState& state, const std::string& file) {
@@ -160,6 +176,8 @@ json json_of(const GuideState& state, const std::string& file) {
             {"advice", state.advice},
             {"lens", state.lens ? json_of(*state.lens) : json(nullptr)},
             {"directions", state.directions},
+            {"leans", json_of(state.leans)},
+            {"needs", state.needs},
             {"problem", state.problem},
             {"result", state.result ? json_of(*state.result) : json(nullptr)},
             {"values", values_of(state.camera)}};

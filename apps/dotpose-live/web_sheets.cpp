@@ -181,6 +181,8 @@ void WebSheets::perform(const serve::Command& command, SheetAnswer& answer) {
         answer.message = "Undone: " + edits_.undo();
     } else if (name == "sheet-redo") {
         answer.message = "Done again: " + edits_.redo();
+    } else if (name == "sheet-remove") {
+        remove(command, answer);
     } else if (name == "sheet-reprint") {
         reprint(command, answer);
     } else if (name == "sheet-print") {
@@ -205,6 +207,13 @@ void WebSheets::change(const serve::Command& command, SheetAnswer& answer) {
     } else if (command.name == "sheet-unplace") {
         what = "take from the map";
         change = [](const SheetEntry& entry) { return placed(entry, std::nullopt); };
+    } else if (command.name == "sheet-rename") {
+        what = "rename";
+        change = [name = require<std::string>(command, "new_name")](SheetEntry entry) {
+            entry.name = name;
+            return entry;
+        };
+        text = [](const SheetEntry&) { return std::string("the new name of the sheet"); };
     } else if (command.name == "sheet-scale") {
         what = "scale";
         change = [length = length_of(command)](const SheetEntry& e) { return scaled(e, length); };
@@ -219,7 +228,14 @@ void WebSheets::change(const serve::Command& command, SheetAnswer& answer) {
         throw BadArgument("there is no command " + command.name);
     }
     const SheetEntry after = edits_.change(target, what, change);
+    answer.name = after.name;
     answer.message = fmt::format("Saved. {}: {}", printable(after.name), text(after));
+}
+
+void WebSheets::remove(const serve::Command& command, SheetAnswer& answer) {
+    const SheetEdits::Target target = target_of(command);
+    edits_.remove(target);
+    answer.message = removal_text(target.name);
 }
 
 void WebSheets::reprint(const serve::Command& command, SheetAnswer& answer) {

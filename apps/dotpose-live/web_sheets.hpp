@@ -73,6 +73,7 @@ class WebSheets {
     void answer_to(const serve::Command& command);
     void perform(const serve::Command& command, SheetAnswer& answer);
     void change(const serve::Command& command, SheetAnswer& answer);
+    void remove(const serve::Command& command, SheetAnswer& answer);
     void reprint(const serve::Command& command, SheetAnswer& answer);
     void print_new(const serve::Command& command, SheetAnswer& answer);
     void measure(bool is_on);

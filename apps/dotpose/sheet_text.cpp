@@ -76,6 +76,12 @@ std::string world_text(const SheetEntry& entry) {
                        short_number(pose->yaw_deg, 4));
 }
 
+std::string removal_text(const std::string& name) {
+    return fmt::format(
+        "{} is removed: its cells may be given to other pages, so do not use its page any more",
+        printable(name));
+}
+
 std::string list_text(const std::vector<SheetEntry>& sheets) {
     constexpr std::size_t kColumns = 6;
     std::vector<std::array<std::string, kColumns>> lines = {

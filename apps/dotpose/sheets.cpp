@@ -139,10 +139,7 @@ void rename(const SheetsArguments& arguments) {
 void remove(const SheetsArguments& arguments) {
     change_sheet(arguments, [&](SheetFile& file, const SheetEntry& entry) {
         file.remove(entry.name);
-        fmt::print(
-            "{} is removed: its cells may be given to other pages, so do not use its page any "
-            "more\n",
-            printable(entry.name));
+        fmt::print("{}\n", removal_text(entry.name));
     });
 }
 

@@ -88,8 +88,8 @@ class Database {
     /// Removes the states of all days before the day of `time_us`. Throws Error if this fails.
     virtual void remove_days_before(std::int64_t time_us) = 0;
 
-    /// Calls `take` with each selected state, in the order of their times. Throws Error if this
-    /// fails.
+    /// Calls `take` with each selected state, in the order of their times. An exception of `take`
+    /// ends the reading. Throws Error if reading fails.
     virtual void read(const Query& query, const std::function<void(const State&)>& take) = 0;
 
     /// Returns all robots in the order of their names. Throws Error if this fails.

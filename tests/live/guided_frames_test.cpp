@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "../pen_frames.hpp"
+#include "dotpose/locate.hpp"
+
 namespace dotpose::cli {
 namespace {
 
@@ -50,7 +53,7 @@ TEST(GuidedFrames, ATurnTakesOneFrameInEachDirection) {
     EXPECT_TRUE(frames.is_complete());
     EXPECT_EQ(frames.images().size(), 24U);
     EXPECT_EQ(frames.images()[0]->width_px, 4);
-    EXPECT_EQ(frames.gauge().text, "24 of 24 directions");
+    EXPECT_EQ(frames.gauges().at(0).text, "24 of 24 directions");
 }
 
 TEST(GuidedFrames, AnUnfinishedTurnIsNotComplete) {
@@ -116,6 +119,69 @@ TEST(GuidedFrames, AFastDriveEndsWhenTheRobotStops) {
     frames.take(robot.frame(138.1, 100));
     EXPECT_TRUE(frames.is_complete());
     EXPECT_EQ(frames.images().size(), 20U);
+}
+
+constexpr double kFocal_px = 16 / 0.03;
+
+/// Returns a frame whose camera leans to a side, from +x towards +y of the sheet.
+GuidedFrame leaning(Robot& robot, double tilt_deg, double azimuth_deg, double turn_deg = 0) {
+    GuidedFrame frame = robot.frame(100, 100, turn_deg * kDegree_rad);
+    const double per_px = std::tan(tilt_deg * kDegree_rad) / kFocal_px;
+    const double angle_rad = (azimuth_deg - turn_deg) * kDegree_rad;
+    frame.fix.pattern_from_image.perspective_q30 = {
+        static_cast<std::int32_t>(std::lround(std::ldexp(per_px * std::cos(angle_rad), 30))),
+        static_cast<std::int32_t>(std::lround(std::ldexp(per_px * std::sin(angle_rad), 30)))};
+    return frame;
+}
+
+TEST(GuidedFrames, APivotTakesFramesWithDifferentTilts) {
+    Robot robot;
+    PivotFrames frames(kFocal_px);
+    EXPECT_EQ(frames.needs().size(), 9U);
+    for (int i = 0; i < 20; ++i)
+        frames.take(leaning(robot, 0, 0, 10 * i));
+    EXPECT_EQ(frames.images().size(), 1U);
+    for (const double tilt_deg : {15.0, 25.0}) {
+        for (int side = 0; side < 7; ++side)
+            frames.take(leaning(robot, tilt_deg, 45 * side, 100));
+    }
+    EXPECT_EQ(frames.images().size(), 15U);
+    EXPECT_FALSE(frames.directions()[7]);
+    ASSERT_EQ(frames.needs().size(), 1U);
+    EXPECT_EQ(frames.needs()[0], "tilt the pen towards the upper right corner of the sheet");
+    EXPECT_EQ(frames.gauges().at(0).text, "7 of 8 directions");
+    EXPECT_EQ(frames.gauges().at(1).text, "up to 25 degrees");
+    EXPECT_FALSE(frames.is_complete());
+    for (int i = 0; i < 16; ++i)
+        frames.take(leaning(robot, i < 8 ? 20 : 32, 45 * i + 20));
+    EXPECT_TRUE(frames.needs().empty());
+    EXPECT_TRUE(frames.is_complete());
+    EXPECT_EQ(frames.images().size(), 31U);
+}
+
+TEST(GuidedFrames, APivotWithSmallTiltsEnds) {
+    Robot robot;
+    PivotFrames frames(kFocal_px);
+    for (int ring = 0; ring < 4; ++ring) {
+        for (int i = 0; i < 60; ++i)
+            frames.take(leaning(robot, 4 * ring, 6 * i));
+    }
+    EXPECT_FALSE(frames.is_complete());
+    EXPECT_EQ(frames.needs().at(0), "tilt the pen farther, to 20 to 40 degrees");
+}
+
+TEST(GuidedFrames, TheTiltOfAFrameIsThatOfThePen) {
+    Locator locator{DeviceOptions{}};
+    Rng rng(7);
+    for (std::uint64_t i = 0; i < 12; ++i) {
+        const PenPose pose = test::pivoted(500, 700, 40 * kDegree_rad, rng);
+        const GreyImage image = render(shot_of_pen(test::pen_shot(31, i), test::kTip, pose));
+        const Fix fix = locator.locate(image.view());
+        ASSERT_EQ(fix.status, Status::ok) << i;
+        const PenLean lean = lean_in(fix, kFocal_px);
+        EXPECT_NEAR(lean.x, std::tan(pose.tilt_rad) * std::cos(pose.azimuth_rad), 0.1) << i;
+        EXPECT_NEAR(lean.y, std::tan(pose.tilt_rad) * std::sin(pose.azimuth_rad), 0.1) << i;
+    }
 }
 
 }  // namespace

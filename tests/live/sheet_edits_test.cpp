@@ -34,6 +34,13 @@ class SheetEditing : public testing::Test {
         };
     }
 
+    static SheetEdits::Change named(const std::string& name) {
+        return [name](SheetEntry entry) {
+            entry.name = name;
+            return entry;
+        };
+    }
+
     /// Changes the file as another program would.
     void change_outside(const std::string& name, double x_m) {
         SheetFile file(path_);
@@ -148,6 +155,62 @@ TEST_F(SheetEditing, ChangesByOtherProgramsAreRead) {
     EXPECT_THAT(edits.problem(), HasSubstr("sheets.json"));
     EXPECT_EQ(edits.sheets().size(), 2U);
     EXPECT_EQ(edits.version(), valid);
+}
+
+TEST_F(SheetEditing, ASheetIsRenamedAndTheOldNameIsBackAfterUndo) {
+    SheetEdits edits(path_.string(), {});
+    edits.change(seen(edits, "left"), "place", at(1));
+    edits.change(seen(edits, "left"), "rename", named("west"));
+    EXPECT_EQ(read_sheets(path_).at(0).name, "west");
+    EXPECT_EQ(x_of(0), 1);
+    EXPECT_EQ(edits.undo_text(), "rename 'left'");
+    edits.change(seen(edits, "west"), "place", at(2));
+    edits.undo();
+    edits.undo();
+    EXPECT_EQ(read_sheets(path_).at(0).name, "left");
+    edits.undo();
+    EXPECT_TRUE(std::isnan(x_of(0)));
+    for (int i = 0; i < 3; ++i)
+        edits.redo();
+    EXPECT_EQ(read_sheets(path_).at(0).name, "west");
+    EXPECT_EQ(x_of(0), 2);
+    for (const char* name : {"right", "", "a\nb"}) {
+        EXPECT_NE(failure([&] { edits.change(seen(edits, "west"), "rename", named(name)); }), "");
+        EXPECT_EQ(read_sheets(path_).at(0).name, "west");
+    }
+}
+
+TEST_F(SheetEditing, ARemovedSheetIsBackAfterUndo) {
+    SheetEdits edits(path_.string(), {});
+    edits.change(seen(edits, "left"), "place", at(1));
+    const std::int64_t version = edits.version();
+    edits.remove(seen(edits, "left"));
+    EXPECT_EQ(read_sheets(path_).size(), 1U);
+    EXPECT_GT(edits.version(), version);
+    EXPECT_THAT(failure([&] { edits.remove(seen(edits, "right")); }), HasSubstr("the only sheet"));
+    EXPECT_EQ(edits.undo(), "remove 'left'");
+    ASSERT_EQ(read_sheets(path_).size(), 2U);
+    EXPECT_EQ(read_sheets(path_).at(1).name, "left");
+    EXPECT_EQ(x_of(1), 1);
+    edits.redo();
+    EXPECT_EQ(read_sheets(path_).size(), 1U);
+}
+
+TEST_F(SheetEditing, ARemovedSheetIsNotBackIfItsCellsAreTaken) {
+    SheetEdits edits(path_.string(), {});
+    edits.remove(seen(edits, "left"));
+    {
+        SheetOptions options;
+        options.paper = {.width_mm = 40, .height_mm = 30};
+        SheetFile file(path_);
+        file.allocate("other", make_sheet(options));
+        file.save();
+    }
+    const std::string reason = failure([&] { edits.undo(); });
+    EXPECT_THAT(reason, HasSubstr("can no longer be undone"));
+    EXPECT_THAT(reason, HasSubstr("'other'"));
+    EXPECT_EQ(read_sheets(path_).size(), 2U);
+    EXPECT_EQ(edits.undo_text(), "");
 }
 
 TEST_F(SheetEditing, MeasuredPlacesAreOneEdit) {

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <numeric>
 #include <string>
+#include <thread>
 #include <tuple>
 #include <vector>
 
@@ -90,6 +91,47 @@ class Databases : public testing::TestWithParam<Kind> {
     static inline std::unique_ptr<Postgres> cluster_;
     TemporaryDirectory directory_;
 };
+
+TEST_P(Databases, AReaderMayEndTheReading) {
+    std::vector<State> written;
+    for (int i = 0; i < 3000; ++i)
+        written.push_back(state_of("anna", kNoon_us + i, i));
+    const auto database = open();
+    database->write(written);
+    struct Enough {};
+    EXPECT_THROW(database->read({"anna"}, [](const State&) { throw Enough(); }), Enough);
+    EXPECT_EQ(read(*database, {"anna"}).size(), written.size());
+    database->write(std::vector{state_of("bert", kNoon_us, 1)});
+    EXPECT_EQ(read(*database, {"bert"}).size(), 1U);
+}
+
+TEST_P(Databases, AReaderSeesThePlacesOfAllItsStates) {
+    constexpr int kPlaces = 150;
+    const auto place_of = [](int i) { return fmt::format("sheet {}", i); };
+    open()->prepare();
+    std::atomic<bool> is_written = false;
+    std::jthread writer([&] {
+        const auto database = open();
+        for (int i = 0; i < kPlaces; ++i) {
+            State state = state_of("anna", kNoon_us + i, i);
+            state.place = std::make_shared<const store::Place>(store::Place{"hall", place_of(i)});
+            database->write(std::vector{state});
+        }
+        is_written = true;
+    });
+    const auto database = open(Access::read);
+    std::size_t states = 0;
+    for (bool is_last = false; !is_last;) {
+        is_last = is_written;
+        const auto found = read(*database, {"anna"});
+        EXPECT_GE(found.size(), states);
+        states = found.size();
+        for (std::size_t i = 0; i < states; ++i)
+            EXPECT_EQ(found[i].place->sheet, place_of(static_cast<int>(i)));
+    }
+    writer.join();
+    EXPECT_EQ(states, std::size_t{kPlaces});
+}
 
 TEST_P(Databases, ReturnWhatWasWritten) {
     State lost = state_of("anna", kNoon_us + 1, 2);

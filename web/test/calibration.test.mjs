@@ -23,6 +23,9 @@ const kPeriod_ms = 50;
 const kReadout_ms = 20;
 const kPlace = { x: 5000, y: 7000 };
 
+/** The camera in a pen, and its tip in the frame of the camera: x right, y down, z forward. */
+const kPen = { size: "320x240", focal_px: 16 / 0.03, spacing_mm: 0.3, tip_mm: [0.5, 5, 18], rest_mm: 0.1, at_mm: [500, 700] };
+
 let folder;
 let browser;
 let shots;
@@ -35,8 +38,42 @@ function render(name, x, y, angle_deg, ...more) {
     return pixelsOf(join(into, "frame_000000.pgm"));
 }
 
-function pixelsOf(file) {
-    return readFileSync(file).subarray(-kWidth_px * kHeight_px);
+function pixelsOf(file, pixels = kWidth_px * kHeight_px) {
+    return readFileSync(file).subarray(-pixels);
+}
+
+/** Rotates a vector about a unit axis (Rodrigues). */
+function rotated(v, axis, angle) {
+    const [c, s] = [Math.cos(angle), Math.sin(angle)];
+    const dot = axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2];
+    const cross = [axis[1] * v[2] - axis[2] * v[1], axis[2] * v[0] - axis[0] * v[2], axis[0] * v[1] - axis[1] * v[0]];
+    return v.map((value, i) => value * c + cross[i] * s + axis[i] * dot * (1 - c));
+}
+
+/** Renders a pen whose tip rests at one point. It is turned, and then leaned over to a side of the sheet. */
+function pen(index, tilt_deg, side_deg, turn_deg) {
+    const [tilt, side, turn] = [tilt_deg, side_deg, turn_deg].map((angle) => (angle * Math.PI) / 180);
+    const on_sheet = (v) => rotated(rotated(v, [0, 0, 1], turn), [Math.sin(side), -Math.cos(side), 0], tilt);
+    const tip = on_sheet(kPen.tip_mm);
+    const axis = on_sheet([0, 0, 1]);
+    const distance_mm = (tip[2] + kPen.rest_mm) / axis[2];
+    const at = [0, 1].map((i) => (kPen.at_mm[i] - tip[i] + distance_mm * axis[i]) / kPen.spacing_mm);
+    // The normal of the paper in the frame of the camera is (sin ty, -sin tx cos ty, cos tx cos ty).
+    const normal = [on_sheet([1, 0, 0])[2], on_sheet([0, 1, 0])[2], axis[2]];
+    const tilts = [Math.atan2(-normal[1], normal[2]), Math.asin(normal[0])].map((angle) => (angle * 180) / Math.PI);
+    const right = on_sheet([1, 0, -normal[0] / normal[2]]);
+    const into = join(folder, "shot", `pen${index}`);
+    const scene = ["--frames", "1", "--preset", "clean", "--seed", String(index + 1), "--section", "3,5", "--spacing", String(kPen.spacing_mm)];
+    const camera = ["--size", kPen.size, "--mm-per-px", String(distance_mm / kPen.focal_px), "--working-distance", String(distance_mm)];
+    const pose = ["--at", at.join(), "--angle", String((Math.atan2(right[1], right[0]) * 180) / Math.PI), "--tilt", tilts.join()];
+    dotpose("simulate", "-o", into, ...scene, ...camera, ...pose);
+    return pixelsOf(join(into, "frame_000000.pgm"), 320 * 240);
+}
+
+/** Tilts to all sides: small, medium and large ones. */
+function pivot() {
+    const rings = [12, 24, 36].flatMap((tilt_deg, ring) => Array.from({ length: 10 }, (_, i) => [tilt_deg, 36 * i + 12 * ring, 50 * i]));
+    return [[0, 0, 0], [3, 90, 120], ...rings].map((tilts, i) => pen(i, ...tilts));
 }
 
 /** A robot that turns on the spot: its centre stays at `kPlace`. */
@@ -146,7 +183,7 @@ async function calibrate(page, run, step, frames) {
     assert.match(await page.textContent("#calibration-title"), /: result$/);
     await page.click("#calibration-save");
     await page.waitForFunction(titleIs, ": saved");
-    assert.match(await page.textContent("#calibration-verdict"), /^Saved in camera\.yaml\. The run uses it\.$/);
+    assert.match(await page.textContent("#calibration-verdict"), /^Saved in \w+\.yaml\. The run uses it\.$/);
     return page.textContent("#calibration-report");
 }
 
@@ -155,7 +192,7 @@ before(async () => {
     mkdirSync(join(folder, "shot"));
     // Three frames at each place, so the camera is steady.
     const rests = places().flatMap((frame) => [frame, frame, frame]);
-    shots = { rests, turn: turn(24), drive: drive(50, 1.6), fast: fastDrive(60, 1.4) };
+    shots = { rests, turn: turn(24), drive: drive(50, 1.6), fast: fastDrive(60, 1.4), pivot: pivot() };
     browser = await launch({ viewport: { width: 1200, height: 900 }, reducedMotion: "reduce" });
 });
 after(async () => {
@@ -190,6 +227,7 @@ test("the page calibrates lens, mount, direction and readout time, and the run u
         assert.ok(field_px < kCorner_px * 0.01, String(field_px));
 
         await calibrate(page, run, "spin", shots.turn);
+        await picture(page, "web-calibration-mount");
         camera = cameraIn(file);
         const mount = mountOf(camera);
         assert.ok(Math.hypot(mount.x - kMount_mm.x, mount.y - kMount_mm.y) < 0.1, JSON.stringify(mount));
@@ -256,6 +294,99 @@ test("the page keeps the mount of the file that it replaces", async () => {
     }
 });
 
+/** Requires that axe finds no violation in either colour scheme, and that nothing is wider than the screen. */
+async function requireAccessible(page) {
+    for (const colorScheme of ["light", "dark"]) {
+        for (const width of [1200, 390, 320]) {
+            await page.emulateMedia({ colorScheme });
+            await page.setViewportSize({ width, height: 800 });
+            // Scripts of the test are not bound by the content security policy of the page.
+            await page.evaluate(readFileSync(kAxe, "utf8"));
+            const { violations } = await page.evaluate(() => globalThis.axe.run());
+            assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes[0].html]), []);
+            assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width);
+        }
+    }
+}
+
+/** Takes a picture for docs/web.md if the environment names the folder DOTPOSE_PICTURES. */
+async function picture(page, name) {
+    if (!process.env.DOTPOSE_PICTURES) return;
+    await page.emulateMedia({ colorScheme: "light" });
+    await page.setViewportSize({ width: 1200, height: 900 });
+    await page.screenshot({ path: join(process.env.DOTPOSE_PICTURES, `${name}.png`), fullPage: true });
+}
+
+/** Returns the newest JSON line of a frame. */
+function newestLine(page) {
+    return page.evaluate(
+        () =>
+            new Promise((resolve) => {
+                const socket = new WebSocket(`ws://${location.host}/live`);
+                socket.onopen = () => socket.send(JSON.stringify({ do: "subscribe", topic: "state" }));
+                socket.onmessage = ({ data }) => {
+                    socket.close();
+                    resolve(JSON.parse(data.slice(data.indexOf("\n"))).line);
+                };
+            }),
+    );
+}
+
+test("the tip of a pen is calibrated by pivoting, and the run uses it", async () => {
+    const file = join(folder, "pen.yaml");
+    const known = ["width_px: 320", "height_px: 240", "k_per_px2: 0", "centre_px: [159.5, 119.5]", `focal_px: ${kPen.focal_px}`];
+    const kept = { theta_offset_rad: 0.25, gain: 2 };
+    writeFileSync(file, ["format: dotpose-camera", "version: 1", ...known, "theta_offset_rad: 0.25", "gain: 2", ""].join("\n"));
+    const source = ["-", "--size", kPen.size, "--fps", String(1000 / kPeriod_ms)];
+    const run = await new Run().start(["--calibrate-to", file, "--pose", "space", "--spacing", String(kPen.spacing_mm)], source);
+    try {
+        const { page, complaints } = await open(browser.context, `${run.url}calibration`);
+        run.show(shots.pivot.slice(0, 1));
+        await page.click("[data-step=pivot]");
+        await page.waitForFunction(() => document.querySelectorAll("#calibration-needs li").length === 9);
+        assert.match(await page.textContent("#calibration-needs"), /tilt the pen farther.*towards the right edge.*towards the upper right corner/);
+        assert.match(await page.textContent("#calibration-now"), /the tip stays at its point/);
+        // A pen that does not pivot has no tip.
+        await page.waitForFunction(() => /^1 frame /.test(document.getElementById("calibration-frames").textContent));
+        run.show(shots.pivot.slice(0, 2));
+        await page.waitForTimeout(6 * kPeriod_ms);
+        run.show(shots.pivot.slice(0, 4));
+        await page.waitForFunction(() => Number.parseInt(document.getElementById("calibration-frames").textContent, 10) >= 3);
+        await page.click("#calibration-finish");
+        await page.waitForFunction(() => document.getElementById("calibration-problem").textContent.includes("at least 6 are needed"));
+
+        await page.click("[data-step=pivot]");
+        await page.waitForFunction(titleIs, ": taking frames");
+        run.show(shots.pivot.slice(0, 20));
+        await page.waitForFunction(() => /[1-8] of 8/.test(document.getElementById("calibration-turns-text").textContent));
+        assert.match(await page.textContent("#calibration-tilts-text"), /up to \d+°/);
+        await requireAccessible(page);
+        await picture(page, "web-calibration-pen");
+        await page.click("#calibration-cancel");
+        const report = await calibrate(page, run, "pivot", shots.pivot);
+        assert.match(report, /tip.*±.*residual/s);
+        const camera = cameraIn(file);
+        kPen.tip_mm.forEach((mm, i) => assert.ok(Math.abs(camera.tip_mm[i] - mm) < 0.02, JSON.stringify(camera)));
+        assert.ok(Math.abs(camera.tip_rest_mm - kPen.rest_mm) < 0.02, JSON.stringify(camera));
+        for (const [key, value] of Object.entries(kept)) assert.equal(camera[key], value, key);
+        assert.ok(Math.abs(camera.focal_px - kPen.focal_px) < 1e-6);
+        assert.match(await page.textContent("#calibration-steps"), /0\.50\d ± .* mm from the camera/);
+
+        // The next frames have the tip.
+        run.show(shots.pivot.slice(5, 6));
+        await page.waitForFunction(() => document.getElementById("live-status").textContent === "live");
+        let line;
+        do line = await newestLine(page);
+        while (line.tip_x_mm === undefined);
+        kPen.at_mm.forEach((mm, i) => assert.ok(Math.abs(line[["tip_x_mm", "tip_y_mm"][i]] - mm) < 0.05, JSON.stringify(line)));
+        assert.equal(line.pen_down, true);
+        assert.deepEqual(complaints, []);
+        await page.close();
+    } finally {
+        assert.equal(await run.stop(), 0, run.messages);
+    }
+});
+
 test("the page says why there is no result", async () => {
     mkdirSync(join(folder, "gone"));
     const run = await new Run().start(["--calibrate-to", join(folder, "gone/camera.yaml")]);
@@ -265,6 +396,8 @@ test("the page says why there is no result", async () => {
         run.show(shots.rests);
         await page.click("[data-step=readout]");
         await page.waitForFunction(problemIs, "first calibrate the lens");
+        await page.click("[data-step=pivot]");
+        await page.waitForFunction(problemIs, "no focal length: first calibrate the lens, and tilt the pen");
 
         run.show(shots.turn.slice(0, 2));
         await page.click("[data-step=spin]");
@@ -314,42 +447,29 @@ test("axe finds no violation in any state, and nothing is wider than the screen"
     try {
         run.show(shots.rests);
         const { page } = await open(browser.context, `${run.url}calibration`);
-        const require_accessible = async () => {
-            for (const colorScheme of ["light", "dark"]) {
-                for (const width of [1200, 390, 320]) {
-                    await page.emulateMedia({ colorScheme });
-                    await page.setViewportSize({ width, height: 800 });
-                    // Scripts of the test are not bound by the content security policy of the page.
-                    await page.evaluate(readFileSync(kAxe, "utf8"));
-                    const { violations } = await page.evaluate(() => globalThis.axe.run());
-                    assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes[0].html]), []);
-                    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width);
-                }
-            }
-        };
         await page.waitForSelector("[data-step=lens]:enabled");
-        await require_accessible();
+        await requireAccessible(page);
         run.show(shots.rests.slice(0, 3));
         await page.click("[data-step=lens]");
         await page.waitForSelector("#calibration-needs li");
-        await require_accessible();
+        await requireAccessible(page);
         run.show(shots.rests);
         await page.waitForFunction(titleIs, ": result");
-        await require_accessible();
+        await requireAccessible(page);
         await page.click("#calibration-save");
         await page.waitForFunction(titleIs, ": saved");
         run.show(shots.turn.slice(0, 2));
         await page.click("[data-step=spin]");
         await page.waitForFunction(() => /^2 /.test(document.getElementById("calibration-frames").textContent));
-        await require_accessible();
+        await requireAccessible(page);
         await page.click("#calibration-finish");
         await page.waitForFunction(titleIs, ": no result");
-        await require_accessible();
+        await requireAccessible(page);
         await page.click("[data-step=spin]");
         await page.waitForFunction(titleIs, ": taking frames");
         run.show(shots.turn);
         await page.waitForFunction(titleIs, ": result");
-        await require_accessible();
+        await requireAccessible(page);
         await page.close();
     } finally {
         await run.stop();

@@ -248,6 +248,96 @@ test("the table is filtered, ordered naturally and turned page by page", async (
     await stop();
 });
 
+/** Requires that axe finds no violation, and that nothing is wider than the screen. */
+async function audit(page, width) {
+    // Scripts of the test are not bound by the content security policy of the page.
+    await page.evaluate(readFileSync(kAxe, "utf8"));
+    const { violations } = await page.evaluate(() => globalThis.axe.run());
+    assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes[0].html]), []);
+    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width);
+}
+
+/** Requires the same in both colour schemes, on a desktop and on phones. */
+async function requireAccessible(page) {
+    for (const colorScheme of ["light", "dark"]) {
+        for (const width of [1300, 390, 320]) {
+            await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
+            await page.setViewportSize({ width, height: 800 });
+            await audit(page, width);
+        }
+    }
+}
+
+/** Returns the number of pixels of the map that have a colour of the style sheet. */
+function pixelsOf(page, colour) {
+    return page.evaluate((name) => {
+        const canvas = document.getElementById("fleet-map");
+        const wanted = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+        const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
+        copy.drawImage(canvas, 0, 0);
+        const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+        let count = 0;
+        for (let i = 0; i < data.length; i += 4)
+            count += wanted === `#${[...data.subarray(i, i + 3)].map((byte) => byte.toString(16).padStart(2, "0")).join("")}`;
+        return count;
+    }, colour);
+}
+
+test("the stored history of a robot is drawn on the map and over time", async () => {
+    const database = join(folder, "fleet.db");
+    const anna = new Robot("anna");
+    const { url, stop } = await fleet(["--store", database]);
+    const { page, complaints } = await open(browser.context, url);
+    const text = () => page.textContent("#fleet-stored-text");
+    const showSpan = async (span) => {
+        await page.selectOption("#fleet-stored-span", span);
+        await page.click("#fleet-stored-form button[type=submit]");
+        await page.waitForFunction(() => !["", "reading the database"].includes(document.getElementById("fleet-stored-text").textContent));
+    };
+    await untilState(page, "anna", "moving");
+    await page.waitForFunction(() => / [1-9]\d* stored/.test(document.getElementById("fleet-counts").textContent));
+    anna.is_lost = true;
+    await untilState(page, "anna", "lost");
+    anna.is_lost = false;
+    await untilState(page, "anna", "moving");
+    anna.silence();
+    await page.waitForFunction(() => / 0 waiting/.test(document.getElementById("fleet-counts").textContent));
+    await page.click("#fleet-rows button");
+    assert.equal(await pixelsOf(page, "--warn"), 0);
+    await showSpan("hour");
+
+    // The command line reads the same states.
+    const states = dotpose("fleet", "history", "--store", database, "--robot", "anna").trim().split("\n").map((line) => JSON.parse(line));
+    const lost = states.filter(({ state }) => state === "lost").length;
+    assert.ok(states.length > 50 && lost > 0);
+    const share = (count) => ((100 * count) / states.length).toFixed(1);
+    const expected = `: ${share(states.length - lost)} % moving, 0 % still, ${share(lost)} % lost; up to 100 mm/s.`;
+    assert.match(await text(), new RegExp(`^${states.length} states from `));
+    assert.ok((await text()).endsWith(expected), `${await text()} instead of ${expected}`);
+    assert.ok(await page.isVisible("#fleet-stored-graph"));
+    await until(async () => (await pixelsOf(page, "--warn")) > 200, "no track on the map");
+    await page.click("#fleet-stored-hide");
+    await until(async () => (await pixelsOf(page, "--warn")) === 0, "the track is not hidden");
+    await page.waitForSelector("#fleet-stored-figure", { state: "hidden" });
+
+    await page.selectOption("#fleet-stored-span", "free");
+    await page.fill("#fleet-stored-from", "2001-02-03T04:05:06");
+    await page.fill("#fleet-stored-to", "2001-02-04T04:05:06");
+    await showSpan("free");
+    assert.equal(await text(), "There are no states in this time.");
+    await page.fill("#fleet-stored-to", "2001-01-01T00:00:00");
+    await showSpan("free");
+    assert.match(await text(), /"from" must be before "to"/);
+    await page.fill("#fleet-stored-to", "2003-01-01T00:00:00");
+    await showSpan("free");
+    assert.match(await text(), /more than 31 days; dotpose fleet history reads/);
+    await showSpan("day");
+    await requireAccessible(page);
+    assert.deepEqual(complaints, []);
+    await page.close();
+    await stop();
+});
+
 test("names from the network are text", async () => {
     const hostile = "<img src=x onerror=alert(1)>";
     new Robot(hostile, { map: "<script>alert(2)<\/script>", sheet: "\u202e\n<b>../../etc/passwd" });
@@ -271,11 +361,12 @@ test("2,000 robots are drawn", async (t) => {
     const { page, complaints } = await open(browser.context, url);
     await untilInView(page, 2000);
     await page.evaluate(() => {
-        const { drawImage } = CanvasRenderingContext2D.prototype;
+        // The map is cleared once for each frame.
+        const { clearRect } = CanvasRenderingContext2D.prototype;
         globalThis.drawn = 0;
-        CanvasRenderingContext2D.prototype.drawImage = function (...all) {
+        CanvasRenderingContext2D.prototype.clearRect = function (...all) {
             if (this.canvas.id === "fleet-map") ++globalThis.drawn;
-            return drawImage.apply(this, all);
+            return clearRect.apply(this, all);
         };
     });
     const begun = Date.now();
@@ -358,16 +449,9 @@ test("axe finds no violation, and nothing is wider than the screen", async () =>
             await page.waitForSelector("#fleet-robot", { state: "visible" });
             anna.is_lost = true;
             await page.waitForSelector("#fleet-alerts li");
-            // Scripts of the test are not bound by the content security policy of the page.
-            await page.evaluate(readFileSync(kAxe, "utf8"));
-            const audit = async () => {
-                const { violations } = await page.evaluate(() => globalThis.axe.run());
-                assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes[0].html]), []);
-            };
-            await audit();
-            assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width);
+            await audit(page, width);
             await page.click("#fleet-remove");
-            await audit();
+            await audit(page, width);
             await page.close();
         }
     }

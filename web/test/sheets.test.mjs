@@ -219,6 +219,64 @@ test("numbers, ruler and offset are saved like on the command line", async () =>
     }
 });
 
+test("sheets are renamed and removed like on the command line, and both are undone", async () => {
+    const run = await watchDrive();
+    const names = () => JSON.parse(readFileSync(file, "utf8")).sheets.map(({ name }) => name);
+    try {
+        const { page, complaints } = await openSheets(run.url);
+        const undo = async (pattern) => {
+            await page.click("#sheets-undo");
+            await message(page, pattern);
+        };
+        await select(page, "shelf");
+        assert.equal(await page.inputValue("#rename-name"), "shelf");
+        await page.fill("#rename-name", "door");
+        await save(page, "rename");
+        await message(page, /^Refused: .*'door'/);
+        await page.fill("#rename-name", "<i>north</i>");
+        await save(page, "rename");
+        await message(page, /^Saved\. <i>north<\/i>/);
+        assert.deepEqual(names(), [kTable, "<i>north</i>", "door"]);
+        assert.equal(await page.textContent("#sheet-name"), "<i>north</i>");
+        assert.deepEqual(placeOf("<i>north</i>"), { x_mm: 150, y_mm: 0, yaw_deg: 0 });
+        await undo(/^Undone: rename 'shelf'/);
+        assert.deepEqual(sheetOf("shelf"), JSON.parse(readFileSync(join(folder, "first.json"), "utf8")).sheets[1]);
+
+        await select(page, "shelf");
+        await page.click("#sheet-remove");
+        await message(page, /^shelf is removed: its cells may be given to other pages/);
+        assert.deepEqual(names(), [kTable, "door"]);
+        await page.waitForFunction(() => document.getElementById("sheet-name").textContent === "No sheet is selected");
+        await undo(/^Undone: remove 'shelf'/);
+        assert.deepEqual(names(), [kTable, "door", "shelf"]);
+        assert.deepEqual(placeOf("shelf"), { x_mm: 150, y_mm: 0, yaw_deg: 0 });
+
+        // A page that another program prints meanwhile gets the free cells.
+        await select(page, "shelf");
+        await page.click("#sheet-remove");
+        await message(page, /^shelf is removed/);
+        dotpose("print", "-o", join(folder, "page.pdf"), "--paper", "120x100", "--sheets", file, "--name", "window");
+        await page.getByRole("button", { name: "window", exact: true }).waitFor();
+        await undo(/^Refused: .*'window'.*can no longer be undone/);
+        assert.deepEqual(names(), [kTable, "door", "window"]);
+
+        // The run needs a sheet.
+        for (const name of ["window", "door"]) {
+            await select(page, name);
+            await page.click("#sheet-remove");
+            await message(page, /is removed/);
+        }
+        await select(page, kTable);
+        await page.click("#sheet-remove");
+        await message(page, /^Refused: .* is the only sheet of the file/);
+        assert.deepEqual(names(), [kTable]);
+        assert.deepEqual(complaints, []);
+        await page.close();
+    } finally {
+        await run.stop();
+    }
+});
+
 test("changes by other programs appear, and conflicts lose nothing", async () => {
     const run = await watchDrive();
     try {

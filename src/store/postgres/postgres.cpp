@@ -92,29 +92,33 @@ class Postgres : public Database {
     }
 
     void read(const Query& query, const std::function<void(const State&)>& take) override {
-        run([&] {
-            const auto robot = std::make_shared<const std::string>(query.robot);
-            const auto places = all_places();
-            connection_->start(
-                fmt::format("SELECT {} FROM states WHERE robot = (SELECT robot FROM robots WHERE "
-                            "name = $1) AND time_us >= $2 AND time_us < $3 "
-                            "ORDER BY time_us, number",
-                            kColumns),
-                {*robot, fmt::format("{}", query.from_us), fmt::format("{}", query.to_us)});
-            for (Rows row = connection_->next(); row.size() > 0; row = connection_->next()) {
-                Integers integers;
-                for (int i = 0; i < kIntegerCount; ++i) {
-                    if (!row.is_null(0, i)) {
-                        integers[static_cast<std::size_t>(i)] = row.integer(0, i);
+        run(
+            [&] {
+                // The places and the states must be of the same moment.
+                const auto robot = std::make_shared<const std::string>(query.robot);
+                const auto places = all_places();
+                connection_->start(
+                    fmt::format(
+                        "SELECT {} FROM states WHERE robot = (SELECT robot FROM robots WHERE "
+                        "name = $1) AND time_us >= $2 AND time_us < $3 "
+                        "ORDER BY time_us, number",
+                        kColumns),
+                    {*robot, fmt::format("{}", query.from_us), fmt::format("{}", query.to_us)});
+                for (Rows row = connection_->next(); row.size() > 0; row = connection_->next()) {
+                    Integers integers;
+                    for (int i = 0; i < kIntegerCount; ++i) {
+                        if (!row.is_null(0, i)) {
+                            integers[static_cast<std::size_t>(i)] = row.integer(0, i);
+                        }
                     }
+                    State state = state_of(integers, row.text(0, kIntegerCount),
+                                           row.text(0, kIntegerCount + 1));
+                    state.robot = robot;
+                    state.place = places.at(*integers[5]);
+                    take(state);
                 }
-                State state =
-                    state_of(integers, row.text(0, kIntegerCount), row.text(0, kIntegerCount + 1));
-                state.robot = robot;
-                state.place = places.at(*integers[5]);
-                take(state);
-            }
-        });
+            },
+            kOneMoment);
     }
 
     std::vector<RobotSpan> robots() override {
@@ -133,16 +137,19 @@ class Postgres : public Database {
     }
 
   private:
-    /// Runs `work` in a transaction. If it throws Error, closes the connection, which rolls back
+    /// Begins a transaction whose statements all see the database at the same moment.
+    static constexpr const char* kOneMoment = "BEGIN ISOLATION LEVEL REPEATABLE READ";
+
+    /// Runs `work` in a transaction. After an exception, closes the connection, which rolls back
     /// the transaction.
     template <typename Work>
-    void run(const Work& work) {
+    void run(const Work& work, const char* begin = "BEGIN") {
         try {
             prepare();
-            connection_->run("BEGIN");
+            connection_->run(begin);
             work();
             connection_->run("COMMIT");
-        } catch (const Error&) {
+        } catch (...) {
             robots_.clear();
             places_.clear();
             partitions_.clear();

@@ -169,6 +169,8 @@ class Sqlite : public Database {
 
     void read(const Query& query, const std::function<void(const State&)>& take) override {
         run([&](const Connection& connection) {
+            // The places and the states must be of the same moment.
+            connection_->run("BEGIN");
             const auto robot = std::make_shared<const std::string>(query.robot);
             const auto places = all_places(connection);
             Statement select(
@@ -187,6 +189,7 @@ class Sqlite : public Database {
                 state.place = places.at(*integers[5]);
                 take(state);
             }
+            connection_->run("COMMIT");
         });
     }
 
@@ -207,14 +210,14 @@ class Sqlite : public Database {
     }
 
   private:
-    /// Calls `work(connection)`. If it throws Error, closes the file, which rolls back the
+    /// Calls `work(connection)`. After an exception, closes the file, which rolls back the
     /// transaction.
     template <typename Work>
     void run(const Work& work) {
         try {
             prepare();
             work(*connection_);
-        } catch (const Error&) {
+        } catch (...) {
             robots_.clear();
             places_.clear();
             connection_.reset();

@@ -50,9 +50,20 @@ export function surfaceOf(canvas: HTMLCanvasElement, aspect?: number): Surface {
     return { context, width, height };
 }
 
+/** Colours of the style sheet by name, for the light and the dark scheme. Reading one takes as long as drawing a shape. */
+const colours = [new Map<string, string>(), new Map<string, string>()] as const;
+let dark: MediaQueryList | undefined;
+
 /** Returns a colour from the style sheet. It depends on the colour scheme. */
 export function themed(name: string): string {
-    return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+    dark ??= window.matchMedia("(prefers-color-scheme: dark)");
+    const known = colours[dark.matches ? 1 : 0];
+    let colour = known.get(name);
+    if (colour === undefined) {
+        colour = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+        known.set(name, colour);
+    }
+    return colour;
 }
 
 /** Draws an arrow. */

@@ -1,6 +1,7 @@
 // The page of `dotpose fleet --web`: all robots of a broker, live.
 import { Connection, type Request, type Value } from "../live/connection.js";
 import { announcer, element, show } from "../page/dom.js";
+import { HistoryPanel } from "./history.js";
 import { FleetMap } from "./map.js";
 import type { Robot, Setup, Summary, Table } from "./messages.js";
 import { RobotPanel } from "./robot.js";
@@ -23,6 +24,7 @@ const panel: RobotPanel = new RobotPanel(connection, takeRobot, ({ map, x_mm, y_
 });
 const table = new RobotTable(connection, (id) => panel.choose(id, true));
 const fleet_map = new FleetMap(connection, (id) => panel.choose(id));
+const history = new HistoryPanel(connection, (tracks) => fleet_map.takeTracks(tracks));
 /** True if the page is to choose the device of `dotpose listen`, the only robot, when it appears. */
 let awaits_device = false;
 const summary = new SummaryView(announce, (state) => {
@@ -33,6 +35,7 @@ const summary = new SummaryView(announce, (state) => {
 function takeRobot(robot: Robot | null): void {
     table.takeChosen(robot?.id ?? null);
     fleet_map.takeChosen(robot);
+    history.choose(robot?.name ?? "");
 }
 
 function takeTable(value: Table): void {
@@ -53,6 +56,7 @@ function subscribe<T>(topic: string, take: (value: T) => unknown, request: Reque
 
 subscribe<Setup>("setup", (value) => {
     fleet_map.setUp(value);
+    history.enable(value.has_history);
     awaits_device = value.device !== "";
     element("fleet-remove", HTMLButtonElement).hidden = awaits_device;
     const title = value.device || (value.map === "" ? "Fleet" : `Fleet of ${value.map}`);
@@ -67,5 +71,9 @@ subscribe<Table>("table", takeTable, table.request());
 subscribe<Robot | null>("robot", (value) => panel.take(value), panel.request());
 connection.open();
 
-window.addEventListener("resize", () => fleet_map.redraw());
-window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => fleet_map.redraw());
+function redraw(): void {
+    fleet_map.redraw();
+    history.redraw();
+}
+window.addEventListener("resize", redraw);
+window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);

@@ -1,15 +1,20 @@
 // The map: all robots of one map, live. The program sends only those that the canvas shows.
 import { drawPaper } from "../draw/map.js";
-import { surfaceOf } from "../draw/surface.js";
+import { surfaceOf, themed } from "../draw/surface.js";
 import type { Connection, Value } from "../live/connection.js";
 import { element, make, show } from "../page/dom.js";
 import { listen } from "../page/gestures.js";
-import { drawNames, drawPath, drawRing, drawRobots, drawScale, drawTrailEnds, drawTrails } from "./marks.js";
-import { positionsOf, trailsOf, type KnownMap, type Positions, type Robot, type Setup, type Trails } from "./messages.js";
+import { MarkPixels } from "./mark_pixels.js";
+import { drawNames, drawPath, drawRing, drawRobots, drawScale, drawTrack, drawTrailEnds, drawTrails } from "./marks.js";
+import { Positions, trailsOf, type KnownMap, type Robot, type Setup, type Track, type Trails } from "./messages.js";
 import { boundsOf, touches, union, Viewport, type Bounds_mm } from "./viewport.js";
 
 const kAskPeriod_ms = 150;
 const kRateSpan_ms = 2000;
+/** Time between two updates of the numbers. Each one makes the browser lay out a part of the page. */
+const kCountPeriod_ms = 500;
+/** Minimum number of robots in view whose marks are copied as pixels. */
+const kMinCopied = 500;
 /** Maximum distance of a click from a robot, and maximum movement of a click. */
 const kNear_px = 24;
 const kStill_px = 5;
@@ -19,8 +24,9 @@ export class FleetMap {
     readonly #maps = element("fleet-maps", HTMLSelectElement);
     readonly #connection: Connection;
     readonly #view = new Viewport();
-    /** Sheets and trails, which change rarely. */
+    /** Background, sheets, trails and scale, which change rarely. */
     readonly #ground = document.createElement("canvas");
+    readonly #marks = new MarkPixels();
     #is_ground_old = true;
     #setup: Setup | null = null;
     #known: readonly KnownMap[] = [];
@@ -32,14 +38,19 @@ export class FleetMap {
     #positions: Positions | null = null;
     #trails: Trails | null = null;
     #chosen: Robot | null = null;
+    /** Stored tracks of the chosen robot, by map. */
+    #tracks: readonly Track[] = [];
     #is_frame_due = false;
     #ask_timer: number | undefined;
     #asked = "";
     #drawn_ms: number[] = [];
+    #counted_ms = 0;
 
     /** `choose` is called with the number of the robot that the user clicks. */
     constructor(connection: Connection, choose: (id: number) => void) {
         this.#connection = connection;
+        // An opaque canvas is not blended with the page.
+        this.#canvas.getContext("2d", { alpha: false });
         listen(this.#canvas, {
             begin: () => {},
             turn: () => {},
@@ -78,12 +89,26 @@ export class FleetMap {
         this.#requestFrame();
     }
 
+    /** Shows the stored tracks of the chosen robot, the longest one completely. */
+    takeTracks(tracks: readonly Track[]): void {
+        this.#tracks = tracks;
+        this.#is_ground_old = true;
+        this.#requestFrame();
+        const points = tracks.map(({ strokes_mm }) => strokes_mm.flat());
+        const longest = points.reduce((best, { length }, i) => (length > (points[best]?.length ?? 0) ? i : best), 0);
+        const pairs = (points[longest] ?? []).flatMap((x, i, all) => (i % 2 === 0 ? [[x, all[i + 1]!] as const] : []));
+        if (pairs.length === 0) return;
+        this.showMap(tracks[longest]!.map);
+        this.#move(() => this.#view.fit(boundsOf(pairs)));
+    }
+
     showMap(name: string): void {
         if (name === this.#map) return;
         this.#map = name;
         this.#view.y_up = !name.startsWith("pattern");
         this.#positions = null;
         this.#trails = null;
+        this.#is_ground_old = true;
         this.#maps.value = name;
         this.#fit();
     }
@@ -201,19 +226,21 @@ export class FleetMap {
 
     /** Returns the number of the robot at a point of the canvas, or null. */
     #nearest(x: number, y: number): number | null {
-        const { ids, at_mm, count } = this.#positions ?? { ids: [], at_mm: [], count: 0 };
+        const positions = this.#positions;
         let [nearest, distance] = [null as number | null, kNear_px];
-        for (let i = 0; i < count; ++i) {
-            const d = Math.hypot(this.#view.x(at_mm[2 * i]!) - x, this.#view.y(at_mm[2 * i + 1]!) - y);
-            if (d < distance) [nearest, distance] = [ids[i]!, d];
+        for (let i = 0; positions !== null && i < positions.count; ++i) {
+            const d = Math.hypot(this.#view.x(positions.x_mm(i)) - x, this.#view.y(positions.y_mm(i)) - y);
+            if (d < distance) [nearest, distance] = [positions.id(i), d];
         }
         return nearest;
     }
 
     async #takePositions(value: Value): Promise<void> {
-        const positions = positionsOf(value as Uint8Array<ArrayBuffer>);
+        const positions = new Positions(value as Uint8Array<ArrayBuffer>);
         if (positions.map === this.#map) {
+            const copied = this.#copies();
             this.#positions = positions;
+            if (this.#copies() !== copied) this.#is_ground_old = true;
             this.#requestFrame();
         }
         // The next positions are requested after these are on the screen.
@@ -241,35 +268,46 @@ export class FleetMap {
     #drawGround(): void {
         const { width, height } = this.#canvas;
         if (this.#ground.width !== width || this.#ground.height !== height) Object.assign(this.#ground, { width, height });
-        const context = this.#ground.getContext("2d")!;
-        context.setTransform(1, 0, 0, 1, 0, 0);
-        context.clearRect(0, 0, width, height);
-        context.scale(width / this.#view.width, height / this.#view.height);
+        const context = this.#ground.getContext("2d", { alpha: false, willReadFrequently: true })!;
+        const scale = width / this.#view.width;
+        context.setTransform(scale, 0, 0, scale, 0, 0);
+        context.fillStyle = themed("--ground");
+        context.fillRect(0, 0, this.#view.width, this.#view.height);
         const shown = this.#view.bounds();
         for (const { name, corners_mm } of this.#sheets().filter((sheet) => touches(boundsOf(sheet.corners_mm), shown))) {
             const corners = corners_mm.map(([x_mm, y_mm]) => ({ x_mm, y_mm }));
             drawPaper(context, { name, corners }, ({ x_mm, y_mm }) => [this.#view.x(x_mm), this.#view.y(y_mm)]);
         }
         if (this.#trails !== null) drawTrails(context, this.#trails, this.#view);
+        for (const track of this.#tracks) if (track.map === this.#map) drawTrack(context, track, this.#view);
+        if (this.#map !== "") drawScale(context, this.#view);
+        if (this.#copies()) this.#marks.setGround(context, scale, this.#positions!.count);
         this.#is_ground_old = false;
+    }
+
+    /** Returns true if there are so many robots that their marks are copied. */
+    #copies(): boolean {
+        return (this.#positions?.count ?? 0) >= kMinCopied;
     }
 
     #draw(): void {
         const { context, width, height } = surfaceOf(this.#canvas);
         Object.assign(this.#view, { width, height });
         if (this.#is_ground_old) this.#drawGround();
-        context.drawImage(this.#ground, 0, 0, width, height);
         const positions = this.#positions;
-        if (positions !== null) {
-            if (this.#trails !== null) drawTrailEnds(context, this.#trails, positions, this.#view);
-            if (this.#chosen?.map === this.#map) drawPath(context, this.#chosen.path_mm, this.#view);
-            drawRobots(context, positions, this.#view);
-            const i = positions.ids.indexOf(this.#chosen?.id ?? 0);
-            if (i >= 0) drawRing(context, positions.at_mm[2 * i]!, positions.at_mm[2 * i + 1]!, this.#view);
-            drawNames(context, positions, this.#view);
-        }
-        if (this.#map !== "") drawScale(context, this.#view);
+        if (positions !== null && this.#copies()) this.#marks.draw(context, positions, this.#view, this.#canvas.width / width);
+        else context.drawImage(this.#ground, 0, 0, width, height);
+        if (positions !== null) this.#drawAbove(context, positions);
         this.#showCounts();
+    }
+
+    #drawAbove(context: CanvasRenderingContext2D, positions: Positions): void {
+        if (this.#trails !== null) drawTrailEnds(context, this.#trails, positions, this.#view);
+        if (this.#chosen?.map === this.#map) drawPath(context, this.#chosen.path_mm, this.#view);
+        if (!this.#copies()) drawRobots(context, positions, this.#view);
+        const i = this.#chosen === null ? -1 : positions.indexOf(this.#chosen.id);
+        if (i >= 0) drawRing(context, positions.x_mm(i), positions.y_mm(i), this.#view);
+        drawNames(context, positions, this.#view);
     }
 
     /** Shows the number of robots in view, and how often they are drawn. */
@@ -277,6 +315,8 @@ export class FleetMap {
         const now_ms = performance.now();
         this.#drawn_ms.push(now_ms);
         while (now_ms - this.#drawn_ms[0]! > kRateSpan_ms) this.#drawn_ms.shift();
+        if (now_ms - this.#counted_ms < kCountPeriod_ms) return;
+        this.#counted_ms = now_ms;
         const rate_hz = ((this.#drawn_ms.length - 1) * 1000) / Math.max(now_ms - this.#drawn_ms[0]!, 1);
         const count = this.#positions?.count ?? 0;
         show({ "fleet-in-view": `${count} in view, drawn ${rate_hz.toFixed(0)} times a second` });

@@ -1,6 +1,6 @@
 // Draws robots on a map. Conditions differ in shape and colour.
 import { themed } from "../draw/surface.js";
-import { kConditions, kHasHeading, kIsUnknown, type Condition, type Positions, type Trails } from "./messages.js";
+import { kConditions, type Condition, type Positions, type Track, type Trails } from "./messages.js";
 import type { Viewport } from "./viewport.js";
 
 /** Names of the colours in the style sheet. */
@@ -14,14 +14,18 @@ const kInk: Record<Condition, string> = {
 /** Symbols of the conditions in texts. */
 export const kSymbols: Record<Condition, string> = { moving: "▲", still: "●", lost: "○", silent: "✕", gone: "·" };
 
+/** Conditions in the order of drawing: robots that need attention last, so that they are on top. */
+export const kDrawingOrder: readonly Condition[] = ["gone", "still", "moving", "lost", "silent"];
+/** Distance of the sides of a square around an unknown robot from its centre, in radii of the mark. */
+export const kSquare = 1.8;
+
 /** Returns the radius of a mark. It decreases with the number of robots in view. */
-function radiusFor(count: number): number {
+export function radiusFor(count: number): number {
     return count > 500 ? 3.5 : count > 100 ? 5 : 7;
 }
 
-type Place = [x: number, y: number, angle: number | null];
-
-function addMark(context: CanvasRenderingContext2D, condition: Condition, [x, y, angle]: Place, r: number): void {
+/** Adds a mark to the path. `angle` is the heading on the canvas, or null. */
+export function addMark(context: CanvasRenderingContext2D, condition: Condition, x: number, y: number, angle: number | null, r: number): void {
     if (condition === "silent") {
         context.moveTo(x - r, y - r);
         context.lineTo(x + r, y + r);
@@ -41,46 +45,50 @@ function addMark(context: CanvasRenderingContext2D, condition: Condition, [x, y,
     }
 }
 
-/** Draws all robots, those that need attention last, so that they are on top. */
-export function drawRobots(context: CanvasRenderingContext2D, positions: Positions, view: Viewport): void {
-    const r = radiusFor(positions.count);
-    const sign = view.y_up ? -1 : 1;
-    const place = (i: number): Place => [
-        view.x(positions.at_mm[2 * i]!),
-        view.y(positions.at_mm[2 * i + 1]!),
-        positions.flags[i]! & kHasHeading ? sign * positions.headings_rad[i]! : null,
-    ];
-    for (const condition of ["gone", "still", "moving", "lost", "silent"] as const) {
-        const index = kConditions.indexOf(condition);
-        context.beginPath();
-        for (let i = 0; i < positions.count; ++i)
-            if (positions.conditions[i] === index) addMark(context, condition, place(i), r);
-        const is_outline = condition === "lost" || condition === "silent";
-        context.lineWidth = is_outline ? 2.5 : 1;
-        context.fillStyle = themed(kInk[condition]);
-        context.strokeStyle = is_outline ? context.fillStyle : themed("--paper");
-        if (!is_outline) context.fill();
-        context.stroke();
-    }
-    drawUnknown(context, positions, place, r);
-}
-
-/** Draws a square around each robot on a sheet that the sheet file does not contain. */
-function drawUnknown(context: CanvasRenderingContext2D, positions: Positions, place: (i: number) => Place, r: number): void {
-    context.strokeStyle = themed("--warn");
-    context.lineWidth = 1.5;
-    context.beginPath();
-    for (let i = 0; i < positions.count; ++i) {
-        if (!(positions.flags[i]! & kIsUnknown)) continue;
-        const [x, y] = place(i);
-        context.rect(x - 1.8 * r, y - 1.8 * r, 3.6 * r, 3.6 * r);
-    }
+/** Paints the marks of the path. */
+export function paintMarks(context: CanvasRenderingContext2D, condition: Condition): void {
+    const is_outline = condition === "lost" || condition === "silent";
+    context.lineWidth = is_outline ? 2.5 : 1;
+    context.fillStyle = themed(kInk[condition]);
+    context.strokeStyle = is_outline ? context.fillStyle : themed("--paper");
+    if (!is_outline) context.fill();
     context.stroke();
 }
 
+/** Paints the squares of the path. */
+export function paintSquares(context: CanvasRenderingContext2D): void {
+    context.strokeStyle = themed("--warn");
+    context.lineWidth = 1.5;
+    context.stroke();
+}
+
+/** Draws all robots, and a square around each one on a sheet that the sheet file does not contain. */
+export function drawRobots(context: CanvasRenderingContext2D, positions: Positions, view: Viewport): void {
+    const r = radiusFor(positions.count);
+    const sign = view.y_up ? -1 : 1;
+    for (const condition of kDrawingOrder) {
+        const index = kConditions.indexOf(condition);
+        context.beginPath();
+        for (let i = 0; i < positions.count; ++i) {
+            if (positions.condition(i) !== index) continue;
+            const angle = positions.hasHeading(i) ? sign * positions.heading_rad(i) : null;
+            addMark(context, condition, view.x(positions.x_mm(i)), view.y(positions.y_mm(i)), angle, r);
+        }
+        paintMarks(context, condition);
+    }
+    context.beginPath();
+    for (let i = 0; i < positions.count; ++i) {
+        if (!positions.isUnknown(i)) continue;
+        const [x, y] = [view.x(positions.x_mm(i)), view.y(positions.y_mm(i))];
+        context.rect(x - kSquare * r, y - kSquare * r, 2 * kSquare * r, 2 * kSquare * r);
+    }
+    paintSquares(context);
+}
+
 /** Draws the names. Draws none if there is too little room for them. */
-export function drawNames(context: CanvasRenderingContext2D, { names, at_mm, count }: Positions, view: Viewport): void {
+export function drawNames(context: CanvasRenderingContext2D, positions: Positions, view: Viewport): void {
     const kArea_px = 6000;
+    const { names, count } = positions;
     if (names === undefined || count * kArea_px > view.width * view.height) return;
     context.font = "600 12px system-ui, sans-serif";
     context.textAlign = "left";
@@ -90,7 +98,7 @@ export function drawNames(context: CanvasRenderingContext2D, { names, at_mm, cou
     context.strokeStyle = themed("--card");
     context.fillStyle = themed("--text");
     for (let i = 0; i < count; ++i) {
-        const [x, y] = [view.x(at_mm[2 * i]!) + 12, view.y(at_mm[2 * i + 1]!) - 10];
+        const [x, y] = [view.x(positions.x_mm(i)) + 12, view.y(positions.y_mm(i)) - 10];
         context.strokeText(names[i]!, x, y);
         context.fillText(names[i]!, x, y);
     }
@@ -114,10 +122,10 @@ export function drawTrailEnds(context: CanvasRenderingContext2D, trails: Trails,
     context.lineWidth = trails.trails_mm.size > 500 ? 1 : 2;
     context.beginPath();
     for (let i = 0; i < positions.count; ++i) {
-        const trail = trails.trails_mm.get(positions.ids[i]!);
+        const trail = trails.trails_mm.get(positions.id(i));
         if (trail === undefined || trail.length === 0) continue;
-        context.moveTo(view.x(trail.at(-2)!), view.y(trail.at(-1)!));
-        context.lineTo(view.x(positions.at_mm[2 * i]!), view.y(positions.at_mm[2 * i + 1]!));
+        context.moveTo(view.x(trail[trail.length - 2]!), view.y(trail[trail.length - 1]!));
+        context.lineTo(view.x(positions.x_mm(i)), view.y(positions.y_mm(i)));
     }
     context.stroke();
     context.globalAlpha = 1;
@@ -138,6 +146,20 @@ export function drawPath(context: CanvasRenderingContext2D, path_mm: ArrayLike<n
     context.lineJoin = "round";
     context.beginPath();
     addLine(context, path_mm, view);
+    context.stroke();
+}
+
+/** Draws the stored track of the chosen robot, wider than the newest part of its path, which covers it. */
+export function drawTrack(context: CanvasRenderingContext2D, { strokes_mm }: Track, view: Viewport): void {
+    context.strokeStyle = themed("--warn");
+    context.lineWidth = 5;
+    context.lineJoin = context.lineCap = "round";
+    context.beginPath();
+    for (const stroke of strokes_mm) {
+        addLine(context, stroke, view);
+        // A stroke of one point is a dot.
+        if (stroke.length === 2) context.lineTo(view.x(stroke[0]!), view.y(stroke[1]!));
+    }
     context.stroke();
 }
 

@@ -9,6 +9,8 @@ export type Condition = (typeof kConditions)[number];
 export interface Setup {
     /** Name of the robot of `dotpose listen`; empty for a fleet. */
     device: string;
+    /** True if the page can read stored states. */
+    has_history: boolean;
     /** Name of the map of the sheet file; empty without a file. */
     map: string;
     sheets: { name: string; corners_mm: Pair[] }[];
@@ -95,6 +97,40 @@ export interface Robot extends Row {
     events: Alert[];
 }
 
+/** Stored states of a robot, thinned to spans of time. The arrays have one element for each span. */
+export interface StoredHistory {
+    /** Number of the request that this answers. */
+    ask: number;
+    is_reading?: boolean;
+    /** Why there are no states. */
+    problem?: string;
+    states: number;
+    counts: Record<"moving" | "still" | "lost", number>;
+    first_us: number;
+    last_us: number;
+    span_ms: number;
+    max_speed_mm_s: number;
+    is_cut: boolean;
+    maps: string[];
+    /** From `first_us`. */
+    times_ms: number[];
+    /** First place in the span; null if the robot was lost. */
+    x_mm: (number | null)[];
+    y_mm: (number | null)[];
+    /** Index in `maps`. */
+    map_of: (number | null)[];
+    /** Maximum speed in the span. */
+    speeds_mm_s: number[];
+    /** 2 if the robot was lost in the span, otherwise 0 if it moved, 1 if it was still. */
+    motions: number[];
+}
+
+/** A stored track on a map: strokes with x and y alternately. */
+export interface Track {
+    map: string;
+    strokes_mm: number[][];
+}
+
 interface Head {
     map: string;
     origin_mm: Pair;
@@ -102,17 +138,62 @@ interface Head {
     names?: string[];
 }
 
-/** The robots in view. The arrays have one element, or two coordinates, for each robot. */
-export interface Positions extends Head {
-    ids: Uint32Array;
-    at_mm: Float64Array;
-    headings_rad: Float32Array;
-    conditions: Uint8Array;
-    flags: Uint8Array;
-}
+/** Size of the record of a robot in the topic `positions`. */
+const kRecordBytes = 16;
+const kHasHeading = 1;
+const kIsUnknown = 2;
 
-export const kHasHeading = 1;
-export const kIsUnknown = 2;
+/** The robots in view. The functions read the bytes of the message (little-endian), so nothing is copied for each robot. */
+export class Positions {
+    readonly map: string;
+    readonly count: number;
+    readonly names: string[] | undefined;
+    readonly #origin_mm: Pair;
+    readonly #words: Uint32Array;
+    readonly #floats: Float32Array;
+    readonly #halves: Int16Array;
+    readonly #bytes: Uint8Array;
+
+    constructor(message: Uint8Array<ArrayBuffer>) {
+        const { head, end } = headOf(message);
+        [this.map, this.count, this.names, this.#origin_mm] = [head.map, head.count, head.names, head.origin_mm];
+        // The copy is aligned to words.
+        const records = message.slice(end, end + head.count * kRecordBytes);
+        this.#bytes = records;
+        this.#words = new Uint32Array(records.buffer);
+        this.#floats = new Float32Array(records.buffer);
+        this.#halves = new Int16Array(records.buffer);
+    }
+
+    id(i: number): number {
+        return this.#words[4 * i]!;
+    }
+    x_mm(i: number): number {
+        return this.#origin_mm[0] + this.#floats[4 * i + 1]!;
+    }
+    y_mm(i: number): number {
+        return this.#origin_mm[1] + this.#floats[4 * i + 2]!;
+    }
+    heading_rad(i: number): number {
+        return this.#halves[8 * i + 6]! / 1e4;
+    }
+    /** Returns the index of the condition in `kConditions`. */
+    condition(i: number): number {
+        return this.#bytes[16 * i + 14]!;
+    }
+    hasHeading(i: number): boolean {
+        return (this.#bytes[16 * i + 15]! & kHasHeading) !== 0;
+    }
+    isUnknown(i: number): boolean {
+        return (this.#bytes[16 * i + 15]! & kIsUnknown) !== 0;
+    }
+
+    /** Returns the index of the robot with a number, or -1. */
+    indexOf(id: number): number {
+        for (let i = 0; i < this.count; ++i) if (this.id(i) === id) return i;
+        return -1;
+    }
+}
 
 export interface Trails {
     map: string;
@@ -125,29 +206,6 @@ function headOf(bytes: Uint8Array<ArrayBuffer>): { head: Head; view: DataView; e
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const end = 4 + view.getUint32(0, true);
     return { head: JSON.parse(new TextDecoder().decode(bytes.subarray(4, end))) as Head, view, end };
-}
-
-export function positionsOf(bytes: Uint8Array<ArrayBuffer>): Positions {
-    const { head, view, end } = headOf(bytes);
-    const kRecordBytes = 16;
-    const count = head.count;
-    const positions = {
-        ...head,
-        ids: new Uint32Array(count),
-        at_mm: new Float64Array(2 * count),
-        headings_rad: new Float32Array(count),
-        conditions: new Uint8Array(count),
-        flags: new Uint8Array(count),
-    };
-    for (let i = 0, at = end; i < count; ++i, at += kRecordBytes) {
-        positions.ids[i] = view.getUint32(at, true);
-        positions.at_mm[2 * i] = head.origin_mm[0] + view.getFloat32(at + 4, true);
-        positions.at_mm[2 * i + 1] = head.origin_mm[1] + view.getFloat32(at + 8, true);
-        positions.headings_rad[i] = view.getInt16(at + 12, true) / 1e4;
-        positions.conditions[i] = view.getUint8(at + 14);
-        positions.flags[i] = view.getUint8(at + 15);
-    }
-    return positions;
 }
 
 export function trailsOf(bytes: Uint8Array<ArrayBuffer>): Trails {

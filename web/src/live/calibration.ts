@@ -1,6 +1,6 @@
 // The page /calibration of `dotpose watch --web`: calibrates the camera of the run, step by step.
 import { announcer, element, make, show } from "../page/dom.js";
-import { drawMissing, drawResiduals, drawSpin, drawTilts, drawTurns, fullScale_px } from "./calibration_drawings.js";
+import { drawMissing, drawResiduals, drawSpin, drawTilts, drawTurns, fullScale_px, kMaxLean, kMaxTilt } from "./calibration_drawings.js";
 import type { CalibrationState, CalibrationValue, Gauge, LensCoverage, Result } from "./calibration_state.js";
 import { StepList, stepOf, typeset } from "./calibration_steps.js";
 import { Connection, type Value } from "./connection.js";
@@ -77,6 +77,11 @@ function tiltsText(tilts: LensCoverage["tilts"]): string {
     return `Tilts: the scale changes by up to ${(100 * largest).toFixed(1)} % towards a corner`;
 }
 
+function leansText(leans: CalibrationState["leans"]): string {
+    const largest_deg = (Math.atan(Math.max(0, ...leans.map(([x, y]) => Math.hypot(x, y)))) * 180) / Math.PI;
+    return `Tilts of the pen on the sheet: up to ${largest_deg.toFixed(0)}°`;
+}
+
 function draw(id: string, text: string, paint: (canvas: HTMLCanvasElement) => void): void {
     const canvas = element(id, HTMLCanvasElement);
     canvas.setAttribute("aria-label", text);
@@ -84,26 +89,35 @@ function draw(id: string, text: string, paint: (canvas: HTMLCanvasElement) => vo
     if (canvas.clientWidth > 0) paint(canvas);
 }
 
+/** Shows the directions that were seen, and the tilts. */
+function showDials({ lens, step, directions, leans }: CalibrationState): void {
+    const is_pen = step === "pivot";
+    const seen = lens?.directions ?? directions;
+    setHidden("calibration-turns-figure", seen.length === 0);
+    setHidden("calibration-tilts-figure", lens === null && !is_pen);
+    if (seen.length > 0) {
+        const text = is_pen ? `Sides: ${seen.filter(Boolean).length} of ${seen.length} with enough tilts` : turnsText(seen);
+        show({ "calibration-turns-text": text });
+        // The tilts of the first side of a sheet are around its direction.
+        draw("calibration-turns", text, (canvas) => drawTurns(canvas, seen, lens?.theta_rad ?? null, is_pen ? -0.5 : 0));
+    }
+    const [tilts, max, text] = lens !== null ? [lens.tilts, kMaxTilt, tiltsText(lens.tilts)] : [leans, kMaxLean, leansText(leans)];
+    if (lens === null && !is_pen) return;
+    show({ "calibration-tilts-text": text });
+    draw("calibration-tilts", text, (canvas) => drawTilts(canvas, tilts, max));
+}
+
 function showProgress(state: CalibrationState): void {
     const { lens } = state;
-    const seen = lens?.directions ?? state.directions;
     show({
         "calibration-frames": `${state.frames} ${state.frames === 1 ? "frame" : "frames"} taken`,
         "calibration-remark": sentence(lens?.remark ?? ""),
     });
     showGauges(state.gauges);
-    const needs = lens?.needs ?? [];
+    const needs = lens?.needs ?? state.needs;
     showList("calibration-needs", needs.map(typeset));
     setHidden("calibration-missing", needs.length === 0);
-    setHidden("calibration-turns-figure", seen.length === 0);
-    setHidden("calibration-tilts-figure", lens === null);
-    if (seen.length > 0) {
-        show({ "calibration-turns-text": turnsText(seen) });
-        draw("calibration-turns", turnsText(seen), (canvas) => drawTurns(canvas, seen, lens?.theta_rad ?? null));
-    }
-    if (lens === null) return;
-    show({ "calibration-tilts-text": tiltsText(lens.tilts) });
-    draw("calibration-tilts", tiltsText(lens.tilts), (canvas) => drawTilts(canvas, lens.tilts));
+    showDials(state);
 }
 
 function showResult(result: Result, is_saved: boolean, file: string): void {

@@ -3,8 +3,9 @@ import { arrow, surfaceOf, themed } from "../draw/surface.js";
 import type { LensCoverage, Residuals, Station } from "./calibration_state.js";
 
 const kMissing = "rgba(213, 60, 40, 0.34)";
-/** Change of the scale that reaches the rim of the drawing of the tilts. */
-const kMaxTilt = 0.15;
+/** Value that reaches the rim of the drawing of the tilts: the change of the scale, or the tangent of the tilt of a pen. */
+export const kMaxTilt = 0.15;
+export const kMaxLean = Math.tan((45 * Math.PI) / 180);
 /** Minimum residual that an arrow of maximum length represents, so noise has short arrows. */
 const kMinFullScale_px = 0.05;
 
@@ -18,8 +19,11 @@ export function drawMissing(canvas: HTMLCanvasElement, { columns, covered }: Len
         if (covered[i] === "0") context.fillRect((i % columns) * width, Math.floor(i / columns) * height, width, height);
 }
 
-/** Draws the sectors of a full turn, filled if they were seen, and the direction of the newest frame. */
-export function drawTurns(canvas: HTMLCanvasElement, seen: readonly boolean[], theta_rad: number | null): void {
+/**
+ * Draws the sectors of a full turn, filled if they were seen, and the direction of the newest frame. The first sector begins
+ * at `begin` sectors.
+ */
+export function drawTurns(canvas: HTMLCanvasElement, seen: readonly boolean[], theta_rad: number | null, begin = 0): void {
     const { context, width, height } = surfaceOf(canvas);
     const [x, y] = [width / 2, height / 2];
     const radius = Math.min(x, y) - 2;
@@ -28,7 +32,7 @@ export function drawTurns(canvas: HTMLCanvasElement, seen: readonly boolean[], t
     seen.forEach((is_seen, i) => {
         context.beginPath();
         context.moveTo(x, y);
-        context.arc(x, y, radius, i * sector, (i + 1) * sector);
+        context.arc(x, y, radius, (i + begin) * sector, (i + begin + 1) * sector);
         context.closePath();
         context.fillStyle = themed(is_seen ? "--good" : "--ground");
         context.fill();
@@ -42,7 +46,7 @@ export function drawTurns(canvas: HTMLCanvasElement, seen: readonly boolean[], t
 }
 
 /** Draws the tilt of each frame as a point: straight down in the middle. */
-export function drawTilts(canvas: HTMLCanvasElement, tilts: readonly [number, number][]): void {
+export function drawTilts(canvas: HTMLCanvasElement, tilts: readonly [number, number][], max: number): void {
     const { context, width, height } = surfaceOf(canvas);
     const [x, y] = [width / 2, height / 2];
     const radius = Math.min(x, y) - 2;
@@ -60,7 +64,7 @@ export function drawTilts(canvas: HTMLCanvasElement, tilts: readonly [number, nu
     context.stroke();
     context.fillStyle = themed("--accent");
     for (const [u, v] of tilts) {
-        const per_tilt = (radius - 5) / Math.max(kMaxTilt, Math.hypot(u, v));
+        const per_tilt = (radius - 5) / Math.max(max, Math.hypot(u, v));
         context.beginPath();
         context.arc(x + u * per_tilt, y + v * per_tilt, 4, 0, 2 * Math.PI);
         context.fill();

@@ -1,6 +1,6 @@
 // Value of the topic `calibration` (docs/web.md). apps/dotpose-live/web_calibration.cpp writes it.
 
-export type StepName = "lens" | "spin" | "drive" | "readout";
+export type StepName = "lens" | "spin" | "drive" | "readout" | "pivot";
 export type Phase = "idle" | "collecting" | "solving" | "solved" | "failed" | "saved";
 
 /** Progress towards one goal. */
@@ -57,8 +57,12 @@ export interface CalibrationState {
     gauges: Gauge[];
     advice: string;
     lens: LensCoverage | null;
-    /** Directions of a turn that were seen. */
+    /** Directions of a turn, or of the tilts of a pen, that were seen. */
     directions: boolean[];
+    /** Tilts of a pen as tangents, to the right and down on the sheet. */
+    leans: [number, number][];
+    /** What is missing in a step with a moving robot or pen. */
+    needs: string[];
     problem: string;
     result: Result | null;
     /** What the camera file contains, by step; empty if the value is missing. */

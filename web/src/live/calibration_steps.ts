@@ -34,6 +34,12 @@ export const kSteps: readonly Step[] = [
         finds: "Only for cameras with a rolling shutter: the time from the first to the last row.",
         task: "Let the robot drive fast over the sheet. 40 consecutive frames are taken.",
     },
+    {
+        name: "pivot",
+        title: "Tip of a pen (pivot)",
+        finds: "Only for a camera in a pen: position of the tip. Needs a lens with its focal length.",
+        task: "Put the tip at one point of the sheet, for example in a small dent, and keep it there. Tilt the pen by up to 40 degrees to all sides. 30 frames with different tilts are taken.",
+    },
 ];
 
 /** Replaces the plain characters of texts for terminals. */

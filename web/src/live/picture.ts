@@ -106,7 +106,8 @@ export class Picture {
         this.#times_ms.push(now_ms);
         while (now_ms - this.#times_ms[0]! > kMeasured_ms) this.#times_ms.shift();
         const passed_s = (now_ms - this.#times_ms[0]!) / 1000;
-        const rate_hz = passed_s > 0 ? (this.#times_ms.length - 1) / passed_s : 0;
+        // Two frames that wait at the beginning arrive together.
+        const rate_hz = passed_s > 1 ? (this.#times_ms.length - 1) / passed_s : 0;
         show({ "live-frame-rate": rate_hz > 0 ? `shown ${rate_hz.toFixed(0)} times a second` : "" });
         if (this.#topic !== kLarge || now_ms - this.#times_ms[0]! < kMeasured_ms / 2 || rate_hz >= kMinRate_hz) return;
         this.#is_slow = true;

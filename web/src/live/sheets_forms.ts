@@ -50,6 +50,8 @@ function offer(id: string, { url }: Answer): void {
 
 export class SheetForms {
     readonly #commands: SheetCommands;
+    readonly #select: (name: string) => void;
+    readonly #name = element("rename-name", HTMLInputElement);
     readonly #place = { x: new NumberField("place-x"), y: new NumberField("place-y"), yaw: new NumberField("place-yaw") };
     readonly #offset = { right: new NumberField("offset-right"), below: new NumberField("offset-below") };
     #sheet: Sheet | undefined;
@@ -58,6 +60,9 @@ export class SheetForms {
 
     constructor(commands: SheetCommands, select: (name: string) => void) {
         this.#commands = commands;
+        this.#select = select;
+        this.#onSubmit("rename-form", () => this.#rename());
+        element("sheet-remove", HTMLButtonElement).addEventListener("click", async () => this.#change("sheet-remove", {}));
         this.#onSubmit("place-form", () => this.#savePlace());
         this.#onSubmit("scale-form", () => this.#saveScale());
         this.#onSubmit("offset-form", () => this.#saveOffset());
@@ -86,6 +91,7 @@ export class SheetForms {
             form.disabled = !may_edit;
         if (!sheet) return;
         if (is_other) element("sheet-pdf", HTMLAnchorElement).hidden = true;
+        if (is_other) this.#name.value = sheet.name;
         const { world } = sheet;
         element("place-remove", HTMLButtonElement).disabled = !may_edit || !world;
         element("sheet-reprint", HTMLButtonElement).disabled = !may_edit || (sheet.print?.document ?? "") !== "";
@@ -131,6 +137,11 @@ export class SheetForms {
         this.#revision = this.#sheet?.revision ?? 0;
         showAnswer(answer);
         return answer;
+    }
+
+    async #rename(): Promise<void> {
+        const answer = await this.#change("sheet-rename", { new_name: this.#name.value.trim() });
+        if (answer?.is_ok) this.#select(answer.name);
     }
 
     async #savePlace(): Promise<void> {
