@@ -34,14 +34,14 @@ using Tags = std::unique_ptr<Value, DestroyTags>;
 double side_in_view_mm(const Shot& shot) {
     const Projection projection(shot.camera, shot.pose);
     const auto is_in_view = [&](double half_mm) {
-        return std::ranges::all_of(
-            std::array{Vec2{half_mm, half_mm}, Vec2{-half_mm, half_mm}, Vec2{half_mm, -half_mm},
-                       Vec2{-half_mm, -half_mm}},
-            [&](const Vec2& corner) {
-                const Vec2 pixel = projection.pixel_from_offset(corner);
-                return pixel.x >= 1 && pixel.y >= 1 && pixel.x <= shot.camera.width_px - 2 &&
-                       pixel.y <= shot.camera.height_px - 2;
-            });
+        return std::ranges::all_of(std::array{Vec2{half_mm, half_mm}, Vec2{-half_mm, half_mm},
+                                              Vec2{half_mm, -half_mm}, Vec2{-half_mm, -half_mm}},
+                                   [&](const Vec2& corner) {
+                                       const Vec2 pixel = projection.pixel_from_offset(corner);
+                                       return pixel.x >= 1 && pixel.y >= 1 &&
+                                              pixel.x <= shot.camera.width_px - 2 &&
+                                              pixel.y <= shot.camera.height_px - 2;
+                                   });
     };
     double inside_mm = 0;
     double outside_mm = shot.camera.width_px * shot.camera.mm_per_px;
@@ -56,9 +56,8 @@ double side_in_view_mm(const Shot& shot) {
 TrueSpacePose pose_of(apriltag_detection_t& tag, const CameraModel& camera, double border_mm) {
     const double focal_px = camera.working_distance_mm / camera.mm_per_px;
     // In libapriltag, the corner of the first pixel is the origin.
-    apriltag_detection_info_t info = {&tag,     border_mm,
-                                      focal_px, focal_px,
-                                      camera.width_px / 2.0, camera.height_px / 2.0};
+    apriltag_detection_info_t info = {
+        &tag, border_mm, focal_px, focal_px, camera.width_px / 2.0, camera.height_px / 2.0};
     apriltag_pose_t found = {};
     estimate_tag_pose(&info, &found);
     const Tags<matd_t> rotation(found.R);
@@ -80,8 +79,7 @@ std::optional<SpaceVector> apriltag_error(const Shot& shot, int id) {
 
     const GreyImage printed = bench::draw_tag(*family, id, kPxPerSquare);
     const double side_mm = side_in_view_mm(shot);
-    const PageImage page = {
-        printed.view(), side_mm / printed.width_px, {side_mm / 2, side_mm / 2}};
+    const PageImage page = {printed.view(), side_mm / printed.width_px, {side_mm / 2, side_mm / 2}};
     GreyImage image = render(page, shot.camera, shot.pose, shot.imperfections, shot.seed);
     image_u8_t view = {image.width_px, image.height_px, image.width_px, image.pixels.data()};
     const Tags<zarray_t> detections(apriltag_detector_detect(detector.get(), &view));

@@ -34,9 +34,10 @@ struct SecondTally {
     std::uint64_t located = 0;
     std::uint64_t second = 0;  ///< frames with a second pose, excluded or not
     std::uint64_t ambiguous = 0;
-    std::uint64_t swapped = 0;  ///< ambiguous frames in which the second pose is closer to the true pose
-    double expected = 0;        ///< number of swapped frames according to the odds
-    std::uint64_t wrong = 0;    ///< frames with a wrong pose that is not reported as ambiguous
+    std::uint64_t swapped =
+        0;                ///< ambiguous frames in which the second pose is closer to the true pose
+    double expected = 0;  ///< number of swapped frames according to the odds
+    std::uint64_t wrong = 0;  ///< frames with a wrong pose that is not reported as ambiguous
 
     void operator+=(const SecondTally& other) {
         frames += other.frames;

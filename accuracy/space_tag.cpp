@@ -84,10 +84,10 @@ std::string rows_text(const SpaceLens& lens, double tilt_deg, const TagTally& ta
     std::string text;
     for (std::size_t i = 0; i < kMethods.size(); ++i) {
         const TagErrors& e = tally.methods[i];
-        text += fmt::format("| {} | {} | {} | {} of {} | {:.4f} | {:.4f} | {:.4f} | {:.4f} |\n",
-                            lens.title, tilt_deg, kMethods[i], e.count, frames,
-                            e.position_rms_mm(), e.largest_mm, e.rotation_rms_rad() * kDegrees,
-                            e.largest_rad * kDegrees);
+        text +=
+            fmt::format("| {} | {} | {} | {} of {} | {:.4f} | {:.4f} | {:.4f} | {:.4f} |\n",
+                        lens.title, tilt_deg, kMethods[i], e.count, frames, e.position_rms_mm(),
+                        e.largest_mm, e.rotation_rms_rad() * kDegrees, e.largest_rad * kDegrees);
     }
     return text;
 }

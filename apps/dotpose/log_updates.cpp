@@ -168,9 +168,8 @@ ros::RobotUpdate update_of(const LogCells& row) {
         if (const auto pose = pose_in(row, track)) update.motion = motion_in(row, *pose, track);
     }
     update.is_found_again = has_event(row, "fix") || has_event(row, "kidnapped");
-    for (const char* fact :
-         {"status", "events", "verdict", "dots_seen", "dots_used", "attempt", "p_wrong", "sheet",
-          "camera_is_ambiguous", "camera_second_odds"}) {
+    for (const char* fact : {"status", "events", "verdict", "dots_seen", "dots_used", "attempt",
+                             "p_wrong", "sheet", "camera_is_ambiguous", "camera_second_odds"}) {
         const std::string_view text = row.text(fact);
         if (!text.empty() || std::string_view(fact) == "events") {
             update.facts.push_back({fact, std::string(text)});

@@ -51,12 +51,9 @@ std::optional<PlanarFix> fix_in_pattern(const Located& located) {
 /// Returns the pose of the camera in space. Returns none if it is unknown or ambiguous, or if the
 /// place in the world is unknown.
 std::optional<CameraInWorld> camera_of(const Located& located, bool is_in_world) {
+    if (is_in_world) return certain_in_world(located.space, located.place);
     if (!located.space || located.space->is_ambiguous()) return std::nullopt;
-    const SpacePose& space = *located.space;
-    if (!is_in_world) return in_world(space.camera, space.covariance, WorldPose{});
-    if (!located.place || !located.place->entry->world) return std::nullopt;
-    const SheetEntry& entry = *located.place->entry;
-    return in_world(on_sheet(space.camera, entry), space.covariance, *entry.world);
+    return in_world(located.space->camera, located.space->covariance, WorldPose{});
 }
 
 PlanarMotion motion_of(const TrackedPose& pose, Axes axes) {

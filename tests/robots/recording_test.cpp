@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "../blackbox/watch_command.hpp"
+#include "../space_frames.hpp"
 #include "drive_messages.hpp"
 #include "npm_readers.hpp"
-#include "space_frames.hpp"
 
 namespace dotpose::test {
 namespace {

@@ -267,8 +267,7 @@ Followed followed_in_space() {
 
 TEST(RobotUpdates, TheCameraIsInTheMap) {
     const RobotUpdate seen = ros::update_of(followed_in_space(), false, 5);
-    const RobotMessages messages =
-        RobotMessenger("anna", with_prefix("anna/")).messages(seen);
+    const RobotMessages messages = RobotMessenger("anna", with_prefix("anna/")).messages(seen);
     ASSERT_TRUE(messages.camera);
     EXPECT_EQ(messages.camera->header.frame_id, "map");
     EXPECT_EQ(messages.camera->header.stamp.nanosec, 5U);

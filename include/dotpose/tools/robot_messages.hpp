@@ -79,8 +79,8 @@ struct RobotUpdate {
     /// Pose of the camera in space, in `map`. None if poses in space are not fitted, or if the dots
     /// do not exclude the second pose.
     std::optional<CameraInWorld> camera;
-    std::uint32_t plane = 0;             ///< ID of the plane; poses in different planes are
-                                         ///< unrelated
+    std::uint32_t plane = 0;      ///< ID of the plane; poses in different planes are
+                                  ///< unrelated
     bool is_found_again = false;  ///< true if the motion does not continue the previous motion
     std::string state;            ///< "lost", "moving" or "stationary"
     std::string problem;          ///< reason why there is no fix; empty if there is one

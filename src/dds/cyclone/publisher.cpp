@@ -90,10 +90,10 @@ class Publisher::Writers {
                               prefix + "/pose", ros::type_of(ros::PoseWithCovarianceStamped{}).hash,
                               sensor);
             if (options.has_space_pose) {
-                camera_ = writer_of(
-                    participant_, geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc,
-                    prefix + "/camera_pose", ros::type_of(ros::PoseWithCovarianceStamped{}).hash,
-                    sensor);
+                camera_ =
+                    writer_of(participant_, geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc,
+                              prefix + "/camera_pose",
+                              ros::type_of(ros::PoseWithCovarianceStamped{}).hash, sensor);
             }
             odometry_ = writer_of(participant_, nav_msgs_msg_dds__Odometry__desc, prefix + "/odom",
                                   ros::type_of(ros::Odometry{}).hash, sensor);

@@ -228,7 +228,8 @@ TEST_F(RosLocator, TheCameraHasAPoseInSpaceIfAskedFor) {
     const auto before = locator.take(image(), kStart_ns, 0);
     EXPECT_TRUE(before.messages.pose);
     EXPECT_FALSE(before.messages.camera);
-    EXPECT_THAT(before.messages.status.status.front().message, HasSubstr("no poses in space until"));
+    EXPECT_THAT(before.messages.status.status.front().message,
+                HasSubstr("no poses in space until"));
 
     // The simulated camera is 16 mm above cell (100,000, 200,000), and looks straight down. The
     // optical frame is rotated by half a turn about x, because its z axis points down.

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "../drive.hpp"
+#include "drive.hpp"
 
 namespace dotpose::test {
 
@@ -59,9 +59,8 @@ inline Eigen::Vector3d true_space_position(std::size_t frame) {
 /// Returns the true rotation from the optical frame to the world: the camera looks straight down,
 /// and is then rotated about the y axis of the world by the tilt.
 inline Eigen::Quaterniond true_space_rotation(std::size_t frame) {
-    return Eigen::Quaterniond(
-        Eigen::AngleAxisd(kSpaceTilts_rad[frame], Eigen::Vector3d::UnitY()) *
-        Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()));
+    return Eigen::Quaterniond(Eigen::AngleAxisd(kSpaceTilts_rad[frame], Eigen::Vector3d::UnitY()) *
+                              Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()));
 }
 
 /// Expects that position and rotation of a geometry_msgs/Pose, or of a Transform, are the true pose
