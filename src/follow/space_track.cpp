@@ -87,14 +87,11 @@ double spread(Eigen::Index axis, const SpaceTrackOptions& options) {
     return axis < 3 ? options.acceleration_mm_s2 : options.angular_acceleration_rad_s2;
 }
 
-/// Returns the covariance of a sighting plus the minimum variances of the options.
-Matrix6 noise_of(const SpaceSighting& sighting, const SpaceTrackOptions& options) {
+Matrix6 noise_of(const SpaceSighting& sighting) {
     Matrix6 noise;
     for (std::size_t i = 0; i < 6; ++i) {
         for (std::size_t j = 0; j < 6; ++j)
             noise(Eigen::Index(i), Eigen::Index(j)) = sighting.covariance[i][j];
-        const double sigma = i < 3 ? options.min_sigma_mm : options.min_sigma_rad;
-        noise(Eigen::Index(i), Eigen::Index(i)) += sigma * sigma;
     }
     return noise;
 }
@@ -104,7 +101,7 @@ Motion started_at(const SpaceSighting& sighting, const SpaceTrackOptions& option
     motion.time_us = sighting.time_us;
     motion.camera = sighting.camera;
     auto covariance = covariance_of(motion);
-    covariance.topLeftCorner<6, 6>() = noise_of(sighting, options);
+    covariance.topLeftCorner<6, 6>() = noise_of(sighting);
     for (Eigen::Index i = 0; i < 6; ++i) {
         const double speed = i < 3 ? options.speed_mm_s : options.turn_rad_s;
         covariance(6 + i, 6 + i) = speed * speed;
@@ -151,7 +148,7 @@ double squared_innovation(const Motion& motion, const SpaceSighting& sighting,
     agile.agility.fill(1);
     agile = predicted(agile, sighting.time_us, options);
     const Matrix6 covariance =
-        covariance_of(std::as_const(agile)).topLeftCorner<6, 6>() + noise_of(sighting, options);
+        covariance_of(std::as_const(agile)).topLeftCorner<6, 6>() + noise_of(sighting);
     const Vector6 innovation = difference(agile.camera, camera);
     return innovation.dot(covariance.ldlt().solve(innovation));
 }
@@ -286,7 +283,7 @@ bool SpaceTracker::take(const SpaceSighting& sighting) {
         }
     }
     if (taken > options_.max_innovation) return false;
-    const Matrix6 noise = noise_of(sighting, options_);
+    const Matrix6 noise = noise_of(sighting);
     const Motion guess = predicted(motion_, sighting.time_us, options_);
     const Matrix6 covariance = covariance_of(guess).topLeftCorner<6, 6>() + noise;
     adapt(motion_, difference(guess.camera, camera), covariance);

@@ -46,7 +46,7 @@ std::vector<SheetEntry> sheets_with_scale(double print_scale) {
 std::vector<capture::Frame> frames_of_sheet() {
     const Sheet sheet = test::drive_sheets().front().sheet;
     std::vector<capture::Frame> frames;
-    for (std::uint32_t i = 0; i < 10; ++i) {
+    for (std::uint32_t i = 0; i < 5; ++i) {
         CameraPose pose;
         pose.cell = {sheet.origin.x + 100 + 40 * i, sheet.origin.y + 100 + 30 * (i % 3)};
         pose.theta_rad = 1.3 * i;
@@ -61,6 +61,12 @@ std::vector<capture::Frame> frames_of_sheet() {
 
 /// Starts the step `lens`, and offers each frame until it is taken.
 void collect(CalibrationGuide& guide, const std::vector<capture::Frame>& frames) {
+    // Waits until the earlier commands were obeyed, because the guide ignores commands while eight
+    // others wait.
+    ASSERT_TRUE(reaches(guide, [&](const GuideState& state) {
+        guide.cancel();
+        return state.phase == GuidePhase::idle;
+    }));
     guide.start(GuideStep::lens);
     ASSERT_TRUE(reaches(guide, [](const GuideState& state) {
         return state.phase == GuidePhase::collecting && state.frames == 0;

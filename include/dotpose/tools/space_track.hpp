@@ -14,8 +14,7 @@
 /// any other frame in mm.
 ///
 /// The covariance of a track assumes that the errors of the frames are independent. Printing errors
-/// at one place are equal in all frames, so a camera that rests has the errors of one frame, and
-/// the minimum variances of the options are added to each sighting.
+/// at one place are equal in all frames, so the covariance is too small while the camera rests.
 #pragma once
 
 #include <array>
@@ -50,9 +49,6 @@ struct SpaceTrackOptions {
     /// Standard deviation of the velocities of a camera that is seen for the first time.
     double speed_mm_s = 500;
     double turn_rad_s = 5;
-    /// Standard deviations of the errors that are equal in all frames of one place.
-    double min_sigma_mm = 0.0002;
-    double min_sigma_rad = 0.00002;
     /// Maximum normalised squared innovation of the six coordinates of an accepted sighting. A
     /// correct sighting exceeds the default by chance once in 10^7.
     double max_innovation = 45;
