@@ -141,8 +141,8 @@ dotpose_status dotpose_space_fit(const dotpose_locator* locator, const dotpose_s
         const Camera view = camera_of(*camera);
         const Trace trace = locator->locator->trace();
         if (!trace.fix || trace.fix.spacing_nm <= 0) return DOTPOSE_NO_FIX;
-        const auto found = space_pose(trace.fix, view, image, trace,
-                                      {camera->print_scale, camera->print_scale});
+        const auto found =
+            space_pose(trace.fix, view, image, trace, {camera->print_scale, camera->print_scale});
         if (!found) return DOTPOSE_TOO_FEW_DOTS;
         give(*found, *pose);
         return DOTPOSE_OK;
