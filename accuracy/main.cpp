@@ -49,6 +49,10 @@ constexpr Table kTables[] = {
     {"slips", "Whether covariances are right where the sheet is not one plane",
      tables::slips_table},
     {"space", "Errors of the poses of tilted cameras in space", tables::space_table},
+    {"space_second", "How often a second pose in space is taken for the first",
+     tables::space_second_table},
+    {"space_tag", "Errors of poses in space beside those of AprilTags", tables::space_tag_table},
+    {"space_track", "Errors of a camera that is tracked in space", tables::space_track_table},
     {"tracked", "Results of right and wrong predictions", tables::tracked_table},
     {"views", "Results of views of sheets that others made", tables::views_table},
 };

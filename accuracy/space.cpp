@@ -10,31 +10,21 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <numbers>
 #include <string>
 #include <vector>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <fmt/core.h>
 
-#include "calibrate/dots_in_view.hpp"
 #include "calibration.hpp"
-#include "space_opencv.hpp"
 #include "space_view.hpp"
 #include "tables.hpp"
 
 namespace dotpose::tables {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180;
 /// Print jitter of the preset `nominal`.
 constexpr double kJitter_mm = 0.010;
-/// Limit of the normalised squared error of the six coordinates, beyond which a pose is wrong. A
-/// correct pose exceeds the limit by chance once in 10^19.
-constexpr double kWrong = 100;
-
-/// Errors of one method, relative to the Cramer-Rao bound.
+/// Errors of one method. Errors are relative to the bound.
 struct SpaceErrors {
     std::array<Errors, 6> coordinates;
     Errors all;  ///< sum of the normalised squared errors of the six coordinates
@@ -67,78 +57,19 @@ struct SpaceTally {
     }
 };
 
-/// A camera with 640 x 480 px.
-struct Lens {
-    const char* title;
-    double distance_mm;  ///< distance from the camera to the pose point
-    double k;
-};
-constexpr std::array kLenses = {Lens{"52 degrees", 30, -0.7e-6}, Lens{"28 degrees", 60, -0.2e-6}};
-
-/// Returns frame `index` of a camera that is tilted by `tilt_deg` in a random direction.
-Shot shot_at(const Lens& lens, double tilt_deg, std::uint64_t seed, std::uint64_t index) {
-    Setup setup;
-    setup.camera.width_px = 640;
-    setup.camera.height_px = 480;
-    setup.camera.k = lens.k;
-    setup.camera.working_distance_mm = lens.distance_mm;
-    setup.seed = seed;
-    Shot shot = draw_shot(setup, index);
-    Rng rng(shot.seed, 1);
-    const double azimuth_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
-    const double tilt_rad = tilt_deg * kDegree_rad;
-    // The normal of the paper is tilted towards the azimuth.
-    shot.pose.tilt_y_rad = std::asin(std::sin(tilt_rad) * std::cos(azimuth_rad));
-    shot.pose.tilt_x_rad =
-        std::atan2(std::sin(tilt_rad) * std::sin(azimuth_rad), std::cos(tilt_rad));
-    return shot;
-}
-
 void add(const SpaceVector& error, const SpaceMatrix& covariance, const SpaceMatrix& bound,
          SpaceErrors& errors) {
     for (Eigen::Index i = 0; i < 6; ++i) {
         errors.coordinates[static_cast<std::size_t>(i)].add(
             error[i] / std::sqrt(bound(i, i)), std::sqrt(covariance(i, i) / bound(i, i)));
     }
-    errors.all.add(std::sqrt(error.dot(covariance.ldlt().solve(error))), 1);
+    errors.all.add(std::sqrt(normalised_square(error, covariance)), 1);
 }
-
-SpaceMatrix matrix_of(const SpaceCovariance& covariance) {
-    SpaceMatrix result;
-    for (std::size_t i = 0; i < 6; ++i) {
-        for (std::size_t j = 0; j < 6; ++j)
-            result(Eigen::Index(i), Eigen::Index(j)) = covariance[i][j];
-    }
-    return result;
-}
-
-#ifdef DOTPOSE_HAS_CALIB3D
-/// Returns the pose that OpenCV computes from the same dots as `space_pose`.
-CameraInSpace opencv_pose(const GreyImage& image, const Fix& fix, const Camera& camera,
-                          const Trace& trace) {
-    const double mm = fix.spacing_mm();
-    const auto fit =
-        calibrate::fit_to_image(image.view(), {camera, *pinhole_of(camera), {mm, mm}}, trace);
-    const calibrate::SpaceState state = tables::opencv_pose(fit.value(), *camera.focal_px);
-    const Eigen::Quaterniond rotation(state.rotation);
-    const Cell start = trace.decoding.place.cell;
-    return {state.position_mm.x() + mm * start.x,
-            state.position_mm.y() + mm * start.y,
-            state.position_mm.z(),
-            {rotation.w(), rotation.x(), rotation.y(), rotation.z()}};
-}
-#endif
 
 void measure(const Shot& shot, SpaceTally& tally) {
     ++tally.frames;
-    const Camera camera = space_camera(shot.camera);
-    DeviceOptions options;
-    use_camera(camera, camera.width_px, camera.height_px, options);
-    options.show_stages = true;
-    Locator locator(thread_memory(), options);
-    const GreyImage image = render(shot);
-    const Fix fix = locator.locate(image.view());
-    const auto pose = space_pose(fix, camera, image.view(), locator.trace());
+    const SpaceReading reading(shot);
+    const auto& pose = reading.pose();
     if (!pose) return;
     ++tally.located;
     const TrueSpacePose truth = true_space_pose(shot);
@@ -150,11 +81,10 @@ void measure(const Shot& shot, SpaceTally& tally) {
         ++tally.ambiguous;
         return;
     }
-    if (error.dot(covariance.ldlt().solve(error)) > kWrong) ++tally.wrong;
+    if (normalised_square(error, covariance) > kMaxNormalisedSquare) ++tally.wrong;
     add(error, covariance, bound, tally.ours);
 #ifdef DOTPOSE_HAS_CALIB3D
-    add(space_error(opencv_pose(image, fix, camera, locator.trace()), truth), covariance, bound,
-        tally.opencv);
+    add(space_error(reading.opencv_pose(), truth), covariance, bound, tally.opencv);
 #endif
 }
 
@@ -166,7 +96,7 @@ std::string ratios_text(const SpaceErrors& errors) {
                        e[2].rms(), e[3].rms(), e[4].rms(), e[5].rms());
 }
 
-std::string row_text(const Lens& lens, double tilt_deg, const SpaceTally& tally) {
+std::string row_text(const SpaceLens& lens, double tilt_deg, const SpaceTally& tally) {
     const auto& e = tally.ours.coordinates;
     return fmt::format("| {} | {} | {} of {} |{} {} {} {} | {} {} {} | {:.2f} | {} | {} | {} |{}\n",
                        lens.title, tilt_deg, tally.located, tally.frames, ratios_text(tally.ours),
@@ -196,13 +126,13 @@ bool space_table(TableRun& run) {
         "x y z | about x y z |\n|--:|--:|--:|---|---|---|---|--:|--:|--:|--:|---|---|\n";
     bool is_right = true;
     std::uint64_t row = 0;  // each row uses different frames
-    for (const Lens& lens : kLenses) {
+    for (const SpaceLens& lens : kSpaceLenses) {
         for (const double tilt_deg : tilts_deg) {
             const std::uint64_t seed = scramble(run.seed + row++);
             const std::string what = fmt::format("{}, tilt {}", lens.title, tilt_deg);
             const auto count =
                 run.count<SpaceTally>(what, frames, [&](std::uint64_t i, SpaceTally& tally) {
-                    measure(shot_at(lens, tilt_deg, seed, i), tally);
+                    measure(space_shot(lens, tilt_deg, seed, i), tally);
                 });
             text += row_text(lens, tilt_deg, count.tally);
             is_right &= count.tally.wrong == 0 && count.is_complete();

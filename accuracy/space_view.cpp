@@ -7,6 +7,10 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
+#include "calibrate/dots_in_view.hpp"
+#include "space_opencv.hpp"
+#include "table_run.hpp"
+
 namespace dotpose::tables {
 namespace {
 
@@ -73,7 +77,33 @@ Matrix2d centre_bound(const Shot& shot, const Matrix2d& by_place) {
     return variance / (peak * peak * std::numbers::pi / 2 * root) * shape;
 }
 
+/// Returns the options of a locator whose trace `space_pose` uses.
+DeviceOptions options_of(const Camera& camera) {
+    DeviceOptions options;
+    use_camera(camera, camera.width_px, camera.height_px, options);
+    options.show_stages = true;
+    return options;
+}
+
 }  // namespace
+
+Shot space_shot(const SpaceLens& lens, double tilt_deg, std::uint64_t seed, std::uint64_t index) {
+    Setup setup;
+    setup.camera.width_px = 640;
+    setup.camera.height_px = 480;
+    setup.camera.k = lens.k;
+    setup.camera.working_distance_mm = lens.distance_mm;
+    setup.seed = seed;
+    Shot shot = draw_shot(setup, index);
+    Rng rng(shot.seed, 1);
+    const double azimuth_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
+    const double tilt_rad = tilt_deg * std::numbers::pi / 180;
+    // The normal of the paper is tilted towards the azimuth.
+    shot.pose.tilt_y_rad = std::asin(std::sin(tilt_rad) * std::cos(azimuth_rad));
+    shot.pose.tilt_x_rad =
+        std::atan2(std::sin(tilt_rad) * std::sin(azimuth_rad), std::cos(tilt_rad));
+    return shot;
+}
 
 TrueSpacePose true_space_pose(const Shot& shot) {
     const CameraPose& pose = shot.pose;
@@ -114,6 +144,42 @@ SpaceVector space_error(const CameraInSpace& camera, const TrueSpacePose& truth)
     error.tail<3>() = std::remainder(turn.angle(), 2 * std::numbers::pi) * turn.axis();
     return error;
 }
+
+SpaceMatrix matrix_of(const SpaceCovariance& covariance) {
+    SpaceMatrix result;
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t j = 0; j < 6; ++j)
+            result(Eigen::Index(i), Eigen::Index(j)) = covariance[i][j];
+    }
+    return result;
+}
+
+double normalised_square(const SpaceVector& error, const SpaceMatrix& covariance) {
+    return error.dot(covariance.ldlt().solve(error));
+}
+
+SpaceReading::SpaceReading(const Shot& shot)
+    : camera_(space_camera(shot.camera)),
+      image_(render(shot)),
+      locator_(thread_memory(), options_of(camera_)),
+      fix_(locator_.locate(image_.view())),
+      pose_(space_pose(fix_, camera_, image_.view(), locator_.trace())) {}
+
+#ifdef DOTPOSE_HAS_CALIB3D
+CameraInSpace SpaceReading::opencv_pose() const {
+    const double mm = fix_.spacing_mm();
+    const Trace trace = locator_.trace();
+    const auto fit =
+        calibrate::fit_to_image(image_.view(), {camera_, *pinhole_of(camera_), {mm, mm}}, trace);
+    const calibrate::SpaceState state = tables::opencv_pose(fit.value(), *camera_.focal_px);
+    const Eigen::Quaterniond rotation(state.rotation);
+    const Cell start = trace.decoding.place.cell;
+    return {state.position_mm.x() + mm * start.x,
+            state.position_mm.y() + mm * start.y,
+            state.position_mm.z(),
+            {rotation.w(), rotation.x(), rotation.y(), rotation.z()}};
+}
+#endif
 
 SpaceMatrix space_bound(const Shot& shot, double jitter_mm) {
     const Pattern& pattern = shot.page.pattern;

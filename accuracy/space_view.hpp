@@ -1,12 +1,29 @@
 // Views of a tilted camera: frames, true poses in space, and the Cramer-Rao bound of these poses.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <optional>
+
 #include <Eigen/Core>
 
+#include "dotpose/locate.hpp"
 #include "dotpose/tools/simulate.hpp"
 #include "dotpose/tools/space_pose.hpp"
 
 namespace dotpose::tables {
+
+/// A camera with 640 x 480 px.
+struct SpaceLens {
+    const char* title;
+    double distance_mm;  ///< distance from the camera to the pose point
+    double k;
+};
+inline constexpr std::array kSpaceLenses = {SpaceLens{"52 degrees", 30, -0.7e-6},
+                                            SpaceLens{"28 degrees", 60, -0.2e-6}};
+
+/// Returns frame `index` of a camera that is tilted in any direction.
+Shot space_shot(const SpaceLens& lens, double tilt_deg, std::uint64_t seed, std::uint64_t index);
 
 /// Position in mm in the pattern frame, and rotation from the camera to the pattern.
 struct TrueSpacePose {
@@ -25,6 +42,36 @@ using SpaceMatrix = Eigen::Matrix<double, 6, 6>;
 
 /// Returns the error of a pose, in the coordinates of SpacePose::covariance.
 SpaceVector space_error(const CameraInSpace& camera, const TrueSpacePose& truth);
+
+SpaceMatrix matrix_of(const SpaceCovariance& covariance);
+
+/// Returns the normalised squared error of the six coordinates.
+double normalised_square(const SpaceVector& error, const SpaceMatrix& covariance);
+
+/// Limit of the normalised squared error of the six coordinates. Above the limit, a pose is wrong.
+/// A correct pose exceeds the limit by chance once in 10^19.
+inline constexpr double kMaxNormalisedSquare = 100;
+
+/// A rendered frame, and the pose in space that dotpose finds in it.
+class SpaceReading {
+  public:
+    explicit SpaceReading(const Shot& shot);
+
+    const Fix& fix() const { return fix_; }
+    const std::optional<SpacePose>& pose() const { return pose_; }
+#ifdef DOTPOSE_HAS_CALIB3D
+    /// Returns the pose that OpenCV computes from the dots that `space_pose` uses. `pose` must have
+    /// a value.
+    CameraInSpace opencv_pose() const;
+#endif
+
+  private:
+    Camera camera_;
+    GreyImage image_;
+    Locator locator_;
+    Fix fix_;
+    std::optional<SpacePose> pose_;
+};
 
 /// Minimum spacing in the image, in px, in the direction in which it is shortest. Below this
 /// spacing, the images of adjacent dots overlap.

@@ -22,6 +22,9 @@ bool print_map_table(TableRun& run);
 bool seams_table(TableRun& run);
 bool slips_table(TableRun& run);
 bool space_table(TableRun& run);
+bool space_second_table(TableRun& run);
+bool space_tag_table(TableRun& run);
+bool space_track_table(TableRun& run);
 bool tracked_table(TableRun& run);
 bool views_table(TableRun& run);
 

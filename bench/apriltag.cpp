@@ -6,6 +6,7 @@
 #include <apriltag/tag36h11.h>
 
 #include "frames.hpp"
+#include "tag_picture.hpp"
 
 namespace dotpose::bench {
 namespace {
@@ -18,31 +19,6 @@ using Detections = std::unique_ptr<zarray_t, DestroyDetections>;
 Detections detections_in(apriltag_detector_t* detector, GreyImage& image) {
     image_u8_t view = {image.width_px, image.height_px, image.width_px, image.pixels.data()};
     return Detections(apriltag_detector_detect(detector, &view));
-}
-
-/// Returns the image of a printed tag with `px_per_square` pixels per square: a white border, a
-/// black border, and the bits, which are white for 1. Does not use `apriltag_to_image`, because the
-/// library has no function that frees its result completely.
-GreyImage draw_tag(const apriltag_family_t& family, int id, int px_per_square) {
-    const int squares = family.total_width;
-    const int side_px = squares * px_per_square;
-    GreyImage image{{}, side_px, side_px};
-    image.pixels.assign(static_cast<std::size_t>(side_px) * static_cast<std::size_t>(side_px), 255);
-    const auto fill = [&](int x, int y, int side, std::uint8_t level) {
-        for (int v = y * px_per_square; v < (y + side) * px_per_square; ++v) {
-            const auto row = image.pixels.begin() + v * side_px;
-            std::fill_n(row + x * px_per_square, side * px_per_square, level);
-        }
-    };
-    const int border = (squares - family.width_at_border) / 2;
-    fill(border, border, family.width_at_border, 0);
-    for (std::uint32_t i = 0; i < family.nbits; ++i) {
-        const bool is_white = (family.codes[id] >> (family.nbits - 1 - i) & 1) == 1;
-        const auto x = static_cast<int>(family.bit_x[i]);
-        const auto y = static_cast<int>(family.bit_y[i]);
-        if (is_white) fill(border + x, border + y, 1, 255);
-    }
-    return image;
 }
 
 GreyImage render_tag(const Shot& shot, const apriltag_family_t& family, int id) {

@@ -15,6 +15,7 @@ ros::RobotUpdate update_of(const Reading& reading, std::int64_t stamp_ns) {
     followed.located.fix = reading.record.fix;
     followed.located.place = reading.record.place;
     followed.located.spacing_mm = reading.record.spacing_mm;
+    followed.located.space = reading.record.space;
     followed.track = reading.track;
     return ros::update_of(followed, reading.plane == Plane::sheet_world, stamp_ns);
 }
@@ -36,14 +37,18 @@ std::int64_t Stamps::of(const capture::Frame& frame) {
 RobotOutput::RobotOutput(const RobotOutputOptions& options)
     : options_(options),
       stamps_(options.camera ? options.camera->exposure_us.value_or(0) : 0),
-      messenger_(options.robot, ros::with_prefix(options.frame_prefix)) {
+      messenger_(options.robot, ros::with_prefix(options.frame_prefix)),
+      sends_mount_(!options.has_space_pose) {
     if (!options.mcap.empty()) recording_.emplace(options.mcap, options.robot);
-    if (options.dds) publisher_.emplace(ros_name(options.robot), *options.dds);
+    if (!options.dds) return;
+    dds::PublisherOptions publisher = *options.dds;
+    publisher.has_space_pose = options.has_space_pose;
+    publisher_.emplace(ros_name(options.robot), publisher);
 }
 
 void RobotOutput::take(const capture::Frame& frame, const Reading& reading) {
     const std::int64_t stamp_ns = stamps_.of(frame);
-    if (!std::exchange(has_mount_, true) && options_.camera) {
+    if (std::exchange(sends_mount_, false) && options_.camera) {
         if (auto mount = ros::camera_mount(*options_.camera, messenger_.frames())) {
             mount->header.stamp = ros::ros_time(stamp_ns);
             if (recording_) recording_->take_mount(*mount, stamp_ns);
@@ -63,7 +68,7 @@ void RobotOutput::take(const capture::Frame& frame, const Reading& reading) {
 
 void RobotOutput::set_camera(const Camera& camera) {
     options_.camera = camera;
-    has_mount_ = false;
+    sends_mount_ = !options_.has_space_pose;
 }
 
 void RobotOutput::finish() {

@@ -22,6 +22,8 @@ struct RobotOutputOptions {
     std::string robot;
     std::string frame_prefix;      ///< prefix of the names of the robot's frames of reference
     std::optional<Camera> camera;  ///< source of the mount and the exposure time
+    /// True if the camera has a pose in space. Its mount is then not sent.
+    bool has_space_pose = false;
 
     bool is_wanted() const { return !mcap.empty() || dds; }
 };
@@ -58,7 +60,7 @@ class RobotOutput {
     RobotOutputOptions options_;
     Stamps stamps_;
     ros::RobotMessenger messenger_;
-    bool has_mount_ = false;  ///< true after the first frame; the mount is sent with this frame
+    bool sends_mount_;  ///< true if the mount is sent with the next frame
     std::optional<RobotRecording> recording_;
     std::optional<dds::Publisher> publisher_;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 
 #include <fmt/core.h>
 
@@ -15,6 +17,33 @@ std::string lost_reason(const Record& record) {
     if (record.fix.status != Status::ok) return name(record.fix.status);
     const bool has_place = record.place && record.place->entry->world;
     return record.has_sheets && !has_place ? std::string(kNoPlace) : std::string();
+}
+
+/// Turns the axes of a pose by half a turn about x: y up to y down, and z out of the paper to z
+/// into the paper.
+CameraInWorld with_y_down(const CameraInWorld& camera) {
+    const auto [w, x, y, z] = camera.rotation;
+    const double sign = x > 0 ? -1 : 1;  // keeps the w component positive
+    CameraInWorld down{camera.x_m,
+                       -camera.y_m,
+                       -camera.z_m,
+                       {-sign * x, sign * w, -sign * z, sign * y},
+                       camera.covariance};
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t j = 0; j < 6; ++j) {
+            if ((i % 3 == 0) != (j % 3 == 0)) down.covariance[i][j] *= -1;
+        }
+    }
+    return down;
+}
+
+/// Returns the pose of the camera in space, with the axes of the track. Returns none if it is
+/// unknown or ambiguous.
+std::optional<CameraInWorld> camera_pose_of(const Reading& reading) {
+    const auto& space = reading.record.space;
+    if (reading.plane == Plane::sheet_world) return certain_in_world(space, reading.record.place);
+    if (!space || space->is_ambiguous()) return std::nullopt;
+    return with_y_down(in_world(space->camera, space->covariance, WorldPose{}));
 }
 
 }  // namespace
@@ -44,6 +73,7 @@ RobotState state_of(const Reading& reading, const std::string& robot,
     state.vx_m_s = static_cast<double>(pose.vx_mm_s) / 1000;
     state.vy_m_s = static_cast<double>(pose.vy_mm_s) / 1000;
     state.omega_rad_s = static_cast<double>(pose.turn_rad_s);
+    state.camera_pose = camera_pose_of(reading);
     return state;
 }
 

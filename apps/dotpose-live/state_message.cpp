@@ -6,6 +6,7 @@
 #include <ctime>
 #include <iterator>
 #include <numbers>
+#include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -37,6 +38,20 @@ nlohmann::ordered_json json_of(const CameraReport& camera) {
     return {{"rate", camera.rate_hz}, {"frames", camera.frames}, {"refused", std::move(refused)}};
 }
 
+nlohmann::ordered_json json_of(const CameraInWorld& camera) {
+    const Quaternion& q = camera.rotation;
+    nlohmann::ordered_json covariance = nlohmann::ordered_json::array();
+    for (const auto& row : camera.covariance) {
+        for (const double value : row)
+            covariance.push_back(value);
+    }
+    return {{"x", camera.x_m},
+            {"y", camera.y_m},
+            {"z", camera.z_m},
+            {"orientation", {{"x", q.x}, {"y", q.y}, {"z", q.z}, {"w", q.w}}},
+            {"covariance", std::move(covariance)}};
+}
+
 std::string dump(const nlohmann::ordered_json& json) {
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -63,7 +78,7 @@ std::int64_t system_us() {
 
 std::string json_of(const RobotState& state) {
     nlohmann::ordered_json json = header(state.robot, state.header_id, state.sent_us);
-    // The members state, reason, sheet and camera are additions, which VDA 5050 permits.
+    // VDA 5050 permits additional members: state, reason, sheet, camera and cameraPose.
     json["state"] = state.state;
     if (!state.reason.empty()) json["reason"] = state.reason;
     if (!state.sheet.empty()) json["sheet"] = state.sheet;
@@ -77,6 +92,7 @@ std::string json_of(const RobotState& state) {
                                {"deviationRange", state.deviation_m}};
         json["velocity"] = {
             {"vx", state.vx_m_s}, {"vy", state.vy_m_s}, {"omega", state.omega_rad_s}};
+        if (state.camera_pose) json["cameraPose"] = json_of(*state.camera_pose);
     }
     return dump(json);
 }

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "dotpose/status.hpp"
+#include "dotpose/tools/space_pose.hpp"
 #include "publish/mqtt.hpp"
 
 namespace dotpose::cli {
@@ -82,6 +83,8 @@ struct RobotState {
     double vx_m_s = 0;
     double vy_m_s = 0;
     double omega_rad_s = 0;
+    /// Pose of the camera in space, with the axes of x and y. Not parsed.
+    std::optional<CameraInWorld> camera_pose;
 };
 
 /// Returns the message with the subject `visualization`.

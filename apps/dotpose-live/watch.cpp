@@ -336,6 +336,7 @@ int run(WatchArguments& arguments) {
     arguments.outputs.screen.tell = tell;
     arguments.outputs.messages.robot = arguments.outputs.publish.robot;
     arguments.outputs.messages.camera = arguments.follower.camera.camera;
+    arguments.outputs.messages.has_space_pose = follower.fits_space_pose();
     arguments.outputs.screen.has_window = !arguments.has_no_window && video::has_display();
     arguments.outputs.web = web_options(arguments, follower);
     std::optional<FrameSaver> saver;

@@ -86,6 +86,51 @@ ros::PlanarMotion motion_in(const LogCells& row, const ros::PlanarPose& pose,
     return motion;
 }
 
+/// Column names of a pose of the camera in space.
+struct SpaceColumns {
+    std::string_view unit;  ///< end of the names of x, y and z
+    std::string_view rotation;
+    std::string_view covariance;
+    double angle_rad;  ///< unit of angles in the covariance
+};
+
+constexpr SpaceColumns kSpaceInWorld = {"m", "camera_quaternion_world_xyzw",
+                                        "camera_covariance_m_rad", 1};
+constexpr SpaceColumns kSpaceInPattern = {"mm", "camera_quaternion_xyzw",
+                                          "camera_covariance_mm_deg", kRadians};
+
+SpaceCovariance space_covariance_in(const LogCells& row, const SpaceColumns& columns) {
+    SpaceCovariance covariance{};
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t j = 0; j < 6; ++j) {
+            const double unit = (i < 3 ? 1 : columns.angle_rad) * (j < 3 ? 1 : columns.angle_rad);
+            covariance[i][j] =
+                unit * row.required(fmt::format("{}_{}{}", columns.covariance, i, j));
+        }
+    }
+    return covariance;
+}
+
+/// Returns the pose of the camera in space in `map`. Returns none if the row has no pose in space,
+/// or if it is ambiguous.
+std::optional<CameraInWorld> camera_in(const LogCells& row, bool is_in_world) {
+    const SpaceColumns& columns = is_in_world ? kSpaceInWorld : kSpaceInPattern;
+    if (row.text("camera_is_ambiguous") != "false") return std::nullopt;
+    if (row.text(fmt::format("camera_x_{}", columns.unit)).empty()) return std::nullopt;
+    const auto position = [&](char axis) {
+        return row.required(fmt::format("camera_{}_{}", axis, columns.unit));
+    };
+    const auto component = [&](char axis) {
+        return row.required(fmt::format("{}_{}", columns.rotation, axis));
+    };
+    const Quaternion rotation = {component('w'), component('x'), component('y'), component('z')};
+    const SpaceCovariance covariance = space_covariance_in(row, columns);
+    if (is_in_world)
+        return CameraInWorld{position('x'), position('y'), position('z'), rotation, covariance};
+    return in_world({position('x'), position('y'), position('z'), rotation}, covariance,
+                    WorldPose{});
+}
+
 std::int64_t time_ns_in(const LogCells& row) {
     const double t_s = row.required("t_s");
     if (!(t_s >= 0 && t_s <= double{std::numeric_limits<std::int32_t>::max()})) {
@@ -117,14 +162,15 @@ ros::RobotUpdate update_of(const LogCells& row) {
     } else {
         update.problem = row.text("status");
     }
+    update.camera = camera_in(row, is_in_world);
     update.state = row.text("state");
     if (update.state != "lost") {
         const PoseColumns track = track_columns(is_in_world);
         if (const auto pose = pose_in(row, track)) update.motion = motion_in(row, *pose, track);
     }
     update.is_found_again = has_event(row, "fix") || has_event(row, "kidnapped");
-    for (const char* fact :
-         {"status", "events", "verdict", "dots_seen", "dots_used", "attempt", "p_wrong", "sheet"}) {
+    for (const char* fact : {"status", "events", "verdict", "dots_seen", "dots_used", "attempt",
+                             "p_wrong", "sheet", "camera_is_ambiguous", "camera_second_odds"}) {
         const std::string_view text = row.text(fact);
         if (!text.empty() || std::string_view(fact) == "events") {
             update.facts.push_back({fact, std::string(text)});

@@ -13,6 +13,7 @@ struct RobotTopics {
     explicit RobotTopics(const std::string& robot);
 
     std::string pose;
+    std::string camera;
     std::string odometry;
     std::string status;
     std::string image;
@@ -47,6 +48,7 @@ class RobotRecording {
     RobotTopics topics_;
     // Each channel is created with its first message.
     std::optional<McapChannel> poses_;
+    std::optional<McapChannel> cameras_;
     std::optional<McapChannel> odometry_;
     std::optional<McapChannel> tf_;
     std::optional<McapChannel> tf_static_;

@@ -121,8 +121,9 @@ std::optional<LogCells> LogReader::next_row() {
     return LogCells(columns_, std::move(cells));
 }
 
-/// Converts a JSON line to the cells of a CSV row. Each element of a 3 x 3 matrix becomes a cell,
-/// whose name ends with the row and column of the element.
+/// Converts a JSON line to the cells of a CSV row. The elements of a 3 x 3 or 6 x 6 matrix become
+/// cells whose names end with the row and column index. The components of a quaternion become cells
+/// whose names end with x, y, z and w.
 LogCells LogReader::row_of_json(const std::string& line) {
     const nlohmann::json object = files::parse_json(line);
     if (!object.is_object()) throw Error("it is not an object");
@@ -135,9 +136,12 @@ LogCells LogReader::row_of_json(const std::string& line) {
     };
     for (const auto& [name, value] : object.items()) {
         if (!value.is_array()) add(name, value);
-        if (!value.is_array() || value.size() != 9) continue;
-        for (std::size_t i = 0; i < value.size(); ++i)
-            add(fmt::format("{}_{}{}", name, i / 3, i % 3), value[i]);
+        if (!value.is_array()) continue;
+        const std::size_t rows = value.size() == 9 ? 3 : 6;
+        for (std::size_t i = 0; rows * rows == value.size() && i < value.size(); ++i)
+            add(fmt::format("{}_{}{}", name, i / rows, i % rows), value[i]);
+        for (std::size_t i = 0; value.size() == 4 && i < value.size(); ++i)
+            add(fmt::format("{}_{}", name, "xyzw"[i]), value[i]);
     }
     return {columns_, std::move(cells)};
 }

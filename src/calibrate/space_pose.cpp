@@ -121,4 +121,11 @@ CameraInWorld in_world(const CameraInSpace& camera, const SpaceCovariance& covar
     return world;
 }
 
+std::optional<CameraInWorld> certain_in_world(const std::optional<SpacePose>& pose,
+                                              const std::optional<SheetPlace>& place) {
+    if (!pose || pose->is_ambiguous() || !place || !place->entry->world) return std::nullopt;
+    const SheetEntry& entry = *place->entry;
+    return in_world(on_sheet(pose->camera, entry), pose->covariance, *entry.world);
+}
+
 }  // namespace dotpose

@@ -18,6 +18,7 @@ struct PublisherOptions {
     /// True to limit discovery to this computer, like ROS with
     /// ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST.
     bool is_local = false;
+    bool has_space_pose = false;  ///< true to publish poses of the camera in space
 };
 
 class Publisher {

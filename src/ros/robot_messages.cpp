@@ -40,6 +40,19 @@ TransformStamped transform_of(const Header& header, std::string child, const Pla
         header, std::move(child), {{planar.x_m, planar.y_m, 0}, rotation_about_z(planar.yaw_rad)}};
 }
 
+/// Returns the pose of a camera. The covariance needs no conversion, because its rotation vector is
+/// about the axes of `map`, as in the message.
+PoseWithCovariance pose_of(const CameraInWorld& camera) {
+    const dotpose::Quaternion& q = camera.rotation;
+    PoseWithCovariance result;
+    result.pose = {{camera.x_m, camera.y_m, camera.z_m}, {q.x, q.y, q.z, q.w}};
+    for (std::size_t i = 0; i < kSize; ++i) {
+        for (std::size_t j = 0; j < kSize; ++j)
+            result.covariance[i * kSize + j] = camera.covariance[i][j];
+    }
+    return result;
+}
+
 /// Derivatives of three values with respect to (x, y, yaw, vx, vy, turn).
 using Jacobian = std::array<std::array<double, 6>, 3>;
 
@@ -103,12 +116,20 @@ RobotMessages RobotMessenger::messages(const RobotUpdate& update) {
         result.pose = {{stamp, frames_.map},
                        {pose_of(update.fix->pose), covariance_of(update.fix->covariance)}};
     }
+    std::vector<TransformStamped> transforms;
     if (update.motion) {
         follow(update);
         result.odometry = odometry({stamp, frames_.odom}, *update.motion);
-        result.tf = TFMessage{{transform_of({stamp, frames_.map}, frames_.odom, map_from_odom_),
-                               transform_of({stamp, frames_.odom}, frames_.base, odom_from_base_)}};
+        transforms = {transform_of({stamp, frames_.map}, frames_.odom, map_from_odom_),
+                      transform_of({stamp, frames_.odom}, frames_.base, odom_from_base_)};
     }
+    if (update.camera) {
+        const Header header = {stamp, frames_.map};
+        result.camera = PoseWithCovarianceStamped{header, pose_of(*update.camera)};
+        const Pose& pose = result.camera->pose.pose;
+        transforms.push_back({header, frames_.camera, {pose.position, pose.orientation}});
+    }
+    if (!transforms.empty()) result.tf = TFMessage{std::move(transforms)};
     result.status = status({stamp, frames_.base}, update);
     return result;
 }

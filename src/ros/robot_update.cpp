@@ -48,6 +48,14 @@ std::optional<PlanarFix> fix_in_pattern(const Located& located) {
                      covariance_in_m(covariance, spacing_m, {false})};
 }
 
+/// Returns the pose of the camera in space. Returns none if it is unknown or ambiguous, or if the
+/// place in the world is unknown.
+std::optional<CameraInWorld> camera_of(const Located& located, bool is_in_world) {
+    if (is_in_world) return certain_in_world(located.space, located.place);
+    if (!located.space || located.space->is_ambiguous()) return std::nullopt;
+    return in_world(located.space->camera, located.space->covariance, WorldPose{});
+}
+
 PlanarMotion motion_of(const TrackedPose& pose, Axes axes) {
     const double up = axes.sign(1);
     PlanarMotion motion;
@@ -82,6 +90,13 @@ std::vector<KeyValue> facts_of(const Followed& followed) {
     facts.push_back({"attempt", name(fix.attempt)});
     facts.push_back({"p_wrong", three_digits(fix.p_wrong())});
     if (followed.located.place) facts.push_back({"sheet", followed.located.place->entry->name});
+    if (const auto& space = followed.located.space) {
+        facts.push_back({"camera_is_ambiguous", space->is_ambiguous() ? "true" : "false"});
+        if (space->second) {
+            facts.push_back(
+                {"camera_second_odds", three_digits(std::exp2(space->second->odds_log2))});
+        }
+    }
     return facts;
 }
 
@@ -94,6 +109,7 @@ RobotUpdate update_of(const Followed& followed, bool is_in_world, std::int64_t t
     RobotUpdate update;
     update.time_ns = time_ns;
     if (is_ok) update.fix = is_in_world ? fix_in_world(located) : fix_in_pattern(located);
+    update.camera = camera_of(located, is_in_world);
     if (!track.is_lost) {
         update.motion = motion_of(track.pose, {is_in_world});
         update.plane = track.pose.plane;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "../blackbox/watch_command.hpp"
+#include "../space_frames.hpp"
 #include "drive_messages.hpp"
 #include "npm_readers.hpp"
 
@@ -42,7 +43,8 @@ class Dds : public WatchCommand {
     /// Starts a reader of messages. Then runs `dotpose watch` on the frames that the shell command
     /// `frames` writes. Returns the messages that the reader received.
     std::vector<json> read_drive(const std::string& frames, const std::string& reliability,
-                                 const std::string& options, const std::string& environment = "") {
+                                 const std::string& options, const std::string& environment = "",
+                                 const std::string& topics = kTopics) {
         const std::string watch = "'" + test::tool_path() + "' watch - " + kRaw + " " + kTrack +
                                   " --units ros --dds --robot anna -o lines " + options;
         // The frames start when the reader reports that it and the writers have discovered each
@@ -51,7 +53,7 @@ class Dds : public WatchCommand {
             "until [ -e ready ] || ! kill -0 $reader; do sleep 0.1; done; sleep 1; ";
         std::ofstream(directory_ / "run.sh")
             << kNetwork << environment << "'" << kReader << "' " << reliability << " ready "
-            << kTopics << " >samples 2>reader.txt & reader=$!\n"
+            << topics << " >samples 2>reader.txt & reader=$!\n"
             << "(" << ready << frames << ") | " << watch << " 2>watch.txt\n"
             << "wait $reader\n";
         EXPECT_EQ(shell("unshare -rn sh run.sh"), 0) << errors_;
@@ -96,6 +98,15 @@ TEST_F(Dds, IsFoundOnThisComputerAloneIfRosSaysSo) {
     const auto messages = read_drive("cat drive.raw", "reliable", "--dds-reliable",
                                      "export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; ");
     EXPECT_EQ(of_topic(messages, "/anna/pose").size(), 20U);
+}
+
+TEST_F(Dds, HasThePosesInSpaceOfTheCamera) {
+    DOTPOSE_NEEDS_DDS();
+    write_space_frames(directory_);
+    const auto messages = read_drive(
+        "cat space.raw", "reliable", "--dds-reliable --camera camera.yaml --pose space", "",
+        std::string(kTopics) + " /anna/camera_pose geometry_msgs/PoseWithCovarianceStamped");
+    expect_true_space_poses(messages);
 }
 
 TEST_F(Dds, RefusesDomainsThatDoNotExist) {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "../blackbox/watch_command.hpp"
+#include "../space_frames.hpp"
 #include "drive_messages.hpp"
 #include "npm_readers.hpp"
 
@@ -118,6 +119,22 @@ TEST_F(Recording, TellsWhereTheCameraSits) {
     EXPECT_THAT(mounts[0]["offered"], HasSubstr("\n  durability: 1\n"));
     const auto poses = of_topic(recorded("run.mcap"), "/robot/pose");
     EXPECT_THAT(poses.at(0)["offered"], HasSubstr("\n  durability: 2\n"));
+}
+
+TEST_F(Recording, HasThePosesInSpaceOfTheCamera) {
+    DOTPOSE_NEEDS_NPM();
+    write_space_frames(directory_);
+    ASSERT_EQ(run("watch - --size 320x240 --fps 10 --sheets sheets.json --camera camera.yaml "
+                  "--pose space --log run.csv -o run.json --mcap run.mcap --robot anna",
+                  "space.raw"),
+              0)
+        << errors_;
+    expect_true_space_poses(recorded("run.mcap"));
+    // Logs have the same poses.
+    for (const char* log : {"run.csv", "run.json"}) {
+        ASSERT_EQ(run(std::string("replay ") + log + " -o again.mcap --robot anna"), 0) << errors_;
+        expect_true_space_poses(recorded("again.mcap"));
+    }
 }
 
 TEST_F(Recording, RobotsMayHaveFramesOfTheirOwn) {

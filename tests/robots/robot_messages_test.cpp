@@ -253,6 +253,91 @@ TEST(RobotUpdates, TheWorldHasYUpAlready) {
     EXPECT_FALSE(ros::update_of(followed, true, 0).fix);
 }
 
+/// Returns a frame of a camera 20 mm above the pattern that looks straight down.
+Followed followed_in_space() {
+    Followed followed = followed_in_pattern();
+    SpacePose& space = followed.located.space.emplace();
+    space.camera = {500, 1000, -20, {}};
+    space.covariance[0][0] = 4;
+    space.covariance[0][1] = space.covariance[1][0] = 1;
+    space.covariance[2][2] = 9;
+    space.covariance[3][3] = 16;
+    space.covariance[1][5] = space.covariance[5][1] = 2;
+    return followed;
+}
+
+TEST(RobotUpdates, TheCameraIsInTheMap) {
+    const RobotUpdate seen = ros::update_of(followed_in_space(), false, 5);
+    const RobotMessages messages = RobotMessenger("anna", with_prefix("anna/")).messages(seen);
+    ASSERT_TRUE(messages.camera);
+    EXPECT_EQ(messages.camera->header.frame_id, "map");
+    EXPECT_EQ(messages.camera->header.stamp.nanosec, 5U);
+    const ros::Pose& pose = messages.camera->pose.pose;
+    EXPECT_DOUBLE_EQ(pose.position.x, 0.5);
+    EXPECT_DOUBLE_EQ(pose.position.y, -1);
+    EXPECT_DOUBLE_EQ(pose.position.z, 0.02);
+    // The z axis of the optical frame points down: half a turn about x.
+    EXPECT_DOUBLE_EQ(std::abs(pose.orientation.x), 1);
+    // The y and z axes of the camera and of the pattern point opposite to those of the map.
+    const ros::Covariance36& covariance = messages.camera->pose.covariance;
+    EXPECT_DOUBLE_EQ(covariance[0], 4e-6);
+    EXPECT_DOUBLE_EQ(covariance[1], -1e-6);
+    EXPECT_DOUBLE_EQ(covariance[14], 9e-6);
+    EXPECT_DOUBLE_EQ(covariance[21], 16);
+    EXPECT_DOUBLE_EQ(covariance[11], 2e-3);
+    EXPECT_DOUBLE_EQ(covariance[31], 2e-3);
+    ASSERT_EQ(messages.tf->transforms.size(), 3U);
+    EXPECT_EQ(messages.tf->transforms[2].header.frame_id, "map");
+    EXPECT_EQ(messages.tf->transforms[2].child_frame_id, "anna/camera_optical");
+    EXPECT_DOUBLE_EQ(messages.tf->transforms[2].transform.translation.z, 0.02);
+}
+
+TEST(RobotUpdates, TheCameraIsInTheMapWhileTheRobotIsLost) {
+    Followed followed = followed_in_space();
+    followed.track.is_lost = true;
+    const RobotMessages messages =
+        RobotMessenger("anna").messages(ros::update_of(followed, false, 5));
+    EXPECT_FALSE(messages.odometry);
+    ASSERT_TRUE(messages.tf);
+    ASSERT_EQ(messages.tf->transforms.size(), 1U);
+    EXPECT_EQ(messages.tf->transforms[0].child_frame_id, "camera_optical");
+}
+
+TEST(RobotUpdates, AnAmbiguousCameraIsNotPublishedButReported) {
+    Followed followed = followed_in_space();
+    followed.located.space->second = SecondPose{{500, 1000, -21, {}}, -2};
+    const RobotMessages messages =
+        RobotMessenger("anna").messages(ros::update_of(followed, false, 5));
+    EXPECT_FALSE(messages.camera);
+    EXPECT_EQ(messages.tf->transforms.size(), 2U);
+    const auto& facts = messages.status.status.front().values;
+    const auto value = [&facts](const std::string& key) {
+        const auto found = std::ranges::find(facts, key, &ros::KeyValue::key);
+        return found == facts.end() ? "" : found->value;
+    };
+    EXPECT_EQ(value("camera_is_ambiguous"), "true");
+    EXPECT_EQ(value("camera_second_odds"), "0.25");
+    // Odds of 2^-60 exclude the second pose.
+    followed.located.space->second->odds_log2 = -60;
+    EXPECT_TRUE(ros::update_of(followed, false, 5).camera);
+}
+
+TEST(RobotUpdates, TheCameraIsInTheWorldOfTheSheets) {
+    Followed followed = followed_in_space();
+    SheetEntry entry;
+    entry.sheet.pattern.spacing_mm = 0.5;
+    entry.sheet.origin = {1000, 2000};
+    entry.world = WorldPose{3, 4, kRightAngle};
+    followed.located.place = SheetPlace{&entry, 0, 0, 0, {}};
+    const RobotUpdate seen = ros::update_of(followed, true, 0);
+    ASSERT_TRUE(seen.camera);
+    EXPECT_NEAR(seen.camera->x_m, 3, 1e-12);
+    EXPECT_NEAR(seen.camera->y_m, 4, 1e-12);
+    EXPECT_NEAR(seen.camera->z_m, 0.02, 1e-12);
+    entry.world.reset();
+    EXPECT_FALSE(ros::update_of(followed, true, 0).camera);
+}
+
 TEST(RobotUpdates, AFrameWithoutAFixSaysWhy) {
     Followed followed;
     followed.located.fix.status = Status::no_contrast;

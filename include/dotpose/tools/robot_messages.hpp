@@ -15,6 +15,11 @@
 ///   Without a camera file, `base_link` is the point under the image centre, with x along the image
 ///   x axis.
 ///
+/// `camera_optical` is the camera, with z along the optical axis and x and y along the axes of the
+/// image. It is constant in `base_link` (`camera_mount`). With poses in space
+/// (`FollowerOptions::fits_space_pose`), it is in `map` instead, with a new pose in each frame. Do
+/// not publish the mount then, because a frame has only one parent.
+///
 /// While the robot is followed, the transform from `map` to `odom` is constant. It jumps when the
 /// robot is found again after it was lost or moved by hand, and when the robot enters another
 /// plane. The transform from `odom` to `base_link` is always continuous.
@@ -30,6 +35,7 @@
 #include "dotpose/files/camera.hpp"
 #include "dotpose/tools/follower.hpp"
 #include "dotpose/tools/ros_messages.hpp"
+#include "dotpose/tools/space_pose.hpp"
 
 DOTPOSE_BEGIN_EXPORT
 
@@ -70,10 +76,12 @@ struct RobotUpdate {
     std::optional<PlanarFix> fix;        ///< none if there is no fix, or if the place of the fix is
                                          ///< unknown
     std::optional<PlanarMotion> motion;  ///< none while the robot is lost
-    std::uint32_t plane = 0;             ///< ID of the plane; poses in different planes are
-                                         ///< unrelated
-    bool is_found_again = false;  ///< true if the motion is not a continuation of the previous
-                                  ///< motion
+    /// Pose of the camera in space, in `map`. None if poses in space are not fitted, or if the dots
+    /// do not exclude the second pose.
+    std::optional<CameraInWorld> camera;
+    std::uint32_t plane = 0;      ///< ID of the plane; poses in different planes are
+                                  ///< unrelated
+    bool is_found_again = false;  ///< true if the motion does not continue the previous motion
     std::string state;            ///< "lost", "moving" or "stationary"
     std::string problem;          ///< reason why there is no fix; empty if there is one
     std::vector<KeyValue> facts;  ///< additional values of the frame, for the diagnostics
@@ -96,11 +104,14 @@ struct RobotFrames {
 /// slash or contains a space or a control character.
 RobotFrames with_prefix(const std::string& prefix, RobotFrames frames = {});
 
-/// Messages of one frame. `odometry` and `tf` are empty while the robot is lost.
+/// Messages of one frame. `odometry` is empty while the robot is lost.
 struct RobotMessages {
     std::optional<PoseWithCovarianceStamped> pose;  ///< pose of the fix, in `map`
     std::optional<Odometry> odometry;  ///< pose of the track in `odom`, twist in `base_link`
-    std::optional<TFMessage> tf;       ///< `map` to `odom` and `odom` to `base_link`
+    std::optional<PoseWithCovarianceStamped> camera;  ///< pose of the camera in space, in `map`
+    /// `map` to `odom` and `odom` to `base_link`, unless the robot is lost, and `map` to
+    /// `camera_optical`, if the pose in space is known. None without transforms.
+    std::optional<TFMessage> tf;
     DiagnosticArray status;
 };
 

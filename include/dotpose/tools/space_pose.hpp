@@ -25,6 +25,7 @@
 #include "dotpose/export.hpp"
 #include "dotpose/files/camera.hpp"
 #include "dotpose/files/sheet_file.hpp"
+#include "dotpose/files/sheet_place.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/trace.hpp"
@@ -135,6 +136,12 @@ struct CameraInWorld {
 /// in metres and with y up.
 CameraInWorld in_world(const CameraInSpace& camera, const SpaceCovariance& covariance,
                        const WorldPose& page);
+
+/// Returns the pose of a camera in the world of the sheet that contains `place`. Returns none if
+/// there is no pose or no place, if the dots do not exclude the second pose, or if the sheet has no
+/// place in the world.
+std::optional<CameraInWorld> certain_in_world(const std::optional<SpacePose>& pose,
+                                              const std::optional<SheetPlace>& place);
 
 }  // namespace dotpose
 

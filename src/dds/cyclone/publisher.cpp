@@ -89,6 +89,12 @@ class Publisher::Writers {
             pose_ = writer_of(participant_, geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc,
                               prefix + "/pose", ros::type_of(ros::PoseWithCovarianceStamped{}).hash,
                               sensor);
+            if (options.has_space_pose) {
+                camera_ =
+                    writer_of(participant_, geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc,
+                              prefix + "/camera_pose",
+                              ros::type_of(ros::PoseWithCovarianceStamped{}).hash, sensor);
+            }
             odometry_ = writer_of(participant_, nav_msgs_msg_dds__Odometry__desc, prefix + "/odom",
                                   ros::type_of(ros::Odometry{}).hash, sensor);
             status_ = writer_of(participant_, diagnostic_msgs_msg_dds__DiagnosticArray__desc,
@@ -111,7 +117,8 @@ class Publisher::Writers {
     }
 
     void write(const ros::RobotMessages& messages) {
-        if (messages.pose) write(*messages.pose);
+        if (messages.pose) write(pose_, *messages.pose);
+        if (messages.camera && camera_ > 0) write(camera_, *messages.camera);
         if (messages.odometry) write(*messages.odometry);
         if (messages.tf) write(*messages.tf);
         write(messages.status);
@@ -128,10 +135,10 @@ class Publisher::Writers {
         unconfirmed_frames_ = 0;
     }
 
-    void write(const ros::PoseWithCovarianceStamped& message) {
+    void write(dds_entity_t writer, const ros::PoseWithCovarianceStamped& message) {
         const geometry_msgs_msg_dds__PoseWithCovarianceStamped_ sample = {idl(message.header),
                                                                           idl(message.pose)};
-        write(pose_, &sample);
+        write(writer, &sample);
     }
     void write(const ros::Odometry& message) {
         const nav_msgs_msg_dds__Odometry_ sample = {idl(message.header),
@@ -173,7 +180,8 @@ class Publisher::Writers {
     /// readers.
     bool wait_for_readers(dds_duration_t max_wait_ns) {
         bool have_all = true;
-        for (const dds_entity_t writer : {pose_, odometry_, status_, tf_}) {
+        for (const dds_entity_t writer : {pose_, camera_, odometry_, status_, tf_}) {
+            if (writer == 0) continue;
             const dds_duration_t patience_ns = have_all ? max_wait_ns : 0;
             have_all = dds_wait_for_acks(writer, patience_ns) == DDS_RETCODE_OK && have_all;
         }
@@ -194,6 +202,7 @@ class Publisher::Writers {
     dds_entity_t domain_;  ///< 0 if DDS creates the domain from the environment
     dds_entity_t participant_ = 0;
     dds_entity_t pose_ = 0;
+    dds_entity_t camera_ = 0;  ///< 0 if there are no poses in space
     dds_entity_t odometry_ = 0;
     dds_entity_t status_ = 0;
     dds_entity_t tf_ = 0;

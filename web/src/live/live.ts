@@ -8,6 +8,7 @@ import { placeOf, showState } from "./readout.js";
 import { Recorder } from "./recorder.js";
 import { Refusals } from "./refusals.js";
 import { SheetsView } from "./sheets.js";
+import { showSpace } from "./space.js";
 import { Views } from "./views.js";
 
 const announce = announcer("live-announced");
@@ -38,6 +39,7 @@ function showSetup(value: Setup): void {
 
 function takeState(state: State): void {
     showState(state, setup);
+    showSpace(state.line);
     map.takeLine(state.line);
     recorder.take(state);
     sheets.takeLine(state.line);

@@ -36,6 +36,11 @@ export interface Line {
     vx_mm_s?: number | null;
     vy_mm_s?: number | null;
     track_sigma_mm?: number | null;
+    // Keys of `--pose space`.
+    camera_z_mm?: number | null;
+    camera_tilt_deg?: number | null;
+    camera_azimuth_deg?: number | null;
+    camera_turn_deg?: number | null;
 }
 
 export interface State {

@@ -1,7 +1,7 @@
 // Helper functions for the elements of index.html.
 
 /** Returns the element with the given id. Throws an error if it is missing or has another type. */
-export function element<T extends HTMLElement>(id: string, type: new () => T): T {
+export function element<T extends Element>(id: string, type: new () => T): T {
     const found = document.getElementById(id);
     if (!(found instanceof type)) throw new Error(`index.html has no ${type.name} #${id}`);
     return found;

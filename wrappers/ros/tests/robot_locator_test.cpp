@@ -2,6 +2,7 @@
 // diagnostics.
 #include "robot_locator.hpp"
 
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -220,6 +221,38 @@ TEST_F(RosLocator, TakesTheFirstLensThatItCanUse) {
     EXPECT_EQ(locator_.take(lens_of(188, 120)), "");
     EXPECT_EQ(locator_.take(fisheye), "");
     EXPECT_EQ(status_from(202).level, kOk);
+}
+
+TEST_F(RosLocator, TheCameraHasAPoseInSpaceIfAskedFor) {
+    RobotLocator locator(settings_with("space", true), "anna");
+    EXPECT_TRUE(locator.has_space_pose());
+    const auto before = locator.take(image(), kStart_ns, 0);
+    EXPECT_TRUE(before.messages.pose);
+    EXPECT_FALSE(before.messages.camera);
+    EXPECT_THAT(before.messages.status.status.front().message,
+                HasSubstr("no poses in space until"));
+
+    // The simulated camera is 16 mm above cell (100,000, 200,000), and looks straight down. The
+    // optical frame is rotated by half a turn about x, because its z axis points down.
+    const dotpose::CameraModel model;
+    Lens lens = lens_of(188, 120);
+    lens.k[0] = lens.k[4] = model.working_distance_mm / model.mm_per_px;
+    EXPECT_EQ(locator.take(lens), "");
+    const auto answer = locator.take(image(), kStart_ns + kStep_ns, kStep_ns);
+    ASSERT_TRUE(answer.messages.camera);
+    EXPECT_EQ(answer.messages.camera->header.frame_id, "map");
+    const dotpose::ros::Pose& pose = answer.messages.camera->pose.pose;
+    EXPECT_NEAR(pose.position.x, 100'000 * 0.508e-3, 1e-4);
+    EXPECT_NEAR(pose.position.y, -200'000 * 0.508e-3, 1e-4);
+    EXPECT_NEAR(pose.position.z, 0.016, 1e-4);
+    EXPECT_NEAR(std::abs(pose.orientation.x), 1, 1e-4);
+    const auto& camera = answer.messages.tf->transforms.back();
+    EXPECT_EQ(camera.header.frame_id, "map");
+    EXPECT_EQ(camera.child_frame_id, "camera_optical");
+    EXPECT_EQ(camera.transform.translation.z, pose.position.z);
+    EXPECT_THAT(answer.messages.status.status.front().message, testing::Not(HasSubstr("in space")));
+    EXPECT_FALSE(locator.mount(0));
+    EXPECT_FALSE(take(0).messages.camera);
 }
 
 TEST_F(RosLocator, ImagesHaveTheSizeOfTheLens) {

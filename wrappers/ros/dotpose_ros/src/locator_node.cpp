@@ -95,6 +95,10 @@ class LocatorNode : public rclcpp::Node {
     void add_publishers(const Settings& settings) {
         const rclcpp::QoS quality = sensor_quality(settings);
         pose_ = create_publisher<geometry_msgs::msg::PoseWithCovarianceStamped>("~/pose", quality);
+        if (locator_->has_space_pose()) {
+            camera_ = create_publisher<geometry_msgs::msg::PoseWithCovarianceStamped>(
+                "~/camera_pose", quality);
+        }
         odometry_ = create_publisher<nav_msgs::msg::Odometry>("~/odom", quality);
         if (settings.publishes_tf)
             tf_ = create_publisher<tf2_msgs::msg::TFMessage>("/tf", rclcpp::QoS(100));
@@ -135,6 +139,7 @@ class LocatorNode : public rclcpp::Node {
         warn(answer.warning);
         const dotpose::ros::RobotMessages& messages = answer.messages;
         if (messages.pose) pose_->publish(to_ros(*messages.pose));
+        if (messages.camera && camera_) camera_->publish(to_ros(*messages.camera));
         if (messages.odometry) odometry_->publish(to_ros(*messages.odometry));
         if (messages.tf && tf_) tf_->publish(to_ros(*messages.tf));
         if (!messages.status.status.empty()) status_->publish(to_ros(messages.status));
@@ -146,6 +151,7 @@ class LocatorNode : public rclcpp::Node {
 
     std::optional<RobotLocator> locator_;
     rclcpp::Publisher<geometry_msgs::msg::PoseWithCovarianceStamped>::SharedPtr pose_;
+    rclcpp::Publisher<geometry_msgs::msg::PoseWithCovarianceStamped>::SharedPtr camera_;
     rclcpp::Publisher<nav_msgs::msg::Odometry>::SharedPtr odometry_;
     rclcpp::Publisher<tf2_msgs::msg::TFMessage>::SharedPtr tf_;
     rclcpp::Publisher<tf2_msgs::msg::TFMessage>::SharedPtr tf_static_;

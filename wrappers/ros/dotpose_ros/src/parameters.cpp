@@ -71,6 +71,9 @@ std::span<const Parameter> parameters() {
         {"camera", "",
          "camera file of dotpose calibrate; without it, the lens is taken from camera_info"},
         {"spacing_mm", dotpose::kDefaultSpacing_mm, "spacing of the pattern without a sheet file"},
+        {"space", false,
+         "also publish poses of the camera in space; needs a lens with a focal length, from camera "
+         "or camera_info"},
         {"flip", false, "flip images left to right, for a camera that mirrors them"},
         {"max_speed_m_s", double{track.max_speed_mm_s} / 1000, "maximum speed of the robot"},
         {"acceleration_m_s2", double{track.acceleration_mm_s2} / 1000,
@@ -98,6 +101,7 @@ Settings settings_of(const std::map<std::string, Value>& parameter_values) {
     settings.is_reliable = values.flag("reliable");
     settings.publishes_tf = values.flag("publish_tf");
     follower.flip = values.flag("flip");
+    follower.fits_space_pose = values.flag("space");
     follower.spacing_mm = values.number("spacing_mm", 0.01, 100).value_or(follower.spacing_mm);
     const auto in_mm = [&values](const char* name, float standard) {
         const auto metres = values.number(name, 1e-6, 1e4);

@@ -46,7 +46,21 @@ RobotLocator::RobotLocator(const Settings& settings, std::string robot)
       half_exposure_ns_(settings.half_exposure_ns),
       has_lens_(settings.follower.camera.has_value()),
       messenger_(std::move(robot), settings.frames) {
+    if (!has_lens_) lens_problem_ = missing_lens();
     restart();
+}
+
+/// Returns the problem that the missing lens causes, or an empty string.
+std::string RobotLocator::missing_lens() const {
+    return options_.fits_space_pose ? "there are no poses in space until camera_info has a lens"
+                                    : "";
+}
+
+/// Starts tracking again. Poses in space begin when the lens is known.
+void RobotLocator::restart() {
+    dotpose::FollowerOptions options = options_;
+    options.fits_space_pose = options_.fits_space_pose && has_lens_;
+    follower_.emplace(options);
 }
 
 RobotLocator::Answer RobotLocator::take(const RawImage& image, std::int64_t stamp_ns,
@@ -134,7 +148,7 @@ void RobotLocator::require_size_of_lens(const RawImage& image) const {
 std::string RobotLocator::take(const Lens& lens) {
     if (has_lens_ || lens == refused_lens_) return {};
     refused_lens_ = lens;
-    const std::string before = std::exchange(lens_problem_, {});
+    const std::string before = std::exchange(lens_problem_, missing_lens());
     if (lens.k[0] == 0) {
         return "camera_info says that the camera was never calibrated: images are located without "
                "a "
@@ -143,6 +157,7 @@ std::string RobotLocator::take(const Lens& lens) {
     try {
         options_.camera = dotpose::parse_camera(camera_info_text(lens), "camera_info");
         has_lens_ = true;
+        lens_problem_.clear();
         restart();
     } catch (const dotpose::Error& error) {
         lens_problem_ = std::string("images are located without a lens: ") + error.what();
@@ -151,7 +166,7 @@ std::string RobotLocator::take(const Lens& lens) {
 }
 
 std::optional<ros::TransformStamped> RobotLocator::mount(std::int64_t time_ns) const {
-    if (!options_.camera) return std::nullopt;
+    if (!options_.camera || has_space_pose()) return std::nullopt;
     auto mount = ros::camera_mount(*options_.camera, messenger_.frames());
     if (mount) mount->header.stamp = ros::ros_time(time_ns);
     return mount;

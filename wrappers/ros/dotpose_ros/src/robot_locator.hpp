@@ -59,7 +59,11 @@ class RobotLocator {
     /// first time that it occurs. Otherwise, returns an empty string.
     std::string take(const Lens& lens);
 
-    /// Returns the mount of the camera, or none if it is not in the camera file.
+    /// Returns true if the camera has poses in space as soon as its lens is known.
+    bool has_space_pose() const { return options_.fits_space_pose; }
+
+    /// Returns the mount of the camera, or none if the camera file does not contain it, or if the
+    /// camera has poses in space.
     std::optional<dotpose::ros::TransformStamped> mount(std::int64_t time_ns) const;
 
   private:
@@ -70,7 +74,8 @@ class RobotLocator {
     dotpose::ros::RobotMessages without_image(std::int64_t time_ns, const std::string& problem);
     bool is_status_due(const std::string& status, std::int64_t arrival_ns);
     void require_size_of_lens(const RawImage& image) const;
-    void restart() { follower_.emplace(options_); }
+    std::string missing_lens() const;
+    void restart();
 
     dotpose::FollowerOptions options_;
     std::int64_t half_exposure_ns_;

@@ -1,0 +1,126 @@
+// Measures the errors of a camera that is tracked in space (docs/pose-in-space.md): rendered frames
+// of a moving and tilting camera. Prints a table in Markdown, and can replace it in the document.
+//
+//   dotpose_tables space_track [--frames N] [--seed S] [--threads N] [--update DOCUMENT]
+#include "dotpose/tools/space_track.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "space_view.hpp"
+#include "tables.hpp"
+
+namespace dotpose::tables {
+namespace {
+
+constexpr int kStart = 30;  ///< number of frames in which the tracker estimates the agility
+
+/// Returns the view of a camera in a hand that writes: 20 mm wide, with tilts up to 30 degrees.
+Shot hand_shot(const Shot& first, double t_s, std::uint64_t seed) {
+    Shot shot = first;
+    CameraPose& pose = shot.pose;
+    const double mm = shot.page.pattern.spacing_mm;
+    const double x = pose.fraction_x + (10 + 10 * std::sin(5.1 * t_s)) / mm;
+    const double y = pose.fraction_y + (10 + 8 * std::cos(4.3 * t_s)) / mm;
+    pose.cell.x += static_cast<std::uint32_t>(x);
+    pose.cell.y += static_cast<std::uint32_t>(y);
+    pose.fraction_x = x - std::floor(x);
+    pose.fraction_y = y - std::floor(y);
+    pose.theta_rad += 0.3 * std::sin(1.3 * t_s);
+    pose.tilt_x_rad = 0.25 + 0.2 * std::sin(2.1 * t_s);
+    pose.tilt_y_rad = 0.25 * std::cos(1.7 * t_s);
+    shot.seed = seed;
+    return shot;
+}
+
+struct TrackErrors {
+    std::uint64_t count = 0;
+    double position = 0;    ///< sum of squares, mm^2
+    double rotation = 0;    ///< sum of squares, rad^2
+    double normalised = 0;  ///< sum of the normalised squares of the six coordinates
+
+    void add(const CameraInSpace& camera, const SpaceCovariance& covariance,
+             const TrueSpacePose& truth) {
+        const SpaceVector error = space_error(camera, truth);
+        ++count;
+        position += error.head<3>().squaredNorm();
+        rotation += error.tail<3>().squaredNorm();
+        normalised += normalised_square(error, matrix_of(covariance)) / 6;
+    }
+    double mean(double sum) const { return sum / static_cast<double>(count); }
+    std::string text() const {
+        return fmt::format("{:.4f} | {:.4f} | {:.2f}", std::sqrt(mean(position)),
+                           std::sqrt(mean(rotation)) * 180 / std::numbers::pi, mean(normalised));
+    }
+};
+
+/// Tracks a sequence of sightings. Returns a row of the table.
+std::string row_text(double fps, const std::vector<Shot>& shots,
+                     const std::vector<std::optional<SpaceSighting>>& sightings) {
+    SpaceTracker tracker;
+    TrackErrors single;
+    TrackErrors tracked;
+    TrackErrors predicted;
+    int rejected = 0;
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+        const auto time_us = static_cast<std::int64_t>(std::llround(1e6 * double(i) / fps));
+        const auto ahead = tracker.predict(time_us);
+        const SpaceTrack& track =
+            sightings[i] ? tracker.update(*sightings[i]) : tracker.update(time_us);
+        rejected += track.verdict == SpaceVerdict::rejected ? 1 : 0;
+        if (i < kStart || track.is_lost || !ahead || !sightings[i]) continue;
+        const TrueSpacePose truth = true_space_pose(shots[i]);
+        single.add(sightings[i]->camera, sightings[i]->covariance, truth);
+        tracked.add(track.camera, track.covariance, truth);
+        predicted.add(ahead->camera, ahead->covariance, truth);
+    }
+    return fmt::format("| {} | {} of {} | {} | {} | {} | {} |\n", fps, single.count,
+                       shots.size() - kStart, rejected, single.text(), tracked.text(),
+                       predicted.text());
+}
+
+}  // namespace
+
+bool space_track_table(TableRun& run) {
+    std::uint64_t frames = 230;
+    run.add_count("--frames", frames, "Number of frames of each row");
+    run.add_seed();
+    run.add_threads();
+    run.add_update();
+    if (!run.parse()) return true;
+    std::string text =
+        "| frames/s | tracked | rejected | single frames: position, mm rms | rotation, degrees rms "
+        "| error² / variance | tracked: position | rotation | error² / variance | predicted by a "
+        "frame: position | rotation | error² / variance |\n"
+        "|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+    bool is_complete = true;
+    for (const double fps : {30.0, 60.0, 120.0}) {
+        const Shot first = space_shot(kSpaceLenses[1], 0, scramble(run.seed + 3000), 0);
+        std::vector<Shot> shots;
+        for (std::uint64_t i = 0; i < frames; ++i)
+            shots.push_back(hand_shot(first, static_cast<double>(i) / fps, scramble(i + 1)));
+        std::vector<std::optional<SpaceSighting>> sightings(frames);
+        struct Nothing {
+            void operator+=(const Nothing&) {}
+        };
+        const auto count = run.count<Nothing>(
+            fmt::format("{} frames/s", fps), frames, [&](std::uint64_t i, Nothing&) {
+                const SpaceReading reading(shots[i]);
+                const auto time_us = std::llround(1e6 * static_cast<double>(i) / fps);
+                if (reading.pose()) sightings[i] = sighting_of(*reading.pose(), time_us);
+            });
+        is_complete &= count.is_complete();
+        text += row_text(fps, shots, sightings);
+    }
+    run.print_block("space track", text);
+    run.update_document();
+    return is_complete;
+}
+
+}  // namespace dotpose::tables

@@ -1,0 +1,141 @@
+/// Tracker of a camera in space: smooths the poses of single frames, predicts the pose at other
+/// times, and rejects outliers and wrong second poses.
+///
+///     SpaceTracker tracker;
+///     for (;;) {
+///         const auto pose = space_pose(fix, camera, image, locator.trace());
+///         const SpaceTrack& track = pose ? tracker.update(sighting_of(*pose, time_us))
+///                                        : tracker.update(time_us);
+///     }
+///
+/// The motion model is that of Tracker (track.hpp): accelerations decay towards zero and are driven
+/// by white noise (Singer 1970). It applies to each axis of the position, and to each axis of the
+/// rotation in the camera frame. All poses are in one coordinate frame: the pattern, a sheet, or
+/// any other frame in mm.
+///
+/// The covariance of a track assumes that the errors of the frames are independent. Printing errors
+/// at one place are equal in all frames, so the covariance is too small while the camera rests.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "dotpose/export.hpp"
+#include "dotpose/tools/space_pose.hpp"
+
+DOTPOSE_BEGIN_EXPORT
+
+namespace dotpose {
+
+/// Pose of a camera in space, measured in one frame.
+struct SpaceSighting {
+    std::int64_t time_us = 0;  ///< middle of the exposure, on any clock
+    CameraInSpace camera;
+    SpaceCovariance covariance{};  ///< as in SpacePose
+    std::optional<SecondPose> second;
+    /// ID of the coordinate frame. Poses with different IDs are unrelated.
+    std::uint32_t plane = 0;
+};
+SpaceSighting sighting_of(const SpacePose& pose, std::int64_t time_us, std::uint32_t plane = 0);
+
+/// Limits on the motion of the camera, and criteria for accepting sightings.
+struct SpaceTrackOptions {
+    /// Standard deviation of the acceleration along each axis. The default is suitable for a hand.
+    double acceleration_mm_s2 = 2000;
+    double angular_acceleration_rad_s2 = 20;
+    double hold_s = 0.5;  ///< time constant of the decay of accelerations
+    /// Standard deviation of the velocities of a camera that is seen for the first time.
+    double speed_mm_s = 500;
+    double turn_rad_s = 5;
+    /// Maximum normalised squared innovation of the six coordinates of an accepted sighting. A
+    /// correct sighting exceeds the default by chance once in 10^7.
+    double max_innovation = 45;
+    /// Number of consecutive rejected sightings that are consistent with each other after which the
+    /// track starts again from the newest of them.
+    int confirmations = 3;
+    /// Time without an accepted sighting after which the camera is lost.
+    std::int64_t lost_after_us = 200'000;
+};
+
+/// What a tracker did with the pose of a frame.
+enum class SpaceVerdict : std::uint8_t {
+    none,             ///< there was no sighting
+    accepted,         ///< the first pose was used
+    second_accepted,  ///< the second pose was used, because the track contradicts the first pose
+    /// The sighting was rejected: the track contradicts it, or there is no track yet that could
+    /// resolve its ambiguity.
+    rejected,
+};
+/// Returns the identifier, such as "second_accepted".
+const char* name(SpaceVerdict verdict) noexcept;
+
+/// State of a tracked camera.
+struct SpaceTrack {
+    bool is_lost = true;
+    bool is_new = false;  ///< true if the track does not continue the previous track
+    SpaceVerdict verdict = SpaceVerdict::none;
+    std::int64_t time_us = 0;
+    std::uint32_t plane = 0;
+    CameraInSpace camera;
+    SpaceCovariance covariance{};  ///< as in SpacePose
+    std::array<double, 3> velocity_mm_s{};
+    std::array<double, 3> turn_rad_s{};  ///< angular velocity about the axes of the camera frame
+};
+
+/// Implementation details of SpaceTracker: the filter state. Not part of the public API.
+namespace space_track {
+
+inline constexpr std::size_t kStates = 18;
+
+/// Estimated motion. The elements are position and rotation, the velocities, and the accelerations:
+/// six each. Rotations are about the axes of the camera frame.
+struct Motion {
+    std::int64_t time_us = 0;
+    CameraInSpace camera;
+    std::array<double, 6> velocity{};      ///< mm/s, rad/s
+    std::array<double, 6> acceleration{};  ///< mm/s^2, rad/s^2
+    std::array<double, kStates * kStates> covariance{};
+    /// Process noise along each axis: the variance of new accelerations, relative to the variance
+    /// in the options.
+    std::array<double, 6> agility{1, 1, 1, 1, 1, 1};
+    std::array<double, 6> innovation{};  ///< of the latest accepted sighting
+};
+
+}  // namespace space_track
+
+/// Tracks one camera. Different trackers may be used concurrently.
+class SpaceTracker {
+  public:
+    explicit SpaceTracker(const SpaceTrackOptions& options = {}) : options_(options) {}
+
+    /// Takes the sighting of a frame. A sighting in another plane, or not later than the previous
+    /// frame, starts a new track.
+    const SpaceTrack& update(const SpaceSighting& sighting);
+    /// Takes a frame without a sighting.
+    const SpaceTrack& update(std::int64_t time_us);
+
+    /// Returns the track at a later time. The verdict is `none`. Returns none while the camera is
+    /// lost, or for an earlier time.
+    std::optional<SpaceTrack> predict(std::int64_t time_us) const;
+
+    const SpaceTrack& track() const { return track_; }
+
+  private:
+    void start(const SpaceSighting& sighting);
+    void reject(const SpaceSighting& sighting);
+    bool take(const SpaceSighting& sighting);
+
+    SpaceTrackOptions options_;
+    SpaceTrack track_;
+    space_track::Motion motion_;
+    std::int64_t accepted_us_ = 0;  ///< time of the latest accepted sighting
+    // Rejected sightings since then that are consistent with each other.
+    std::optional<SpaceSighting> rejected_;
+    int rejections_ = 0;
+};
+
+}  // namespace dotpose
+
+DOTPOSE_END_EXPORT

@@ -1,0 +1,319 @@
+// Kalman filter for the pose of a camera in space. The state is a pose on the manifold of
+// rotations, with velocities and accelerations. Errors are small vectors: rotations are multiplied
+// by the exponential of the error from the right (Sola, Deray, Atchuthan 2018).
+#include "dotpose/tools/space_track.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+namespace dotpose {
+
+using namespace space_track;
+
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector18 = Eigen::Matrix<double, 18, 1>;
+using Matrix18 = Eigen::Matrix<double, 18, 18>;
+
+/// Factors by which a sighting increases or decreases the agility. With equal factors, as in the
+/// tracker of the plane, the normalised squared errors of single axes are up to 1.4 at 200 frames
+/// per second (tests/unit/follow/space_track_test.cpp).
+constexpr double kAgilityIncrease = 1.57;
+constexpr double kAgilityDecrease = 1 / 1.5;
+constexpr double kMinAgility = 1e-6;
+/// Innovations above this number of standard deviations are not considered noise.
+constexpr double kSurprise = 4;
+/// Minimum difference of two normalised squared innovations. With a smaller difference, the track
+/// does not resolve an ambiguous sighting. The value is 2 ln of the likelihood ratio 1000.
+constexpr double kMinContrast = 13.8;
+
+Eigen::Map<const Vector6> vector_of(const std::array<double, 6>& values) {
+    return Eigen::Map<const Vector6>(values.data());
+}
+Eigen::Map<Vector6> vector_of(std::array<double, 6>& values) {
+    return Eigen::Map<Vector6>(values.data());
+}
+Eigen::Map<Matrix18> covariance_of(Motion& motion) {
+    return Eigen::Map<Matrix18>(motion.covariance.data());
+}
+Eigen::Map<const Matrix18> covariance_of(const Motion& motion) {
+    return Eigen::Map<const Matrix18>(motion.covariance.data());
+}
+
+Quaterniond rotation_of(const CameraInSpace& camera) {
+    const Quaternion& q = camera.rotation;
+    return {q.w, q.x, q.y, q.z};
+}
+
+Quaterniond exponential(const Vector3d& vector) {
+    const double angle = vector.norm();
+    if (angle < 1e-12) return Quaterniond(1, vector.x() / 2, vector.y() / 2, vector.z() / 2);
+    return Quaterniond(Eigen::AngleAxisd(angle, vector / angle));
+}
+
+Vector3d logarithm(const Quaterniond& rotation) {
+    const Eigen::AngleAxisd turn(rotation);
+    return std::remainder(turn.angle(), 2 * std::numbers::pi) * turn.axis();
+}
+
+/// Adds a step of position and rotation to a pose.
+void move(CameraInSpace& camera, const Vector6& step) {
+    camera.x_mm += step[0];
+    camera.y_mm += step[1];
+    camera.z_mm += step[2];
+    Quaterniond rotation = (rotation_of(camera) * exponential(step.tail<3>())).normalized();
+    if (rotation.w() < 0) rotation.coeffs() = -rotation.coeffs();
+    camera.rotation = {rotation.w(), rotation.x(), rotation.y(), rotation.z()};
+}
+
+/// Returns b - a.
+Vector6 difference(const CameraInSpace& a, const CameraInSpace& b) {
+    Vector6 result;
+    result << b.x_mm - a.x_mm, b.y_mm - a.y_mm, b.z_mm - a.z_mm,
+        logarithm(rotation_of(a).conjugate() * rotation_of(b));
+    return result;
+}
+
+double spread(Eigen::Index axis, const SpaceTrackOptions& options) {
+    return axis < 3 ? options.acceleration_mm_s2 : options.angular_acceleration_rad_s2;
+}
+
+Matrix6 noise_of(const SpaceSighting& sighting) {
+    Matrix6 noise;
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t j = 0; j < 6; ++j)
+            noise(Eigen::Index(i), Eigen::Index(j)) = sighting.covariance[i][j];
+    }
+    return noise;
+}
+
+Motion started_at(const SpaceSighting& sighting, const SpaceTrackOptions& options) {
+    Motion motion;
+    motion.time_us = sighting.time_us;
+    motion.camera = sighting.camera;
+    auto covariance = covariance_of(motion);
+    covariance.topLeftCorner<6, 6>() = noise_of(sighting);
+    for (Eigen::Index i = 0; i < 6; ++i) {
+        const double speed = i < 3 ? options.speed_mm_s : options.turn_rad_s;
+        covariance(6 + i, 6 + i) = speed * speed;
+        covariance(12 + i, 12 + i) = spread(i, options) * spread(i, options);
+    }
+    return motion;
+}
+
+/// Predicts the state at a later time. Assumes constant acceleration over the interval.
+Motion predicted(const Motion& motion, std::int64_t time_us, const SpaceTrackOptions& options) {
+    const double dt_s = static_cast<double>(time_us - motion.time_us) * 1e-6;
+    const double kept = options.hold_s / (options.hold_s + dt_s);
+    Motion later = motion;
+    later.time_us = time_us;
+    vector_of(later.acceleration) *= kept;
+    const Vector6 step =
+        dt_s * vector_of(motion.velocity) + dt_s * dt_s / 2 * vector_of(later.acceleration);
+    vector_of(later.velocity) += dt_s * vector_of(later.acceleration);
+    move(later.camera, step);
+    Matrix18 by_state = Matrix18::Identity();
+    by_state.block<3, 3>(3, 3) = exponential(step.tail<3>()).conjugate().toRotationMatrix();
+    by_state.block<6, 6>(0, 6) = dt_s * Matrix6::Identity();
+    by_state.block<6, 6>(0, 12) = dt_s * dt_s / 2 * kept * Matrix6::Identity();
+    by_state.block<6, 6>(6, 12) = dt_s * kept * Matrix6::Identity();
+    by_state.block<6, 6>(12, 12) *= kept;
+    auto covariance = covariance_of(later);
+    covariance = (by_state * covariance * by_state.transpose()).eval();
+    const Vector3d effect(dt_s * dt_s / 2, dt_s, 1);
+    for (Eigen::Index axis = 0; axis < 6; ++axis) {
+        const double variance = motion.agility[static_cast<std::size_t>(axis)] *
+                                spread(axis, options) * spread(axis, options) * (1 - kept * kept);
+        for (Eigen::Index i = 0; i < 3; ++i) {
+            for (Eigen::Index j = 0; j < 3; ++j)
+                covariance(6 * i + axis, 6 * j + axis) += variance * effect[i] * effect[j];
+        }
+    }
+    return later;
+}
+
+/// Returns the normalised squared innovation of a pose, for a camera that manoeuvres.
+double squared_innovation(const Motion& motion, const SpaceSighting& sighting,
+                          const CameraInSpace& camera, const SpaceTrackOptions& options) {
+    Motion agile = motion;
+    agile.agility.fill(1);
+    agile = predicted(agile, sighting.time_us, options);
+    const Matrix6 covariance =
+        covariance_of(std::as_const(agile)).topLeftCorner<6, 6>() + noise_of(sighting);
+    const Vector6 innovation = difference(agile.camera, camera);
+    return innovation.dot(covariance.ldlt().solve(innovation));
+}
+
+/// Adapts the agility to an innovation. Consecutive innovations have equal signs as often as
+/// opposite signs if the noise of the filter is correct.
+void adapt(Motion& motion, const Vector6& innovation, const Matrix6& covariance) {
+    for (std::size_t i = 0; i < 6; ++i) {
+        const auto axis = static_cast<Eigen::Index>(i);
+        const double product = innovation[axis] * motion.innovation[i];
+        double& agility = motion.agility[i];
+        if (product != 0) agility *= product > 0 ? kAgilityIncrease : kAgilityDecrease;
+        const bool is_surprise =
+            innovation[axis] * innovation[axis] > kSurprise * kSurprise * covariance(axis, axis);
+        agility = is_surprise ? 1 : std::clamp(agility, kMinAgility, 1.0);
+        motion.innovation[i] = innovation[axis];
+    }
+}
+
+/// Corrects a prediction by a sighting.
+void correct(Motion& motion, const CameraInSpace& camera, const Matrix6& noise) {
+    auto covariance = covariance_of(motion);
+    const Matrix6 s = covariance.topLeftCorner<6, 6>() + noise;
+    const Eigen::Matrix<double, 18, 6> gain = s.ldlt().solve(covariance.topRows<6>()).transpose();
+    const Vector18 step = gain * difference(motion.camera, camera);
+    move(motion.camera, step.head<6>());
+    vector_of(motion.velocity) += step.segment<6>(6);
+    vector_of(motion.acceleration) += step.tail<6>();
+    Matrix18 kept = Matrix18::Identity();
+    kept.leftCols<6>() -= gain;
+    covariance = (kept * covariance * kept.transpose() + gain * noise * gain.transpose()).eval();
+}
+
+/// Returns the state of a motion. The verdict is `none`.
+SpaceTrack track_of(const Motion& motion, std::uint32_t plane) {
+    SpaceTrack track;
+    track.is_lost = false;
+    track.time_us = motion.time_us;
+    track.plane = plane;
+    track.camera = motion.camera;
+    const auto covariance = covariance_of(motion);
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t j = 0; j < 6; ++j)
+            track.covariance[i][j] = covariance(Eigen::Index(i), Eigen::Index(j));
+    }
+    std::copy_n(motion.velocity.begin(), 3, track.velocity_mm_s.begin());
+    std::copy_n(motion.velocity.begin() + 3, 3, track.turn_rad_s.begin());
+    return track;
+}
+
+bool is_ambiguous(const SpaceSighting& sighting) {
+    return sighting.second && sighting.second->odds_log2 > SpacePose::kMaxOdds_log2;
+}
+
+}  // namespace
+
+SpaceSighting sighting_of(const SpacePose& pose, std::int64_t time_us, std::uint32_t plane) {
+    return {time_us, pose.camera, pose.covariance, pose.second, plane};
+}
+
+const char* name(SpaceVerdict verdict) noexcept {
+    switch (verdict) {
+        case SpaceVerdict::accepted:
+            return "accepted";
+        case SpaceVerdict::second_accepted:
+            return "second_accepted";
+        case SpaceVerdict::rejected:
+            return "rejected";
+        default:
+            return "none";
+    }
+}
+
+const SpaceTrack& SpaceTracker::update(const SpaceSighting& sighting) {
+    const bool continues = !track_.is_lost && sighting.plane == track_.plane &&
+                           sighting.time_us > track_.time_us &&
+                           sighting.time_us - accepted_us_ <= options_.lost_after_us;
+    if (!continues) {
+        track_ = SpaceTrack{};
+        track_.time_us = sighting.time_us;
+        start(sighting);
+        return track_;
+    }
+    if (!take(sighting)) reject(sighting);
+    return track_;
+}
+
+const SpaceTrack& SpaceTracker::update(std::int64_t time_us) {
+    const bool is_lost = track_.is_lost || time_us < track_.time_us ||
+                         time_us - accepted_us_ > options_.lost_after_us;
+    if (is_lost) {
+        track_ = SpaceTrack{};
+        track_.time_us = time_us;
+    } else {
+        track_ = track_of(predicted(motion_, time_us, options_), track_.plane);
+    }
+    return track_;
+}
+
+/// Starts a track, unless the sighting is ambiguous.
+void SpaceTracker::start(const SpaceSighting& sighting) {
+    rejected_.reset();
+    rejections_ = 0;
+    if (is_ambiguous(sighting)) {
+        track_.verdict = SpaceVerdict::rejected;
+        return;
+    }
+    motion_ = started_at(sighting, options_);
+    accepted_us_ = sighting.time_us;
+    track_ = track_of(motion_, sighting.plane);
+    track_.is_new = true;
+    track_.verdict = SpaceVerdict::accepted;
+}
+
+/// Corrects the track by the pose that the track supports. Returns false if there is none.
+bool SpaceTracker::take(const SpaceSighting& sighting) {
+    const double first = squared_innovation(motion_, sighting, sighting.camera, options_);
+    SpaceVerdict verdict = SpaceVerdict::accepted;
+    CameraInSpace camera = sighting.camera;
+    double taken = first;
+    if (is_ambiguous(sighting)) {
+        const double second =
+            squared_innovation(motion_, sighting, sighting.second->camera, options_);
+        // Twice the natural logarithm of the ratio of the likelihoods of the first and the second
+        // pose.
+        const double contrast = second - first - 2 * std::numbers::ln2 * sighting.second->odds_log2;
+        if (std::abs(contrast) < kMinContrast) return false;
+        if (contrast < 0) {
+            verdict = SpaceVerdict::second_accepted;
+            camera = sighting.second->camera;
+            taken = second;
+        }
+    }
+    if (taken > options_.max_innovation) return false;
+    const Matrix6 noise = noise_of(sighting);
+    const Motion guess = predicted(motion_, sighting.time_us, options_);
+    const Matrix6 covariance = covariance_of(guess).topLeftCorner<6, 6>() + noise;
+    adapt(motion_, difference(guess.camera, camera), covariance);
+    motion_ = predicted(motion_, sighting.time_us, options_);
+    correct(motion_, camera, noise);
+    accepted_us_ = sighting.time_us;
+    rejected_.reset();
+    rejections_ = 0;
+    track_ = track_of(motion_, sighting.plane);
+    track_.verdict = verdict;
+    return true;
+}
+
+/// Counts rejected sightings that are consistent with each other. After enough of them, starts
+/// again.
+void SpaceTracker::reject(const SpaceSighting& sighting) {
+    update(sighting.time_us);
+    track_.verdict = SpaceVerdict::rejected;
+    if (is_ambiguous(sighting)) return;
+    const bool is_consistent =
+        rejected_ && squared_innovation(started_at(*rejected_, options_), sighting, sighting.camera,
+                                        options_) <= options_.max_innovation;
+    rejections_ = is_consistent ? rejections_ + 1 : 1;
+    rejected_ = sighting;
+    if (rejections_ >= options_.confirmations) start(sighting);
+}
+
+std::optional<SpaceTrack> SpaceTracker::predict(std::int64_t time_us) const {
+    if (track_.is_lost || time_us < motion_.time_us) return std::nullopt;
+    return track_of(predicted(motion_, time_us, options_), track_.plane);
+}
+
+}  // namespace dotpose

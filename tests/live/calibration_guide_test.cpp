@@ -1,0 +1,111 @@
+// Tests the calibration of the page with commands and sheets that arrive during a calculation.
+#include "calibration_guide.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "../drive.hpp"
+#include "../temporary_directory.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Waits until the state of a guide satisfies a condition.
+testing::AssertionResult reaches(const CalibrationGuide& guide,
+                                 const std::function<bool(const GuideState&)>& condition) {
+    const auto end = std::chrono::steady_clock::now() + 60s;
+    while (std::chrono::steady_clock::now() < end) {
+        if (condition(guide.state())) return testing::AssertionSuccess();
+        std::this_thread::sleep_for(1ms);
+    }
+    return testing::AssertionFailure() << name(guide.state().phase) << guide.state().problem;
+}
+
+/// Returns a condition for `reaches`.
+std::function<bool(const GuideState&)> is_in(GuidePhase phase) {
+    return [phase](const GuideState& state) { return state.phase == phase; };
+}
+
+/// Returns the sheet of the frames, printed with this scale.
+std::vector<SheetEntry> sheets_with_scale(double print_scale) {
+    std::vector<SheetEntry> sheets = {test::drive_sheets().front()};
+    sheets[0].print_scale_x = sheets[0].print_scale_y = print_scale;
+    return sheets;
+}
+
+/// Returns frames of a mounted camera at different places of the sheet.
+std::vector<capture::Frame> frames_of_sheet() {
+    const Sheet sheet = test::drive_sheets().front().sheet;
+    std::vector<capture::Frame> frames;
+    for (std::uint32_t i = 0; i < 5; ++i) {
+        CameraPose pose;
+        pose.cell = {sheet.origin.x + 100 + 40 * i, sheet.origin.y + 100 + 30 * (i % 3)};
+        pose.theta_rad = 1.3 * i;
+        capture::Frame& frame = frames.emplace_back();
+        frame.image =
+            render(page_of(sheet), CameraModel{}, pose, test::DriveCamera::nominal(), 1 + i);
+        frame.index = i;
+        frame.file = std::to_string(i);  // frames of files are of a camera at rest
+    }
+    return frames;
+}
+
+/// Starts the step `lens`, and offers each frame until it is taken.
+void collect(CalibrationGuide& guide, const std::vector<capture::Frame>& frames) {
+    // Waits until the earlier commands were obeyed, because the guide ignores commands while eight
+    // others wait.
+    ASSERT_TRUE(reaches(guide, [&](const GuideState& state) {
+        guide.cancel();
+        return state.phase == GuidePhase::idle;
+    }));
+    guide.start(GuideStep::lens);
+    ASSERT_TRUE(reaches(guide, [](const GuideState& state) {
+        return state.phase == GuidePhase::collecting && state.frames == 0;
+    }));
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        ASSERT_TRUE(reaches(guide, [&](const GuideState& state) {
+            guide.take(frames[i], Reading{}, frames[i].image.view(), 0);
+            return state.frames > static_cast<int>(i);
+        }));
+    }
+}
+
+TEST(CalibrationGuide, TakesNewSheetsWhileCommandsWait) {
+    const test::TemporaryDirectory folder;
+    GuideOptions options;
+    options.file = (folder.path() / "camera.yaml").string();
+    options.calibrate.sheets = sheets_with_scale(1);
+    CalibrationGuide guide(options);
+    const std::vector<capture::Frame> frames = frames_of_sheet();
+    ASSERT_NO_FATAL_FAILURE(collect(guide, frames));
+    guide.finish();
+    ASSERT_TRUE(reaches(guide, is_in(GuidePhase::solving)));
+    // The guide accepts eight waiting commands of the page, and ignores further commands.
+    for (int i = 0; i < 8; ++i)
+        guide.save();
+    guide.set_sheets(sheets_with_scale(1.02));
+    ASSERT_EQ(guide.state().phase, GuidePhase::solving) << "the commands did not wait";
+    ASSERT_TRUE(reaches(guide, is_in(GuidePhase::saved)));
+    const std::optional<Camera> first = guide.take_camera();
+    ASSERT_TRUE(first && first->paper);
+    EXPECT_NEAR(first->paper->mm_per_px_x, CameraModel{}.mm_per_px, 1e-4);
+
+    ASSERT_NO_FATAL_FAILURE(collect(guide, frames));
+    guide.finish();
+    ASSERT_TRUE(reaches(guide, is_in(GuidePhase::solved)));
+    const Camera second = guide.state().result->camera;
+    ASSERT_TRUE(second.paper);
+    EXPECT_NEAR(second.paper->mm_per_px_x, 1.02 * first->paper->mm_per_px_x, 1e-6);
+}
+
+}  // namespace
+}  // namespace dotpose::cli

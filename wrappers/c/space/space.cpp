@@ -1,0 +1,155 @@
+// Poses in space for C. Exceptions of the C++ library become statuses.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <new>
+
+#include "../locator.hpp"
+#include "dotpose/tools/space_pose.hpp"
+#include "dotpose_space.h"
+
+namespace {
+
+using namespace dotpose;
+
+/// Returns OK if the struct has the size of its only version.
+template <typename Struct>
+dotpose_status check_size(const Struct* given) {
+    if (given == nullptr) return DOTPOSE_NULL_POINTER;
+    return given->size == sizeof(Struct) ? DOTPOSE_OK : DOTPOSE_BAD_SIZE;
+}
+
+/// Zeroes a struct and sets its size.
+template <typename Struct>
+dotpose_status init(Struct* given, std::size_t bytes) {
+    if (given == nullptr) return DOTPOSE_NULL_POINTER;
+    if (bytes != sizeof(Struct)) return DOTPOSE_BAD_SIZE;
+    *given = Struct{};
+    given->size = sizeof(Struct);
+    return DOTPOSE_OK;
+}
+
+/// Converts a camera. Throws BadArgument for values out of their range.
+Camera camera_of(const dotpose_space_camera& given) {
+    Camera camera;
+    camera.width_px = given.width_px;
+    camera.height_px = given.height_px;
+    camera.k_per_px2 = given.lens_k_per_px2;
+    camera.centre_px = {given.lens_centre_u_px, given.lens_centre_v_px};
+    camera.pinhole =
+        Pinhole{given.focal_u_px, given.focal_v_px, {given.axis_u_px, given.axis_v_px}};
+    if (!(given.print_scale > 0.1 && given.print_scale < 10)) throw BadArgument("print_scale");
+    validate(camera);
+    return camera;
+}
+
+void copy(const Quaternion& q, double* xyzw) {
+    xyzw[0] = q.x;
+    xyzw[1] = q.y;
+    xyzw[2] = q.z;
+    xyzw[3] = q.w;
+}
+
+void give(const SpacePose& pose, dotpose_space_pose& result) {
+    init(&result, sizeof result);
+    result.dots = pose.dots;
+    result.is_ambiguous = pose.is_ambiguous() ? 1 : 0;
+    result.has_second = pose.second ? 1 : 0;
+    result.x_mm = pose.camera.x_mm;
+    result.y_mm = pose.camera.y_mm;
+    result.z_mm = pose.camera.z_mm;
+    copy(pose.camera.rotation, result.quaternion_xyzw);
+    const CameraLean lean = lean_of(pose.camera.rotation);
+    result.tilt_rad = lean.tilt_rad;
+    result.azimuth_rad = lean.azimuth_rad;
+    result.turn_rad = lean.turn_rad;
+    double* next = result.covariance_mm_rad;
+    for (const auto& row : pose.covariance)
+        next = std::copy(row.begin(), row.end(), next);
+    result.residual_px = pose.residual_px;
+    if (!pose.second) return;
+    const CameraInSpace& second = pose.second->camera;
+    result.second_odds = std::exp2(pose.second->odds_log2);
+    result.second_position_mm[0] = second.x_mm;
+    result.second_position_mm[1] = second.y_mm;
+    result.second_position_mm[2] = second.z_mm;
+    copy(second.rotation, result.second_quaternion_xyzw);
+}
+
+/// Returns OK if the locator can give the dots of its last image. The shared library of dotpose_c
+/// hides its internal functions, so they cannot be used here.
+dotpose_status check_locator(const dotpose_locator* locator) {
+    if (locator == nullptr) return DOTPOSE_NULL_POINTER;
+    if (locator->mark != c::kLocatorMark) return DOTPOSE_NOT_INITIALIZED;
+    const bool has_dots = locator->actions->locate_in_code != nullptr &&
+                          locator->locator->trace().options.show_stages;
+    return has_dots ? DOTPOSE_OK : DOTPOSE_WRONG_KIND;
+}
+
+dotpose_status check_image(const ImageView& image, const dotpose_space_camera& camera) {
+    if (image.pixels == nullptr) return DOTPOSE_NULL_POINTER;
+    if (image.width_px != camera.width_px || image.height_px != camera.height_px)
+        return DOTPOSE_BAD_VALUE;
+    const bool overlaps =
+        image.stride_bytes > -image.width_px && image.stride_bytes < image.width_px;
+    return overlaps ? DOTPOSE_BAD_STRIDE : DOTPOSE_OK;
+}
+
+}  // namespace
+
+extern "C" {
+
+dotpose_status dotpose_space_camera_init(dotpose_space_camera* camera, size_t bytes,
+                                         int32_t width_px, int32_t height_px, double focal_px) {
+    const dotpose_status status = init(camera, bytes);
+    if (status != DOTPOSE_OK) return status;
+    camera->width_px = width_px;
+    camera->height_px = height_px;
+    camera->focal_u_px = camera->focal_v_px = focal_px;
+    camera->axis_u_px = camera->lens_centre_u_px = (width_px - 1) / 2.0;
+    camera->axis_v_px = camera->lens_centre_v_px = (height_px - 1) / 2.0;
+    camera->print_scale = 1;
+    return DOTPOSE_OK;
+}
+
+dotpose_status dotpose_space_use_camera(const dotpose_space_camera* camera,
+                                        dotpose_options* options) {
+    const dotpose_status status = check_size(camera);
+    if (status != DOTPOSE_OK) return status;
+    if (options == nullptr) return DOTPOSE_NULL_POINTER;
+    options->lens_k_per_px2 = camera->lens_k_per_px2;
+    options->lens_centre_dx_px = camera->lens_centre_u_px - (camera->width_px - 1) / 2.0;
+    options->lens_centre_dy_px = camera->lens_centre_v_px - (camera->height_px - 1) / 2.0;
+    options->show_stages = 1;
+    return DOTPOSE_OK;
+}
+
+dotpose_status dotpose_space_pose_init(dotpose_space_pose* pose, size_t bytes) {
+    return init(pose, bytes);
+}
+
+dotpose_status dotpose_space_fit(const dotpose_locator* locator, const dotpose_space_camera* camera,
+                                 const uint8_t* pixels, int32_t width_px, int32_t height_px,
+                                 ptrdiff_t stride_bytes, dotpose_space_pose* pose) {
+    dotpose_status status = check_locator(locator);
+    if (status == DOTPOSE_OK) status = check_size(camera);
+    if (status == DOTPOSE_OK) status = check_size(pose);
+    const ImageView image = {pixels, width_px, height_px, stride_bytes};
+    if (status == DOTPOSE_OK) status = check_image(image, *camera);
+    if (status != DOTPOSE_OK) return status;
+    try {
+        const Camera view = camera_of(*camera);
+        const Trace trace = locator->locator->trace();
+        if (!trace.fix || trace.fix.spacing_nm <= 0) return DOTPOSE_NO_FIX;
+        const auto found =
+            space_pose(trace.fix, view, image, trace, {camera->print_scale, camera->print_scale});
+        if (!found) return DOTPOSE_TOO_FEW_DOTS;
+        give(*found, *pose);
+        return DOTPOSE_OK;
+    } catch (const std::bad_alloc&) {
+        return DOTPOSE_OUT_OF_MEMORY;
+    } catch (const Error&) {
+        return DOTPOSE_BAD_VALUE;
+    }
+}
+}
