@@ -51,12 +51,7 @@ class Cascade {
   public:
     Cascade(const ImageView& image, const DeviceOptions& options, const PossibleCodes& codes,
             const CodeEvidence& evidence, DesktopWorkspace& w)
-        : image_(image),
-          options_(options),
-          codes_(codes),
-          evidence_(evidence),
-          w_(w),
-          second_(image, w) {}
+        : image_(image), options_(options), codes_(codes), evidence_(evidence), w_(w), second_(w) {}
 
     /// Returns the fix. The workspace contains the fix and the results of the stages.
     CodeReading locate(const Prediction* prediction) {
@@ -65,8 +60,8 @@ class Cascade {
         const CodeVariant predicted = options_.code;
         if (prediction != nullptr && attempt(Step::tracked, predicted)) {
             const Judgement judgement = judge(predicted);
-            const bool needs_turn = judgement.is_certain && prediction->readout_turn_rad == 0 &&
-                                    shows_turn(kernels(), image_, options_, w_);
+            const bool needs_turn =
+                judgement.is_certain && prediction->readout_turn_rad == 0 && shows_turn();
             if (judgement.is_certain && !needs_turn) return accept(predicted, judgement);
             if (needs_turn && attempt(Step::turning, predicted)) {
                 const Judgement turned = judge(predicted);
@@ -106,7 +101,7 @@ class Cascade {
         for (const Step step : steps) {
             for (const CodeVariant code : worth_trying(step)) {
                 if (!attempt(step, code)) {
-                    shows_too_few_cells |= w_.shows_too_few_cells;
+                    shows_too_few_cells |= w_.measurement.shows_too_few_cells;
                     // A failed search for a rotation does not determine the status of the frame.
                     if (code == codes_.likeliest() && step != Step::turning) failure = w_.fix;
                     if (step > Step::turning && !leaves_code_open(w_.fix.status)) break;
@@ -144,30 +139,37 @@ class Cascade {
         // codes are possible, each bound is multiplied by the number of codes, weighted by their
         // odds.
         if (!codes_.is_known()) others.log2_in_question_q8 = log2_of_odds_q8(codes_.number(code));
+        const Frame frame = this->frame();
         switch (step) {
             case Step::tracked:
                 return prediction_->readout_turn_rad == 0
-                           ? locate_tracked(kernels(), image_, options_, *prediction_, w_)
-                           : locate_tracked_turning(kernels(), image_, options_, *prediction_, w_);
+                           ? locate_tracked(frame, *prediction_, w_)
+                           : locate_tracked_turning(frame, *prediction_, w_);
             case Step::first:
-                return locate_first(kernels(), image_, options_, w_);
+                return locate_first(frame, w_);
             case Step::turning:
-                return locate_turning(kernels(), image_, options_, w_);
+                return locate_turning(frame, w_);
             case Step::second:
-                return attempt_second(code);
+                return attempt_second(frame);
             case Step::resampled:
-                return second_.read(options_, SecondAttempt::Resampling::if_doubtful);
+                return second_.read(frame, SecondAttempt::Resampling::if_doubtful);
             case Step::device:
                 return attempt_as_device(code);
         }
         return false;
     }
 
-    bool attempt_second(CodeVariant code) {
-        if (second_.read(options_, SecondAttempt::Resampling::never)) return true;
+    Frame frame() const { return w_.frame(kernels(), image_, options_); }
+
+    bool shows_turn() {
+        return core::shows_turn(frame(), w_.fix, w_.rolling_pixels, w_.measurement);
+    }
+
+    bool attempt_second(const Frame& frame) {
+        if (second_.read(frame, SecondAttempt::Resampling::never)) return true;
         if (w_.fix.status == Status::not_certain && w_.fix.bit_errors < min_errors_) {
             min_errors_ = w_.fix.bit_errors;
-            worth_resampling_ = code;
+            worth_resampling_ = frame.options.code;
         }
         return false;
     }
@@ -200,7 +202,7 @@ class Cascade {
         if (step == Step::first) {
             const CodeVariant best = code;
             const bool may_be_better = is_rough(w_.fix) && may_try_twice();
-            const bool needs_turn = shows_turn(kernels(), image_, options_, w_);
+            const bool needs_turn = shows_turn();
             const bool is_better = (needs_turn && remake(Step::turning, best)) ||
                                    (may_be_better && remake(Step::resampled, best));
             if ((needs_turn || may_be_better) && !is_better) remake(step, best);
@@ -260,7 +262,7 @@ class Cascade {
 CodeReading locate_checked(const ImageView& image, const DeviceOptions& options,
                            const Prediction* prediction, const PossibleCodes& codes,
                            const CodeEvidence& evidence, DesktopWorkspace& w) {
-    w.is_mirrored = false;
+    w.is_mirrored = w.measurement.shows_too_few_cells = false;
     CodeReading reading = Cascade(image, options, codes, evidence, w).locate(prediction);
     // Reports `mirrored` if any attempt found the mirrored code, even if a later attempt failed for
     // another reason.
