@@ -6,11 +6,10 @@
 #include <span>
 
 #include "core/integrity/possible_codes.hpp"
-#include "core/other_codes.hpp"
 #include "dotpose/device_options.hpp"
-#include "dotpose/fix.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/prediction.hpp"
+#include "dotpose/status.hpp"
 #include "locate/frame.hpp"
 #include "locate/second.hpp"
 #include "locate/workspace.hpp"
@@ -44,10 +43,6 @@ class Attempts {
     /// Returns true if the options allow a second attempt and the image is large enough for one.
     bool may_try_twice() const;
 
-    /// Returns the fix of the last attempt, or the reason why there is none.
-    const Fix& fix() const { return w_.fix; }
-    /// Returns the odds of the other codes for the fix of the last attempt.
-    const OtherCodes& other_codes() const { return w_.other_codes; }
     /// Returns the certainty of the fix of the last attempt, which was read in the code `read`.
     Judgement judge(CodeVariant read) const;
     /// Returns true if a rotation during the readout may explain the residuals of the fix.

@@ -182,27 +182,6 @@ struct Reach {
     void grow() { now = std::min(now * tuned::kFarther, now < deciding ? deciding : full); }
 };
 
-}  // namespace
-
-bool is_rough(const Fix& fix) {
-    const float spacing_px = static_cast<float>(fix.spacing_px_q16) / 65536.0F;
-    return fix.residual_px >= std::max(tuned::kRough_px, tuned::kRough * spacing_px);
-}
-
-bool is_plausible(const ImageView& image, const FloatPlane& plane) {
-    return is_within_reason(plane, static_cast<float>(image.width_px) / 2,
-                            static_cast<float>(image.height_px) / 2);
-}
-
-bool is_implausible(const PoseFit& fit, int bits, int bit_errors) {
-    if (fit.displacement <= 0) return true;
-    const float scatter = std::sqrt(fit.variance) / fit.displacement;
-    const float contradicted = static_cast<float>(bit_errors) / static_cast<float>(bits);
-    return scatter + contradicted > tuned::kMaxImplausible;
-}
-
-namespace {
-
 /// Corrects biases, fits the rotation during the readout if a rotation was removed from the image,
 /// tests for uneven paper, and writes the results. Returns implausible if the rotation cannot be
 /// fitted or the fitted plane is not plausible, and uncertain if the fit does not explain the frame
@@ -294,6 +273,23 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
 }
 
 }  // namespace
+
+bool is_rough(const Fix& fix) {
+    const float spacing_px = static_cast<float>(fix.spacing_px_q16) / 65536.0F;
+    return fix.residual_px >= std::max(tuned::kRough_px, tuned::kRough * spacing_px);
+}
+
+bool is_plausible(const ImageView& image, const FloatPlane& plane) {
+    return is_within_reason(plane, static_cast<float>(image.width_px) / 2,
+                            static_cast<float>(image.height_px) / 2);
+}
+
+bool is_implausible(const PoseFit& fit, int bits, int bit_errors) {
+    if (fit.displacement <= 0) return true;
+    const float scatter = std::sqrt(fit.variance) / fit.displacement;
+    const float contradicted = static_cast<float>(bit_errors) / static_cast<float>(bits);
+    return scatter + contradicted > tuned::kMaxImplausible;
+}
 
 Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvidence& evidence,
                      Measurement& measurement, Fix& fix) {

@@ -42,11 +42,10 @@ class Cascade {
     /// Locates the frame. The arguments of the constructor must be valid.
     CodeReading locate(const Prediction* prediction) {
         w_.is_mirrored = w_.measurement.shows_too_few_cells = false;
-        CodeReading reading;
-        if (!track(prediction, reading)) {
-            reading = locate_without_prediction();
-            if (leaves_code_open(reading.fix.status)) add_evidence_of_another_sheet(reading);
-        }
+        const auto tracked = track(prediction);
+        CodeReading reading =
+            tracked ? accept(options_.code, *tracked) : locate_without_prediction();
+        if (leaves_code_open(reading.fix.status)) add_evidence_of_another_sheet(reading);
         // Reports `mirrored` if any attempt found the mirrored code, even if a later attempt failed
         // for another reason.
         if (reading.fix.status != Status::ok && w_.is_mirrored)
@@ -58,19 +57,18 @@ class Cascade {
     }
 
   private:
-    /// Makes the tracked attempt. Searches for a rotation if the residuals show one. Returns true
-    /// if there is a certain fix.
-    bool track(const Prediction* prediction, CodeReading& reading) {
+    /// Makes the tracked attempt. Searches for a rotation if the residuals show one. Returns
+    /// nullopt if there is no certain fix.
+    std::optional<Judgement> track(const Prediction* prediction) {
+        if (prediction == nullptr || options_.effort == Effort::device) return {};
         const CodeVariant code = options_.code;
-        if (prediction == nullptr || options_.effort == Effort::device) return false;
-        if (!attempts_.track(*prediction)) return false;
+        if (!attempts_.track(*prediction)) return {};
         Judgement judgement = attempts_.judge(code);
         if (judgement.is_certain && prediction->readout_turn_rad == 0 && attempts_.shows_turn()) {
-            if (!attempts_.make(Step::turning, code)) return false;
+            if (!attempts_.make(Step::turning, code)) return {};
             judgement = attempts_.judge(code);
         }
-        if (judgement.is_certain) reading = accept(code, judgement);
-        return judgement.is_certain;
+        return judgement.is_certain ? std::optional(judgement) : std::nullopt;
     }
 
     CodeReading locate_without_prediction() {

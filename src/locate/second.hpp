@@ -2,6 +2,8 @@
 // all dots, and reads the bits of each cell.
 #pragma once
 
+#include "core/decode/nominal.hpp"
+#include "core/pose/refine_pose.hpp"
 #include "locate/frame.hpp"
 #include "locate/workspace.hpp"
 
@@ -23,6 +25,14 @@ class SecondAttempt {
     bool read(const Frame& frame, Resampling resampling);
 
   private:
+    Status read_filtered(const Frame& frame);
+    Status read_filtered_with(const DeviceOptions& filtered, const ImageView& image);
+    Status find_grid(const LatticeOptions& options, FixedVec centre_q8);
+    Status read_position(const PlaceEvidence& evidence);
+    Status resample(const Frame& frame, const PlaceEvidence& evidence);
+    Status measure_pose(const Frame& frame);
+    bool fit_pattern(const Frame& frame, const Nominal& nominal, PoseFit& fit);
+
     DesktopWorkspace& w_;
     bool is_seen_ = false;  ///< true if the workspace contains the dots and cells of the filtered
                             ///< image

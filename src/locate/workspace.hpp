@@ -72,18 +72,10 @@ class WorkspaceOf : public DesktopWorkspace {
         pushed.memory = pushed_;
         rolling_pixels = rolling_;
         patch = &patch_;
-        MeasuredDots& measured = measurement.dots;
-        measured.column = floats_[0];
-        measured.row = floats_[1];
-        measured.x = floats_[2];
-        measured.y = floats_[3];
-        measured.bits = ints_[0];
-        measured.window_u = ints_[1];
-        measured.window_v = ints_[2];
-        measured.mass = ints_[3];
-        measured.sum_u = ints_[4];
-        measured.sum_v = ints_[5];
-        measured.paper = ints_[6];
+        auto& [cells_x, cells_y, x, y] = floats_;
+        auto& [bits, window_u, window_v, mass, sum_u, sum_v, paper] = ints_;
+        measurement.dots = {0,    cells_x, cells_y, bits,  window_u, window_v,
+                            mass, sum_u,   sum_v,   paper, x,        y};
         measurement.rolls = {rolls_[0], rolls_[1]};
         smoothing.lines = smooth_lines_;
         smoothing.row = smooth_row_;
