@@ -29,8 +29,8 @@ float half_side_px(const ImageView& image) {
 /// - At least `min_dots` dots were read, and at least half of the seen dots were read.
 /// - Dots were seen in at least a quarter of the listed cells, or the view is partial.
 /// - On each axis, at most max_bit_error_q8 / 256 of the bits contradict the code.
-bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOptions& options,
-                  int min_dots, bool is_partial_view) {
+bool are_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOptions& options,
+                   int min_dots, bool is_partial_view) {
     const bool is_full = 4 * bits.seen >= dots.count || is_partial_view;
     const auto exceeds_error_rate = [&](int wrong) {
         return 256 * wrong > bits.read * options.integrity.max_bit_error_q8;
@@ -235,7 +235,7 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
         BitBlock block;
         BitsRead bits = reader.read(view, hypothesis,
                                     decides || (is_last && codes != nullptr) ? &block : nullptr);
-        if (!is_plausible(bits, dots, options, min_dots, hypothesis.is_partial_view))
+        if (!are_plausible(bits, dots, options, min_dots, hypothesis.is_partial_view))
             return Confirmation::implausible;
         if (!is_clean(bits)) {
             if (hypothesis.is_exact) return Confirmation::implausible;
