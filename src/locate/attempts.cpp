@@ -31,7 +31,7 @@ std::span<const CodeVariant> Attempts::codes_for(Step step) const {
 /// Returns the input of an attempt in one code. Removes the odds of the last attempt.
 Frame Attempts::frame_in(CodeVariant code) {
     options_.code = code;
-    w_.other_codes.of = {};
+    if (w_.other_codes.are_wanted) w_.other_codes.of = {};
     // The bounds on the probability of a wrong position apply to a single code. If several codes
     // are possible, each bound is multiplied by the number of codes, weighted by their odds.
     if (!codes_.is_known())

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/decode/bit_lines.hpp"
 #include "core/integrity/certainty.hpp"
@@ -294,15 +295,15 @@ bool is_implausible(const PoseFit& fit, int bits, int bit_errors) {
 Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvidence& evidence,
                      Measurement& measurement, Fix& fix) {
     if (hypothesis.is_predicted && can_sample_directly(hypothesis)) {
-        OtherCodes* const codes = evidence.others;
-        const OtherCodes before = codes != nullptr ? *codes : OtherCodes{};
+        std::optional<OtherCodes> before;
+        if (evidence.others != nullptr) before = *evidence.others;
         hypothesis.is_exact = true;
         const Confirmation exact =
             measure_and_compare(frame, hypothesis, evidence, measurement, fix);
         if (exact == Confirmation::ok || exact == Confirmation::too_few_bits) return exact;
         hypothesis.is_exact = false;
-        if (codes != nullptr)
-            *codes = before;  // a rejected attempt provides no evidence about other codes
+        if (before)
+            *evidence.others = *before;  // a rejected attempt provides no evidence about other codes
     }
     return measure_and_compare(frame, hypothesis, evidence, measurement, fix);
 }
