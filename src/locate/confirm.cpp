@@ -27,16 +27,16 @@ float half_side_px(const ImageView& image) {
 }
 
 /// Returns true if all of these conditions hold:
-/// - At least `min_dots` dots were read, and at least half of the seen dots were read.
+/// - At least `Frame::min_dots` dots were read, and at least half of the seen dots were read.
 /// - Dots were seen in at least a quarter of the listed cells, or the view is partial.
 /// - On each axis, at most max_bit_error_q8 / 256 of the bits contradict the code.
-bool are_plausible(const BitsRead& bits, const MeasuredDots& dots, const DeviceOptions& options,
-                   int min_dots, bool is_partial_view) {
+bool are_plausible(const BitsRead& bits, const MeasuredDots& dots, const Frame& frame,
+                   bool is_partial_view) {
     const bool is_full = 4 * bits.seen >= dots.count || is_partial_view;
     const auto exceeds_error_rate = [&](int wrong) {
-        return 256 * wrong > bits.read * options.integrity.max_bit_error_q8;
+        return 256 * wrong > bits.read * frame.options.integrity.max_bit_error_q8;
     };
-    return bits.read >= min_dots && is_full && 2 * bits.read >= bits.seen &&
+    return bits.read >= frame.min_dots && is_full && 2 * bits.read >= bits.seen &&
            !exceeds_error_rate(bits.wrong_x) && !exceeds_error_rate(bits.wrong_y);
 }
 
@@ -48,45 +48,46 @@ bool is_clean(const BitsRead& bits) {
                std::max(tuned::kMaxWrong, bits.read / tuned::kDotsPerWrong);
 }
 
-/// Returns true if the image shows fewer cells than any certain position needs. With so few cells,
-/// random bits would agree with some position. Overwrites the list of dots.
-bool shows_too_few_cells(const Kernels& kernels, const DeviceOptions& options, CellsInView view,
-                         MeasuredDots& dots) {
+/// Returns true if the image shows fewer cells than any certain position needs without known
+/// sheets. With so few cells, random bits would agree with some position. Overwrites the list of
+/// dots.
+bool shows_too_few_cells(const Frame& frame, CellsInView view, MeasuredDots& dots) {
+    if (frame.known.any()) return false;
     view.margin_px = 0;
-    kernels.list_cells(view, dots);
+    frame.kernels.list_cells(view, dots);
     // Adds a margin of 1/kTolerance, because a second attempt may find a plane with a few more
     // cells in view.
     constexpr int kTolerance = 16;
     const int cells = dots.count + dots.count / kTolerance + 1;
     const Confidence axis = Confidence::of_hard_bits(cells, 0);
     return chance_log2(axis, odds_per_bit_q8(Confidence::of_hard_bits(2 * cells, 0))) >
-           options.integrity.max_p_wrong_log2;
+           frame.options.integrity.max_p_wrong_log2;
 }
 
 /// Fits the plane and the displacement to the measured dots. Returns false if the dots do not
 /// determine the plane.
-bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRead& bits,
-                 const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
+bool fit_to_dots(const Frame& frame, const MeasuredDots& dots, const BitsRead& bits,
+                 Hypothesis& hypothesis, PoseFit& fit) {
     if (bits.right == 0) return false;
     const auto right = static_cast<float>(bits.right);
     hypothesis.displacement = bits.projected / right;
     const float limit = tuned::kOutlier * bits.squares / right + 1e-6F;
-    return fit_plane(kernels, dots, static_cast<int>(half_side_px(image)) + 1, limit,
+    return fit_plane(frame.kernels, dots, static_cast<int>(half_side_px(frame.image)) + 1, limit,
                      hypothesis.displacement, hypothesis.pattern_from_image, fit);
 }
 
 /// Corrects pixel bias and neighbour bias if they matter, and then fits the plane again. Returns
 /// the variance of the mean centre due to the remaining pixel bias, along u and v, in px^2. Returns
 /// 0 if nothing was corrected, or if the new fit failed.
-FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const CellsInView& view,
-                          const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
+FloatVec fit_without_bias(const Frame& frame, const DotReader& reader, const CellsInView& view,
+                          Hypothesis& hypothesis, PoseFit& fit) {
     FloatVec remaining_px2;
     const bool has_pixel_bias = reader.correct_pixel_bias(view, hypothesis, fit, remaining_px2);
     if (!reader.correct_neighbour_bias(hypothesis, fit) && !has_pixel_bias) return {};
     FloatPlane better = hypothesis.pattern_from_image;
     PoseFit better_fit;
     // The fit fails if the correction has dropped too many dots at the border.
-    if (!fit_plane(kernels, reader.dots(), static_cast<int>(half_side_px(image)) + 1,
+    if (!fit_plane(frame.kernels, reader.dots(), static_cast<int>(half_side_px(frame.image)) + 1,
                    tuning::fit::kOutlier * fit.variance, fit.displacement, better, better_fit)) {
         return {};
     }
@@ -192,7 +193,7 @@ Confirmation finish(const Frame& frame, const DotReader& reader, const CellsInVi
                     Measurement& measurement, Fix& fix) {
     const Kernels& kernels = frame.kernels;
     FloatPlane& plane = hypothesis.pattern_from_image;
-    const FloatVec bias_px2 = fit_without_bias(kernels, reader, view, frame.image, hypothesis, fit);
+    const FloatVec bias_px2 = fit_without_bias(frame, reader, view, hypothesis, fit);
     const FloatVec reference = reference_px(frame.options, hypothesis);
     if (frame.removed_turn != nullptr &&
         !fit_turn(kernels, *frame.removed_turn, reference, measurement.dots, plane, fit,
@@ -215,11 +216,12 @@ Confirmation finish(const Frame& frame, const DotReader& reader, const CellsInVi
 Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
                                  const PlaceEvidence& evidence, Measurement& measurement,
                                  Fix& fix) {
-    const auto& [kernels, image, options, known, min_dots, removed_turn] = frame;
+    const Kernels& kernels = frame.kernels;
+    const ImageView& image = frame.image;
     FloatPlane& plane = hypothesis.pattern_from_image;
     MeasuredDots& dots = measurement.dots;
     const float spacing = spacing_px(plane);
-    const int max_dots = std::min(std::max(options.max_dots, 64), dots.capacity());
+    const int max_dots = std::min(std::max(frame.options.max_dots, 64), dots.capacity());
     OtherCodes* const codes = hypothesis.is_certain ? nullptr : evidence.others;
     DotReader reader(kernels, image, spacing, dots);
     PoseFit pose;
@@ -227,7 +229,7 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
     for (Reach reach(image, hypothesis, spacing);;) {
         const bool decides = reach.decides();
         if (!is_plausible(image, plane)) return Confirmation::implausible;
-        count_from_centre(options.code, hypothesis);
+        count_from_centre(frame.options.code, hypothesis);
         CellsInView view = cells_in_view(frame, hypothesis, reach.now,
                                          decides ? dots.capacity() : max_dots, measurement.rolls);
         if (hypothesis.is_exact) view.windows = Windows::none;
@@ -236,20 +238,19 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
         BitBlock block;
         BitsRead bits = reader.read(view, hypothesis,
                                     decides || (is_last && codes != nullptr) ? &block : nullptr);
-        if (!are_plausible(bits, dots, options, min_dots, hypothesis.is_partial_view))
+        if (!are_plausible(bits, dots, frame, hypothesis.is_partial_view))
             return Confirmation::implausible;
         if (!is_clean(bits)) {
             if (hypothesis.is_exact) return Confirmation::implausible;
             // In the deciding round, fits the plane to all dots and reads the bits again. The new
             // plane reduces the number of misread bits.
-            if (decides && !fit_to_dots(kernels, dots, bits, image, hypothesis, pose))
+            if (decides && !fit_to_dots(frame, dots, bits, hypothesis, pose))
                 return Confirmation::implausible;
             if (decides) bits = reader.read_again(hypothesis, block);
         }
         const FloatPlane before = plane;
         reader.find_centres(view, hypothesis, is_last, bits);
-        if (!fit_to_dots(kernels, dots, bits, image, hypothesis, pose))
-            return Confirmation::implausible;
+        if (!fit_to_dots(frame, dots, bits, hypothesis, pose)) return Confirmation::implausible;
         if (hypothesis.is_exact && is_far_from(before, plane, image, reach.now)) {
             if (++looks == tuned::kMaxLooks) return Confirmation::implausible;
             continue;
@@ -259,13 +260,12 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
             const bool are_clear = bits.read == bits.seen && bits.wrong_x + bits.wrong_y == 0;
             if (!confirm_place(evidence, hypothesis, view, block, bits, fix)) {
                 if (!is_last || !are_clear) return Confirmation::uncertain;
-                measurement.shows_too_few_cells =
-                    !known.any() && shows_too_few_cells(kernels, options, view, dots);
+                measurement.shows_too_few_cells = shows_too_few_cells(frame, view, dots);
                 return Confirmation::too_few_bits;
             }
         }
         if (is_last && codes != nullptr) {
-            weigh_codes_in_view(kernels, options.code, hypothesis.place, block,
+            weigh_codes_in_view(kernels, frame.options.code, hypothesis.place, block,
                                 confidences_in(bits), !decides, evidence.line_scores, *codes);
         }
         if (is_last) return finish(frame, reader, view, bits, hypothesis, pose, measurement, fix);
@@ -303,7 +303,8 @@ Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvide
         if (exact == Confirmation::ok || exact == Confirmation::too_few_bits) return exact;
         hypothesis.is_exact = false;
         if (before)
-            *evidence.others = *before;  // a rejected attempt provides no evidence about other codes
+            *evidence.others =
+                *before;  // a rejected attempt provides no evidence about other codes
     }
     return measure_and_compare(frame, hypothesis, evidence, measurement, fix);
 }

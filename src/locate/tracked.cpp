@@ -50,16 +50,16 @@ int max_shift_px(const Prediction& prediction, float spacing_px) {
 
 /// Corrects the plane with the centroids of the listed dots. Returns false unless at least kMinNear
 /// dots, and at least three quarters of all listed dots, have offsets of at most kMaxOffset_px.
-bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsInView view,
-                          FloatPlane& plane, MeasuredDots& dots) {
+bool correct_by_centroids(const Frame& frame, CellsInView view, FloatPlane& plane,
+                          MeasuredDots& dots) {
     const float far_px = std::max(view.width_px, view.height_px) / 2;
     for (int look = 0; look < tuned::kMaxLooks; ++look) {
         if (look > 0) {
             view.plane = plane;
-            kernels.list_cells(view, dots);
+            frame.kernels.list_cells(view, dots);
         }
-        const DotOffsets found =
-            kernels.find_centres(image, view, tuned::kMaxOffset_px, tuned::kWeight_px, dots);
+        const DotOffsets found = frame.kernels.find_centres(frame.image, view, tuned::kMaxOffset_px,
+                                                            tuned::kWeight_px, dots);
         if (found.points < tuned::kMinNear || 4 * found.points < 3 * dots.count) return false;
         const Similarity motion = similarity_of(found);
         plane = moved(plane, motion);
@@ -100,7 +100,7 @@ bool correct_by_dots(const Frame& frame, int max_px, Hypothesis& hypothesis,
             dots.y[i] += shift_px.y;
         }
         FloatPlane corrected = plane;
-        if (correct_by_centroids(kernels, image, view, corrected, dots)) {
+        if (correct_by_centroids(frame, view, corrected, dots)) {
             plane = corrected;
             return true;
         }
@@ -133,8 +133,8 @@ bool is_in_code(const Place& place) {
 
 /// Makes a hypothesis from the prediction, relative to the image centre. Returns nullopt if the
 /// prediction is not plausible.
-std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const ImageView& image,
-                                          const DeviceOptions& options) {
+std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Frame& frame) {
+    const ImageView& image = frame.image;
     Hypothesis hypothesis;
     const PlaneFromImage& plane = prediction.pattern_from_image;
     const auto from_q8 = [](int side_px, std::int32_t centre_q8) {
@@ -153,7 +153,7 @@ std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Im
     if (!(hypothesis.displacement > tuned::kMinDisplacement &&
           hypothesis.displacement < tuned::kMaxDisplacement))
         return {};
-    count_from_centre(options.code, hypothesis);
+    count_from_centre(frame.options.code, hypothesis);
     return hypothesis;
 }
 
@@ -175,7 +175,7 @@ bool confirm_corrected(const Frame& frame, const Hypothesis& hypothesis, int max
 
 bool confirm_prediction(const Frame& frame, const Prediction& prediction,
                         const PlaceEvidence& evidence, Measurement& measurement, Fix& fix) {
-    const auto hypothesis = hypothesis_from(prediction, frame.image, frame.options);
+    const auto hypothesis = hypothesis_from(prediction, frame);
     if (!hypothesis) return false;
     const int max_px = max_shift_px(prediction, spacing_px(hypothesis->pattern_from_image));
     if (!confirm_corrected(frame, *hypothesis, max_px, evidence, measurement, fix)) return false;
@@ -193,7 +193,7 @@ bool locate_tracked(const Frame& frame, const Prediction& prediction, DesktopWor
 
 bool measure_again(const Frame& frame, const PlaceEvidence& evidence, Measurement& measurement,
                    Fix& fix) {
-    auto hypothesis = hypothesis_from(Prediction::like(fix), frame.image, frame.options);
+    auto hypothesis = hypothesis_from(Prediction::like(fix), frame);
     if (!hypothesis) return false;
     hypothesis->is_certain = true;
     return confirm_corrected(frame, *hypothesis, 1, evidence, measurement, fix);
