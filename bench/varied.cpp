@@ -64,7 +64,8 @@ Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
     static core::SmallWorkspace workspace;
     const auto locates = [](const GreyImage& image) {
         workspace.fix = {};
-        return core::locate_first(core::wide_kernels(), image.view(), {}, workspace);
+        return core::locate_first(workspace.frame(core::wide_kernels(), image.view(), {}),
+                                  workspace);
     };
     Subject subject = subject_on(frames, [locates](std::size_t, GreyImage& image) {
         benchmark::DoNotOptimize(locates(image));

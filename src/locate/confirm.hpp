@@ -2,18 +2,29 @@
 // compares their bits with the code, and fits the pose.
 #pragma once
 
-#include "core/kernels/select.hpp"
-#include "core/math/float_plane.hpp"
-#include "dotpose/device_options.hpp"
-#include "dotpose/image.hpp"
+#include "core/patch_memory.hpp"
+#include "core/pose/turn_fit.hpp"
+#include "dotpose/fix.hpp"
+#include "locate/frame.hpp"
 #include "locate/hypothesis.hpp"
-#include "locate/workspace.hpp"
+#include "locate/place_evidence.hpp"
 
 namespace dotpose::core {
 
 /// Returns true if the plane is a plausible view of paper over the whole image (see
 /// `is_within_reason`). All stages require a plausible plane.
 bool is_plausible(const ImageView& image, const FloatPlane& plane);
+
+/// Returns true if the position does not explain the frame well: the displacement is not positive,
+/// or
+///
+///     sqrt(variance) / displacement + bit_errors / bits > kMaxImplausible.
+///
+/// Two overlapping patterns that are nearly aligned can look like a third pattern, with the columns
+/// of one pattern and the rows of the other. In such a frame, a quarter of the cells have no dot at
+/// the expected place, and half of the dots are at another place of their cell. docs/integrity.md
+/// contains the measurements.
+bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
 /// Result of `confirm`.
 enum class Confirmation : std::uint8_t {
@@ -24,11 +35,30 @@ enum class Confirmation : std::uint8_t {
     too_few_bits,  ///< same as `uncertain`, but all bits in view are clear and agree with the code
 };
 
+/// Memory and results of `confirm`.
+struct Measurement {
+    MeasuredDots dots;
+    RollMemory rolls;
+    // Results for a confirmed hypothesis.
+    Hypothesis hypothesis;              ///< with the fitted plane
+    PlaneFromImage pattern_from_image;  ///< plane of `hypothesis`, in fixed point
+    TurnFit turn;                       ///< fitted rotation, if `Frame::removed_turn` is not null
+    /// Number of bits that made the place certain, two per dot. Not set for a certain hypothesis.
+    int bits = 0;
+    /// True if the frame shows fewer cells than a certain position needs without known sheets. Set
+    /// with the result `too_few_bits`.
+    bool shows_too_few_cells = false;
+    /// True if the result of the first attempt is `too_few_bits`. A rotation during the readout
+    /// would misplace some of the dots.
+    bool has_clear_bits = false;
+};
+
 /// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose.
 /// Tries direct sampling first if the hypothesis is predicted and its dots allow it. If the result
-/// is ok, sets the fix of the workspace and, if requested, the trace.
-Confirmation confirm(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-                     Hypothesis hypothesis, DesktopWorkspace& w);
+/// is ok, sets the fix and the results of `measurement`. Otherwise, only `p_wrong_log2`, `prior`,
+/// `frames` and `bit_errors` of the fix may have changed.
+Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvidence& evidence,
+                     Measurement& measurement, Fix& fix);
 
 /// Returns true if the residuals of a fix are large. A second attempt may then give a better fix.
 bool is_rough(const Fix& fix);

@@ -4,7 +4,7 @@
 
 #include "core/decode/bit_lines.hpp"
 #include "core/pose/refine_pose.hpp"
-#include "locate/confirm.hpp"
+#include "locate/hypothesis.hpp"
 
 namespace dotpose::core {
 

@@ -1,6 +1,5 @@
 #include "locate/first.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <span>
@@ -12,6 +11,7 @@
 #include "core/steps.hpp"
 #include "locate/confirm.hpp"
 #include "locate/patch_hypothesis.hpp"
+#include "locate/trace.hpp"
 #include "locate/tuning.hpp"
 
 namespace dotpose::core {
@@ -22,170 +22,168 @@ namespace tuned = tuning::first;
 constexpr int kPatchWidth_px = tuned::kPatchWidth_px;
 constexpr int kPatchHeight_px = tuned::kPatchHeight_px;
 
-/// Sets `is_mirrored` of the workspace if the dots of a patch around the image centre show the
-/// mirrored code. A grid counts as mirrored only if adjacent lines without wrong bits determine a
-/// place (`find_place_exactly`). Leaves the dots of the patch mirrored.
-void find_mirror_image(const Kernels& kernels, const DeviceOptions& options, DesktopWorkspace& w) {
-    if (w.is_mirrored) return;
-    Patch& patch = *w.patch;
+/// Returns true if the dots of a patch around the image centre show the mirrored code. A grid
+/// counts as mirrored only if adjacent lines without wrong bits determine a place
+/// (`find_place_exactly`). Leaves the dots of the patch mirrored.
+bool shows_mirror_image(const Kernels& kernels, CodeVariant code, Patch& patch) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(patch.dots.count); ++i)
         patch.dots.x[i] = -patch.dots.x[i];
     PatchGrid grid;
-    if (!find_grid(kernels, patch, whole_view(patch), grid)) return;
+    if (!find_grid(kernels, patch, whole_view(patch), grid)) return false;
     BitBlock block;
     kernels.read_cells(patch.dots, grid.grid_from_image, grid.displacement, block.columns,
                        block.rows);
     Place place;
-    w.is_mirrored =
-        find_place_exactly(options.code, turned(likeliest_turn(kernels, block), block), place);
+    return find_place_exactly(code, turned(likeliest_turn(kernels, block), block), place);
 }
 
-/// Returns true if the grid of the patch predicts all dots in the image to within a fraction of a
-/// pixel. The patch must cover the whole image, because otherwise its grid is not fitted to all
-/// dots. The spacing must be at least kMinSpacingForPrediction_px.
-bool predicts_dots(const ImageView& image, const Patch& patch, const FloatPlane& plane) {
-    return patch.width_px == image.width_px && patch.height_px == image.height_px &&
-           spacing_px(plane) >= tuned::kMinSpacingForPrediction_px;
+bool is_whole_image(const Patch& patch, const ImageView& image) {
+    return patch.width_px == image.width_px && patch.height_px == image.height_px;
 }
 
-/// Finds the grid in the patch at the image centre, and tests its hypothesis. If `is_skewed` is
-/// true, cells may be arbitrary parallelograms. Otherwise, cells must be about square.
-Confirmation locate_grid(const Kernels& kernels, const ImageView& image,
-                         const DeviceOptions& options, bool is_skewed, DesktopWorkspace& w) {
-    Patch& patch = *w.patch;
-    PatchView view = whole_view(patch);
-    view.min_dots = min_dots(options, w);
-    view.is_skewed = is_skewed;
-    const FloatVec middle = middle_of(patch, image);
-    Hypothesis hypothesis;
-    if (!read_hypothesis(kernels, options, view, middle, w, hypothesis))
-        return Confirmation::implausible;
-    hypothesis.pattern_from_image =
-        recentred(hypothesis.pattern_from_image, {-middle.x, -middle.y});
-    hypothesis.from_centre = {};
-    hypothesis.is_predicted = predicts_dots(image, patch, hypothesis.pattern_from_image);
-    return confirm(kernels, image, options, hypothesis, w);
-}
+/// Searches patches of the image for a grid, and tests the hypotheses from their bits.
+class PatchSearch {
+  public:
+    PatchSearch(const Frame& frame, const PlaceEvidence& evidence, Patch& patch,
+                Measurement& measurement, Fix& fix)
+        : frame_(frame), evidence_(evidence), patch_(patch), measurement_(measurement), fix_(fix) {}
 
-/// Searches the patch at the image centre for a square grid. If there is no plausible hypothesis,
-/// also searches for a grid of arbitrary parallelograms, because a rolling shutter shears and
-/// stretches moving scenes.
-Confirmation locate_in_middle(const Kernels& kernels, const ImageView& image,
-                              const DeviceOptions& options, DesktopWorkspace& w) {
-    Patch& patch = *w.patch;
-    if (!find_patch_dots(kernels, image, options, w)) return Confirmation::implausible;
-    if (options.lens.k_q40 != 0) undistort(options.lens, middle_of(patch, image), patch.dots);
-    const Confirmation square = locate_grid(kernels, image, options, false, w);
-    return square == Confirmation::implausible ? locate_grid(kernels, image, options, true, w)
-                                               : square;
-}
-
-/// Finds a hypothesis in a patch around an image point. Sets `densest_px` to the point where the
-/// dots are densest, which is also the origin of the hypothesis. Returns false if there is no
-/// hypothesis. Leaves `densest_px` unchanged if the patch is too small, has no contrast, or has too
-/// few dots.
-bool find_hypothesis_around(const Kernels& kernels, const ImageView& image,
-                            const DeviceOptions& options, FixedVec around_px, int scale,
-                            DesktopWorkspace& w, FixedVec& densest_px, Hypothesis& hypothesis) {
-    Patch& patch = *w.patch;
-    PatchView view;
-    FloatVec from_middle;
-    if (!place_patch(image, around_px, scale, w) || !find_patch_dots(kernels, image, options, w)) {
-        return false;
-    }
-    keep_isolated(patch);
-    if (!move_origin_to_densest(patch, view, from_middle)) return false;
-    densest_px = {static_cast<std::int32_t>(middle_u_px(patch) + from_middle.x),
-                  static_cast<std::int32_t>(middle_v_px(patch) + from_middle.y)};
-    const FloatVec middle = middle_of(patch, image);
-    const FloatVec from_centre{middle.x + from_middle.x, middle.y + from_middle.y};
-    if (options.lens.k_q40 != 0) undistort(options.lens, from_centre, patch.dots);
-    hypothesis.is_partial_view = true;
-    const auto spacings = w.known.any() ? std::span<const float>(tuned::kSpacingsOfKnown)
-                                        : std::span<const float>(tuned::kSpacings);
-    for (const float central_dots : tuned::kCentralDots) {
-        for (const float by : spacings) {
-            const PatchView other{by * view.spacing_px, view.full_reach_px, central_dots,
-                                  min_dots(options, w)};
-            if (read_hypothesis(kernels, options, other, from_centre, w, hypothesis)) return true;
+    /// Searches patches of increasing size around the image centre. Then searches patches that
+    /// cover the whole image. Sets `is_mirrored` if a patch shows the mirrored code.
+    Confirmation search(bool& is_mirrored) {
+        for (const int scale : {1, 2, 4}) {
+            if (!place_patch_in_middle(frame_.image, scale, patch_)) break;
+            const Confirmation confirmation = search_middle();
+            if (confirmation == Confirmation::ok) return confirmation;
+            // If the patch covers the whole image, other patches contain the same dots and give the
+            // same bits.
+            if (confirmation == Confirmation::too_few_bits && is_whole_image(patch_, frame_.image))
+                return confirmation;
+            is_mirrored =
+                is_mirrored || shows_mirror_image(frame_.kernels, frame_.options.code, patch_);
+            if (confirmation != Confirmation::implausible) break;
         }
+        return search_everywhere();
     }
-    return false;
-}
 
-/// Searches a patch around an image point. If there is no hypothesis and the dots are densest far
-/// from the middle, also searches a patch around the densest point. `tries_left` is the number of
-/// uncertain hypotheses that are still permitted. Each uncertain hypothesis increases the
-/// probability of a wrong fix.
-Confirmation locate_around(const Kernels& kernels, const ImageView& image,
-                           const DeviceOptions& options, FixedVec around_px, int scale,
-                           int& tries_left, DesktopWorkspace& w) {
-    for (int round = 0; round < 2 && tries_left > 0; ++round) {
-        Hypothesis hypothesis;
-        FixedVec densest_px = around_px;
-        if (find_hypothesis_around(kernels, image, options, around_px, scale, w, densest_px,
-                                   hypothesis)) {
-            const auto confirmation = confirm(kernels, image, options, hypothesis, w);
-            tries_left -= confirmation == Confirmation::implausible ? 0 : 1;
-            return confirmation;
-        }
-        const bool is_other_patch =
-            4 * std::abs(densest_px.x - around_px.x) > kPatchWidth_px * scale ||
-            4 * std::abs(densest_px.y - around_px.y) > kPatchHeight_px * scale;
-        if (!is_other_patch) break;
-        around_px = densest_px;
+  private:
+    /// Searches the patch at the image centre for a square grid. If there is no plausible
+    /// hypothesis, also searches for a grid of arbitrary parallelograms, because a rolling shutter
+    /// shears and stretches moving scenes.
+    Confirmation search_middle() {
+        if (!find_patch_dots(frame_, patch_, fix_)) return Confirmation::implausible;
+        undistort(frame_.options.lens, middle_of(patch_, frame_.image), patch_.dots);
+        const Confirmation square = test_grid(false);
+        return square == Confirmation::implausible ? test_grid(true) : square;
     }
-    return Confirmation::implausible;
-}
 
-/// Searches the whole image in adjacent patches. The patches grow from round to round.
-Confirmation locate_elsewhere(const Kernels& kernels, const ImageView& image,
-                              const DeviceOptions& options, DesktopWorkspace& w) {
-    int tries_left = tuned::kMaxTries;
-    for (const int scale : {1, 2, 4}) {
-        const int width = kPatchWidth_px * scale;
-        const int height = kPatchHeight_px * scale;
-        for (int v = height / 2; v < image.height_px + height / 2; v += height) {
-            for (int u = width / 2; u < image.width_px + width / 2; u += width) {
-                const Confirmation confirmation =
-                    locate_around(kernels, image, options, {u, v}, scale, tries_left, w);
-                if (confirmation == Confirmation::ok) return confirmation;
+    /// Finds the grid in the patch at the image centre, and tests its hypothesis. If `is_skewed` is
+    /// true, cells may be arbitrary parallelograms. Otherwise, cells must be about square.
+    Confirmation test_grid(bool is_skewed) {
+        PatchView view = whole_view(patch_);
+        view.min_dots = frame_.min_dots;
+        view.is_skewed = is_skewed;
+        auto hypothesis = read_hypothesis(patch_, view, middle_of(patch_, frame_.image), evidence_);
+        if (!hypothesis) return Confirmation::implausible;
+        move_origin_to_centre(*hypothesis);
+        // The grid predicts all dots in the image to within a fraction of a pixel, if it is fitted
+        // to all dots.
+        hypothesis->is_predicted =
+            is_whole_image(patch_, frame_.image) &&
+            spacing_px(hypothesis->pattern_from_image) >= tuned::kMinSpacingForPrediction_px;
+        return confirm(frame_, *hypothesis, evidence_, measurement_, fix_);
+    }
+
+    /// Searches the whole image in adjacent patches. The patches grow from round to round.
+    Confirmation search_everywhere() {
+        tries_left_ = tuned::kMaxTries;
+        const ImageView& image = frame_.image;
+        for (const int scale : {1, 2, 4}) {
+            const int width = kPatchWidth_px * scale;
+            const int height = kPatchHeight_px * scale;
+            for (int v = height / 2; v < image.height_px + height / 2; v += height) {
+                for (int u = width / 2; u < image.width_px + width / 2; u += width) {
+                    if (search_around({u, v}, scale) == Confirmation::ok) return Confirmation::ok;
+                }
             }
         }
+        return tries_left_ < tuned::kMaxTries ? Confirmation::uncertain : Confirmation::implausible;
     }
-    return tries_left < tuned::kMaxTries ? Confirmation::uncertain : Confirmation::implausible;
-}
 
-/// Searches patches of increasing size around the image centre. Then searches patches that cover
-/// the whole image.
-Confirmation locate_outwards(const Kernels& kernels, const ImageView& image,
-                             const DeviceOptions& options, DesktopWorkspace& w) {
-    for (const int scale : {1, 2, 4}) {
-        if (!place_patch(image, {image.width_px / 2, image.height_px / 2}, scale, w)) break;
-        const Confirmation confirmation = locate_in_middle(kernels, image, options, w);
-        if (confirmation == Confirmation::ok) return confirmation;
-        // If the patch covers the whole image, other patches contain the same dots and give the
-        // same bits.
-        const bool is_whole_image =
-            w.patch->width_px == image.width_px && w.patch->height_px == image.height_px;
-        if (confirmation == Confirmation::too_few_bits && is_whole_image) return confirmation;
-        find_mirror_image(kernels, options, w);
-        if (confirmation != Confirmation::implausible) break;
+    /// Searches a patch around an image point. If there is no hypothesis and the dots are densest
+    /// far from the middle, also searches a patch around the densest point.
+    Confirmation search_around(FixedVec around_px, int scale) {
+        for (int round = 0; round < 2 && tries_left_ > 0; ++round) {
+            FixedVec densest_px = around_px;
+            if (const auto hypothesis = find_hypothesis(around_px, scale, densest_px)) {
+                const auto confirmation =
+                    confirm(frame_, *hypothesis, evidence_, measurement_, fix_);
+                tries_left_ -= confirmation == Confirmation::implausible ? 0 : 1;
+                return confirmation;
+            }
+            const bool is_other_patch =
+                4 * std::abs(densest_px.x - around_px.x) > kPatchWidth_px * scale ||
+                4 * std::abs(densest_px.y - around_px.y) > kPatchHeight_px * scale;
+            if (!is_other_patch) break;
+            around_px = densest_px;
+        }
+        return Confirmation::implausible;
     }
-    return locate_elsewhere(kernels, image, options, w);
-}
+
+    /// Finds a hypothesis in a patch around an image point. Sets `densest_px` to the point where
+    /// the dots are densest, which is also the origin of the hypothesis. Returns nullopt if there
+    /// is no hypothesis. Leaves `densest_px` unchanged if the patch is too small, has no contrast,
+    /// or has too few dots.
+    std::optional<Hypothesis> find_hypothesis(FixedVec around_px, int scale, FixedVec& densest_px) {
+        PatchView view;
+        FloatVec from_middle;
+        if (!place_patch(frame_.image, around_px, scale, patch_) ||
+            !find_patch_dots(frame_, patch_, fix_))
+            return {};
+        keep_isolated(patch_);
+        if (!move_origin_to_densest(patch_, view, from_middle)) return {};
+        densest_px = {static_cast<std::int32_t>(middle_u_px(patch_) + from_middle.x),
+                      static_cast<std::int32_t>(middle_v_px(patch_) + from_middle.y)};
+        const FloatVec middle = middle_of(patch_, frame_.image);
+        const FloatVec from_centre{middle.x + from_middle.x, middle.y + from_middle.y};
+        undistort(frame_.options.lens, from_centre, patch_.dots);
+        const auto spacings = frame_.known.any() ? std::span<const float>(tuned::kSpacingsOfKnown)
+                                                 : std::span<const float>(tuned::kSpacings);
+        for (const float central_dots : tuned::kCentralDots) {
+            for (const float by : spacings) {
+                const PatchView other{by * view.spacing_px, view.full_reach_px, central_dots,
+                                      frame_.min_dots};
+                auto hypothesis = read_hypothesis(patch_, other, from_centre, evidence_);
+                if (!hypothesis) continue;
+                hypothesis->is_partial_view = true;
+                return hypothesis;
+            }
+        }
+        return {};
+    }
+
+    const Frame& frame_;
+    const PlaceEvidence& evidence_;
+    Patch& patch_;
+    Measurement& measurement_;
+    Fix& fix_;
+    /// Number of uncertain hypotheses that are still permitted. Each uncertain hypothesis increases
+    /// the probability of a wrong fix.
+    int tries_left_ = 0;
+};
 
 }  // namespace
 
-bool locate_first(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-                  DesktopWorkspace& w) {
+bool locate_first(const Frame& frame, DesktopWorkspace& w) {
     forget_frame(w);
     w.fix.status = Status::no_contrast;
-    w.shows_too_few_cells = false;
-    Confirmation confirmation = locate_outwards(kernels, image, options, w);
+    w.measurement.shows_too_few_cells = false;
+    const PlaceEvidence evidence = w.evidence(frame);
+    PatchSearch patches(frame, evidence, *w.patch, w.measurement, w.fix);
+    Confirmation confirmation = patches.search(w.is_mirrored);
     if (confirmation != Confirmation::ok && w.earlier.has_earlier()) {
         w.earlier.is_joining = true;
-        const Confirmation together = locate_outwards(kernels, image, options, w);
+        const Confirmation together = patches.search(w.is_mirrored);
         w.earlier.is_joining = false;
         if (together == Confirmation::ok) confirmation = together;
     }
@@ -193,7 +191,9 @@ bool locate_first(const Kernels& kernels, const ImageView& image, const DeviceOp
     w.has_clear_bits = confirmation == Confirmation::too_few_bits;
     if (confirmation == Confirmation::uncertain || confirmation == Confirmation::too_few_bits)
         w.fix.status = Status::not_certain;
-    return confirmation == Confirmation::ok;
+    if (confirmation != Confirmation::ok) return false;
+    store_for_trace(w.measurement, frame.options.show_stages, w);
+    return true;
 }
 
 }  // namespace dotpose::core

@@ -2,9 +2,7 @@
 // grid in a part of the image, starting with a patch around the image centre.
 #pragma once
 
-#include "core/kernels/select.hpp"
-#include "dotpose/device_options.hpp"
-#include "dotpose/image.hpp"
+#include "locate/frame.hpp"
 #include "locate/workspace.hpp"
 
 namespace dotpose::core {
@@ -12,7 +10,6 @@ namespace dotpose::core {
 /// Finds the grid in a part of the image, then measures the dots of the whole image. Returns true
 /// if there is a fix, which is then in the workspace. Otherwise, sets the status to no_contrast,
 /// too_few_dots, no_grid or not_certain.
-bool locate_first(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-                  DesktopWorkspace& w);
+bool locate_first(const Frame& frame, DesktopWorkspace& w);
 
 }  // namespace dotpose::core

@@ -24,27 +24,23 @@ Extent extent(float min, float max, int room) {
     return {first, std::max(last - first + 1, 0)};
 }
 
-/// Writes the rolls of the lines in view into the workspace, and sets the pointers of the view to
-/// these rolls.
-void follow_code(CodeVariant code, const Place& place, CellsInView& view, DesktopWorkspace& w) {
+/// Writes the rolls of the lines in view into `memory`, and sets the pointers of the view to these
+/// rolls.
+void follow_code(CodeVariant code, const Place& place, const RollMemory& memory,
+                 CellsInView& view) {
     const Place corner = moved(code, place, view.first_column, view.first_row);
     const auto follow = [&](std::uint32_t position, int section, std::uint32_t cross, int count,
                             std::span<std::uint8_t> rolls) {
         code::follow_rolls(code, position, code::roll_from(code, position, section, cross),
                            rolls.first(static_cast<std::size_t>(count)));
     };
-    follow(corner.cell.x, corner.section.u, corner.cell.y, view.columns, w.column_rolls);
-    follow(corner.cell.y, corner.section.v, corner.cell.x, view.rows, w.row_rolls);
-    view.column_rolls = w.column_rolls.data();
-    view.row_rolls = w.row_rolls.data();
+    follow(corner.cell.x, corner.section.u, corner.cell.y, view.columns, memory.columns);
+    follow(corner.cell.y, corner.section.v, corner.cell.x, view.rows, memory.rows);
+    view.column_rolls = memory.columns.data();
+    view.row_rolls = memory.rows.data();
 }
 
 }  // namespace
-
-FloatVec centre_px(const ImageView& image) {
-    return {static_cast<float>(image.width_px - 1) / 2,
-            static_cast<float>(image.height_px - 1) / 2};
-}
 
 FloatLens float_lens(const FixedLens& lens) {
     constexpr float kQ40 = 1099511627776.0F;
@@ -52,13 +48,13 @@ FloatLens float_lens(const FixedLens& lens) {
             static_cast<float>(lens.centre_dy_q8) / 256};
 }
 
-CellsInView cells_in_view(const ImageView& image, const DeviceOptions& options,
-                          const Hypothesis& hypothesis, float reach_px, int max_cells,
-                          DesktopWorkspace& w) {
+CellsInView cells_in_view(const Frame& frame, const Hypothesis& hypothesis, float reach_px,
+                          int max_cells, const RollMemory& rolls) {
+    const ImageView& image = frame.image;
     const FloatVec centre = centre_px(image);
     CellsInView view;
     view.plane = hypothesis.pattern_from_image;
-    view.lens = float_lens(options.lens);
+    view.lens = float_lens(frame.options.lens);
     view.lens.centre_x -= hypothesis.from_centre.x;
     view.lens.centre_y -= hypothesis.from_centre.y;
     view.centre_x = centre.x + hypothesis.from_centre.x;
@@ -71,7 +67,7 @@ CellsInView cells_in_view(const ImageView& image, const DeviceOptions& options,
     view.margin_px = std::max(1.7F, 0.15F * spacing_px(hypothesis.pattern_from_image));
     // Small views of known sheets also need the dots closer to the border.
     const auto shorter_px = static_cast<float>(std::min(image.width_px, image.height_px));
-    if (w.known.any() &&
+    if (frame.known.any() &&
         shorter_px < tuning::known::kSmallView * spacing_px(hypothesis.pattern_from_image)) {
         view.margin_px = tuning::known::kMargin_px;
     }
@@ -87,8 +83,8 @@ CellsInView cells_in_view(const ImageView& image, const DeviceOptions& options,
         max_x = std::max(max_x, at.x);
         max_y = std::max(max_y, at.y);
     }
-    const Extent columns = extent(min_x, max_x, static_cast<int>(w.column_rolls.size()));
-    const Extent rows = extent(min_y, max_y, static_cast<int>(w.row_rolls.size()));
+    const Extent columns = extent(min_x, max_x, static_cast<int>(rolls.columns.size()));
+    const Extent rows = extent(min_y, max_y, static_cast<int>(rolls.rows.size()));
     view.first_column = columns.first;
     view.columns = columns.count;
     view.first_row = rows.first;
@@ -96,7 +92,7 @@ CellsInView cells_in_view(const ImageView& image, const DeviceOptions& options,
     const float spacing = spacing_px(view.plane);
     const float cells = 4 * half_width * half_height / (spacing * spacing);
     view.step = 1 + static_cast<int>(std::min(cells / static_cast<float>(max_cells), 65535.0F));
-    follow_code(options.code, hypothesis.place, view, w);
+    follow_code(frame.options.code, hypothesis.place, rolls, view);
     return view;
 }
 

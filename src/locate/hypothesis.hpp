@@ -2,11 +2,13 @@
 // view.
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "core/kernels/kernels.hpp"
 #include "core/math/float_plane.hpp"
-#include "dotpose/device_options.hpp"
-#include "dotpose/image.hpp"
-#include "locate/workspace.hpp"
+#include "dotpose/code.hpp"
+#include "locate/frame.hpp"
 
 namespace dotpose::core {
 
@@ -30,20 +32,34 @@ struct Hypothesis {
     float typical_mass = 0;
 };
 
+/// Returns the plane of a hypothesis, relative to the image centre.
+inline FloatPlane centred_plane(const Hypothesis& hypothesis) {
+    const FloatVec from = hypothesis.from_centre;
+    return recentred(hypothesis.pattern_from_image, {-from.x, -from.y});
+}
+
+/// Makes the plane of a hypothesis relative to the image centre.
+inline void move_origin_to_centre(Hypothesis& hypothesis) {
+    hypothesis.pattern_from_image = centred_plane(hypothesis);
+    hypothesis.from_centre = {};
+}
+
+/// Memory for the rolls of the columns and rows in view.
+struct RollMemory {
+    std::span<std::uint8_t> columns;
+    std::span<std::uint8_t> rows;
+};
+
 /// Threshold for dark pixels in a window, in 1/256 of the contrast of a typical dot. Pixels with
 /// more contrast belong to a dot.
 inline constexpr int kCutOfDepth_q8 = 160;
 
-/// Returns the image centre, in px relative to the first pixel.
-FloatVec centre_px(const ImageView& image);
-
 FloatLens float_lens(const FixedLens& lens);
 
 /// Returns the input of `list_cells` for the cells in view within `reach_px` of `from_centre`,
-/// subsampled to about `max_cells`. Writes the rolls into the workspace.
-CellsInView cells_in_view(const ImageView& image, const DeviceOptions& options,
-                          const Hypothesis& hypothesis, float reach_px, int max_cells,
-                          DesktopWorkspace& w);
+/// subsampled to about `max_cells`. Writes the rolls of the lines in view into `rolls`.
+CellsInView cells_in_view(const Frame& frame, const Hypothesis& hypothesis, float reach_px,
+                          int max_cells, const RollMemory& rolls);
 
 /// Moves the origin of the cells to the intersection nearest to `from_centre`.
 void count_from_centre(CodeVariant code, Hypothesis& hypothesis);

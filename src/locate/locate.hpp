@@ -13,9 +13,6 @@ namespace dotpose::core {
 Fix locate(const ImageView& image, const DeviceOptions& options, const Prediction* prediction,
            DesktopWorkspace& w);
 
-/// See Locator::begin.
-Status begin_image(int width_px, int height_px, const DeviceOptions& options, DesktopWorkspace& w);
-
 /// See Locator::locate_in_any_code. `prediction` may be null.
 CodeReading locate_in_any_code(const ImageView& image, const DeviceOptions& options,
                                const Prediction* prediction, const CodeEvidence& evidence,

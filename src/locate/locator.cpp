@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "core/steps.hpp"
 #include "dotpose/locate.hpp"
 #include "locate/after_motion.hpp"
 #include "locate/locate.hpp"
@@ -114,7 +115,11 @@ CodeReading Locator::locate_in_code(const ImageView& image) {
 }
 
 Status Locator::begin(int width_px, int height_px) {
-    const Status status = core::begin_image(width_px, height_px, options_, workspace());
+    core::DesktopWorkspace& w = workspace();
+    Status status = core::check(width_px, height_px, options_, w);
+    if (status == Status::ok && !w.pushed.begin(width_px, height_px))
+        status = Status::image_too_large;
+    if (status != Status::ok) core::refuse(status, w);
     return note_begin(status, height_px);
 }
 

@@ -4,7 +4,6 @@
 #include <cstdlib>
 
 #include "core/integrity/certainty.hpp"
-#include "core/kernels/select.hpp"
 #include "locate/tuning.hpp"
 
 namespace dotpose::core {
@@ -38,14 +37,14 @@ FixedVec origin_after(int quarters) {
 
 }  // namespace
 
-bool is_possible(CodeVariant code, const DesktopWorkspace& w) {
-    if (!w.known.are_all()) return true;
-    const GridRegion& region = w.decoding.region;
-    const QuarterTurn& turn = w.decoding.pattern_from_grid;
+bool is_possible(CodeVariant code, const Decoding& decoding, const KnownSheets& known) {
+    if (!known.are_all()) return true;
+    const GridRegion& region = decoding.region;
+    const QuarterTurn& turn = decoding.pattern_from_grid;
     const FixedVec a = turn({region.i0, region.j0});
     const FixedVec b = turn({region.i0 + region.columns - 1, region.j0 + region.rows - 1});
-    const Place corner = moved(code, w.decoding.place, std::min(a.x, b.x), std::min(a.y, b.y));
-    return w.known.show(code, corner, std::abs(b.x - a.x) + 1, std::abs(b.y - a.y) + 1);
+    const Place corner = moved(code, decoding.place, std::min(a.x, b.x), std::min(a.y, b.y));
+    return known.show(code, corner, std::abs(b.x - a.x) + 1, std::abs(b.y - a.y) + 1);
 }
 
 std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const DeviceOptions& options,
@@ -64,23 +63,24 @@ bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, 
     return true;
 }
 
-bool read_on_sheets(const DeviceOptions& options, DesktopWorkspace& w) {
-    const GridRegion& region = w.decoding.region;
+bool read_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Grid& grid,
+                    const KnownSheets& known, Decoding& decoding, Fix& fix) {
+    const GridRegion& region = decoding.region;
     const FixedVec middle{region.i0 + region.columns / 2, region.j0 + region.rows / 2};
-    const BitBlock block = bits_of(w.grid, region, middle);
-    const auto found = find_place_on_sheets(kernels(), options, block, w.known);
+    const BitBlock block = bits_of(grid, region, middle);
+    const auto found = find_place_on_sheets(kernels, options, block, known);
     if (!found) return false;
-    w.fix.bit_errors = found->wrong[0] + found->wrong[1];
-    if (!is_certain_on_sheets(kernels(), options, found->place, turned(found->quarters, block),
-                              w.known, w.fix)) {
+    fix.bit_errors = found->wrong[0] + found->wrong[1];
+    if (!is_certain_on_sheets(kernels, options, found->place, turned(found->quarters, block), known,
+                              fix)) {
         return false;
     }
     const QuarterTurn turn{found->quarters};
     const FixedVec to_origin = origin_after(found->quarters) - turn(middle);
-    w.decoding.pattern_from_grid = turn;
-    w.decoding.place = moved(options.code, found->place, to_origin.x, to_origin.y);
-    w.decoding.bits = found->bits;
-    w.decoding.lines_are_scored = false;
+    decoding.pattern_from_grid = turn;
+    decoding.place = moved(options.code, found->place, to_origin.x, to_origin.y);
+    decoding.bits = found->bits;
+    decoding.lines_are_scored = false;
     return true;
 }
 

@@ -4,15 +4,17 @@
 
 #include <optional>
 
+#include "core/decode/grid.hpp"
 #include "core/integrity/known_places.hpp"
 #include "dotpose/device_options.hpp"
-#include "locate/workspace.hpp"
+#include "dotpose/fix.hpp"
+#include "dotpose/trace.hpp"
 
 namespace dotpose::core {
 
 /// Returns true if the decoded region may be in view. If no other sheets are possible, the region
 /// must be at least partly on a known sheet.
-bool is_possible(CodeVariant code, const DesktopWorkspace& w);
+bool is_possible(CodeVariant code, const Decoding& decoding, const KnownSheets& known);
 
 /// Returns the most likely place of a block on the known sheets. Returns nullopt if this place is
 /// in a code other than the code of the options, or if too many bits contradict the place.
@@ -24,9 +26,10 @@ std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const Dev
 bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Place& place,
                           const BitBlock& block, const KnownSheets& known, Fix& fix);
 
-/// Finds the position of the grid on the known sheets. If there is a position, sets `bit_errors`
-/// and `p_wrong_log2` of the fix. If the position is certain, also sets the decoding and `prior` of
-/// the fix, and returns true.
-bool read_on_sheets(const DeviceOptions& options, DesktopWorkspace& w);
+/// Finds the position of the decoded region on the known sheets. If there is a position, sets
+/// `bit_errors` and `p_wrong_log2` of the fix. If the position is certain, also sets the decoding
+/// and `prior` of the fix, and returns true.
+bool read_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Grid& grid,
+                    const KnownSheets& known, Decoding& decoding, Fix& fix);
 
 }  // namespace dotpose::core

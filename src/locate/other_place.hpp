@@ -18,4 +18,10 @@ void name_code_that_explains(const OtherCodes& others, CodeReading& reading);
 void name_other_place(CodeVariant read, CodeVariant other, const OtherCodes& others,
                       CodeReading& reading);
 
+/// Sets `other_code`, `other_cell` and `other_section` of `reading` to the code and place of `any`,
+/// a reading of the same frame in any code. If both readings are in the same code, copies these
+/// members from `any` instead. Does nothing if `any` has no place, or if `any` has more than one
+/// bit error per kBitsPerError dots.
+void note_other_reading(const CodeReading& any, CodeReading& reading);
+
 }  // namespace dotpose::core

@@ -2,17 +2,19 @@
 // attempt and the search for a rotation.
 #pragma once
 
-#include "core/kernels/select.hpp"
+#include <optional>
+
 #include "core/lattice/outwards.hpp"
-#include "dotpose/device_options.hpp"
-#include "dotpose/image.hpp"
+#include "core/patch_memory.hpp"
+#include "dotpose/fix.hpp"
+#include "locate/frame.hpp"
 #include "locate/hypothesis.hpp"
-#include "locate/workspace.hpp"
+#include "locate/place_evidence.hpp"
 
 namespace dotpose::core {
 
 /// Moves the dots to their undistorted image points. The dots are relative to `middle`, in px from
-/// the image centre.
+/// the image centre. Does nothing if the lens has no distortion.
 void undistort(const FixedLens& lens, FloatVec middle, PatchDots& dots);
 
 /// Returns the middle of a patch, in px relative to the image centre.
@@ -20,21 +22,23 @@ FloatVec middle_of(const Patch& patch, const ImageView& image);
 
 /// Places a patch around a point of the image, in px. Returns false if the patch is too small for a
 /// grid.
-bool place_patch(const ImageView& image, FixedVec around_px, int scale, DesktopWorkspace& w);
+bool place_patch(const ImageView& image, FixedVec around_px, int scale, Patch& patch);
+
+/// Places a patch around the image centre. Returns false if the patch is too small for a grid.
+bool place_patch_in_middle(const ImageView& image, int scale, Patch& patch);
 
 /// Finds the dots of the patch, and sets the status of the fix to the status that applies if no
 /// patch contains a grid. Returns false, without setting the status, if the patch has no contrast.
-bool find_patch_dots(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-                     DesktopWorkspace& w);
+bool find_patch_dots(const Frame& frame, Patch& patch, Fix& fix);
 
 /// Finds a place in the code from the dots and the grid of a patch. The dots, the grid and the
-/// hypothesis are relative to `from_centre`. Returns false if no place is found.
-bool read_grid(const Kernels& kernels, const DeviceOptions& options, const PatchGrid& grid,
-               FloatVec from_centre, DesktopWorkspace& w, Hypothesis& hypothesis);
+/// hypothesis are relative to `from_centre`. Returns nullopt if no place is found.
+std::optional<Hypothesis> read_grid(const Patch& patch, const PatchGrid& grid, FloatVec from_centre,
+                                    const PlaceEvidence& evidence);
 
-/// Finds a grid in the dots of a patch, and its place in the code (see `read_grid`). Returns false
-/// if no grid or no place is found.
-bool read_hypothesis(const Kernels& kernels, const DeviceOptions& options, const PatchView& view,
-                     FloatVec from_centre, DesktopWorkspace& w, Hypothesis& hypothesis);
+/// Finds a grid in the dots of a patch, and its place in the code (see `read_grid`). Returns
+/// nullopt if no grid or no place is found.
+std::optional<Hypothesis> read_hypothesis(const Patch& patch, const PatchView& view,
+                                          FloatVec from_centre, const PlaceEvidence& evidence);
 
 }  // namespace dotpose::core

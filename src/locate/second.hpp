@@ -2,8 +2,9 @@
 // all dots, and reads the bits of each cell.
 #pragma once
 
-#include "dotpose/device_options.hpp"
-#include "dotpose/image.hpp"
+#include "core/decode/nominal.hpp"
+#include "core/pose/refine_pose.hpp"
+#include "locate/frame.hpp"
 #include "locate/workspace.hpp"
 
 namespace dotpose::core {
@@ -15,16 +16,23 @@ class SecondAttempt {
   public:
     enum class Resampling : std::uint8_t { never, if_doubtful };
 
-    SecondAttempt(const ImageView& image, DesktopWorkspace& w) : image_(image), w_(w) {}
+    explicit SecondAttempt(DesktopWorkspace& w) : w_(w) {}
 
-    /// Locates the image in the code of the options. Returns true if there is a fix. The workspace
-    /// then contains the fix. Otherwise, it contains the status. If the position is not certain,
-    /// `Resampling::if_doubtful` fits the grid to the dots of the position, and reads and decodes
-    /// the bits again.
-    bool read(const DeviceOptions& options, Resampling resampling);
+    /// Locates the frame in the code of its options. All calls must have the same image. Returns
+    /// true if there is a fix. The workspace then contains the fix. Otherwise, it contains the
+    /// status. If the position is not certain, `Resampling::if_doubtful` fits the grid to the dots
+    /// of the position, and reads and decodes the bits again.
+    bool read(const Frame& frame, Resampling resampling);
 
   private:
-    const ImageView& image_;
+    Status read_filtered(const Frame& frame);
+    Status read_filtered_with(const DeviceOptions& filtered, const ImageView& image);
+    Status find_grid(const LatticeOptions& options, FixedVec centre_q8);
+    Status read_position(const PlaceEvidence& evidence);
+    Status resample(const Frame& frame, const PlaceEvidence& evidence);
+    Status measure_pose(const Frame& frame);
+    bool fit_pattern(const Frame& frame, const Nominal& nominal, PoseFit& fit);
+
     DesktopWorkspace& w_;
     bool is_seen_ = false;  ///< true if the workspace contains the dots and cells of the filtered
                             ///< image

@@ -7,8 +7,8 @@
 #include "core/math/fixed.hpp"
 #include "core/pose/refine_pose.hpp"
 #include "core/steps.hpp"
-#include "locate/confirm.hpp"
 #include "locate/dot_reader.hpp"
+#include "locate/trace.hpp"
 #include "locate/tuning.hpp"
 
 namespace dotpose::core {
@@ -50,16 +50,16 @@ int max_shift_px(const Prediction& prediction, float spacing_px) {
 
 /// Corrects the plane with the centroids of the listed dots. Returns false unless at least kMinNear
 /// dots, and at least three quarters of all listed dots, have offsets of at most kMaxOffset_px.
-bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsInView view,
-                          FloatPlane& plane, MeasuredDots& dots) {
+bool correct_by_centroids(const Frame& frame, CellsInView view, FloatPlane& plane,
+                          MeasuredDots& dots) {
     const float far_px = std::max(view.width_px, view.height_px) / 2;
     for (int look = 0; look < tuned::kMaxLooks; ++look) {
         if (look > 0) {
             view.plane = plane;
-            kernels.list_cells(view, dots);
+            frame.kernels.list_cells(view, dots);
         }
-        const DotOffsets found =
-            kernels.find_centres(image, view, tuned::kMaxOffset_px, tuned::kWeight_px, dots);
+        const DotOffsets found = frame.kernels.find_centres(frame.image, view, tuned::kMaxOffset_px,
+                                                            tuned::kWeight_px, dots);
         if (found.points < tuned::kMinNear || 4 * found.points < 3 * dots.count) return false;
         const Similarity motion = similarity_of(found);
         plane = moved(plane, motion);
@@ -74,13 +74,14 @@ bool correct_by_centroids(const Kernels& kernels, const ImageView& image, CellsI
 
 /// Corrects the hypothesis with the dots near its `from_centre`. Returns false if the dots are not
 /// found.
-bool correct_by_dots(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-                     int max_px, Hypothesis& hypothesis, DesktopWorkspace& w) {
+bool correct_by_dots(const Frame& frame, int max_px, Hypothesis& hypothesis,
+                     const RollMemory& rolls, MeasuredDots& dots) {
+    const Kernels& kernels = frame.kernels;
+    const ImageView& image = frame.image;
     FloatPlane& plane = hypothesis.pattern_from_image;
-    MeasuredDots& dots = w.measured;
     const float spacing = spacing_px(plane);
     const float reach = tuned::kNear * spacing;
-    CellsInView view = cells_in_view(image, options, hypothesis, reach, dots.capacity(), w);
+    CellsInView view = cells_in_view(frame, hypothesis, reach, dots.capacity(), rolls);
     view.windows = Windows::on_dots;
     const bool by_centroids = can_sample_directly(hypothesis);
     // The image must contain the centroid windows at every shift of the search.
@@ -99,7 +100,7 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Devic
             dots.y[i] += shift_px.y;
         }
         FloatPlane corrected = plane;
-        if (correct_by_centroids(kernels, image, view, corrected, dots)) {
+        if (correct_by_centroids(frame, view, corrected, dots)) {
             plane = corrected;
             return true;
         }
@@ -115,14 +116,13 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Devic
 
 /// Corrects the hypothesis with the dots near `from`, in px relative to the image centre. Returns
 /// false if the dots are not found.
-bool correct(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-             FloatVec from, int max_px, Hypothesis& hypothesis, DesktopWorkspace& w) {
+bool correct(const Frame& frame, FloatVec from, int max_px, Hypothesis& hypothesis,
+             const RollMemory& rolls, MeasuredDots& dots) {
     hypothesis.from_centre = from;
     hypothesis.pattern_from_image = recentred(hypothesis.pattern_from_image, from);
-    count_from_centre(options.code, hypothesis);
-    if (!correct_by_dots(kernels, image, options, max_px, hypothesis, w)) return false;
-    hypothesis.pattern_from_image = recentred(hypothesis.pattern_from_image, {-from.x, -from.y});
-    hypothesis.from_centre = {};
+    count_from_centre(frame.options.code, hypothesis);
+    if (!correct_by_dots(frame, max_px, hypothesis, rolls, dots)) return false;
+    move_origin_to_centre(hypothesis);
     return true;
 }
 
@@ -133,8 +133,8 @@ bool is_in_code(const Place& place) {
 
 /// Makes a hypothesis from the prediction, relative to the image centre. Returns nullopt if the
 /// prediction is not plausible.
-std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const ImageView& image,
-                                          const DeviceOptions& options) {
+std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Frame& frame) {
+    const ImageView& image = frame.image;
     Hypothesis hypothesis;
     const PlaneFromImage& plane = prediction.pattern_from_image;
     const auto from_q8 = [](int side_px, std::int32_t centre_q8) {
@@ -153,43 +153,50 @@ std::optional<Hypothesis> hypothesis_from(const Prediction& prediction, const Im
     if (!(hypothesis.displacement > tuned::kMinDisplacement &&
           hypothesis.displacement < tuned::kMaxDisplacement))
         return {};
-    count_from_centre(options.code, hypothesis);
+    count_from_centre(frame.options.code, hypothesis);
     return hypothesis;
 }
 
 /// Corrects the hypothesis at one image point after another, until its bits confirm it. Returns
 /// false if no point leads to a confirmed hypothesis.
-bool confirm_corrected(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-                       const Hypothesis& hypothesis, int max_px, DesktopWorkspace& w) {
+bool confirm_corrected(const Frame& frame, const Hypothesis& hypothesis, int max_px,
+                       const PlaceEvidence& evidence, Measurement& measurement, Fix& fix) {
     for (const FloatVec fraction : tuned::kPoints) {
-        const FloatVec from{fraction.x * static_cast<float>(image.width_px),
-                            fraction.y * static_cast<float>(image.height_px)};
+        const FloatVec from{fraction.x * static_cast<float>(frame.image.width_px),
+                            fraction.y * static_cast<float>(frame.image.height_px)};
         Hypothesis there = hypothesis;
-        if (!correct(kernels, image, options, from, max_px, there, w)) continue;
-        if (confirm(kernels, image, options, there, w) == Confirmation::ok) return true;
+        if (!correct(frame, from, max_px, there, measurement.rolls, measurement.dots)) continue;
+        if (confirm(frame, there, evidence, measurement, fix) == Confirmation::ok) return true;
     }
     return false;
 }
 
 }  // namespace
 
-bool locate_tracked(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-                    const Prediction& prediction, DesktopWorkspace& w) {
-    forget_frame(w);
-    const auto hypothesis = hypothesis_from(prediction, image, options);
+bool confirm_prediction(const Frame& frame, const Prediction& prediction,
+                        const PlaceEvidence& evidence, Measurement& measurement, Fix& fix) {
+    const auto hypothesis = hypothesis_from(prediction, frame);
     if (!hypothesis) return false;
     const int max_px = max_shift_px(prediction, spacing_px(hypothesis->pattern_from_image));
-    if (!confirm_corrected(kernels, image, options, *hypothesis, max_px, w)) return false;
-    w.fix.attempt = Attempt::tracked;
+    if (!confirm_corrected(frame, *hypothesis, max_px, evidence, measurement, fix)) return false;
+    fix.attempt = Attempt::tracked;
     return true;
 }
 
-void measure_again(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-                   DesktopWorkspace& w) {
-    auto hypothesis = hypothesis_from(Prediction::like(w.fix), image, options);
-    if (!hypothesis) return;
+bool locate_tracked(const Frame& frame, const Prediction& prediction, DesktopWorkspace& w) {
+    forget_frame(w);
+    if (!confirm_prediction(frame, prediction, w.evidence(frame), w.measurement, w.fix))
+        return false;
+    store_for_trace(w.measurement, frame.options.show_stages, w);
+    return true;
+}
+
+bool measure_again(const Frame& frame, const PlaceEvidence& evidence, Measurement& measurement,
+                   Fix& fix) {
+    auto hypothesis = hypothesis_from(Prediction::like(fix), frame);
+    if (!hypothesis) return false;
     hypothesis->is_certain = true;
-    confirm_corrected(kernels, image, options, *hypothesis, 1, w);
+    return confirm_corrected(frame, *hypothesis, 1, evidence, measurement, fix);
 }
 
 }  // namespace dotpose::core

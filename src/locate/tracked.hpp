@@ -2,22 +2,24 @@
 // the dots only where a prediction expects them.
 #pragma once
 
-#include "core/kernels/select.hpp"
-#include "dotpose/device_options.hpp"
-#include "dotpose/image.hpp"
 #include "dotpose/prediction.hpp"
+#include "locate/confirm.hpp"
+#include "locate/frame.hpp"
 #include "locate/workspace.hpp"
 
 namespace dotpose::core {
 
 /// Measures the dots at their predicted places. If their bits confirm the prediction, sets the fix
 /// of the workspace and returns true.
-bool locate_tracked(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-                    const Prediction& prediction, DesktopWorkspace& w);
+bool locate_tracked(const Frame& frame, const Prediction& prediction, DesktopWorkspace& w);
 
-/// Measures the dots of the fix in the workspace again, as the tracked attempt does. The fix must
-/// be certain. It remains unchanged if the dots do not confirm it.
-void measure_again(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-                   DesktopWorkspace& w);
+/// The same, with the parts of the workspace that the attempt uses, and without the trace.
+bool confirm_prediction(const Frame& frame, const Prediction& prediction,
+                        const PlaceEvidence& evidence, Measurement& measurement, Fix& fix);
+
+/// Measures the dots of a fix again, as the tracked attempt does. The fix must be certain. Returns
+/// false without a change of the fix if the dots do not confirm it.
+bool measure_again(const Frame& frame, const PlaceEvidence& evidence, Measurement& measurement,
+                   Fix& fix);
 
 }  // namespace dotpose::core

@@ -8,8 +8,9 @@
 #include "core/detect/undistort.hpp"
 #include "core/lattice/outwards.hpp"
 #include "core/pose/float_fit.hpp"
-#include "locate/confirm.hpp"
+#include "core/steps.hpp"
 #include "locate/patch_hypothesis.hpp"
+#include "locate/trace.hpp"
 #include "locate/tracked.hpp"
 #include "locate/tuning.hpp"
 
@@ -18,9 +19,9 @@ namespace {
 
 namespace tuned = tuning::turning;
 
-bool has_room(const ImageView& image, const DesktopWorkspace& w) {
+bool has_room(const ImageView& image, std::span<const std::uint8_t> pixels) {
     return static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px) <=
-           w.rolling.memory.size();
+           pixels.size();
 }
 
 /// Returns the centre of the rotation that is removed from an image. This is the distortion centre,
@@ -62,16 +63,15 @@ bool is_possible(const ReadoutTurn& turn, const ImageView& image) {
 class TurnSearch {
   public:
     /// The dots in the patch must be undistorted.
-    TurnSearch(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-               const PatchView& view, DesktopWorkspace& w)
-        : kernels_(kernels),
-          image_(image),
-          view_(view),
-          patch_(*w.patch),
-          seen_(w.patch->dots),
-          middle_(middle_of(*w.patch, image)) {
-        turn_.axis = axis_of(options.lens);
-        step_ = tuned::kStep * view.spacing_px /
+    TurnSearch(const Frame& frame, Patch& patch)
+        : frame_(frame),
+          view_(whole_view(patch)),
+          patch_(patch),
+          seen_(patch.dots),
+          middle_(middle_of(patch, frame.image)) {
+        view_.min_dots = frame.min_dots;
+        turn_.axis = axis_of(frame.options.lens);
+        step_ = tuned::kStep * view_.spacing_px /
                 corner_px_per_turn(patch_.width_px * patch_.scale, patch_.height_px * patch_.scale);
     }
 
@@ -104,7 +104,7 @@ class TurnSearch {
             patch_.dots.x[i] = at.x - middle_.x;
             patch_.dots.y[i] = at.y - middle_.y;
         }
-        return find_grid(kernels_, patch_, view_, grid);
+        return find_grid(frame_.kernels, patch_, view_, grid);
     }
 
     /// Tries a rotation that is larger by `step`, with the drift of the best grid so far. Returns
@@ -114,7 +114,7 @@ class TurnSearch {
         turn.rad_per_row += step;
         turn.drift = drift_of(grid_.grid_from_image);
         PatchGrid grid;
-        if (!is_possible(turn, image_) || !fits(turn, grid) ||
+        if (!is_possible(turn, frame_.image) || !fits(turn, grid) ||
             grid.agreement <= tuned::kBetter * grid_.agreement)
             return false;
         turn_ = turn;
@@ -122,8 +122,7 @@ class TurnSearch {
         return true;
     }
 
-    const Kernels& kernels_;
-    const ImageView& image_;
+    const Frame& frame_;
     PatchView view_;
     Patch& patch_;
     PatchDots seen_;
@@ -133,19 +132,26 @@ class TurnSearch {
     PatchGrid grid_;
 };
 
-/// Writes the rotation into the fix. Converts the dots of the trace to the original image.
-void write_turn(const ReadoutTurn& turn, const ImageView& image, const FixedLens& lens,
-                DesktopWorkspace& w) {
-    w.fix.readout_turn_rad = -turn.rad_per_row * static_cast<float>(image.height_px);
-    const FixedVec centre_q8{(image.width_px - 1) * 128, (image.height_px - 1) * 128};
-    for (DetectedDot& dot : w.dots.first(static_cast<std::size_t>(w.dot_count))) {
-        const FixedVec at_q8 = distorted(lens, centre_q8, dot.centre_q8) - centre_q8;
+/// Converts dots of an image from which a rotation was removed to dots of the original image.
+void show_in_original(const ReadoutTurn& turn, const ImageView& image, const FixedLens& lens,
+                      std::span<DetectedDot> dots) {
+    const FixedVec middle_q8 = centre_q8(image);
+    for (DetectedDot& dot : dots) {
+        const FixedVec at_q8 = distorted(lens, middle_q8, dot.centre_q8) - middle_q8;
         const FloatVec at{static_cast<float>(at_q8.x) / 256, static_cast<float>(at_q8.y) / 256};
         const FloatVec seen = turn.seen_from(at, at.y, 6);
         const FixedVec seen_q8{static_cast<std::int32_t>(std::floor(seen.x * 256 + 0.5F)),
                                static_cast<std::int32_t>(std::floor(seen.y * 256 + 0.5F))};
-        dot.centre_q8 = undistorted(lens, centre_q8, centre_q8 + seen_q8);
+        dot.centre_q8 = undistorted(lens, middle_q8, middle_q8 + seen_q8);
     }
+}
+
+/// Stores the results of an attempt for the trace, and writes the rotation into the fix.
+void store_turning(const Frame& frame, const ReadoutTurn& turn, const Measurement& measurement,
+                   Workspace& w) {
+    w.fix.readout_turn_rad = -turn.rad_per_row * static_cast<float>(frame.image.height_px);
+    store_for_trace(measurement, frame.options.show_stages, w);
+    show_in_original(turn, frame.image, frame.options.lens, first(w.dots, w.dot_count));
 }
 
 /// Returns true if the rotation explains enough of the squared residuals that the dots have without
@@ -158,23 +164,22 @@ bool is_significant(const TurnFit& fit, int dots, Surface surface) {
            min_gain * static_cast<float>(dots) * fit.variance;
 }
 
-/// Calls `locate(view)` with the image from which the rotation is removed. `locate` must call
-/// `confirm`, which fits the rotation to the measured dots. Repeats this with the fitted rotation
-/// until the rotation no longer changes. Sets `turn` to the rotation.
+/// Calls `locate` with the frame from which the rotation is removed. `locate` must call `confirm`,
+/// which fits the rotation to the measured dots. Repeats this with the fitted rotation until the
+/// rotation no longer changes. Sets `turn` to the rotation. `pixels` is memory for the image.
 template <typename Locate>
-Confirmation settle(const ImageView& image, DesktopWorkspace& w, ReadoutTurn& turn, Locate locate) {
-    RollingImage& rolling = w.rolling;
+Confirmation settle(const Frame& frame, std::span<std::uint8_t> pixels,
+                    const Measurement& measurement, ReadoutTurn& turn, Locate locate) {
+    const ImageView& image = frame.image;
     const float corner_px = corner_px_per_turn(image.width_px, image.height_px);
-    Confirmation confirmation = Confirmation::implausible;
     for (int round = 0; round < tuned::kMaxRounds; ++round) {
-        rolling.turn = turn;
-        rolling.fit = {};
-        rolling.is_fitted = true;
-        confirmation = locate(derotated(image, turn, rolling.memory));
-        rolling.is_fitted = false;
-        if (confirmation != Confirmation::ok) return confirmation;
         const ReadoutTurn before = turn;
-        turn = rolling.fit.turn;
+        Frame still = frame;
+        still.image = derotated(image, before, pixels);
+        still.removed_turn = &before;
+        const Confirmation confirmation = locate(still);
+        if (confirmation != Confirmation::ok) return confirmation;
+        turn = measurement.turn.turn;
         if (!is_possible(turn, image)) break;
         const float moved = std::abs(turn.rad_per_row - before.rad_per_row) +
                             std::abs(turn.rad_per_row) * distance(turn.drift, before.drift);
@@ -183,32 +188,13 @@ Confirmation settle(const ImageView& image, DesktopWorkspace& w, ReadoutTurn& tu
     return Confirmation::implausible;
 }
 
-/// Measures the dots of a hypothesis in the image from which the rotation is removed.
-Confirmation confirm_turning(const Kernels& kernels, const ImageView& image,
-                             const DeviceOptions& options, Hypothesis hypothesis, ReadoutTurn turn,
-                             DesktopWorkspace& w) {
-    const Confirmation confirmation = settle(image, w, turn, [&](const ImageView& still) {
-        const Confirmation c = confirm(kernels, still, options, hypothesis, w);
-        hypothesis.pattern_from_image = float_plane(w.fix.pattern_from_image);
-        hypothesis.place = w.fix.place;
-        hypothesis.is_certain = true;
-        return c;
-    });
-    if (confirmation != Confirmation::ok) return confirmation;
-    if (!is_significant(w.rolling.fit, w.fix.dots_used, w.fix.surface))
-        return Confirmation::implausible;
-    write_turn(turn, image, options.lens, w);
-    return Confirmation::ok;
-}
-
 /// Searches for a grid with a place in the code, first at the rotation `turn` and then at rotations
-/// of increasing size. Sets `turn` to the rotation of this grid. Returns false if there is no such
-/// grid.
-bool find_turning_hypothesis(const Kernels& kernels, const ImageView& image,
-                             const DeviceOptions& options, TurnSearch& search, DesktopWorkspace& w,
-                             ReadoutTurn& turn, Hypothesis& hypothesis) {
-    const FloatVec middle = middle_of(*w.patch, image);
-    const float max = max_rad_per_row(image);
+/// of increasing size. Sets `turn` to the rotation of this grid. Returns nullopt if there is no
+/// such grid.
+std::optional<Hypothesis> find_turning_hypothesis(const Frame& frame, const Patch& patch,
+                                                  const PlaceEvidence& evidence, TurnSearch& search,
+                                                  ReadoutTurn& turn) {
+    const float max = max_rad_per_row(frame.image);
     int climbs_left = tuned::kMaxClimbs;
     for (int i = turn.rad_per_row == 0 ? 0 : -1; climbs_left > 0; ++i) {
         const float size = static_cast<float>((i + 1) / 2) * search.step();
@@ -217,72 +203,95 @@ bool find_turning_hypothesis(const Kernels& kernels, const ImageView& image,
                                    : search.climb(i % 2 == 0 ? size : -size, {});
         if (!is_grid || search.grid().variance > tuned::kMaxVariance) continue;
         --climbs_left;
-        if (!read_grid(kernels, options, search.grid(), middle, w, hypothesis)) continue;
-        hypothesis.pattern_from_image =
-            recentred(hypothesis.pattern_from_image, {-middle.x, -middle.y});
-        hypothesis.from_centre = {};
+        auto hypothesis = read_grid(patch, search.grid(), middle_of(patch, frame.image), evidence);
+        if (!hypothesis) continue;
+        move_origin_to_centre(*hypothesis);
         turn = search.turn();
-        return true;
+        return hypothesis;
     }
-    return false;
+    return {};
 }
 
 /// Searches the dots of the patch for a grid of square cells, and then for a grid of arbitrary
-/// parallelograms. Confirms the hypothesis.
-Confirmation locate_turning_in_patch(const Kernels& kernels, const ImageView& image,
-                                     const DeviceOptions& options, DesktopWorkspace& w,
-                                     ReadoutTurn& turn) {
-    PatchDots& dots = w.patch->dots;
-    if (options.lens.k_q40 != 0) undistort(options.lens, middle_of(*w.patch, image), dots);
-    PatchView view = whole_view(*w.patch);
-    view.min_dots = min_dots(options, w);
-    TurnSearch search(kernels, image, options, view, w);
+/// parallelograms. Returns nullopt if there is no grid with a place in the code.
+std::optional<Hypothesis> search_patch(const Frame& frame, const PlaceEvidence& evidence,
+                                       Patch& patch, ReadoutTurn& turn) {
+    undistort(frame.options.lens, middle_of(patch, frame.image), patch.dots);
+    TurnSearch search(frame, patch);
     for (const bool is_skewed : {false, true}) {
         search.accept_skewed(is_skewed);
-        Hypothesis hypothesis;
-        if (find_turning_hypothesis(kernels, image, options, search, w, turn, hypothesis))
-            return confirm_turning(kernels, image, options, hypothesis, turn, w);
+        const auto hypothesis = find_turning_hypothesis(frame, patch, evidence, search, turn);
+        if (hypothesis) return hypothesis;
     }
-    return Confirmation::implausible;
+    return {};
+}
+
+/// Finds the dots of a patch around the image centre. Returns false if noise and dirt explain the
+/// failure of the first attempt.
+bool find_isolated_dots(const Frame& frame, Patch& patch, Fix& fix) {
+    if (!find_patch_dots(frame, patch, fix)) return false;
+    const int seen = patch.dots.count;
+    keep_isolated(patch);
+    return static_cast<float>(patch.dots.count) >= tuned::kMinIsolated * static_cast<float>(seen);
+}
+
+/// Measures the dots of a hypothesis in the image from which the rotation is removed. See `settle`.
+Confirmation confirm_turning(const Frame& frame, Hypothesis hypothesis,
+                             const PlaceEvidence& evidence, std::span<std::uint8_t> pixels,
+                             ReadoutTurn& turn, Measurement& measurement, Fix& fix) {
+    const Confirmation confirmation =
+        settle(frame, pixels, measurement, turn, [&](const Frame& still) {
+            const Confirmation c = confirm(still, hypothesis, evidence, measurement, fix);
+            hypothesis.pattern_from_image = float_plane(fix.pattern_from_image);
+            hypothesis.place = fix.place;
+            hypothesis.is_certain = true;
+            return c;
+        });
+    if (confirmation != Confirmation::ok) return confirmation;
+    return is_significant(measurement.turn, fix.dots_used, fix.surface) ? Confirmation::ok
+                                                                        : Confirmation::implausible;
 }
 
 }  // namespace
 
-bool shows_turn(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-                DesktopWorkspace& w) {
-    const Fix& fix = w.fix;
-    if ((fix.surface == Surface::even && !is_rough(fix)) || !has_room(image, w)) return false;
+bool shows_turn(const Frame& frame, const Fix& fix, std::span<const std::uint8_t> pixels,
+                Measurement& measurement) {
+    if ((fix.surface == Surface::even && !is_rough(fix)) || !has_room(frame.image, pixels))
+        return false;
     // If the dots were measured around a point other than the image centre, only the search can
     // detect a rotation.
-    if (!(fix.pattern_from_image.centre_q8 == w.pattern_from_image.centre_q8)) return is_rough(fix);
+    if (!(fix.pattern_from_image.centre_q8 == measurement.pattern_from_image.centre_q8))
+        return is_rough(fix);
     // Fits the plane again, because the fix may use only one side of a divided sheet.
     const float displacement = static_cast<float>(fix.displacement_q16) / 65536;
     FloatPlane plane = float_plane(fix.pattern_from_image);
     PoseFit fit;
     TurnFit turn;
-    return fit_plane(kernels, w.measured, std::max(image.width_px, image.height_px) / 2 + 1,
+    MeasuredDots& dots = measurement.dots;
+    return fit_plane(frame.kernels, dots,
+                     std::max(frame.image.width_px, frame.image.height_px) / 2 + 1,
                      displacement * displacement, displacement, plane, fit) &&
-           fit_turn(kernels, {0, axis_of(options.lens), drift_of(plane)}, {}, w.measured, plane,
-                    fit, turn) &&
+           fit_turn(frame.kernels, {0, axis_of(frame.options.lens), drift_of(plane)}, {}, dots,
+                    plane, fit, turn) &&
            is_significant(turn, fit.dots, Surface::even);
 }
 
-bool locate_turning(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-                    DesktopWorkspace& w) {
-    if (!has_room(image, w)) return false;
+bool locate_turning(const Frame& frame, DesktopWorkspace& w) {
+    if (!has_room(frame.image, w.rolling_pixels)) return false;
     const Fix before = w.fix;
+    const PlaceEvidence evidence = w.evidence(frame);
     ReadoutTurn turn;
     for (const int scale : {1, 2, 4}) {
-        if (!place_patch(image, {image.width_px / 2, image.height_px / 2}, scale, w)) break;
-        if (!find_patch_dots(kernels, image, options, w)) continue;
-        const int seen = w.patch->dots.count;
-        keep_isolated(*w.patch);
-        if (static_cast<float>(w.patch->dots.count) <
-            tuned::kMinIsolated * static_cast<float>(seen))
-            continue;
-        const Confirmation confirmation = locate_turning_in_patch(kernels, image, options, w, turn);
+        if (!place_patch_in_middle(frame.image, scale, *w.patch)) break;
+        if (!find_isolated_dots(frame, *w.patch, w.fix)) continue;
+        const auto hypothesis = search_patch(frame, evidence, *w.patch, turn);
+        if (!hypothesis) continue;
+        ReadoutTurn settled = turn;
+        const Confirmation confirmation = confirm_turning(
+            frame, *hypothesis, evidence, w.rolling_pixels, settled, w.measurement, w.fix);
         if (confirmation == Confirmation::ok) {
             w.fix.attempt = Attempt::first;
+            store_turning(frame, settled, w.measurement, w);
             return true;
         }
         if (confirmation == Confirmation::uncertain) break;
@@ -291,25 +300,29 @@ bool locate_turning(const Kernels& kernels, const ImageView& image, const Device
     return false;
 }
 
-bool locate_tracked_turning(const Kernels& kernels, const ImageView& image,
-                            const DeviceOptions& options, const Prediction& prediction,
-                            DesktopWorkspace& w) {
-    if (!has_room(image, w)) return false;
+bool locate_tracked_turning(const Frame& frame, const Prediction& prediction, DesktopWorkspace& w) {
+    if (!has_room(frame.image, w.rolling_pixels)) return false;
     ReadoutTurn turn;
-    turn.axis = axis_of(options.lens);
-    turn.rad_per_row = -prediction.readout_turn_rad / static_cast<float>(image.height_px);
+    turn.axis = axis_of(frame.options.lens);
+    turn.rad_per_row = -prediction.readout_turn_rad / static_cast<float>(frame.image.height_px);
     turn.drift = drift_of(float_plane(prediction.pattern_from_image));
-    if (!is_possible(turn, image)) return false;
+    if (!is_possible(turn, frame.image)) return false;
+    forget_frame(w);
+    const PlaceEvidence evidence = w.evidence(frame);
     Prediction next = prediction;
-    const Confirmation confirmation = settle(image, w, turn, [&](const ImageView& still) {
-        const bool is_located = locate_tracked(kernels, still, options, next, w);
-        if (is_located) next = Prediction::like(w.fix);
-        return is_located ? Confirmation::ok : Confirmation::implausible;
-    });
-    if (confirmation != Confirmation::ok) return false;
-    write_turn(turn, image, options.lens, w);
+    const auto locate = [&](const Frame& still) {
+        w.fix = {};
+        if (!confirm_prediction(still, next, evidence, w.measurement, w.fix))
+            return Confirmation::implausible;
+        next = Prediction::like(w.fix);
+        return Confirmation::ok;
+    };
+    if (settle(frame, w.rolling_pixels, w.measurement, turn, locate) != Confirmation::ok)
+        return false;
+    store_turning(frame, turn, w.measurement, w);
     // Without a significant rotation, the next frame is predicted without a rotation.
-    if (!is_significant(w.rolling.fit, w.fix.dots_used, w.fix.surface)) w.fix.readout_turn_rad = 0;
+    if (!is_significant(w.measurement.turn, w.fix.dots_used, w.fix.surface))
+        w.fix.readout_turn_rad = 0;
     return true;
 }
 

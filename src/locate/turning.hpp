@@ -1,30 +1,31 @@
 // Turning: locates images of a rolling shutter in which the scene rotates while the rows are read.
 #pragma once
 
-#include "core/kernels/select.hpp"
-#include "dotpose/device_options.hpp"
-#include "dotpose/image.hpp"
+#include <cstdint>
+#include <span>
+
+#include "dotpose/fix.hpp"
 #include "dotpose/prediction.hpp"
+#include "locate/confirm.hpp"
+#include "locate/frame.hpp"
 #include "locate/workspace.hpp"
 
 namespace dotpose::core {
 
 /// Returns true if the fix of a first or tracked attempt has large or correlated residuals that a
-/// rotation during the readout may explain. Uses and changes the measured dots of the attempt.
-bool shows_turn(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-                DesktopWorkspace& w);
+/// rotation during the readout may explain, and `pixels` has room for the image without rotation.
+/// `measurement` must contain the results of the attempt. Changes its dots.
+bool shows_turn(const Frame& frame, const Fix& fix, std::span<const std::uint8_t> pixels,
+                Measurement& measurement);
 
 /// Searches a patch at the image centre for a grid and a rotation. Then removes the rotation from
 /// the image, and measures the dots of the whole image. Returns true if a fix was found and its
 /// rotation is significant. The workspace then contains the fix. Otherwise, restores the previous
 /// fix.
-bool locate_turning(const Kernels& kernels, const ImageView& image, const DeviceOptions& options,
-                    DesktopWorkspace& w);
+bool locate_turning(const Frame& frame, DesktopWorkspace& w);
 
 /// Removes the predicted rotation from the image, and measures the dots at their predicted places.
 /// Returns true if their bits confirm the prediction. The workspace then contains the fix.
-bool locate_tracked_turning(const Kernels& kernels, const ImageView& image,
-                            const DeviceOptions& options, const Prediction& prediction,
-                            DesktopWorkspace& w);
+bool locate_tracked_turning(const Frame& frame, const Prediction& prediction, DesktopWorkspace& w);
 
 }  // namespace dotpose::core

@@ -8,101 +8,53 @@
 #include <span>
 
 #include "core/detect/smooth.hpp"
-#include "core/math/readout_turn.hpp"
 #include "core/other_codes.hpp"
 #include "core/patch_memory.hpp"
-#include "core/pose/turn_fit.hpp"
 #include "core/workspace.hpp"
 #include "device/workspace.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/prediction.hpp"
+#include "locate/confirm.hpp"
 #include "locate/earlier_bits.hpp"
-#include "locate/tuning.hpp"
+#include "locate/frame.hpp"
+#include "locate/place_evidence.hpp"
+#include "locate/pushed_image.hpp"
 
 namespace dotpose::core {
 
-/// An image that is pushed to a Locator row by row.
-struct PushedImage {
-    std::span<std::uint8_t> memory;
-    int width_px = 0;
-    int height_px = 0;
-    int rows = 0;  ///< number of rows pushed so far
-    bool has_prediction = false;
-    Prediction prediction;
-
-    /// Starts an image. Returns false if the image does not fit in the memory.
-    bool begin(int width, int height) {
-        width_px = width;
-        height_px = height;
-        rows = 0;
-        has_prediction = false;
-        return size(height) <= memory.size();
-    }
-    void add_row(const std::uint8_t* pixels) {
-        std::copy_n(pixels, width_px, memory.begin() + static_cast<std::ptrdiff_t>(size(rows)));
-        ++rows;
-    }
-    /// Returns the image. Missing rows are white.
-    ImageView completed() const {
-        const std::size_t begin = size(rows);
-        std::fill_n(memory.begin() + static_cast<std::ptrdiff_t>(begin), size(height_px) - begin,
-                    std::uint8_t{255});
-        return {memory.data(), width_px, height_px, width_px};
-    }
-
-  private:
-    std::size_t size(int height) const {
-        return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height);
-    }
-};
-
-/// An image of a rolling shutter after removing the rotation of the scene, and the fit of this
-/// rotation.
-struct RollingImage {
-    std::span<std::uint8_t> memory;
-    bool is_fitted = false;  ///< true if `confirm` fits the rotation
-    ReadoutTurn turn;        ///< rotation that was removed from the image
-    TurnFit fit;             ///< fitted by the last `confirm`, if `is_fitted` is true
-};
-
-/// Memory of a Locator: the memory of a DeviceLocator, and the memory that only a Locator needs.
+/// Memory of a Locator, and results of its attempts. Only the entry points and the attempts see it.
+/// They pass its parts to the stages. Contains the memory of a DeviceLocator, for `Effort::device`.
 struct DesktopWorkspace : DeviceWorkspace {
-    Patch* patch = nullptr;
-    MeasuredDots measured;
-    std::span<std::uint8_t> column_rolls;
-    std::span<std::uint8_t> row_rolls;
-    Smoothing smoothing;
-    OtherCodes other_codes;
+    Patch* patch = nullptr;   ///< first attempt, turning
+    Smoothing smoothing;      ///< second attempt
+    Measurement measurement;  ///< `confirm`
+    OtherCodes other_codes;   ///< odds of the codes in which the frame was not read
     EarlierBits earlier;
     PushedImage pushed;
-    RollingImage rolling;
-    bool is_mirrored = false;  ///< true if an attempt found the mirrored code
-    /// True if the first attempt found fewer cells than a certain position needs without known
-    /// sheets.
-    bool shows_too_few_cells = false;
-    /// True if all dots that the first attempt measured are clear and agree with the code, but are
-    /// too few. A rotation during the readout would misplace some of them.
-    bool has_clear_bits = false;
+    std::span<std::uint8_t> rolling_pixels;  ///< turning: the image without rotation
+    bool is_mirrored = false;                ///< true if an attempt found the mirrored code
 
     /// Sets the known sheets. On known sheets, smaller images and patches can be located.
     void set_known(const KnownSheets& sheets) {
         DeviceWorkspace::set_known(sheets);
         patch->min_side_px = sheets.any() ? kMinKnownFrameSide_px : Patch::kMinSide_px;
     }
+
+    /// Returns the input of an attempt. Known sheets and frames that are read together need fewer
+    /// dots.
+    Frame frame(const Kernels& kernels, const ImageView& image,
+                const DeviceOptions& options) const {
+        const bool need_few = known.any() || earlier.is_in_series();
+        return {kernels, image, options, known,
+                need_few ? std::min(options.lattice.min_dots, kMinKnownDots)
+                         : options.lattice.min_dots};
+    }
+
+    /// Returns the evidence for places in a frame.
+    PlaceEvidence evidence(const Frame& frame) {
+        return {frame.kernels, frame.options, known,
+                earlier,       line_scores,   other_codes.are_wanted ? &other_codes : nullptr};
+    }
 };
-
-/// Returns the minimum number of dots in a grid. Known sheets and frames that are read together
-/// need fewer dots.
-inline int min_dots(const DeviceOptions& options, const DesktopWorkspace& w) {
-    return w.known.any() || w.earlier.is_in_series()
-               ? std::min(options.lattice.min_dots, kMinKnownDots)
-               : options.lattice.min_dots;
-}
-
-/// Returns the storage for the odds of other codes, or null if the odds are not requested.
-inline OtherCodes* wanted_codes(DesktopWorkspace& w) {
-    return w.other_codes.are_wanted ? &w.other_codes : nullptr;
-}
 
 /// A workspace with its memory, for images up to `MaxWidth` px wide. Stores at most `MaxDots` dots,
 /// those nearest to the image centre, and the middle `GridSide` x `GridSide` cells of the grid.
@@ -118,21 +70,13 @@ class WorkspaceOf : public DesktopWorkspace {
         max_width_px = MaxWidth;
         keeps_every_stage = true;
         pushed.memory = pushed_;
-        rolling.memory = rolling_;
+        rolling_pixels = rolling_;
         patch = &patch_;
-        measured.column = floats_[0];
-        measured.row = floats_[1];
-        measured.x = floats_[2];
-        measured.y = floats_[3];
-        measured.bits = ints_[0];
-        measured.window_u = ints_[1];
-        measured.window_v = ints_[2];
-        measured.mass = ints_[3];
-        measured.sum_u = ints_[4];
-        measured.sum_v = ints_[5];
-        measured.paper = ints_[6];
-        column_rolls = rolls_[0];
-        row_rolls = rolls_[1];
+        auto& [cells_x, cells_y, x, y] = floats_;
+        auto& [bits, window_u, window_v, mass, sum_u, sum_v, paper] = ints_;
+        measurement.dots = {0,    cells_x, cells_y, bits,  window_u, window_v,
+                            mass, sum_u,   sum_v,   paper, x,        y};
+        measurement.rolls = {rolls_[0], rolls_[1]};
         smoothing.lines = smooth_lines_;
         smoothing.row = smooth_row_;
         smoothing.paper.levels = papers_;

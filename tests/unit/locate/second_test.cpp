@@ -56,8 +56,8 @@ TEST(SecondAttempt, DotsThatFallOnThePixelsAlikeAreNotBiased) {
             test::AlikeDots{.spacing_px = 12, .blur_px = 0.3, .angle_deg = 90}, kSeed, i);
         const GreyImage image = render(shot);
         core::DesktopWorkspace& w = large_workspace();
-        ASSERT_TRUE(core::SecondAttempt(image.view(), w)
-                        .read({}, core::SecondAttempt::Resampling::if_doubtful));
+        ASSERT_TRUE(core::SecondAttempt(w).read(w.frame(core::kernels(), image.view(), {}),
+                                                core::SecondAttempt::Resampling::if_doubtful));
         const Fix fix = w.fix;
         EXPECT_EQ(fix.attempt, Attempt::second);
         // Without correction of the bias, the error would be up to 0.01 spacings, which is 50
@@ -75,7 +75,8 @@ TEST(SecondAttempt, ReadsRoughFramesThatTheFirstLeavesOpen) {
         SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
         const Shot shot = shot_of({.preset = Preset::hard}, kSeed, i);
         const GreyImage image = render(shot);
-        if (core::locate_first(core::kernels(), image.view(), {}, w) && !core::is_rough(w.fix))
+        if (core::locate_first(w.frame(core::kernels(), image.view(), {}), w) &&
+            !core::is_rough(w.fix))
             continue;
         ++left;
         const Fix fix = core::locate(image.view(), {}, nullptr, w);

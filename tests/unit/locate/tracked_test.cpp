@@ -53,7 +53,7 @@ Prediction turned_and_moved(const Shot& shot, const Prediction& prediction, Vec2
 Fix tracked(const GreyImage& image, const Prediction& prediction, const DeviceOptions& options = {},
             const core::Kernels& kernels = core::kernels()) {
     core::DesktopWorkspace& w = large_workspace();
-    if (core::locate_tracked(kernels, image.view(), options, prediction, w)) {
+    if (core::locate_tracked(w.frame(kernels, image.view(), options), prediction, w)) {
         EXPECT_EQ(w.fix.status, Status::ok);
         EXPECT_EQ(w.fix.attempt, Attempt::tracked);
         return w.fix;

@@ -1,0 +1,90 @@
+#include "locate/attempts.hpp"
+
+#include <algorithm>
+
+#include "core/integrity/verify.hpp"
+#include "core/kernels/select.hpp"
+#include "core/math/odds.hpp"
+#include "device/locate.hpp"
+#include "locate/first.hpp"
+#include "locate/tracked.hpp"
+#include "locate/turning.hpp"
+
+namespace dotpose::core {
+
+bool leaves_code_open(Status status) {
+    return status == Status::not_in_code || status == Status::ambiguous ||
+           status == Status::not_certain;
+}
+
+bool Attempts::may_try_twice() const {
+    return options_.effort == Effort::twice &&
+           std::min(image_.width_px, image_.height_px) >= kMinFrameSide_px;
+}
+
+std::span<const CodeVariant> Attempts::codes_for(Step step) const {
+    if (step == Step::resampled && !codes_.is_known())
+        return {&worth_resampling_, min_errors_ == kMaxErrors ? 0U : 1U};
+    return codes_.in_order();
+}
+
+/// Returns the input of an attempt in one code. Removes the odds of the last attempt.
+Frame Attempts::frame_in(CodeVariant code) {
+    options_.code = code;
+    if (w_.other_codes.are_wanted) w_.other_codes.of = {};
+    // The bounds on the probability of a wrong position apply to a single code. If several codes
+    // are possible, each bound is multiplied by the number of codes, weighted by their odds.
+    if (!codes_.is_known())
+        w_.other_codes.log2_in_question_q8 = log2_of_odds_q8(codes_.number(code));
+    return frame();
+}
+
+bool Attempts::track(const Prediction& prediction) {
+    const Frame frame = frame_in(options_.code);
+    return prediction.readout_turn_rad == 0 ? locate_tracked(frame, prediction, w_)
+                                            : locate_tracked_turning(frame, prediction, w_);
+}
+
+bool Attempts::make(Step step, CodeVariant code) {
+    const Frame frame = frame_in(code);
+    switch (step) {
+        case Step::first:
+            return locate_first(frame, w_);
+        case Step::turning:
+            return locate_turning(frame, w_);
+        case Step::second:
+            return make_second(frame);
+        case Step::resampled:
+            return second_.read(frame, SecondAttempt::Resampling::if_doubtful);
+        case Step::device:
+            return make_as_device();
+    }
+    return false;
+}
+
+bool Attempts::make_second(const Frame& frame) {
+    if (second_.read(frame, SecondAttempt::Resampling::never)) return true;
+    if (w_.fix.status == Status::not_certain && w_.fix.bit_errors < min_errors_) {
+        min_errors_ = w_.fix.bit_errors;
+        worth_resampling_ = frame.options.code;
+    }
+    return false;
+}
+
+bool Attempts::make_as_device() {
+    const CodeVariant code = options_.code;
+    if (locate_as_device(image_, options_, w_).status != Status::ok) return false;
+    w_.fix.p_wrong_log2 = PossibleCodes::rounded_up(w_.fix.p_wrong_log2, codes_.number(code));
+    weigh_other_codes(kernels(), w_.grid, code, w_.decoding, w_.line_scores, &w_.other_codes);
+    return true;
+}
+
+Judgement Attempts::judge(CodeVariant read) const {
+    return codes_.judge(read, w_.other_codes, w_.fix, options_.integrity.max_p_wrong_log2);
+}
+
+bool Attempts::shows_turn() {
+    return core::shows_turn(frame(), w_.fix, w_.rolling_pixels, w_.measurement);
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,71 @@
+// Attempts: makes single attempts at a frame, each in one code, and judges their fixes.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "core/integrity/possible_codes.hpp"
+#include "dotpose/device_options.hpp"
+#include "dotpose/image.hpp"
+#include "dotpose/prediction.hpp"
+#include "dotpose/status.hpp"
+#include "locate/frame.hpp"
+#include "locate/second.hpp"
+#include "locate/workspace.hpp"
+
+namespace dotpose::core {
+
+/// Attempts without a prediction. `resampled` is a second attempt that samples the bits again if
+/// the position is doubtful. It takes three times as long as `second`.
+enum class Step : std::uint8_t { first, turning, second, resampled, device };
+
+/// Returns true if the status means that there is a grid of dots, but that its bits do not give a
+/// certain position in this code. Another code may succeed.
+bool leaves_code_open(Status status);
+
+/// Makes attempts at one frame. The workspace contains the results of the last attempt.
+class Attempts {
+  public:
+    Attempts(const ImageView& image, const DeviceOptions& options, const PossibleCodes& codes,
+             DesktopWorkspace& w)
+        : image_(image), options_(options), codes_(codes), w_(w), second_(w) {}
+
+    /// Makes an attempt near a prediction. Returns true if there is a fix.
+    bool track(const Prediction& prediction);
+    /// Makes an attempt in one code. Returns true if there is a fix.
+    bool make(Step step, CodeVariant code);
+
+    /// Returns the codes that are worth an attempt, most likely code first. If several codes are
+    /// possible, returns at most one code for `resampled`: the code with the fewest bit errors
+    /// among the codes in which `second` was not certain.
+    std::span<const CodeVariant> codes_for(Step step) const;
+    /// Returns true if the options allow a second attempt and the image is large enough for one.
+    bool may_try_twice() const;
+
+    /// Returns the certainty of the fix of the last attempt, which was read in the code `read`.
+    Judgement judge(CodeVariant read) const;
+    /// Returns true if a rotation during the readout may explain the residuals of the fix.
+    bool shows_turn();
+    /// Returns true if the last attempt found too few cells for a certain fix in any code.
+    bool shows_too_few_cells() const { return w_.measurement.shows_too_few_cells; }
+    bool has_clear_bits() const { return w_.measurement.has_clear_bits; }
+
+  private:
+    Frame frame() const { return w_.frame(kernels(), image_, options_); }
+    Frame frame_in(CodeVariant code);
+    bool make_second(const Frame& frame);
+    bool make_as_device();
+
+    static constexpr int kMaxErrors = std::numeric_limits<int>::max();
+
+    const ImageView& image_;
+    DeviceOptions options_;  ///< with the code of the last attempt
+    const PossibleCodes& codes_;
+    DesktopWorkspace& w_;
+    SecondAttempt second_;
+    CodeVariant worth_resampling_ = CodeVariant::anoto;  ///< code with `min_errors_` bit errors
+    int min_errors_ = kMaxErrors;
+};
+
+}  // namespace dotpose::core

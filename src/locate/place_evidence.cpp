@@ -1,0 +1,111 @@
+#include "locate/place_evidence.hpp"
+
+#include <algorithm>
+
+#include "core/decode/exact_lines.hpp"
+#include "core/integrity/certainty.hpp"
+#include "core/integrity/coded_block.hpp"
+#include "core/integrity/known_places.hpp"
+#include "locate/on_sheets.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Returns true if `block` makes the place of the hypothesis certain. `block` contains only the
+/// bits of the current frame.
+bool is_certain_alone(const PlaceEvidence& evidence, const Place& place, const CellsInView& view,
+                      const BitBlock& block, const BitsRead& bits, Fix& fix) {
+    const auto& [kernels, options, known, earlier, line_scores, others] = evidence;
+    const auto confidences = confidences_in(bits);
+    if (known.are_all() && !shows_sheet(known, options.code, place, block)) return false;
+    const CodedBlock coded(options.code, place, view, block);
+    if (passes_hard_bit_test(
+            kernels, {coded.axis(Axis::x, confidences[0]), coded.axis(Axis::y, confidences[1])},
+            options.code, options.integrity, fix, others)) {
+        return true;
+    }
+    if (known.any() && is_certain_on_sheets(kernels, options, place, block, known, fix))
+        return true;
+    return is_certain(kernels,
+                      evidence_of(kernels, options.code, place, block, confidences, line_scores),
+                      options.code, options.integrity, fix, others);
+}
+
+/// Returns true if `block` and the bits of earlier frames together make the place certain.
+/// `grid_from_image` is relative to the image centre.
+bool is_certain_together(const PlaceEvidence& evidence, const Place& place,
+                         const FloatPlane& grid_from_image, const BitBlock& block, Fix& fix) {
+    const auto& [kernels, options, known, earlier, line_scores, others] = evidence;
+    // There are two possible errors: a wrong match of the grids and a wrong place. Each of them may
+    // have half of the permitted probability.
+    DeviceOptions half = options;
+    --half.integrity.max_p_wrong_log2;
+    const auto joined = earlier.join(block, grid_from_image);
+    if (!joined) return false;
+    const BitBlock& all = joined->block;
+    const bool is_on_sheet =
+        known.any() && is_certain_on_sheets(kernels, half, place, all, known, fix);
+    if (!is_on_sheet) {
+        if (known.are_all()) return false;
+        const auto confidences = compared_with_code(options.code, place, all);
+        if (!is_certain(kernels,
+                        evidence_of(kernels, options.code, place, all, confidences, line_scores),
+                        options.code, half.integrity, fix, others))
+            return false;
+    }
+    fix.p_wrong_log2 = 1 + std::max(fix.p_wrong_log2, joined->p_mismatch_log2);
+    fix.frames = joined->frames;
+    return true;
+}
+
+}  // namespace
+
+std::optional<TurnedPlace> find_turned_place(const PlaceEvidence& evidence, const BitBlock& block) {
+    const auto& [kernels, options, known, earlier, line_scores, others] = evidence;
+    TurnedPlace found{likeliest_turn(kernels, block), {}};
+    const BitBlock upright = turned(found.quarters, block);
+    const bool is_exact = find_place_exactly(options.code, upright, found.place);
+    if (known.any() && !(is_exact && shows_sheet(known, options.code, found.place, upright))) {
+        if (const auto on_sheet = find_place_on_sheets(kernels, options, block, known))
+            return TurnedPlace{on_sheet->quarters, on_sheet->place};
+        if (known.are_all()) return {};
+    }
+    if (is_exact ||
+        find_place(options.code, score_block(kernels, upright, line_scores), found.place))
+        return found;
+    return {};
+}
+
+bool join_earlier(const FloatPlane& grid_from_image, FloatVec from_centre, EarlierBits& earlier,
+                  BitBlock& block) {
+    if (!earlier.is_in_series()) return true;
+    const FloatPlane grid = recentred(grid_from_image, {-from_centre.x, -from_centre.y});
+    if (!earlier.is_joining) {
+        earlier.note(block, grid, false);
+        return true;
+    }
+    const auto joined = earlier.join(block, grid);
+    if (joined) block = joined->block;
+    return joined.has_value();
+}
+
+std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
+    return {Confidence::of_hard_bits(bits.read, bits.wrong_x),
+            Confidence::of_hard_bits(bits.read, bits.wrong_y)};
+}
+
+bool confirm_place(const PlaceEvidence& evidence, const Hypothesis& hypothesis,
+                   const CellsInView& view, const BitBlock& block, const BitsRead& bits, Fix& fix) {
+    EarlierBits& earlier = evidence.earlier;
+    const Place& place = hypothesis.place;
+    bool is_certain = is_certain_alone(evidence, place, view, block, bits, fix);
+    if (earlier.is_in_series()) {
+        const FloatPlane grid = centred_plane(hypothesis);
+        is_certain = is_certain ||
+                     (earlier.is_joining && is_certain_together(evidence, place, grid, block, fix));
+        earlier.note(block, grid, is_certain);
+    }
+    return is_certain;
+}
+
+}  // namespace dotpose::core
