@@ -49,6 +49,8 @@ class Attempts {
     bool shows_turn();
     /// Returns true if the last attempt found too few cells for a certain fix in any code.
     bool shows_too_few_cells() const { return w_.measurement.shows_too_few_cells; }
+    /// Returns true if all dots that the last first attempt measured are clear and agree with the
+    /// code, but are too few.
     bool has_clear_bits() const { return w_.measurement.has_clear_bits; }
 
   private:

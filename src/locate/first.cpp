@@ -188,7 +188,7 @@ bool locate_first(const Frame& frame, DesktopWorkspace& w) {
         if (together == Confirmation::ok) confirmation = together;
     }
     w.fix.attempt = Attempt::first;
-    w.has_clear_bits = confirmation == Confirmation::too_few_bits;
+    w.measurement.has_clear_bits = confirmation == Confirmation::too_few_bits;
     if (confirmation == Confirmation::uncertain || confirmation == Confirmation::too_few_bits)
         w.fix.status = Status::not_certain;
     if (confirmation != Confirmation::ok) return false;

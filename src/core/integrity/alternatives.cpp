@@ -79,29 +79,33 @@ float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float 
 
 }  // namespace
 
-int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2) {
-    if (ratios.lines.count() <= kMaxSharedInARow) return 0;
+float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2) {
+    if (ratios.lines.count() <= kMaxSharedInARow) return 1;
     const RankedLines lines(ratios);
     const float limit = power_of_two_exactly(limit_log2);
     // Computes the fastest sums first, and stops when a sum exceeds the limit.
     float known = sum_of_single_alternatives(kernels, lines) + sum_of_other_sections(lines);
-    if (known >= limit) return log2_rounded_up(known);
+    if (known >= limit) return known;
     const float max_rest = std::min(limit, kUsualLimit) / 32;
     if (const auto others = sum_of_likely_alternatives(kernels, lines, max_rest, limit - known))
-        return log2_rounded_up(known + *others);
+        return known + *others;
     const auto expected_of = [&](int min_different, int max_different) {
         return sum_of_expected_alternatives(kernels, lines, kMaxSharedInARow - 1, min_different,
                                             max_different);
     };
     const Expectation expected{expected_of(2, 2), expected_of(3, 4)};
     const float far = expected.of_two + expected.of_more;
-    if (far >= std::max(limit, kBeyondHelp)) return log2_rounded_up(far);
+    if (far >= std::max(limit, kBeyondHelp)) return far;
     known += sum_of_near_alternatives(kernels, lines, kMaxSharedInARow);
     const float sum = known + far;
     const bool needs_detail =
         sum > std::min(limit, kUsualLimit) / 1024 && far > known && far < kBeyondHelp;
-    if (known >= limit || !needs_detail) return log2_rounded_up(sum);
-    return log2_rounded_up(counted_in_detail(kernels, lines, known, expected, limit));
+    if (known >= limit || !needs_detail) return sum;
+    return counted_in_detail(kernels, lines, known, expected, limit);
+}
+
+int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2) {
+    return log2_rounded_up(sum_of_alternatives(kernels, ratios, limit_log2));
 }
 
 }  // namespace dotpose::core

@@ -207,7 +207,8 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     if (sum > limit && !ratios.is_of_bits()) {
         sum = with(power_of_two_rounded_up(quick_alternatives_log2_q8(ratios, 256 * limit_log2)));
         if (sum > limit) {
-            sum = with(power_of_two_exactly(alternatives_log2(kernels, ratios, limit_log2)));
+            // The factor covers the error of the exponentials.
+            sum = with(1.03F * sum_of_alternatives(kernels, ratios, limit_log2));
         }
     }
     if (sum > limit) return 1;
