@@ -51,7 +51,7 @@ struct MappedPage {
     double jitter_mm = 0;          ///< standard deviation of the print jitter, per axis
     double slow_mm = 0;            ///< rms of the slow distortion of the page, per axis
     bool is_rigid = true;          ///< true if height and tilt of the camera were constant
-    int iterations = 0;            ///< iterations of the solver in its last round
+    int iterations = 0;            ///< iterations of the solver
 };
 
 struct PrintMapResult {
