@@ -7,9 +7,10 @@
 namespace dotpose::tables {
 
 void follow_drive(const test::Drive& drive, const test::DriveCamera& camera, int step,
-                  const TakeFrame& take) {
+                  const TakeFrame& take, const PrintMap& map) {
     FollowerOptions options;
     options.sheets = test::drive_sheets();
+    options.print_map = map;
     options.locate.show_stages = true;  // as `dotpose watch` does
     options.track.max_speed_mm_s = 400;
     Follower follower(options);

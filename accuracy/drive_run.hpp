@@ -12,8 +12,9 @@ namespace dotpose::tables {
 using TakeFrame =
     std::function<void(int index, const test::DriveState& truth, const Followed& followed)>;
 
-/// Processes every `step`-th frame of the drive. Ctrl-C ends the run.
+/// Processes every `step`-th frame of the drive, with a map of the print if there is one. Ctrl-C
+/// ends the run.
 void follow_drive(const test::Drive& drive, const test::DriveCamera& camera, int step,
-                  const TakeFrame& take);
+                  const TakeFrame& take, const PrintMap& map = {});
 
 }  // namespace dotpose::tables

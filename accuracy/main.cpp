@@ -45,6 +45,9 @@ constexpr Table kTables[] = {
     {"limits", "How much frames may be degraded", tables::limits_table},
     {"pens", "Errors of the tip of a pen, and of its ink", tables::pens_table},
     {"print_map", "How much a map of the print improves positions", tables::print_map_table},
+    {"print_map_drive", "How much a map of the print improves a drive",
+     tables::print_map_drive_table},
+    {"print_map_scale", "Time and memory for a map of many frames", tables::print_map_scale_table},
     {"seams", "Whether covariances are right where two sheets are butted", tables::seams_table},
     {"slips", "Whether covariances are right where the sheet is not one plane",
      tables::slips_table},
@@ -60,7 +63,7 @@ constexpr Table kTables[] = {
 void print_usage(std::FILE* file) {
     fmt::print(file, "usage: dotpose_tables TABLE [OPTION...]\n\nTables:\n");
     for (const Table& table : kTables)
-        fmt::print(file, "  {:<12} {}\n", table.name, table.what);
+        fmt::print(file, "  {:<15} {}\n", table.name, table.what);
     fmt::print(file, "\ndotpose_tables TABLE --help lists the options of a table.\n");
 }
 

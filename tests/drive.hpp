@@ -140,8 +140,10 @@ class DriveCamera {
     const CameraModel& camera() const { return camera_; }
 
     GreyImage frame(const Drive& drive, int index) const {
-        const DriveState state = drive.at(index);
-        const auto seed = static_cast<std::uint64_t>(index) + 1;
+        return frame(drive.at(index), static_cast<std::uint64_t>(index) + 1);
+    }
+    /// Returns the frame at any state of the robot. `seed` is that of the noise.
+    GreyImage frame(const DriveState& state, std::uint64_t seed) const {
         if (state.is_lifted) return empty(seed);
         const double reach_mm = camera_.mm_per_px * camera_.width_px;
         if (std::abs(state.x_mm - kSeam_mm) > reach_mm) {

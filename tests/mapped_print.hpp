@@ -21,7 +21,8 @@
 namespace dotpose::test {
 
 struct MappedPrintOptions {
-    double side_mm = 60;  ///< side of the square page
+    double side_mm = 60;   ///< width of the page
+    double height_mm = 0;  ///< height of the page, or 0 for a square page
     double wave_mm = 0.040;
     double wavelength_mm = 50;
     double jitter_mm = 0.010;
@@ -34,7 +35,7 @@ class MappedPrint {
   public:
     explicit MappedPrint(const MappedPrintOptions& options) : options_(options) {
         SheetOptions sheet;
-        sheet.paper = {options.side_mm, options.side_mm};
+        sheet.paper = {options.side_mm, height_mm()};
         sheet.margin_mm = 0;
         sheet.origin = {2000, 3000};
         entry_.name = "page";
@@ -74,9 +75,9 @@ class MappedPrint {
         const double reach =
             camera_.mm_per_px * std::hypot(camera_.width_px, camera_.height_px) / 2;
         const double low = 0.6 * reach;
-        const double high = options_.side_mm - low;
-        return {{rng.uniform(low, high), rng.uniform(low, high)},
-                rng.uniform(-std::numbers::pi, std::numbers::pi)};
+        const double x_mm = rng.uniform(low, options_.side_mm - low);
+        const double y_mm = rng.uniform(low, height_mm() - low);
+        return {{x_mm, y_mm}, rng.uniform(-std::numbers::pi, std::numbers::pi)};
     }
 
     GreyImage frame(const Pose& pose, std::uint64_t seed) const {
@@ -92,6 +93,10 @@ class MappedPrint {
     }
 
   private:
+    double height_mm() const {
+        return options_.height_mm > 0 ? options_.height_mm : options_.side_mm;
+    }
+
     MappedPrintOptions options_;
     SheetEntry entry_;
     Page page_;

@@ -81,8 +81,7 @@ Cells cells_in_view(const PatternView& view, const SpaceState& state) {
 
 /// A dot of the code, with its expected image.
 struct CodedDot {
-    FixedVec step;
-    Symbol symbol;
+    CodeDot dot;
     ExpectedDot expected;
 };
 
@@ -92,7 +91,6 @@ std::vector<CodedDot> coded_dots(const ImageView& image, const PatternView& view
     const double max_depth = max_depth_mm(view);
     const Vector3d axis = state.rotation.col(2);
     const Cells cells = cells_in_view(view, state);
-    const CodeVariant code = trace.options.code;
     std::vector<CodedDot> dots;
     for (std::int32_t j = cells.first.y; j <= cells.last.y; ++j) {
         for (std::int32_t i = cells.first.x; i <= cells.last.x; ++i) {
@@ -104,12 +102,13 @@ std::vector<CodedDot> coded_dots(const ImageView& image, const PatternView& view
             if (near.x() < -1 || near.y() < -1 || near.x() > view.camera.width_px ||
                 near.y() > view.camera.height_px)
                 continue;
-            const Place place = moved(code, trace.decoding.place, i, j);
-            const Symbol symbol = symbol_at(code, place.cell, place.section);
+            const auto dot = code_dot(view, trace, {i, j});
+            if (!dot) continue;
             const Vector2d right(view.spacing_mm.x, 0);
             const Vector2d down(0, view.spacing_mm.y);
-            const Vector2d at =
-                intersection + state.displacement * (dx(symbol) * right + dy(symbol) * down);
+            const Vector2d shift =
+                state.displacement * Vector2d(dx(dot->symbol), dy(dot->symbol)) + dot->offset;
+            const Vector2d at = intersection + shift.x() * right + shift.y() * down;
             ExpectedDot expected;
             expected.pixel = pixel_of(view, state, at);
             // Approximates the derivatives by difference quotients over the width of a dot.
@@ -120,7 +119,7 @@ std::vector<CodedDot> coded_dots(const ImageView& image, const PatternView& view
             expected.px_per_spacing.col(1) = (pixel_of(view, state, at + kPart / 2 * down) -
                                               pixel_of(view, state, at - kPart / 2 * down)) /
                                              kPart;
-            if (is_measurable(image, expected)) dots.push_back({{i, j}, symbol, expected});
+            if (is_measurable(image, expected)) dots.push_back({*dot, expected});
         }
     }
     return dots;
@@ -128,11 +127,23 @@ std::vector<CodedDot> coded_dots(const ImageView& image, const PatternView& view
 
 }  // namespace
 
-SpaceDot space_dot(const PatternView& view, FixedVec step, Symbol symbol, PixelPoint undistorted) {
+std::optional<CodeDot> code_dot(const PatternView& view, const Trace& trace, FixedVec step) {
+    const CodeVariant code = trace.options.code;
+    const Place place = moved(code, trace.decoding.place, step.x, step.y);
+    CodeDot dot{step, symbol_at(code, place.cell, place.section)};
+    if (view.map == nullptr) return dot;
+    const auto index = view.map->index_of(place);
+    if (!index || view.map->views[*index] == 0) return std::nullopt;
+    const DotOffset& offset = view.map->offsets[*index];
+    dot.offset = {offset.x(), offset.y()};
+    return dot;
+}
+
+SpaceDot space_dot(const PatternView& view, const CodeDot& dot, PixelPoint undistorted) {
     const auto [x_mm, y_mm] = view.spacing_mm;
     return {{undistorted.u - view.pinhole.centre_px.u, undistorted.v - view.pinhole.centre_px.v},
-            {x_mm * step.x, y_mm * step.y},
-            {x_mm * dx(symbol), y_mm * dy(symbol)}};
+            {x_mm * (dot.step.x + dot.offset.x()), y_mm * (dot.step.y + dot.offset.y())},
+            {x_mm * dx(dot.symbol), y_mm * dy(dot.symbol)}};
 }
 
 std::vector<SpaceDot> dots_in_view(const ImageView& image, const PatternView& view,
@@ -152,8 +163,8 @@ std::vector<SpaceDot> dots_in_view(const ImageView& image, const PatternView& vi
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         if (!centres[i]) continue;
         const auto& [pixel, covariance] = *centres[i];
-        dots.push_back(space_dot(view, chosen[i].step, chosen[i].symbol,
-                                 undistorted(view.camera, {pixel.x(), pixel.y()})));
+        dots.push_back(
+            space_dot(view, chosen[i].dot, undistorted(view.camera, {pixel.x(), pixel.y()})));
         dots.back().centre_covariance = covariance;
     }
     return dots;
@@ -163,8 +174,10 @@ std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& 
                                      const Trace& trace) {
     constexpr std::size_t kMinDots = 12;
     std::vector<SpaceDot> read;
-    for (const LocatedDot& dot : dots_read(trace))
-        read.push_back(space_dot(view, dot.step, dot.symbol, dot.pixel));
+    for (const LocatedDot& seen : dots_read(trace)) {
+        if (const auto dot = code_dot(view, trace, seen.step))
+            read.push_back(space_dot(view, *dot, seen.pixel));
+    }
     if (read.size() < kMinDots) return std::nullopt;
     const Eigen::Vector2d focal_px(view.pinhole.focal_u_px, view.pinhole.focal_v_px);
     // Maximum number of dots in the first fit, which only needs to predict the places of all dots.

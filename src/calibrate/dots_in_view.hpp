@@ -6,6 +6,7 @@
 
 #include "calibrate/space_fit.hpp"
 #include "dotpose/files/camera.hpp"
+#include "dotpose/files/print_map.hpp"
 #include "dotpose/files/sheet.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/trace.hpp"
@@ -17,10 +18,23 @@ struct PatternView {
     const Camera& camera;
     Pinhole pinhole;
     AxisScale spacing_mm;
+    /// Map of the page, or null. With a map, only the dots that the map has seen are used.
+    const MapPage* map = nullptr;
 };
 
-/// Returns the dot of the code at a step from `trace.decoding.place`, seen at an undistorted pixel.
-SpaceDot space_dot(const PatternView& view, FixedVec step, Symbol symbol, PixelPoint undistorted);
+/// A dot of the code.
+struct CodeDot {
+    FixedVec step;  ///< intersection, in spacings from `trace.decoding.place`
+    Symbol symbol;
+    Eigen::Vector2d offset = Eigen::Vector2d::Zero();  ///< in the print map, in spacings
+};
+
+/// Returns the dot of the code at a step from `trace.decoding.place`. Returns none if the view has
+/// a map that has not seen the dot.
+std::optional<CodeDot> code_dot(const PatternView& view, const Trace& trace, FixedVec step);
+
+/// Returns the dot, seen at an undistorted pixel.
+SpaceDot space_dot(const PatternView& view, const CodeDot& dot, PixelPoint undistorted);
 
 /// Measures the dots that `state` predicts in the image. Measures at most `trace.options.max_dots`
 /// dots, evenly spread over the image.

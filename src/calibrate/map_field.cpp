@@ -8,10 +8,6 @@ namespace {
 
 /// Distance between nodes, in mm. A wave with a wavelength of 40 mm is reproduced to 8 %.
 constexpr double kNodePitch_mm = 5;
-/// Standard deviation of the second differences of adjacent nodes, in mm. A periodic error of the
-/// paper feed with an amplitude of 40 µm and a wavelength of 50 mm has second differences of this
-/// size.
-constexpr double kDifference_mm = 0.016;
 
 }  // namespace
 
@@ -41,41 +37,43 @@ Eigen::Vector2d MapField::at(int column, int row) const {
     return sum;
 }
 
-/// Calls `use` with the nodes and the coefficients of each second difference along x and along y,
-/// and of each mixed difference.
-template <typename Use>
-void MapField::for_each_difference(Use use) const {
-    const auto wide = static_cast<std::size_t>(columns_);
-    const auto high = static_cast<std::size_t>(rows_);
-    for (std::size_t j = 0; j < high; ++j) {
-        for (std::size_t i = 0; i < wide; ++i) {
-            const std::size_t n = j * wide + i;
-            if (i + 2 < wide) use(std::array{n, n + 1, n + 2}, std::array{1.0, -2.0, 1.0});
-            if (j + 2 < high)
-                use(std::array{n, n + wide, n + 2 * wide}, std::array{1.0, -2.0, 1.0});
-            if (i + 1 < wide && j + 1 < high)
-                use(std::array{n, n + 1, n + wide, n + wide + 1}, std::array{1.0, -1.0, -1.0, 1.0});
-        }
+MapField MapField::coarser(std::size_t max_nodes) const {
+    MapField coarse;
+    for (int factor = 1; factor == 1 || coarse.nodes() > max_nodes; ++factor) {
+        coarse.cells_ = cells_ * factor;
+        coarse.columns_ = (columns_ - 1) / factor + 2;
+        coarse.rows_ = (rows_ - 1) / factor + 2;
+        coarse.values_.assign(
+            static_cast<std::size_t>(coarse.columns_) * static_cast<std::size_t>(coarse.rows_),
+            Eigen::Vector2d::Zero());
     }
+    return coarse;
+}
+
+std::vector<MapField::Around> MapField::nodes_in(const MapField& coarse) const {
+    std::vector<Around> result;
+    for (int j = 0; j < rows_; ++j) {
+        for (int i = 0; i < columns_; ++i)
+            result.push_back(coarse.around(i * cells_, j * cells_));
+    }
+    return result;
 }
 
 void MapField::add_prior(const std::vector<Eigen::Vector2d>& values,
                          std::vector<Eigen::Vector2d>& product) const {
-    constexpr double kWeight = 1 / (kDifference_mm * kDifference_mm);
     for_each_difference([&](const auto& nodes, const auto& coefficients) {
         Eigen::Vector2d difference = Eigen::Vector2d::Zero();
         for (std::size_t k = 0; k < nodes.size(); ++k)
             difference += coefficients[k] * values[nodes[k]];
         for (std::size_t k = 0; k < nodes.size(); ++k)
-            product[nodes[k]] += kWeight * coefficients[k] * difference;
+            product[nodes[k]] += kDifferenceWeight * coefficients[k] * difference;
     });
 }
 
 void MapField::add_prior_diagonal(std::vector<double>& diagonal) const {
-    constexpr double kWeight = 1 / (kDifference_mm * kDifference_mm);
     for_each_difference([&](const auto& nodes, const auto& coefficients) {
         for (std::size_t k = 0; k < nodes.size(); ++k)
-            diagonal[nodes[k]] += kWeight * coefficients[k] * coefficients[k];
+            diagonal[nodes[k]] += kDifferenceWeight * coefficients[k] * coefficients[k];
     });
 }
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "calibrate/map_geometry.hpp"
+#include "calibrate/map_parts.hpp"
 #include "calibrate/map_system.hpp"
 #include "calibrate/median.hpp"
 
@@ -20,6 +22,11 @@ using FrameBlock = Eigen::Matrix<double, kFrameTerms, kFrameTerms>;
 /// Number of linearisations. After each, the variances are estimated and the outliers are marked
 /// again.
 constexpr int kRounds = 3;
+/// Mean square of the preconditioned residual at which conjugate gradients end, in units of the
+/// variance of an unknown. Smaller values do not change the errors of the map. The rounds before
+/// the last one only estimate variances and find outliers.
+constexpr double kConverged = 1e-6;
+constexpr double kFirstConverged = 1e-4;
 /// Maximum squared residual of an observation, in units of the variance per axis. Noise exceeds it
 /// once in 4,000 observations. The first limit is larger, because the offsets of the dots are not
 /// known yet.
@@ -81,40 +88,60 @@ Vector2d residual_of(const MapView& view, const MapView::Terms& terms, const Map
            view.page_from_camera().transpose() * solution.offset_mm[seen.index()].cast<double>();
 }
 
+/// Returns the median of the squares. Uses at most about a million of them.
+double typical_square(const std::vector<float>& squares) {
+    constexpr std::size_t kMaxSamples = 1'000'000;
+    const std::size_t step = 1 + squares.size() / kMaxSamples;
+    std::vector<double> samples;
+    for (std::size_t i = 0; i < squares.size(); i += step)
+        samples.push_back(double(squares[i]));
+    return upper_median(std::move(samples));
+}
+
+/// Computes the squared residuals of a frame. Adds those that are not outliers to `sum`. Returns
+/// the view terms of the frame.
+FreeView measure_frame(const MapGrid& grid, const MapSolution& solution, const MapFrame& frame,
+                       const std::vector<MapObservation>& observations, std::vector<float>& squares,
+                       double& sum) {
+    const MapView view(grid, frame, solution.reach_mm);
+    FrameBlock block = FrameBlock::Zero();
+    FrameVector right = FrameVector::Zero();
+    double unused = 0;
+    double own = 0;
+    for (std::size_t i = frame.first; i < frame.first + frame.count; ++i) {
+        const MapView::Terms terms = view.terms(observations[i]);
+        const Vector2d residual = residual_of(view, terms, solution, frame, observations[i]);
+        squares[i] = static_cast<float>(residual.squaredNorm());
+        if (observations[i].is_outlier()) continue;
+        const auto derivatives = terms.derivatives();
+        block.noalias() += derivatives.transpose() * derivatives;
+        terms.add_transposed(residual, right, unused);
+        own += residual.squaredNorm();
+    }
+    sum += own;
+    return free_view(block, right, frame, own / (2 * static_cast<double>(frame.count)));
+}
+
 /// Computes the statistics and marks outliers. `limit` is the limit of squared residuals, in units
 /// of their typical variance per axis.
 Statistics measure(const MapGrid& grid, double limit, MapSolution& solution,
                    std::vector<MapObservation>& observations) {
-    std::vector<double> squares(observations.size());
-    std::vector<FreeView> views;
+    std::vector<float> squares(observations.size());
+    std::vector<FreeView> views(solution.frames.size());
+    std::array<double, kMapParts> sums{};
+    for_each_item(views.size(), [&](int part, std::size_t f) {
+        views[f] = measure_frame(grid, solution, solution.frames[f], observations, squares,
+                                 sums[static_cast<std::size_t>(part)]);
+    });
     Statistics result;
-    for (const MapFrame& frame : solution.frames) {
-        const MapView view(grid, frame, solution.reach_mm);
-        FrameBlock block = FrameBlock::Zero();
-        FrameVector right = FrameVector::Zero();
-        double unused = 0;
-        double sum = 0;
-        for (std::size_t i = frame.first; i < frame.first + frame.count; ++i) {
-            const MapView::Terms terms = view.terms(observations[i]);
-            const Vector2d residual = residual_of(view, terms, solution, frame, observations[i]);
-            squares[i] = residual.squaredNorm();
-            if (observations[i].is_outlier()) continue;
-            const auto derivatives = terms.derivatives();
-            block += derivatives.transpose() * derivatives;
-            terms.add_transposed(residual, right, unused);
-            sum += squares[i];
-        }
-        result.squares += sum;
-        views.push_back(
-            free_view(block, right, frame, sum / (2 * static_cast<double>(frame.count))));
-    }
+    result.squares = std::accumulate(sums.begin(), sums.end(), 0.0);
     result.view_sigma = view_sigma_of(views);
-    const double unit = upper_median(squares) / kMedianOfSquaredLength;
+    const double max_square = limit * typical_square(squares) / kMedianOfSquaredLength;
     std::ranges::fill(solution.views, 0);
     solution.outliers = 0;
     for (std::size_t i = 0; i < observations.size(); ++i) {
         const std::uint32_t dot = observations[i].index();
-        const bool is_outlier = squares[i] > limit * unit;
+        const bool is_outlier = double(squares[i]) > max_square;
         observations[i].dot = dot | (is_outlier ? MapObservation::kOutlier : 0);
         solution.outliers += is_outlier ? 1 : 0;
         solution.views[dot] += is_outlier ? 0 : 1;
@@ -186,7 +213,8 @@ void solve_map(const MapGrid& grid, const EarlierOffsets& earlier, double reach_
     solution.view_sigma = measure(grid, kFirstOutlier, solution, observations).view_sigma;
     for (int round = 0; round < kRounds; ++round) {
         MapSystem system(grid, earlier, observations, solution);
-        system.solve(solution, [&](double share) { progress((round + share) / kRounds); });
+        system.solve(solution, round == kRounds - 1 ? kConverged : kFirstConverged,
+                     [&](double share) { progress((round + share) / kRounds); });
         const std::size_t used = observations.size() - solution.outliers;
         const Statistics now = measure(grid, kOutlier, solution, observations);
         estimate_variances(grid, now.squares, used, solution);

@@ -89,7 +89,7 @@ struct MapSolution {
     /// Standard deviations of the view terms between frames. 0 at the start if not known.
     std::array<double, kViewTerms> view_sigma{};
     std::size_t outliers = 0;
-    int iterations = 0;  ///< iterations of conjugate gradients in the last round
+    int iterations = 0;  ///< iterations of conjugate gradients in all rounds
 };
 
 /// Called after each part of the work with the fraction of the work that is done. May throw to end

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "calibrate/fix_plane.hpp"
 #include "calibrate/located_frame.hpp"
 #include "calibrate/map_geometry.hpp"
 #include "calibrate/median.hpp"
@@ -18,54 +19,46 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-/// View of the paper: x = shape * q / (1 + perspective . q + lens q^2), with q in px from `centre`.
-struct View {
-    Vector2d centre_px;
-    Matrix2d shape_mm = Matrix2d::Identity();  ///< symmetric
-    Vector2d perspective = Vector2d::Zero();
-    double lens = 0;
-
-    Vector2d at(const MapObservation& seen) const {
-        const Vector2d q = Vector2d(seen.x_mm, seen.y_mm) - centre_px;
-        return shape_mm * q / (1 + perspective.dot(q) + lens * q.squaredNorm());
-    }
-};
-
-/// Returns the view of a frame, without its rotation.
-View view_of(const PlaneFromImage& plane, const Vector2d& pitch_mm) {
-    Matrix2d linear;
-    linear << plane.du_q24.x, plane.dv_q24.x, plane.du_q24.y, plane.dv_q24.y;
-    linear = pitch_mm.asDiagonal() * linear * 0x1p-24;
-    const double angle = std::atan2(linear(1, 0) - linear(0, 1), linear(0, 0) + linear(1, 1));
-    const Matrix2d shape = Eigen::Rotation2D<double>(-angle).toRotationMatrix() * linear;
-    return {Vector2d(plane.centre_q8.x, plane.centre_q8.y) / 256, (shape + shape.transpose()) / 2,
-            Vector2d(plane.perspective_q30.x, plane.perspective_q30.y) * 0x1p-30,
-            plane.lens_q40 * 0x1p-40};
+/// Returns the place of an observation in px, in mm.
+Vector2d place_of(const FixPlane& view, const MapObservation& seen) {
+    return view.place(Vector2d(double(seen.x_mm), double(seen.y_mm)) - view.centre_px);
 }
 
-double median_of(const std::vector<View>& views, const std::function<double(const View&)>& value) {
+/// Returns the view of a frame in mm, without its place and rotation: `linear` is symmetric.
+FixPlane view_of(const PlaneFromImage& plane, const Vector2d& pitch_mm) {
+    FixPlane view(plane);
+    const Matrix2d linear = pitch_mm.asDiagonal() * view.linear;
+    const double angle = std::atan2(linear(1, 0) - linear(0, 1), linear(0, 0) + linear(1, 1));
+    const Matrix2d shape = Eigen::Rotation2D<double>(-angle).toRotationMatrix() * linear;
+    view.linear = (shape + shape.transpose()) / 2;
+    view.at.setZero();
+    return view;
+}
+
+double median_of(const std::vector<FixPlane>& views,
+                 const std::function<double(const FixPlane&)>& value) {
     std::vector<double> values;
-    for (const View& view : views)
+    for (const FixPlane& view : views)
         values.push_back(value(view));
     return upper_median(std::move(values));
 }
 
-View median_view(const std::vector<View>& views) {
-    View view = views.front();
+FixPlane median_view(const std::vector<FixPlane>& views) {
+    FixPlane view = views.front();
     for (int i = 0; i < 2; ++i) {
-        view.perspective[i] = median_of(views, [&](const View& v) { return v.perspective[i]; });
+        view.perspective[i] = median_of(views, [&](const FixPlane& v) { return v.perspective[i]; });
         for (int j = 0; j < 2; ++j)
-            view.shape_mm(i, j) = median_of(views, [&](const View& v) { return v.shape_mm(i, j); });
+            view.linear(i, j) = median_of(views, [&](const FixPlane& v) { return v.linear(i, j); });
     }
-    view.lens = median_of(views, [](const View& v) { return v.lens; });
+    view.lens = median_of(views, [](const FixPlane& v) { return v.lens; });
     return view;
 }
 
 /// Returns true if the scales of the views differ so much that the camera was hand-held.
-bool differ(const std::vector<View>& views, const View& typical) {
+bool differ(const std::vector<FixPlane>& views, const FixPlane& typical) {
     constexpr double kMaxMedianChange = 0.01;
-    return median_of(views, [&](const View& view) {
-               return (view.shape_mm - typical.shape_mm).norm() / typical.shape_mm.norm();
+    return median_of(views, [&](const FixPlane& view) {
+               return (view.linear - typical.linear).norm() / typical.linear.norm();
            }) > kMaxMedianChange;
 }
 
@@ -93,10 +86,10 @@ bool add_sighting(const Fix& fix, const Trace& trace, const MapPage& page, std::
 double start_map(const MapGrid& grid, const EarlierOffsets& earlier,
                  const std::optional<Camera>& camera, const std::vector<MapSighting>& frames,
                  std::vector<MapObservation>& observations, MapSolution& solution) {
-    std::vector<View> views;
+    std::vector<FixPlane> views;
     for (const MapSighting& frame : frames)
         views.push_back(view_of(frame.plane, grid.pitch_mm));
-    const View typical = median_view(views);
+    const FixPlane typical = median_view(views);
     const bool is_mounted = !differ(views, typical);
     double reach_mm = 0;
     std::vector<double> scales;
@@ -105,7 +98,7 @@ double start_map(const MapGrid& grid, const EarlierOffsets& earlier,
         std::vector<SimilarPoint> points;
         for (std::size_t i = frame.first; i < frame.first + frame.count; ++i) {
             MapObservation& seen = observations[i];
-            Vector2d at = (is_mounted ? typical : views[f]).at(seen);
+            Vector2d at = place_of(is_mounted ? typical : views[f], seen);
             if (camera && camera->paper) {
                 const CameraPoint on = on_paper(*camera, {seen.x_mm, seen.y_mm});
                 at = {on.x_mm, on.y_mm};

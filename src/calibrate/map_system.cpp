@@ -1,42 +1,17 @@
 #include "calibrate/map_system.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <thread>
 
 #include "calibrate/map_geometry.hpp"
+#include "calibrate/map_parts.hpp"
 
 namespace dotpose::calibrate {
 namespace {
 
 using Eigen::Vector2d;
 
-/// Mean square of the preconditioned residual at which conjugate gradients end, in units of the
-/// variance of an unknown. Smaller values do not change the errors of the map.
-constexpr double kConverged = 1e-6;
 constexpr int kMaxIterations = 400;
-constexpr int kParts = MapSystem::kParts;
-
-/// Calls `work(part)` for all parts, on all cores.
-template <typename Work>
-void for_each_part(const Work& work) {
-    std::atomic<int> next = 0;
-    const auto run = [&] {
-        for (int part = next++; part < kParts; part = next++)
-            work(part);
-    };
-    const int count = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kParts);
-    std::vector<std::jthread> threads;
-    for (int i = 1; i < count; ++i)
-        threads.emplace_back(run);
-    run();
-}
-
-/// Returns the first of `count` items that belongs to a part.
-std::size_t begin_of(int part, std::size_t count) {
-    return count * static_cast<std::size_t>(part) / kParts;
-}
 
 }  // namespace
 
@@ -67,7 +42,8 @@ MapSystem::MapSystem(const MapGrid& grid, const EarlierOffsets& earlier,
       prior_weight_(1 / (solution.jitter_mm * solution.jitter_mm)),
       information_(grid.dots(), static_cast<float>(prior_weight_)),
       offsets_(grid.dots(), Vector2d::Zero()),
-      sums_(kParts, std::vector<Vector2d>(grid.dots())) {
+      sums_(kMapParts, std::vector<Vector2d>(grid.dots())),
+      deformation_(grid, earlier, observations, solution) {
     for (std::size_t i = 0; i < grid.dots(); ++i) {
         const float earlier_views = earlier.views.empty() ? 0 : earlier.views[i];
         information_[i] +=
@@ -93,72 +69,64 @@ MapUnknowns MapSystem::unknowns_of(const MapSolution& solution) const {
 
 void MapSystem::eliminate(const MapUnknowns& at, Residuals residuals) {
     for_each_part([&](int part) {
+        std::ranges::fill(sums_[static_cast<std::size_t>(part)], Vector2d::Zero());
+    });
+    const auto& frames = solution_.frames;
+    for_each_item(frames.size(), [&](int part, std::size_t f) {
         auto& sums = sums_[static_cast<std::size_t>(part)];
-        std::ranges::fill(sums, Vector2d::Zero());
-        const auto& frames = solution_.frames;
-        for (std::size_t f = begin_of(part, frames.size()); f < begin_of(part + 1, frames.size());
-             ++f) {
-            const MapView view(grid_, frames[f], solution_.reach_mm);
-            const CameraVector shared = shared_terms(at.frames[f], at.camera);
-            for (std::size_t k = 0; k < frames[f].count; ++k) {
-                const MapObservation& seen = observations_[frames[f].first + k];
-                if (seen.is_outlier()) continue;
-                Vector2d change = view.terms(seen).change(at.frames[f], shared);
-                if (residuals == Residuals::add) change += view.residual(seen);
-                sums[seen.dot] += view.page_from_camera() * change;
-            }
+        const MapView view(grid_, frames[f], solution_.reach_mm);
+        const CameraVector shared = shared_terms(at.frames[f], at.camera);
+        for (std::size_t k = 0; k < frames[f].count; ++k) {
+            const MapObservation& seen = observations_[frames[f].first + k];
+            if (seen.is_outlier()) continue;
+            Vector2d change = view.terms(seen).change(at.frames[f], shared);
+            if (residuals == Residuals::add) change += view.residual(seen);
+            sums[seen.dot] += view.page_from_camera() * change;
         }
     });
     MapField field = solution_.field;
     field.values() = at.field;
     const bool has_earlier = residuals == Residuals::add && !earlier_.views.empty();
-    for_each_part([&](int part) {
-        for (std::size_t i = begin_of(part, grid_.dots()); i < begin_of(part + 1, grid_.dots());
-             ++i) {
-            Vector2d sum = Vector2d::Zero();
-            for (const auto& sums : sums_)
-                sum += sums[i];
-            if (has_earlier)
-                sum +=
-                    static_cast<double>(earlier_.views[i]) * earlier_.offset_mm[i].cast<double>();
-            const auto columns = static_cast<std::size_t>(grid_.columns);
-            const Vector2d mean =
-                field.at(static_cast<int>(i % columns), static_cast<int>(i / columns));
-            offsets_[i] = (weight_ * sum + prior_weight_ * mean) / double(information_[i]);
-        }
+    for_each_item(grid_.dots(), [&](int, std::size_t i) {
+        Vector2d sum = Vector2d::Zero();
+        for (const auto& sums : sums_)
+            sum += sums[i];
+        if (has_earlier)
+            sum += static_cast<double>(earlier_.views[i]) * earlier_.offset_mm[i].cast<double>();
+        const auto columns = static_cast<std::size_t>(grid_.columns);
+        const Vector2d mean =
+            field.at(static_cast<int>(i % columns), static_cast<int>(i / columns));
+        offsets_[i] = (weight_ * sum + prior_weight_ * mean) / double(information_[i]);
     });
 }
 
 void MapSystem::add_frames(const MapUnknowns& at, Residuals residuals, MapUnknowns& result) const {
-    std::array<CameraVector, kParts> camera;
-    for_each_part([&](int part) {
+    std::array<CameraVector, kMapParts> camera;
+    camera.fill(CameraVector::Zero());
+    const auto& frames = solution_.frames;
+    for_each_item(frames.size(), [&](int part, std::size_t f) {
         CameraVector& camera_sum = camera[static_cast<std::size_t>(part)];
-        camera_sum.setZero();
-        const auto& frames = solution_.frames;
-        for (std::size_t f = begin_of(part, frames.size()); f < begin_of(part + 1, frames.size());
-             ++f) {
-            const MapView view(grid_, frames[f], solution_.reach_mm);
-            const CameraVector shared = shared_terms(at.frames[f], at.camera);
-            FrameVector sum = FrameVector::Zero();
-            double distortion = 0;
-            for (std::size_t k = 0; k < frames[f].count; ++k) {
-                const MapObservation& seen = observations_[frames[f].first + k];
-                if (seen.is_outlier()) continue;
-                const MapView::Terms terms = view.terms(seen);
-                Vector2d left = terms.change(at.frames[f], shared) -
-                                view.page_from_camera().transpose() * offsets_[seen.dot];
-                if (residuals == Residuals::add) left += view.residual(seen);
-                terms.add_transposed(left, sum, distortion);
-            }
-            sum *= weight_;
-            camera_sum.head<kViewTerms>() += sum.tail<kViewTerms>();
-            camera_sum[kViewTerms] += weight_ * distortion;
-            for (int k = 0; k < kViewTerms; ++k) {
-                const double sigma = solution_.view_sigma[static_cast<std::size_t>(k)];
-                sum[4 + k] += at.frames[f][4 + k] / (sigma * sigma);
-            }
-            result.frames[f] = sum;
+        const MapView view(grid_, frames[f], solution_.reach_mm);
+        const CameraVector shared = shared_terms(at.frames[f], at.camera);
+        FrameVector sum = FrameVector::Zero();
+        double distortion = 0;
+        for (std::size_t k = 0; k < frames[f].count; ++k) {
+            const MapObservation& seen = observations_[frames[f].first + k];
+            if (seen.is_outlier()) continue;
+            const MapView::Terms terms = view.terms(seen);
+            Vector2d left = terms.change(at.frames[f], shared) -
+                            view.page_from_camera().transpose() * offsets_[seen.dot];
+            if (residuals == Residuals::add) left += view.residual(seen);
+            terms.add_transposed(left, sum, distortion);
         }
+        sum *= weight_;
+        camera_sum.head<kViewTerms>() += sum.tail<kViewTerms>();
+        camera_sum[kViewTerms] += weight_ * distortion;
+        for (int k = 0; k < kViewTerms; ++k) {
+            const double sigma = solution_.view_sigma[static_cast<std::size_t>(k)];
+            sum[4 + k] += at.frames[f][4 + k] / (sigma * sigma);
+        }
+        result.frames[f] = sum;
     });
     for (const CameraVector& sum : camera)
         result.camera += sum;
@@ -193,35 +161,32 @@ void MapSystem::make_preconditioner() {
     using CameraBlock = Eigen::Matrix<double, kCameraTerms, kCameraTerms>;
     const auto& frames = solution_.frames;
     frame_blocks_.resize(frames.size());
-    std::array<CameraBlock, kParts> camera;
-    for_each_part([&](int part) {
+    std::array<CameraBlock, kMapParts> camera;
+    camera.fill(CameraBlock::Zero());
+    for_each_item(frames.size(), [&](int part, std::size_t f) {
         CameraBlock& camera_sum = camera[static_cast<std::size_t>(part)];
-        camera_sum.setZero();
-        for (std::size_t f = begin_of(part, frames.size()); f < begin_of(part + 1, frames.size());
-             ++f) {
-            const MapView view(grid_, frames[f], solution_.reach_mm);
-            FrameBlock block = FrameBlock::Zero();
-            for (std::size_t k = 0; k < frames[f].count; ++k) {
-                const MapObservation& seen = observations_[frames[f].first + k];
-                if (seen.is_outlier()) continue;
-                const MapView::Terms terms = view.terms(seen);
-                const auto derivatives = terms.derivatives();
-                const double weight = weight_ * (1 - weight_ / double(information_[seen.dot]));
-                block += weight * derivatives.transpose() * derivatives;
-                Eigen::Matrix<double, 2, kCameraTerms> shared;
-                shared.leftCols<kViewTerms>() = derivatives.rightCols<kViewTerms>();
-                const double square = terms.x * terms.x + terms.y * terms.y;
-                shared.col(kViewTerms) << square * terms.x, square * terms.y;
-                camera_sum += weight * shared.transpose() * shared;
-            }
-            for (int k = 0; k < kViewTerms; ++k) {
-                const double sigma = solution_.view_sigma[static_cast<std::size_t>(k)];
-                block(4 + k, 4 + k) += 1 / (sigma * sigma);
-            }
-            // Makes the block invertible if the dots of the frame do not determine all terms.
-            block.diagonal().array() += 1e-9 * block.diagonal().maxCoeff();
-            frame_blocks_[f].compute(block);
+        const MapView view(grid_, frames[f], solution_.reach_mm);
+        FrameBlock block = FrameBlock::Zero();
+        for (std::size_t k = 0; k < frames[f].count; ++k) {
+            const MapObservation& seen = observations_[frames[f].first + k];
+            if (seen.is_outlier()) continue;
+            const MapView::Terms terms = view.terms(seen);
+            const auto derivatives = terms.derivatives();
+            const double weight = weight_ * (1 - weight_ / double(information_[seen.dot]));
+            block += weight * derivatives.transpose() * derivatives;
+            Eigen::Matrix<double, 2, kCameraTerms> shared;
+            shared.leftCols<kViewTerms>() = derivatives.rightCols<kViewTerms>();
+            const double square = terms.x * terms.x + terms.y * terms.y;
+            shared.col(kViewTerms) << square * terms.x, square * terms.y;
+            camera_sum += weight * shared.transpose() * shared;
         }
+        for (int k = 0; k < kViewTerms; ++k) {
+            const double sigma = solution_.view_sigma[static_cast<std::size_t>(k)];
+            block(4 + k, 4 + k) += 1 / (sigma * sigma);
+        }
+        // Makes the block invertible if the dots of the frame do not determine all terms.
+        block.diagonal().array() += 1e-9 * block.diagonal().maxCoeff();
+        frame_blocks_[f].compute(block);
     });
     CameraBlock sum = CameraBlock::Zero();
     for (const CameraBlock& part : camera)
@@ -248,6 +213,7 @@ MapUnknowns MapSystem::preconditioned(const MapUnknowns& residual) const {
     result.camera = camera_block_.solve(residual.camera);
     for (std::size_t i = 0; i < result.field.size(); ++i)
         result.field[i] /= field_diagonal_[i];
+    deformation_.add_solution(residual, result);
     keep_scale(result);
     return result;
 }
@@ -262,7 +228,7 @@ void MapSystem::keep_scale(MapUnknowns& unknowns) {
     unknowns.camera[0] = 0;
 }
 
-void MapSystem::solve(MapSolution& solution, const MapProgress& progress) {
+void MapSystem::solve(MapSolution& solution, double converged, const MapProgress& progress) {
     MapUnknowns at = unknowns_of(solution);
     MapUnknowns residual = product(at, Residuals::add);
     residual.combine(-1, 0, residual);
@@ -271,7 +237,7 @@ void MapSystem::solve(MapSolution& solution, const MapProgress& progress) {
     double size = residual.inner(direction);
     const auto unknowns = static_cast<double>(kFrameTerms * at.frames.size() + 2 * at.field.size());
     int i = 0;
-    for (; i < kMaxIterations && size > kConverged * unknowns; ++i) {
+    for (; i < kMaxIterations && size > converged * unknowns; ++i) {
         progress(static_cast<double>(i) / kMaxIterations);
         MapUnknowns image = product(direction, Residuals::omit);
         keep_scale(image);
@@ -283,7 +249,7 @@ void MapSystem::solve(MapSolution& solution, const MapProgress& progress) {
         direction.combine(next_size / size, 1, next);
         size = next_size;
     }
-    solution.iterations = i;
+    solution.iterations += i;
     eliminate(at, Residuals::add);
     write(at, solution);
 }

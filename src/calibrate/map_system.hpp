@@ -6,21 +6,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "calibrate/map_deformation.hpp"
 #include "calibrate/map_solver.hpp"
+#include "calibrate/map_unknowns.hpp"
 
 namespace dotpose::calibrate {
-
-/// Unknowns that remain after the elimination. Places, angles (times the reach) and displacements
-/// of the frames are relative to the frames of the solution. All other values are absolute.
-struct MapUnknowns {
-    std::vector<FrameVector> frames;
-    CameraVector camera = CameraVector::Zero();
-    std::vector<Eigen::Vector2d> field;
-
-    double inner(const MapUnknowns& other) const;
-    /// Replaces this with scale * this + by * other.
-    void combine(double scale, double by, const MapUnknowns& other);
-};
 
 /// Equations, linearised at the frames of a solution.
 class MapSystem {
@@ -28,13 +18,10 @@ class MapSystem {
     MapSystem(const MapGrid& grid, const EarlierOffsets& earlier,
               const std::vector<MapObservation>& observations, const MapSolution& solution);
 
-    /// Solves the equations by preconditioned conjugate gradients. Updates frames, camera, field
-    /// and offsets of `solution`, which must be the solution of the constructor.
-    void solve(MapSolution& solution, const MapProgress& progress);
-
-    /// Number of parts of the frames. Constant, because sums must not depend on the number of
-    /// threads.
-    static constexpr int kParts = 8;
+    /// Solves the equations by preconditioned conjugate gradients, until the mean square of the
+    /// preconditioned residual is at most `converged` variances of an unknown. Updates frames,
+    /// camera, field and offsets of `solution`, which must be the solution of the constructor.
+    void solve(MapSolution& solution, double converged, const MapProgress& progress);
 
   private:
     enum class Residuals : bool { omit, add };
@@ -68,6 +55,7 @@ class MapSystem {
     std::vector<Eigen::LLT<Eigen::Matrix<double, kFrameTerms, kFrameTerms>>> frame_blocks_;
     Eigen::LLT<Eigen::Matrix<double, kCameraTerms, kCameraTerms>> camera_block_;
     std::vector<double> field_diagonal_;
+    MapDeformation deformation_;
 };
 
 }  // namespace dotpose::calibrate

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include "calibrate/fix_plane.hpp"
 #include "calibrate/mapped_dots.hpp"
 #include "calibrate/median.hpp"
 #include "dotpose/tools/print_mapping.hpp"
@@ -35,30 +36,8 @@ constexpr int kSimilarityTerms = 5;
 constexpr int kTerms = 9;
 constexpr double kReach_px = 100;  ///< unit of pixels in the terms
 
-/// Plane of a fix in double precision.
-struct Plane {
-    Vector2d at;
-    Matrix2d linear;
-    Vector2d perspective;
-    double lens;
-
-    Vector2d place(const Vector2d& q) const {
-        return at + linear * q / (1 + perspective.dot(q) + lens * q.squaredNorm());
-    }
-};
-
-Plane plane_of(const PlaneFromImage& fixed) {
-    Plane plane;
-    plane.at = Vector2d(fixed.at_centre_q16.x, fixed.at_centre_q16.y) * 0x1p-16;
-    plane.linear << fixed.du_q24.x, fixed.dv_q24.x, fixed.du_q24.y, fixed.dv_q24.y;
-    plane.linear *= 0x1p-24;
-    plane.perspective = Vector2d(fixed.perspective_q30.x, fixed.perspective_q30.y) * 0x1p-30;
-    plane.lens = fixed.lens_q40 * 0x1p-40;
-    return plane;
-}
-
 /// Derivatives of a place on the paper with respect to the terms.
-Eigen::Matrix<double, 2, kTerms> derivatives_at(const Plane& plane, const MapDot& dot) {
+Eigen::Matrix<double, 2, kTerms> derivatives_at(const FixPlane& plane, const MapDot& dot) {
     const Vector2d p = plane.place(dot.pixel) - plane.at;
     const Vector2d q = dot.pixel / kReach_px;
     Eigen::Matrix<double, 2, kTerms> rows;
@@ -77,7 +56,7 @@ struct Correction {
 
 /// Solves the normal equations of the dots whose squared residuals in the previous fit are at most
 /// `limit`.
-Correction correct(const Plane& plane, const std::vector<MapDot>& dots, double map_weight,
+Correction correct(const FixPlane& plane, const std::vector<MapDot>& dots, double map_weight,
                    const VectorXd& last, double limit, const std::vector<int>& used) {
     const auto count = static_cast<Eigen::Index>(used.size());
     MatrixXd normal = MatrixXd::Zero(count, count);
@@ -111,7 +90,7 @@ Correction correct(const Plane& plane, const std::vector<MapDot>& dots, double m
 }
 
 /// Fits the terms in `used`. Repeats the fit without outliers.
-Correction fit_terms(const Plane& plane, const std::vector<MapDot>& dots, double map_weight,
+Correction fit_terms(const FixPlane& plane, const std::vector<MapDot>& dots, double map_weight,
                      const std::vector<int>& used) {
     VectorXd last = VectorXd::Zero(kTerms);
     last[4] = 1.0 / 6;
@@ -144,7 +123,8 @@ bool are_significant(const Correction& fit, int first) {
 
 /// Fits place, scale, rotation and displacement. Also fits shear and perspective if they are
 /// significant.
-Correction fit_correction(const Plane& plane, const std::vector<MapDot>& dots, double map_weight) {
+Correction fit_correction(const FixPlane& plane, const std::vector<MapDot>& dots,
+                          double map_weight) {
     const Correction full = fit_terms(plane, dots, map_weight, {0, 1, 2, 3, 4, 5, 6, 7, 8});
     std::vector<int> used = {0, 1, 2, 3, 4};
     for (const int first : {kSimilarityTerms, kSimilarityTerms + 2}) {
@@ -155,7 +135,7 @@ Correction fit_correction(const Plane& plane, const std::vector<MapDot>& dots, d
 
 /// Returns the image point, relative to the centre of the plane, that the plane maps to the place
 /// of the fix.
-Vector2d reference_of(const Plane& plane, const Trace& trace, const Fix& fix) {
+Vector2d reference_of(const FixPlane& plane, const Trace& trace, const Fix& fix) {
     const Cell start = trace.decoding.place.cell;
     const Vector2d place(steps(start.x, fix.cell.x) + fix.fraction_x_q16 / 65536.0,
                          steps(start.y, fix.cell.y) + fix.fraction_y_q16 / 65536.0);
@@ -168,7 +148,7 @@ Vector2d reference_of(const Plane& plane, const Trace& trace, const Fix& fix) {
     return q;
 }
 
-void write_fix(const Plane& plane, const Correction& correction, const Trace& trace, Fix& fix) {
+void write_fix(const FixPlane& plane, const Correction& correction, const Trace& trace, Fix& fix) {
     const Vector2d reference = reference_of(plane, trace, fix);
     const MapDot here{reference, Vector2d::Zero(), Vector2d::Zero(), Vector2d::Zero()};
     const auto at = derivatives_at(plane, here);
@@ -217,15 +197,13 @@ void write_fix(const Plane& plane, const Correction& correction, const Trace& tr
 MappedFix with_print_map(const Fix& fix, const PrintMap& map, const Trace& trace) {
     const MappedDots mapped = mapped_dots(fix, map, trace);
     if (mapped.use != MapUse::used) return {fix, mapped.use};
-    const PlaneFromImage& fixed = trace.pattern_from_image;
-    const Vector2d centre(fixed.centre_q8.x / 256.0, fixed.centre_q8.y / 256.0);
+    const FixPlane plane(trace.pattern_from_image);
     std::vector<MapDot> dots;
     for (const auto& [dot, offset] : mapped.dots) {
-        dots.push_back({Vector2d(dot.pixel.u, dot.pixel.v) - centre,
+        dots.push_back({Vector2d(dot.pixel.u, dot.pixel.v) - plane.centre_px,
                         Vector2d(dot.step.x, dot.step.y), Vector2d(dx(dot.symbol), dy(dot.symbol)),
                         offset});
     }
-    const Plane plane = plane_of(fixed);
     const Correction with_map = fit_correction(plane, dots, 1);
     const Correction without = fit_correction(plane, dots, 0);
     if (!is_same_print(with_map.variance, without.variance, mapped.noise))

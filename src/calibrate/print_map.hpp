@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include "calibrate/fix_plane.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/geometry.hpp"
 
@@ -52,17 +53,14 @@ inline Eigen::Vector2d in_scan(const FixedVec& pixel_q8, const Eigen::Vector2d& 
 }
 
 inline TileMap TileMap::of(const Fix& fix, const Eigen::Vector2d& first_px, int zoom) {
-    const PlaneFromImage& plane = fix.pattern_from_image;
+    const FixPlane plane(fix.pattern_from_image);
     TileMap map;
-    map.centre_px = in_scan(plane.centre_q8, first_px, zoom);
-    map.centre_cell = {fix.place.cell.x + plane.at_centre_q16.x * 0x1p-16,
-                       fix.place.cell.y + plane.at_centre_q16.y * 0x1p-16};
-    map.cells_per_px << plane.du_q24.x, plane.dv_q24.x, plane.du_q24.y, plane.dv_q24.y;
-    map.cells_per_px *= zoom * 0x1p-24;
+    map.centre_px = in_scan(fix.pattern_from_image.centre_q8, first_px, zoom);
+    map.centre_cell = Eigen::Vector2d(fix.place.cell.x, fix.place.cell.y) + plane.at;
+    map.cells_per_px = zoom * plane.linear;
     map.px_per_cell = map.cells_per_px.inverse();
-    map.perspective_per_px = {plane.perspective_q30.x * (zoom * 0x1p-30),
-                              plane.perspective_q30.y * (zoom * 0x1p-30)};
-    map.lens_per_px2 = plane.lens_q40 * (zoom * zoom * 0x1p-40);
+    map.perspective_per_px = zoom * plane.perspective;
+    map.lens_per_px2 = zoom * zoom * plane.lens;
     return map;
 }
 

@@ -56,12 +56,13 @@ void require_focal_length(const Camera& camera) {
 }
 
 std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const ImageView& image,
-                                    const Trace& trace, const AxisScale& print) {
+                                    const Trace& trace, const AxisScale& print,
+                                    const MapPage* map) {
     require_focal_length(camera);
     if (fix.status != Status::ok || fix.spacing_nm <= 0) return std::nullopt;
     const double x_mm = fix.spacing_mm() * print.x;
     const double y_mm = fix.spacing_mm() * print.y;
-    const auto fit = fit_to_image(image, {camera, *pinhole_of(camera), {x_mm, y_mm}}, trace);
+    const auto fit = fit_to_image(image, {camera, *pinhole_of(camera), {x_mm, y_mm}, map}, trace);
     if (!fit) return std::nullopt;
     const Cell start = trace.decoding.place.cell;
     const Vector3d origin_mm(x_mm * start.x, y_mm * start.y, 0);

@@ -42,13 +42,13 @@ Place place_of(const Trace& trace, FixedVec grid_cell) {
     return moved(trace.options.code, trace.decoding.place, step.x, step.y);
 }
 
-Plane::Plane(const PlaneFromImage& map)
-    : centre_px_(from_q8(map.centre_q8)),
-      at_centre_(from_q16(map.at_centre_q16)),
-      du_{map.du_q24.x * 0x1p-24, map.du_q24.y * 0x1p-24},
-      dv_{map.dv_q24.x * 0x1p-24, map.dv_q24.y * 0x1p-24},
-      perspective_{map.perspective_q30.x * 0x1p-30, map.perspective_q30.y * 0x1p-30},
-      lens_(map.lens_q40 * 0x1p-40),
+Plane::Plane(const PlaneMap& map)
+    : centre_px_{map.centre_px[0], map.centre_px[1]},
+      at_centre_{map.at_centre[0], map.at_centre[1]},
+      du_{map.du[0], map.du[1]},
+      dv_{map.dv[0], map.dv[1]},
+      perspective_{map.perspective[0], map.perspective[1]},
+      lens_(map.lens),
       area_(du_.x * dv_.y - du_.y * dv_.x) {}
 
 double Plane::divisor(Point from_centre_px) const {
@@ -88,7 +88,7 @@ FrameView::FrameView(ImageView image, const Trace& trace, double side)
       k_(trace.options.lens.k_q40 * 0x1p-40),
       lens_centre_px_(Point{(width_px_ - 1) / 2, (height_px_ - 1) / 2} +
                       from_q8({trace.options.lens.centre_dx_q8, trace.options.lens.centre_dy_q8})),
-      grid_(trace.grid_from_image),
+      grid_(PlaneMap(trace.grid_from_image)),
       reference_px_(Point{(width_px_ - 1) / 2, (height_px_ - 1) / 2} +
                     from_q8({trace.options.reference_dx_q8, trace.options.reference_dy_q8})) {
     spacing_px_ = estimate_spacing_px();
@@ -141,7 +141,7 @@ Point FrameView::at_grid(double i, double j) const {
 }
 
 Point FrameView::ahead_of_reference() const {
-    const Plane pattern(trace_.pattern_from_image);
+    const Plane pattern{PlaneMap(trace_.pattern_from_image)};
     // Length of the step in spacings. It is short, so that lens distortion does not change the
     // direction.
     constexpr double kShort = 0.1;

@@ -1,6 +1,7 @@
 // Maps a frame to the drawing, and reports which stages of `locate` succeeded.
 #pragma once
 
+#include "base/plane_map.hpp"
 #include "dotpose/tools/draw.hpp"
 #include "draw/svg.hpp"
 
@@ -18,10 +19,10 @@ struct Reached {
 };
 Reached reached(const Trace& trace);
 
-/// A PlaneFromImage and its inverse.
+/// A PlaneMap and its inverse.
 class Plane {
   public:
-    explicit Plane(const PlaneFromImage& map);
+    explicit Plane(const PlaneMap& map);
 
     Point plane_point(Point image_px) const;
     Point image_point(Point plane_point) const;

@@ -82,13 +82,13 @@ std::string ink_ml(const InkPage& given) {
         "<ink xmlns=\"http://www.w3.org/2003/InkML\">\n"
         "<annotation type=\"title\">{}</annotation>\n"
         "<definitions>\n<context xml:id=\"page\">\n<inkSource xml:id=\"pen\">\n<traceFormat>\n"
-        "<channel name=\"X\" type=\"decimal\" units=\"mm\" min=\"0\" max=\"{:.10g}\"/>\n"
-        "<channel name=\"Y\" type=\"decimal\" units=\"mm\" min=\"0\" max=\"{:.10g}\"/>\n"
+        "<channel name=\"X\" type=\"decimal\" units=\"mm\"/>\n"
+        "<channel name=\"Y\" type=\"decimal\" units=\"mm\"/>\n"
         "<channel name=\"T\" type=\"decimal\" units=\"ms\"/>\n"
         "<channel name=\"OTx\" type=\"decimal\" units=\"deg\"/>\n"
         "<channel name=\"OTy\" type=\"decimal\" units=\"deg\"/>\n"
         "</traceFormat>\n</inkSource>\n</context>\n</definitions>\n",
-        draw::escaped(page.name.empty() ? "Ink" : page.name), page.width_mm, page.height_mm);
+        draw::escaped(page.name.empty() ? "Ink" : page.name));
     for (const InkStroke& stroke : page.strokes) {
         text += "<trace contextRef=\"#page\">";
         for (const InkPoint& point : stroke) {

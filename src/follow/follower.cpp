@@ -119,14 +119,19 @@ Follower::Found Follower::by_camera_file(const Fix& seen, const std::optional<Sh
     const AxisScale print = place ? place->entry->print_scale() : AxisScale{};
     const auto [fix, velocity, map_use] =
         with_camera_and_map(seen, *options_.camera, locator_.trace(), print, options_.print_map);
-    return {seen, fix, place, reading, velocity, space_of(seen, place), map_use};
+    return {seen, fix, place, reading, velocity, space_of(seen, place, map_use), map_use};
 }
 
-std::optional<SpacePose> Follower::space_of(const Fix& seen,
-                                            const std::optional<SheetPlace>& place) const {
+/// Returns the pose in space for the fix of the latest image. Uses the print map if the fix does.
+std::optional<SpacePose> Follower::space_of(const Fix& seen, const std::optional<SheetPlace>& place,
+                                            MapUse map_use) const {
     if (!options_.fits_space_pose) return std::nullopt;
     const AxisScale print = place ? place->entry->print_scale() : AxisScale{};
-    return space_pose(with_spacing(seen, place), *options_.camera, image_, locator_.trace(), print);
+    const Trace trace = locator_.trace();
+    const MapPage* map = nullptr;
+    if (map_use == MapUse::used)
+        map = find_page(options_.print_map, trace.options.code, {seen.cell, seen.section});
+    return space_pose(with_spacing(seen, place), *options_.camera, image_, trace, print, map);
 }
 
 double Follower::spacing_mm(const std::optional<SheetPlace>& place) const {

@@ -57,8 +57,8 @@ struct FollowerOptions {
     /// True to fit the pose of the camera in space, in addition to the pose on the paper. Requires
     /// a camera file with a focal length.
     bool fits_space_pose = false;
-    /// Map of the print, by which fixes are corrected (print_mapping.hpp). Requires the sheets of
-    /// the map. Poses in space are not corrected.
+    /// Map of the print, by which fixes and poses in space are corrected (print_mapping.hpp).
+    /// Requires the sheets of the map.
     PrintMap print_map;
     TrackOptions track;
 };
@@ -176,8 +176,8 @@ class Follower {
     Locator& locator(const DeviceOptions& options);
     Found by_camera_file(const Fix& seen, const std::optional<SheetPlace>& place,
                          const CodeReading& reading) const;
-    std::optional<SpacePose> space_of(const Fix& seen,
-                                      const std::optional<SheetPlace>& place) const;
+    std::optional<SpacePose> space_of(const Fix& seen, const std::optional<SheetPlace>& place,
+                                      MapUse map_use) const;
     double spacing_mm(const std::optional<SheetPlace>& place) const;
     Fix with_spacing(const Fix& fix, const std::optional<SheetPlace>& place) const;
     Located located(const Found& found, const Fix& fix) const;

@@ -24,6 +24,7 @@
 
 #include "dotpose/export.hpp"
 #include "dotpose/files/camera.hpp"
+#include "dotpose/files/print_map.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/files/sheet_place.hpp"
 #include "dotpose/fix.hpp"
@@ -109,11 +110,14 @@ void require_focal_length(const Camera& camera);
 /// errors of the dot centres in the image. Both variances are estimated from the residuals. Dots
 /// with residuals above four standard deviations are not used.
 ///
-/// `print` is the print scale of the sheet. Returns none if there is no fix, if the spacing is
-/// unknown (`Fix::spacing_nm` is 0), or if there are fewer than 12 dots. Throws BadArgument as
-/// `require_focal_length` does.
+/// `print` is the print scale of the sheet. `map` is the map of the page, or null: with a map, the
+/// dots are at their mapped places, and only dots that the map has seen are used. Check the map
+/// with `with_print_map` before, because this function does not detect another print. Returns none
+/// if there is no fix, if the spacing is unknown (`Fix::spacing_nm` is 0), or if there are fewer
+/// than 12 dots. Throws BadArgument as `require_focal_length` does.
 std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const ImageView& image,
-                                    const Trace& trace, const AxisScale& print = {});
+                                    const Trace& trace, const AxisScale& print = {},
+                                    const MapPage* map = nullptr);
 
 /// Converts a pose from the pattern frame to the frame of a sheet. The rotation and its covariance
 /// are equal in both frames.

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../../inkml_check.hpp"
 #include "../../xml_check.hpp"
 
 namespace dotpose {
@@ -52,6 +53,17 @@ TEST(InkMl, HasTracesInTheNamespace) {
                                R"(3.0000 5.0000 505.000 0.00 0.00</trace>)"));
     // The pen leans by 0.5 rad towards +x.
     EXPECT_THAT(ink, HasSubstr("7.0000 8.0000 1000.000 28.65 0.00</trace>"));
+}
+
+TEST(InkMl, IsValid) {
+    const test::InkMlCheck small(ink_ml(small_page()));
+    EXPECT_EQ(small.problem(), "");
+    EXPECT_EQ(small.traces(), 2);
+    // A pen that leaves the page writes outside it.
+    InkPage page = small_page();
+    page.strokes[0].front().x_mm = -1;
+    page.strokes[1].front().y_mm = 298;
+    EXPECT_EQ(test::InkMlCheck(ink_ml(page)).problem(), "");
 }
 
 }  // namespace

@@ -116,12 +116,60 @@ TEST_F(PrintMapping, UsesTheViewOfACameraFile) {
     EXPECT_LE(test.with.absolute_um(), 0.2);
 }
 
-/// Without jitter, the map hardly changes the residuals of a frame, but moves its fix by microns.
+TEST_F(PrintMapping, ConvergesInFewIterations) {
+    const MappedPrint large({.side_mm = 60});
+    // Without a preconditioner for deformations of the whole page, the first rounds need hundreds.
+    EXPECT_LT(map_of(large, 200).pages[0].iterations, 120);
+}
+
+/// The map of such a print hardly changes the residuals of a frame, but moves its fix by microns.
 TEST(PrintMapOfAPrintWithoutJitter, IsUsed) {
     const MappedPrint print({.side_mm = kSide_mm, .jitter_mm = 0});
     const MapTest test = test_map(print, map_of(print, kFrames).map, 20);
     EXPECT_EQ(test.used, 20);
     EXPECT_LE(test.with.absolute_um(), test.without.absolute_um() / 5);
+}
+
+/// Without a feed wave, the map keeps the place of the page to 0.2 µm.
+TEST(PrintMapOfAPrintWithoutWave, CorrectsPosesInSpace) {
+    const MappedPrint print({.side_mm = kSide_mm, .wave_mm = 0});
+    const CameraModel model;
+    Camera camera;
+    camera.width_px = print.options().width_px;
+    camera.height_px = print.options().height_px;
+    camera.centre_px = {(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
+    camera.focal_px = model.working_distance_mm / model.mm_per_px;
+    FollowerOptions options;
+    options.sheets = {print.entry()};
+    options.camera = camera;
+    options.fits_space_pose = true;
+    Follower plain(options);
+    options.print_map = map_of(print, kFrames).map;
+    Follower mapped(options);
+    const Cell origin = print.entry().sheet.origin;
+    const double mm = print.entry().sheet.pattern.spacing_mm;
+    double without = 0;
+    double with = 0;
+    double variance = 0;
+    for (std::uint64_t i = 0; i < 20; ++i) {
+        const MappedPrint::Pose pose = print.pose(600, i);
+        const GreyImage image = print.frame(pose, scramble(600 + i));
+        const auto error2 = [&](const Located& located) {
+            const CameraInSpace& at = located.space->camera;
+            return std::pow(at.x_mm - origin.x * mm - pose.at_mm.x, 2) +
+                   std::pow(at.y_mm - origin.y * mm - pose.at_mm.y, 2);
+        };
+        const Located before = plain.locate(image);
+        const Located after = mapped.locate(image);
+        ASSERT_TRUE(before.space && after.space);
+        EXPECT_EQ(after.map_use, MapUse::used);
+        without += error2(before);
+        with += error2(after);
+        variance += after.space->covariance[0][0] + after.space->covariance[1][1];
+    }
+    // The camera is 16 mm above the page, so an error of its tilt moves it.
+    EXPECT_LT(with, without / 9);
+    EXPECT_LT(with, 4 * variance);
 }
 
 TEST(PrintMapOfFewFrames, IsRefused) {

@@ -49,10 +49,13 @@ try:
         Follower,
         LensCalibration,
         Located,
+        MappedPage,
         OverlayReport,
         PivotCalibration,
         PrintCheck,
         PrintField,
+        PrintMap,
+        PrintMapResult,
         PrintScale,
         Protocol,
         ProtocolResult,
@@ -73,6 +76,7 @@ try:
         calibrate_pivot,
         calibrate_spin,
         check_print,
+        make_print_map,
         make_sheet,
         make_sheets,
         overlay,
@@ -92,12 +96,12 @@ except ModuleNotFoundError as error:
     def __getattr__(name):
         tools = """
             DriveCalibration Finding Follower LensCalibration Located
-            OverlayReport PivotCalibration PrintCheck PrintField PrintScale Protocol
-            ProtocolResult Sheet SheetEntry SheetFile SheetPlace
+            MappedPage OverlayReport PivotCalibration PrintCheck PrintField PrintMap
+            PrintMapResult PrintScale Protocol ProtocolResult Sheet SheetEntry SheetFile SheetPlace
             SpacePose SpinCalibration Station Stitching TipPose WorldPlace
             WorldPose WorldSpacePose
             calibrate calibrate_drive calibrate_pivot calibrate_spin check_print
-            make_sheet make_sheets overlay print_sheet print_sheets read_image
+            make_print_map make_sheet make_sheets overlay print_sheet print_sheets read_image
             read_sheets run_protocol stitch_sheets write_image
         """.split()
         if name in tools:

@@ -31,6 +31,7 @@ void define_simulate(py::module_& module);
 /// Define the classes and functions of one subject in the module _tools, in this order.
 void define_sheets(py::module_& module);
 void define_space(py::module_& module);
+void define_print_map(py::module_& module);
 void define_follower(py::module_& module);
 void define_files(py::module_& module);
 void define_print(py::module_& module);

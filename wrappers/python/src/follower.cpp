@@ -22,6 +22,7 @@ struct SeenLocated {
     std::optional<SpacePose> space;
     std::optional<TipPose> tip;
     bool is_pen_down = false;
+    MapUse map_use = MapUse::no_map;
     int reduced_by = 1;
     std::optional<Track> track;
 };
@@ -59,6 +60,7 @@ class FollowerOfPython {
         result.space = located.space;
         result.tip = located.tip;
         result.is_pen_down = located.is_pen_down;
+        result.map_use = located.map_use;
         result.reduced_by = located.reduced_by;
         const DeviceOptions& used = follower_.used_options();
         result.fix.reference_q8 = {used.reference_dx_q8, used.reference_dy_q8};
@@ -77,7 +79,7 @@ std::unique_ptr<FollowerOfPython> new_follower(
     const std::vector<SheetEntry>& sheets, const std::string& code, double spacing_mm,
     const std::optional<Camera>& camera, const std::optional<std::array<double, 2>>& reference,
     const LocatorOptions& options, bool only_sheets, bool keep_stages, bool space,
-    const py::kwargs& track) {
+    const std::optional<PrintMap>& print_map, const py::kwargs& track) {
     FollowerOptions all;
     all.locate = checked(options);
     all.locate.show_stages |= keep_stages;
@@ -88,9 +90,24 @@ std::unique_ptr<FollowerOfPython> new_follower(
     all.spacing_mm = spacing_mm;
     all.camera = camera;
     all.fits_space_pose = space;
+    if (print_map) all.print_map = *print_map;
     if (reference) all.reference_px = PixelPoint{(*reference)[0], (*reference)[1]};
     all.track = track_options_of(track);
     return std::make_unique<FollowerOfPython>(all, keep_stages);
+}
+
+const char* name_of(MapUse use) {
+    switch (use) {
+        case MapUse::no_map:
+            return "no_map";
+        case MapUse::used:
+            return "used";
+        case MapUse::not_covered:
+            return "not_covered";
+        case MapUse::contradicted:
+            return "contradicted";
+    }
+    return "no_map";
 }
 
 std::string text_of_located(const SeenLocated& self) {
@@ -115,6 +132,10 @@ void define_follower(py::module_& module) {
                       "TipPose of the pen in the pattern frame; None unless the camera has a tip "
                       "and the pose in space is known and not ambiguous.")
         .def_readonly("is_pen_down", &SeenLocated::is_pen_down, "True if the tip is on the paper.")
+        .def_property_readonly(
+            "map_use", [](const SeenLocated& self) { return name_of(self.map_use); },
+            "How the print map was used: 'used'; 'not_covered' if it contains too few of the dots "
+            "in view; 'contradicted' if it is of another print; 'no_map' without a map or a fix.")
         .def_readonly("track", &SeenLocated::track,
                       "Track after the image; None from Follower.locate.")
         .def_readonly("reduced_by", &SeenLocated::reduced_by,
@@ -133,6 +154,7 @@ void define_follower(py::module_& module) {
              "spacing_mm"_a = kDefaultSpacing_mm, py::kw_only(), "camera"_a = py::none(),
              "reference_px"_a = py::none(), py::arg_v("options", LocatorOptions{}, "Options()"),
              "only_sheets"_a = false, "keep_stages"_a = false, "space"_a = false,
+             "print_map"_a = py::none(),
              "Make a follower.\n\n"
              "sheets: entries of the pages that may be in view; without sheets, poses are in the "
              "pattern frame.\ncode, spacing_mm: code and spacing of the pattern without sheets.\n"
@@ -140,6 +162,7 @@ void define_follower(py::module_& module) {
              "camera, reference_px, options, keep_stages: as in Locator.\n"
              "space: whether to find the pose of the camera in space, which needs a camera with a "
              "focal length.\n"
+             "print_map: PrintMap of the sheets, which corrects fixes and poses in space.\n"
              "Options of the tracker are given by name, as in Tracker.")
         .def("locate", &FollowerOfPython::locate, "image"_a,
              "Locate a single image. An image that is too large is reduced.")

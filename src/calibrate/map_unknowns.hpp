@@ -1,0 +1,22 @@
+// Map unknowns: the unknowns of a print map that remain after the elimination of the offsets.
+#pragma once
+
+#include <vector>
+
+#include "calibrate/map_solver.hpp"
+
+namespace dotpose::calibrate {
+
+/// Unknowns that remain after the elimination. Places, angles (times the reach) and displacements
+/// of the frames are relative to the frames of the solution. All other values are absolute.
+struct MapUnknowns {
+    std::vector<FrameVector> frames;
+    CameraVector camera = CameraVector::Zero();
+    std::vector<Eigen::Vector2d> field;
+
+    double inner(const MapUnknowns& other) const;
+    /// Replaces this with scale * this + by * other.
+    void combine(double scale, double by, const MapUnknowns& other);
+};
+
+}  // namespace dotpose::calibrate
