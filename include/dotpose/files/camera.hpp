@@ -37,7 +37,7 @@ struct PaperScale {
     double mm_per_px_x = 0;
     double mm_per_px_y = 0;
     double skew = 0;  ///< shift of each image row relative to the row above, in px
-    /// Change of d per px along u; 0 if the camera is perpendicular to the paper.
+    /// Change of d per px along u. 0 if the camera is perpendicular to the paper.
     double perspective_u = 0;
     double perspective_v = 0;
 };
