@@ -90,7 +90,7 @@ void draw_path(const std::filesystem::path& file, const Sheet& sheet,
 void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
 
 /// Sums of the residuals of a lens calibration in square parts of the image, as `draw_calibration`
-/// draws them. For programs that draw the residuals themselves.
+/// draws them. Programs can use this struct to draw the residuals themselves.
 struct ResidualField {
     struct Part {
         PixelPoint before;  ///< sum of the residuals before the calibration, in px
@@ -114,8 +114,8 @@ void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibra
 void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
                     const Stitching& stitching);
 
-/// Draws the smooth distortion of a mapped page as a deformed grid, enlarged. Draws the x and y
-/// offsets of all dots as two images.
+/// Draws two views of the map of a page: the smooth distortion as an enlarged, deformed grid, and
+/// the x and y offsets of all dots as two images.
 void draw_print_map(const std::filesystem::path& path, const MapPage& page);
 
 /// Draws the sheets in the world, seen from above with x to the right and y up. Sheets without a

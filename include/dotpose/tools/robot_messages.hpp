@@ -96,7 +96,8 @@ struct RobotFrames {
 /// slash or contains a space or a control character.
 RobotFrames with_prefix(const std::string& prefix, RobotFrames frames = {});
 
-/// Messages of one frame. `odometry` and `tf` are empty while the robot is lost.
+/// Messages of one frame. `pose` is none if there is no fix. `odometry` and `tf` are none while the
+/// robot is lost.
 struct RobotMessages {
     std::optional<PoseWithCovarianceStamped> pose;  ///< pose of the fix, in `map`
     std::optional<Odometry> odometry;  ///< pose of the track in `odom`, twist in `base_link`
@@ -127,8 +128,8 @@ class RobotMessenger {
 
 /// Returns the mount of the camera: the pose of the optical frame in `base_link`. The origin of the
 /// optical frame is above the point under the image centre. z points to the paper, and x and y are
-/// along the axes of the image. The height is 0 if the camera file has no focal length. Returns
-/// none if the camera file has no view of the paper.
+/// along the axes of the image. The height is 0 if `camera.focal_px` is none. Returns none if the
+/// camera file has no view of the paper.
 std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFrames& frames = {});
 
 }  // namespace dotpose::ros
