@@ -58,13 +58,14 @@ struct CalibrateOptions {
 /// Returns the code variant of the options, or none if it must be detected from the frames.
 std::optional<CodeVariant> given_code(const CalibrateOptions& options);
 
-/// Required number of frames. If there are fewer, the verdict is `too_few_frames`.
+/// Required number of different frames with a fix. If there are fewer, the verdict is
+/// `too_few_frames`.
 inline constexpr int kWantedFrames = 5;
 
 /// Verdict on a lens calibration: `good`, or the reason why it is not reliable.
 enum class CalibrationVerdict {
     good,
-    too_few_frames,  ///< fewer than kWantedFrames frames
+    too_few_frames,  ///< fewer than kWantedFrames different frames have a fix
     same_place,      ///< all frames show the same dots, so printing errors look like lens errors
     out_of_focus,    ///< the dots are blurred to about a third of the spacing or more
     corners_unseen,  ///< dots cover less than the fraction kMinCoverage of the image
@@ -195,7 +196,7 @@ struct PivotCalibration {
     Camera camera;  ///< the given camera with `tip` set
     int frames = 0;
     int located = 0;
-    int used = 0;  ///< number of frames in which the tip is at rest
+    int used = 0;  ///< number of frames in which the tip is at the common point of rest
     /// Rms angle by which the pen rotated about the axis of least rotation. The larger this angle
     /// is, the more accurate is the tip.
     double pivot_rad = 0;
@@ -259,7 +260,7 @@ struct ReadoutCalibration {
 /// frame with the motion from the previous frame to the next. Throws Error in these cases:
 /// - The camera file has no view of the paper.
 /// - Fewer than 5 located frames are preceded and followed by a located frame.
-/// - The motion does not determine the readout time to 10 %.
+/// - The standard deviation of the readout time is 10 % of the readout time or more.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);
 

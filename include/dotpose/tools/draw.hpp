@@ -105,8 +105,8 @@ struct ResidualField {
 };
 ResidualField residual_field(const LensCalibration& calibration);
 
-/// Draws the positions of the camera while the robot turned, and the centre of rotation from each
-/// frame.
+/// Draws the positions of the camera while the robot turned, and the centres of rotation computed
+/// from single frames.
 void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibration);
 
 /// Draws the sheets before and after stitching. Each frame that shows two sheets gives two
@@ -123,7 +123,8 @@ void draw_print_map(const std::filesystem::path& path, const MapPage& page);
 /// drawn.
 void draw_sheets(const std::filesystem::path& path, std::span<const SheetEntry> sheets);
 
-/// Draws the enlarged deviations of all fields of a printed page over the outline of the scan.
+/// Draws the deviations in `PrintField::distortion` of all fields of a printed page, enlarged, over
+/// the outline of the scan.
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check);
 

@@ -31,8 +31,8 @@ struct Outcome {
     Fix fix;
     Truth truth;
     double elapsed_us = 0;  ///< time of `locate`, without reading the frame
-    std::string problem;    ///< error while reading the file; if not empty, no other member is
-                            ///< valid
+    std::string problem;    ///< error while reading the file; if not empty, `fix` and `elapsed_us`
+                            ///< are not valid
 
     /// Returns true if the frame was read and located, correctly or not.
     bool is_fix() const { return problem.empty() && fix.status == Status::ok; }

@@ -106,7 +106,9 @@ enum class DotDrawing {
 /// Options for `write_sheet`.
 struct PrintOptions {
     /// Resolution of PNG and TIFF in dots per inch, which should be the resolution of the printer.
-    /// A PDF has no pixels, but its dots are drawn for this resolution. Not used for text and SVG.
+    /// A PDF has no pixels, but the printer must be able to print its dots at this resolution (see
+    /// `validate_resolution`), and DotDrawing::glyphs refers to these pixels. Not used for text and
+    /// SVG.
     double dpi = 600;
     DotDrawing drawing = DotDrawing::automatic;  ///< PDF only: method of drawing dots
     /// PDF only: true to add labels (name, page, region and spacing) and rulers in the margins

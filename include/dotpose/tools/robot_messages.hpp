@@ -70,8 +70,8 @@ struct RobotUpdate {
     std::optional<PlanarFix> fix;        ///< none if there is no fix, or if the place of the fix is
                                          ///< unknown
     std::optional<PlanarMotion> motion;  ///< none while the robot is lost
-    std::uint32_t plane = 0;             ///< ID of the plane; poses in different planes are
-                                         ///< unrelated
+    std::uint32_t plane = 0;             ///< TrackedPose::plane of the motion; poses in different
+                                         ///< planes are unrelated
     bool is_found_again = false;  ///< true if the motion is not a continuation of the previous
                                   ///< motion
     std::string state;            ///< "lost", "moving" or "stationary"

@@ -15,8 +15,8 @@
 ///
 /// Coordinate frames: *pixel* (centre of the first pixel (0, 0), v down), *pattern* (x right, y
 /// DOWN as the page is read, mm). Offsets named `offset_mm` are in the pattern frame, relative to
-/// the pose point, which is the pattern point under the image centre. Offsets are therefore exact
-/// anywhere on the plane, which is 2.1e8 mm wide.
+/// the pose point, which is the pattern point under the image centre. Offsets are small numbers, so
+/// they are not rounded noticeably, although the plane is 2.1e8 mm wide.
 #pragma once
 
 #include <array>
