@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 
@@ -21,6 +22,18 @@ constexpr double kMaxReference_px = 10'000;
 constexpr double kMaxFocal_px = 1e6;
 constexpr double kMinStretch = 0.5;
 constexpr double kMaxStretch = 2;
+
+/// Position between the two nearest of `count` equidistant points along an axis.
+struct Between {
+    std::size_t first;  ///< index of the point at or before the position, from 0 to `count` - 2
+    double part;        ///< fraction of the way from this point to the next
+};
+
+Between between(double at_px, int side_px, std::size_t count) {
+    const double at = at_px * double(count - 1) / double(side_px - 1);
+    const std::size_t first = std::min(static_cast<std::size_t>(at), count - 2);
+    return {first, at - double(first)};
+}
 
 PixelPoint image_centre(const Camera& camera) {
     return {(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
@@ -211,6 +224,16 @@ std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera
     return pixel_from_image_centre(other, from_image_centre(camera, *camera.reference_px));
 }
 
+double brightness_at(const Camera& camera, PixelPoint pixel) {
+    const auto& field = camera.flat_field;
+    const Between u = between(pixel.u, camera.width_px, field.front().size());
+    const Between v = between(pixel.v, camera.height_px, field.size());
+    const auto along_row = [&](const std::vector<double>& row) {
+        return std::lerp(row[u.first], row[u.first + 1], u.part);
+    };
+    return std::lerp(along_row(field[v.first]), along_row(field[v.first + 1]), v.part);
+}
+
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px) {
     if (left_px < 0 || top_px < 0 || left_px > camera.width_px - width_px ||
         top_px > camera.height_px - height_px) {
@@ -232,6 +255,16 @@ Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int 
         // different centre, so the offset changes.
         part.theta_offset_rad +=
             image_axis_rad(camera, image_centre(camera)) - image_axis_rad(part, image_centre(part));
+    }
+    if (camera.readout_ms) part.readout_ms = *camera.readout_ms * height_px / camera.height_px;
+    const std::size_t rows = part.flat_field.size();
+    for (std::size_t row = 0; row < rows; ++row) {
+        const std::size_t columns = part.flat_field[row].size();
+        for (std::size_t column = 0; column < columns; ++column) {
+            const double u = double(column) * (width_px - 1) / double(columns - 1);
+            const double v = double(row) * (height_px - 1) / double(rows - 1);
+            part.flat_field[row][column] = brightness_at(camera, {left_px + u, top_px + v});
+        }
     }
     validate(part);
     return part;

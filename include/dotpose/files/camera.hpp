@@ -4,8 +4,8 @@
 /// - *pixel*: the centre of the first pixel is (0, 0), and v points down.
 /// - *undistorted* pixel: the pixel of the same point in a camera without distortion. It may be
 ///   outside the image.
-/// - *camera*: coordinates on the paper in mm, relative to the point under the distortion centre. x
-///   is along the image x axis, and y points DOWN.
+/// - *camera*: coordinates on the paper in mm, relative to the point that the distortion centre
+///   shows. x is along the image x axis, and y points DOWN.
 #pragma once
 
 #include <map>
@@ -31,27 +31,32 @@ struct PixelPoint {
 /// A point at (a, b) undistorted px from the distortion centre has these coordinates in the camera
 /// frame:
 ///
-///     x = mm_per_px_x (a + skew b) / d,   y = mm_per_px_y b / d,   d = 1 + perspective . (a, b).
+///     x = mm_per_px_x (a + skew b) / d,   y = mm_per_px_y b / d,
+///     d = 1 + perspective_u a + perspective_v b.
 struct PaperScale {
     double mm_per_px_x = 0;
     double mm_per_px_y = 0;
-    double skew = 0;           ///< shift between adjacent rows, in px per px
-    double perspective_u = 0;  ///< in 1/px; 0 for a camera perpendicular to the paper
+    double skew = 0;  ///< shift of each image row relative to the row above, in px
+    /// Change of d per px along u. 0 if the camera is perpendicular to the paper.
+    double perspective_u = 0;
     double perspective_v = 0;
 };
 
-/// Tilt of the paper relative to the image plane, with the sign convention of tools/simulate.hpp.
+/// Tilt of the paper relative to the image plane. The angles and their signs are those of
+/// `CameraPose` in tools/simulate.hpp.
 struct Tilt {
-    double x_rad = 0;  ///< about the image x axis; if it is positive, the paper recedes towards the
-                       ///< bottom
+    /// About the image x axis. If it is positive, the paper recedes towards the bottom.
+    double x_rad = 0;
     /// About the image y axis. If it is positive, the paper comes closer towards the right.
     double y_rad = 0;
 };
 
-/// Minimum value of a flat field. Darker parts of an image are too noisy to show dots.
+/// Minimum value in `Camera::flat_field`. `validate` rejects smaller values, because parts of an
+/// image that are so dark are too noisy to show dots.
 inline constexpr double kMinFlatField = 0.05;
 
-/// Pinhole model of the undistorted image. Pixel (u, v) shows the points in the direction
+/// Pinhole model of the undistorted image. Undistorted pixel (u, v) shows the points in the
+/// direction
 ///
 ///     ((u - centre_px.u) / focal_u_px, (v - centre_px.v) / focal_v_px, 1).
 ///
@@ -68,8 +73,9 @@ struct PenTip {
     double x_mm = 0;
     double y_mm = 0;
     double z_mm = 0;
-    /// Height of the tip above the paper, as measured while the pen rests on the paper. The tip is
-    /// the point about which the pen pivots, for example the centre of the ball of a ballpoint pen.
+    /// Height of the tip above the paper while the pen rests on the paper, as measured by the
+    /// calibration. It need not be 0, because the tip is the point about which the pen pivots, for
+    /// example the centre of the ball of a ballpoint pen.
     double rest_mm = 0;
 };
 
@@ -77,8 +83,8 @@ struct PenTip {
 struct Camera {
     int width_px = 0;
     int height_px = 0;
-    /// Radial distortion, paper eq. 1-2 (a division model), about `centre_px`. Negative for barrel
-    /// distortion.
+    /// Coefficient k of the radial distortion about `centre_px` (paper eq. 1-2, a division model).
+    /// Negative for barrel distortion.
     double k_per_px2 = 0;
     PixelPoint centre_px;
     /// View of the paper: the map from the undistorted image to the paper. None if the camera is
@@ -86,7 +92,8 @@ struct Camera {
     std::optional<PaperScale> paper;
     std::optional<double> focal_px;  ///< focal length; none if the calibration did not determine it
     /// Pinhole model, if pixels are not square or `centre_px` is not on the optical axis. The files
-    /// of ROS describe such cameras. See `pinhole_of`.
+    /// of ROS describe such cameras. None for other cameras, because `focal_px` determines their
+    /// model (see `pinhole_of`).
     std::optional<Pinhole> pinhole;
     /// Tilt of a mounted camera. None if the calibration did not determine the tilt.
     std::optional<Tilt> tilt;
@@ -104,11 +111,11 @@ struct Camera {
     /// it locates them. All pixel coordinates in this struct refer to the flipped frames.
     bool flip = false;
 
-    /// Flat field: the brightness of evenly lit white paper in the image, relative to its maximum.
-    /// Rows of values from kMinFlatField to 1, at equal distances from the first to the last pixel
-    /// along each axis. Values between them are interpolated bilinearly. The flat field includes
-    /// the vignetting of the lens and the light of the lamps. Empty if the brightness is even or
-    /// not known.
+    /// Flat field: the brightness of white paper in the image, relative to its maximum. It includes
+    /// the vignetting of the lens and the uneven light of the lamps. Contains rows of values from
+    /// kMinFlatField to 1, for points at equal distances from the first to the last pixel along
+    /// each axis. Between these points, the brightness is interpolated bilinearly. Empty if the
+    /// brightness is even or not known.
     std::vector<std::vector<double>> flat_field;
 
     /// Time from the first to the last row of an image, if the sensor has a rolling shutter. If the
@@ -120,24 +127,27 @@ struct Camera {
     std::optional<double> exposure_us;
     std::optional<double> gain;
 
-    /// Standard deviations from a calibration, in the units of their keys. The index is the name of
-    /// the key in the camera file.
+    /// Standard deviations of the calibrated values, in the units of the values. The index is the
+    /// name of the value in the camera file, for example "centre_u_px".
     std::map<std::string, double> sigma;
 };
 
-/// Checks all values. Throws BadArgument in these cases:
+/// Checks all values except `sigma`. Throws BadArgument in these cases:
 /// - `locate` does not accept the image size.
 /// - The distortion is too strong: 1 + k r^2 is outside [0.5, 2] in a corner of the image.
-/// - The distortion centre is more than 1000 px from the image centre.
-/// - The reference point is more than 10,000 px from the image centre.
-/// - A value is not finite, or a length is not positive.
+/// - The distortion centre is more than 1000 px from the image centre along an axis.
+/// - The reference point is more than 10,000 px from the image centre along an axis.
+/// - The perspective of `paper` is so strong that the horizon is in the image or near it.
+/// - The rows of `flat_field` differ in length, or there are fewer than two rows or columns, or
+///   more than pixels.
+/// - Another value is not finite or out of its range, for example a length that is not positive.
 void validate(const Camera& camera);
 
 /// Returns the undistorted pixel of `pixel` (paper eq. 1-2).
 PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
-/// Returns the distorted pixel of an undistorted pixel. If the camera cannot see the point, returns
-/// a pixel in the same direction from the distortion centre as `undistorted`, at twice the
-/// distance.
+/// Returns the pixel at which the camera shows an undistorted pixel. If k is positive, points far
+/// from the distortion centre have no such pixel. For these points, returns a pixel in the same
+/// direction from the distortion centre as `undistorted`, at twice the distance.
 PixelPoint distorted(const Camera& camera, PixelPoint undistorted);
 
 /// Returns `pinhole` if there is one. Otherwise, returns a model with square pixels, `focal_px`,
@@ -149,22 +159,24 @@ struct CameraPoint {
     double x_mm = 0;
     double y_mm = 0;
 };
-/// Returns the point on the paper that an undistorted pixel shows, in the camera frame.
-/// `camera.paper` must be known.
+/// Returns the point on the paper that an undistorted pixel shows, in the camera frame. Throws
+/// std::bad_optional_access if `camera.paper` is none.
 CameraPoint on_paper(const Camera& camera, PixelPoint undistorted);
-/// Returns the undistorted pixel of a point in the camera frame. `camera.paper` must be known.
+/// Returns the undistorted pixel of a point in the camera frame. Throws as `on_paper` does.
 PixelPoint on_image(const Camera& camera, CameraPoint point);
 
-/// Returns the direction, in the camera frame, of the image x axis at an undistorted pixel.
+/// Returns the direction of the image x axis on the paper, at an undistorted pixel. The angle is
+/// measured from +x towards +y of the camera frame. Throws as `on_paper` does.
 double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 
 /// Returns the point on the paper that an undistorted pixel shows, in mm relative to the point
-/// under the image centre. x is along the image x axis at this point. `camera.paper` must be known.
-/// This frame is suitable for comparing two calibrations of the same camera, because their
-/// positions agree to within microns, even far outside the image. The undistorted pixels of the
-/// same points differ by more.
+/// under the image centre. x is along the image x axis at the image centre. Throws as `on_paper`
+/// does. This frame is suitable for comparing two calibrations of the same camera: according to the
+/// two calibrations, the coordinates of a point of the paper differ by only microns, even far
+/// outside the image. Its undistorted pixels differ by more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
-/// Returns the undistorted pixel of a point returned by `from_image_centre`.
+/// Inverse of `from_image_centre`: returns the undistorted pixel that shows `point`. Throws as
+/// `on_paper` does.
 PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
 
 /// Returns the reference point of `camera` as an undistorted pixel of `other`, which is another
@@ -172,10 +184,15 @@ PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
 /// either camera is not known, returns `camera.reference_px` unchanged.
 std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera);
 
+/// Returns the brightness of white paper at a pixel, relative to its maximum, from
+/// `camera.flat_field`. The flat field must not be empty, and `camera` must be valid.
+double brightness_at(const Camera& camera, PixelPoint pixel);
+
 /// Returns the camera for crops of the images of `camera`. A crop has `width_px` x `height_px`
-/// pixels, and its top left pixel is (`left_px`, `top_px`). Reference point and heading refer to
-/// the same point and direction as before, even if `camera` uses the defaults. Throws BadArgument
-/// as `validate` does, and if the crop exceeds the image.
+/// pixels, and its top left pixel is (`left_px`, `top_px`). The reference point is the same point
+/// of the scene as before, even if `camera.reference_px` is none. If the view of the paper is
+/// known, the heading is also the same as before. `flat_field` and `readout_ms` apply to the crop.
+/// Throws BadArgument as `validate` does, and if the crop exceeds the image.
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
 /// Sets `options` for images of the given size: the lens, and the reference point if the camera has

@@ -18,7 +18,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Version of the format that is written and read.
+/// Version of the camera file format. `read_camera` accepts no other version.
 inline constexpr int kCameraFileVersion = 1;
 
 /// Reads a camera file, or a camera_info file of ROS. Throws Error, with the names of the file and
@@ -29,11 +29,13 @@ inline constexpr int kCameraFileVersion = 1;
 ///   within 0.5 px rms.
 Camera read_camera(const std::filesystem::path& path);
 
-/// Reads a camera from the text of a camera file. `name` is the name of the file in messages.
+/// Reads a camera from the text of a camera file or of a camera_info file. `name` is the name of
+/// the file in messages. Throws Error as `read_camera` does.
 Camera parse_camera(const std::string& text, const std::string& name);
 
-/// Returns true if the file is a camera_info file of ROS. `write_camera` would replace such a file
-/// with a file in another format. Throws Error if the file cannot be read.
+/// Returns true if the file is a camera_info file of ROS. Programs should not write cameras to such
+/// a file, because `write_camera` would replace it with a file in another format. Throws Error if
+/// the file cannot be read.
 bool is_camera_info(const std::filesystem::path& path);
 
 /// Writes the file completely or not at all. Throws Error if the file cannot be written, and

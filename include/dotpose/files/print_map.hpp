@@ -27,7 +27,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Offset of a dot, in 2^-14 spacings along x and y. The spacing includes the print scale.
+/// Offset of a dot from its nominal place, in 2^-14 spacings along x and y of the pattern. These
+/// are printed spacings: the nominal spacing times the print scale of the axis.
 struct DotOffset {
     std::int16_t x_q14 = 0;
     std::int16_t y_q14 = 0;
@@ -36,7 +37,7 @@ struct DotOffset {
     double y() const { return y_q14 / 16384.0; }
 };
 
-/// Map of one page.
+/// Map of one page. Code variant, section, region and nominal spacing are those of the sheet.
 struct MapPage {
     std::string name;  ///< name of the sheet
     CodeVariant code = CodeVariant::anoto;
@@ -56,7 +57,8 @@ struct MapPage {
     std::vector<DotOffset> offsets;
     std::vector<std::uint8_t> views;  ///< number of views of each dot, at most 255
 
-    /// Returns the index of the dot in a cell, or none if the cell is not on the page.
+    /// Returns the index of a dot in `offsets` and `views`. Returns none if the place of the dot is
+    /// not on the page.
     std::optional<std::size_t> index_of(const Place& place) const {
         const std::uint32_t x = place.cell.x - origin.x;
         const std::uint32_t y = place.cell.y - origin.y;
@@ -71,14 +73,17 @@ struct PrintMap {
     std::vector<MapPage> pages;
 };
 
-/// Returns the map of the page that contains a place in a code variant, or null.
+/// Returns the map of the page that contains a place in a code variant, or null if there is no such
+/// page. The result points into `map`.
 const MapPage* find_page(const PrintMap& map, CodeVariant code, const Place& place);
 
 /// Result of applying a map to a fix.
 enum class MapUse : std::uint8_t {
-    no_map,       ///< there is no map of the page, or there is no fix
-    used,         ///< the fix is corrected by the map
-    not_covered,  ///< the map contains too few of the dots in view
+    no_map,  ///< there is no map of the page, or there is no fix
+    used,    ///< the fix is corrected by the map
+    /// Fewer than 20 of the dots in view, or less than 75 % of them, were seen by the frames of the
+    /// map.
+    not_covered,
     contradicted  ///< the dots in view contradict the map, because the print was moved or is
                   ///< another print
 };
@@ -94,12 +99,13 @@ PrintMap parse_print_map(std::string_view bytes);
 /// contents are not valid (see `parse_print_map`).
 PrintMap read_print_map(const std::filesystem::path& path);
 
-/// Returns the contents of a map file. Throws BadArgument if the region of a page is not valid, or
-/// if its vectors have the wrong size.
+/// Returns the contents of a map file. Throws BadArgument if a page is not valid: its region is not
+/// in the code plane, a number is out of range, its name is longer than 4096 bytes, or `offsets` or
+/// `views` do not contain one element per dot.
 std::string print_map_bytes(const PrintMap& map);
 
 /// Throws Error unless each page of the map is a sheet of `sheets`, with the same code variant,
-/// section, region and spacing.
+/// section, region and spacing. The names may differ.
 void require_pages(const PrintMap& map, std::span<const SheetEntry> sheets);
 
 }  // namespace dotpose

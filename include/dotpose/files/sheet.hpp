@@ -59,9 +59,9 @@ struct Sheet {
 
 /// Checks all values of a sheet. Throws BadArgument for the first invalid value. A valid sheet
 /// meets these conditions:
-/// - Lengths are positive and finite.
+/// - Lengths are positive and finite, and no side of the page exceeds kMaxPage_mm.
 /// - Dots do not touch, and all ink is on the page.
-/// - The section is below kSections.
+/// - Both numbers of the section are below kSections.
 /// - There are at least kMinSheetCells columns and rows.
 /// - The region is inside the code plane.
 void validate(const Sheet& sheet);

@@ -40,12 +40,12 @@ class FileLock;
 
 namespace dotpose {
 
-/// Version of the format that is written and read.
+/// Version of the sheet file format. `read_sheets` accepts no other version.
 inline constexpr int kSheetFileVersion = 1;
 
 /// Number of free cells around every allocated region. It exceeds the diagonal of the largest
-/// frame, which is 966 cells (4096 x 4096 px at 6 px per spacing). The pose of a frame that shows
-/// two sheets is therefore always on the sheet whose dots were read.
+/// frame, which is 966 cells (4096 x 4096 px at 6 px per spacing). If a frame shows two sheets, the
+/// pose computed from the dots of one sheet can therefore not be in the region of the other sheet.
 inline constexpr std::uint32_t kSheetGap_cells = 1024;
 
 /// Place and direction of a page in the world.
@@ -97,8 +97,8 @@ struct SheetEntry {
 void validate(const SheetEntry& entry);
 
 /// Returns true if two sheets share cells. Sheets in different sections never overlap. The code
-/// variants anoto and libdots count as one variant, because they agree on most of the plane. The
-/// variant microdots is separate.
+/// variants anoto and libdots count as one variant, because their dots are the same on most of the
+/// plane. The variant microdots is separate.
 bool overlap(const Sheet& a, const Sheet& b);
 
 /// Reads a sheet file. Throws Error, with the names of the file and the key, in these cases:
@@ -113,7 +113,7 @@ struct SheetFileWait {
     double max_s = 60;
     /// Called once with a message if the program has to wait.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
-    /// Called repeatedly during the wait. Returning true ends the wait.
+    /// Called repeatedly during the wait. Returning true ends the wait with an Error.
     std::function<bool()> stop = [] { return false; };
 };
 
@@ -143,7 +143,9 @@ class SheetFile {
     /// the plane is full, or the count is below 1.
     std::vector<SheetEntry> allocate(const std::string& name, const Sheet& sheet, int count = 1);
 
-    /// Adds one page, with its own name and number, in the next free region.
+    /// Adds one page, with its own name and number, in the next free region. Ignores
+    /// `entry.sheet.origin`. Returns the added entry. Throws BadArgument as `validate` does, and if
+    /// the name is taken or the plane is full.
     SheetEntry allocate(SheetEntry entry);
 
     /// Adds a sheet with a given region. The region may touch other regions but must not overlap
@@ -155,15 +157,17 @@ class SheetFile {
     /// if there is no such sheet.
     void replace(const SheetEntry& entry);
 
-    /// Renames the sheet `name` and keeps its unknown keys. Throws BadArgument if the sheet does
-    /// not exist, or if the new name is taken or invalid.
+    /// Renames the sheet `name`. Keeps the keys of this sheet in the file that dotpose does not
+    /// know. Throws BadArgument if the sheet does not exist, or if the new name is taken or
+    /// invalid.
     void rename(const std::string& name, const std::string& new_name);
 
     /// Removes the sheet with this name, if there is one.
     void remove(const std::string& name);
 
-    /// Writes the file completely or not at all. Keeps the unknown keys of the old file. Throws
-    /// Error if the file cannot be written, or if it was changed by an editor after it was read.
+    /// Writes the file completely or not at all. Keeps the keys of the old file that dotpose does
+    /// not know. Throws Error if the file cannot be written, or if a program that does not use the
+    /// lock, such as an editor, has changed it since it was read.
     void save();
 
   private:
@@ -183,19 +187,21 @@ class SheetFile {
 /// programs may change the file in the meantime.
 class SheetReservation {
   public:
-    /// Calls `enter` to add the sheets. Throws Error as SheetFile does. After an Error, nothing is
-    /// reserved.
+    /// Calls `enter` to add the sheets, and saves the file. Throws Error as SheetFile does, and
+    /// passes on the exceptions of `enter`. After an exception, nothing is reserved.
     SheetReservation(const std::filesystem::path& path,
                      const std::function<void(SheetFile&)>& enter, const SheetFileWait& wait = {});
-    /// Removes the entries that were not confirmed, if possible. Restores the previous file if no
-    /// other program has changed it.
+    /// Removes the entries that were not confirmed. Restores the previous file if no other program
+    /// has changed it. If the file cannot be changed, the entries remain reserved, and `tell` of
+    /// SheetFileWait is called with a message.
     ~SheetReservation();
     SheetReservation(const SheetReservation&) = delete;
     SheetReservation& operator=(const SheetReservation&) = delete;
 
-    /// Removes the marks. Must be called after the pages have been written. Throws Error if the
-    /// file cannot be changed. The sheets then remain reserved. Also throws Error if another
-    /// program has removed the sheets and assigned their cells to other sheets.
+    /// Removes the marks. Must be called after the pages have been written. Adds the sheets again
+    /// if another program has removed them. Throws Error if the file cannot be changed, or if
+    /// another program has given the names or cells of the sheets to other sheets. In this case,
+    /// the file is unchanged.
     void confirm();
 
   private:

@@ -40,9 +40,10 @@ struct SheetPlace {
     PoseCovariance covariance{};
 };
 
-/// Returns the place of `fix` on its sheet. `code` is the code variant in which the fix was read. A
-/// sheet whose region contains the fix takes precedence over a sheet whose margins contain it.
-/// Returns none if the fix is not ok or is not on any sheet.
+/// Returns the place of `fix` on the sheet that contains it. `code` is the code variant in which
+/// the fix was read. Sheets in other code variants are ignored. A sheet whose region contains the
+/// fix takes precedence over a sheet whose margins contain it. Returns none if the fix is not ok,
+/// or if no sheet contains it.
 std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, CodeVariant code,
                                      const Fix& fix);
 

@@ -20,7 +20,8 @@ void write_file(const std::filesystem::path& target, std::string_view contents);
 /// function before a long computation whose result it writes to the file.
 void require_writable(const std::filesystem::path& target);
 
-/// Resolves symbolic links and returns the path of their target. The target need not exist.
+/// Follows symbolic links at `path` and returns the path of the last target, which need not exist.
+/// Returns `path` itself if it is not a link.
 std::filesystem::path without_links(std::filesystem::path path);
 
 }  // namespace dotpose

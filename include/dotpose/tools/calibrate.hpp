@@ -58,13 +58,14 @@ struct CalibrateOptions {
 /// Returns the code variant of the options, or none if it must be detected from the frames.
 std::optional<CodeVariant> given_code(const CalibrateOptions& options);
 
-/// Required number of frames. If there are fewer, the verdict is `too_few_frames`.
+/// Required number of different frames with a fix. If there are fewer, the verdict is
+/// `too_few_frames`.
 inline constexpr int kWantedFrames = 5;
 
 /// Verdict on a lens calibration: `good`, or the reason why it is not reliable.
 enum class CalibrationVerdict {
     good,
-    too_few_frames,  ///< fewer than kWantedFrames frames
+    too_few_frames,  ///< fewer than kWantedFrames different frames have a fix
     same_place,      ///< all frames show the same dots, so printing errors look like lens errors
     out_of_focus,    ///< the dots are blurred to about a third of the spacing or more
     corners_unseen,  ///< dots cover less than the fraction kMinCoverage of the image
@@ -195,15 +196,16 @@ struct PivotCalibration {
     Camera camera;  ///< the given camera with `tip` set
     int frames = 0;
     int located = 0;
-    int used = 0;  ///< number of frames in which the tip is at rest
-    /// Rms angle of the rotations about the axis about which the pen rotated least. A larger angle
-    /// gives a more accurate tip.
+    int used = 0;  ///< number of frames in which the tip is at the common point of rest
+    /// Rms angle by which the pen rotated about the axis of least rotation. The larger this angle
+    /// is, the more accurate is the tip.
     double pivot_rad = 0;
     double min_tilt_rad = 0;
     double max_tilt_rad = 0;
     double residual_mm = 0;  ///< rms distance of the tip from the point of rest, per axis
-    /// Ratio of the rms distance to its standard deviation according to the poses. If it is above
-    /// 1, the standard deviations of the tip are increased accordingly.
+    /// Rms ratio of the distances of the tip from the point of rest to their standard deviations,
+    /// which are computed from the covariances of the poses. If the ratio is above 1, the standard
+    /// deviations of the tip are increased accordingly.
     double error_ratio = 0;
 };
 
@@ -235,9 +237,11 @@ struct FlatFieldCalibration {
 /// Computes the flat field of a camera from at least 20 frames of a sheet or of white paper, taken
 /// with constant exposure and light. The dots must be at different places in the frames, because
 /// the mean of the frames must show even paper. If no camera is given, the result is a new camera
-/// with the size of the frames. Throws Error if there are fewer frames, if frames differ in size,
-/// if the image is too dark, or if the mean frame is not smooth. Of the options, only `progress` is
-/// used.
+/// with the size of the frames. Of the options, only `progress` is used. Throws Error in these
+/// cases:
+/// - There are fewer than 20 frames, or frames differ in size.
+/// - In the darkest part of the image, the flat field is less than kMinFlatField.
+/// - The mean frame deviates from the flat field by more than 8 % (rms).
 FlatFieldCalibration calibrate_flat_field(int frames, const FrameAt& frame_at,
                                           const std::optional<Camera>& camera,
                                           const CalibrateOptions& options);
@@ -256,7 +260,7 @@ struct ReadoutCalibration {
 /// frame with the motion from the previous frame to the next. Throws Error in these cases:
 /// - The camera file has no view of the paper.
 /// - Fewer than 5 located frames are preceded and followed by a located frame.
-/// - The motion does not determine the readout time to 10 %.
+/// - The standard deviation of the readout time is 10 % of the readout time or more.
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);
 
@@ -287,7 +291,8 @@ inline constexpr bool is_scale_known(double sigma_scale) {
 /// Accuracy of the pose of one sheet after stitching.
 struct StitchedSheet {
     std::string name;
-    /// Standard deviation, per axis, of the position of the corner relative to the fixed sheet.
+    /// Standard deviation, per axis, of the position of the top left corner of the sheet, relative
+    /// to the fixed sheet.
     double sigma_mm = 0;
     double sigma_rad = 0;  ///< standard deviation of the yaw
     bool is_fixed = false;
@@ -338,11 +343,14 @@ struct Stitching {
 ///
 /// Throws Error in these cases:
 /// - There are fewer than two sheets, or no frame shows two sheets.
-/// - Sheets with a world pose exist, but no frame shows one of them.
-/// - The sheet of the reference is not stitched.
-/// - The camera file implies a print scale that differs from 1 by more than 25 %.
+/// - Sheets with a world pose exist, but no frame shows one of them beside another sheet.
+/// - The reference is the width of a sheet, and no chain of frames connects this sheet to the fixed
+///   sheet.
+/// - The reference is the camera, and it implies a print scale that differs from 1 by more than
+///   25 %.
 ///
-/// Throws BadArgument if the sheet of the reference does not exist.
+/// Throws BadArgument if the reference is the camera, but the view of the paper is not known, or if
+/// the reference is the width of a sheet, but the sheet does not exist or the width is not above 0.
 Stitching stitch_sheets(int frames, const FrameAt& frame_at, std::vector<SheetEntry> sheets,
                         const std::optional<Camera>& camera, const CalibrateOptions& options,
                         const ScaleReference& reference = {});

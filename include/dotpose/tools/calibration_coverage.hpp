@@ -6,7 +6,7 @@
 ///     coverage.add(view);  // for each frame taken
 ///     for (const CalibrationNeed& need : coverage.missing(camera)) say(need.advice);
 ///
-/// Functions share no state and do not fail.
+/// Functions share no state. Only `corner_sigma_px` throws an exception.
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Minimum fraction of the parts of the image that must show dots. With a smaller fraction, the
-/// verdict of a calibration is `corners_unseen`.
+/// Minimum fraction of the parts of the image (see ImageCoverage) that must show dots. With a
+/// smaller fraction, the verdict of a calibration is `corners_unseen`.
 inline constexpr double kMinCoverage = 0.85;
 /// Maximum width of dots in focus, in spacings. Dots that are blurred to twice their printed width
 /// begin to touch.
@@ -45,8 +45,8 @@ PixelPoint farthest_corner(const Camera& camera);
 
 /// Returns the standard deviation, in px, of the undistorted position of the farthest corner
 /// relative to the middle of the image. It is computed from the standard deviations of `k_per_px2`
-/// and of the distortion centre, which `camera.sigma` must contain. Assumes that the errors of k
-/// and of the centre are independent.
+/// and of the distortion centre. Assumes that the errors of k and of the centre are independent.
+/// Throws std::out_of_range if `camera.sigma` does not contain these standard deviations.
 double corner_sigma_px(const Camera& camera);
 
 /// The parts of the image in which dots have been seen.
@@ -76,7 +76,7 @@ class ImageCoverage {
 
 /// One located frame.
 struct CalibrationView {
-    std::vector<PixelPoint> dots;  ///< image positions at which dots were read
+    std::vector<PixelPoint> dots;  ///< measured pixels of the dots
     double x_grid = 0;             ///< pattern position under the image centre, in spacings
     double y_grid = 0;
     Section section;
@@ -108,8 +108,8 @@ class CalibrationCoverage {
     int frames() const { return frames_; }
     const ImageCoverage& image() const { return image_; }
     /// Returns the number of distinct places. A frame adds a place if the pattern position under
-    /// its image centre is at least a quarter of the shorter image side away from all earlier
-    /// places in the same section.
+    /// its image centre is far enough from all earlier places in the same section. The minimum
+    /// distance is the length on the paper of a quarter of the shorter image side.
     int places() const { return static_cast<int>(places_.size()); }
     /// Returns the number of sectors that contain the direction of at least one frame.
     int directions() const;

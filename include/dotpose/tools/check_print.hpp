@@ -43,8 +43,8 @@ struct CheckPrintOptions {
     /// `pattern`.
     bool any_code = false;
     /// Sheets that the scan may contain, for example the sheets of a sheet file. A field within the
-    /// region of a sheet is compared with the pattern of that sheet. Only sheets with the code
-    /// variant of `pattern` are found.
+    /// region of a sheet is compared with the dimensions of that sheet. Ignores sheets that cannot
+    /// share cells with sheets of the code variant of `pattern` (see `overlap` in sheet_file.hpp).
     std::vector<Sheet> sheets;
     /// Resolution of the scan. An image counts as a photo if it has no resolution, or if it shows
     /// the perspective or lens distortion of a camera. The check of a photo allows for perspective
@@ -58,7 +58,8 @@ struct CheckPrintOptions {
     /// dots are only a few pixels wide. The measured diameter of a dot is the diameter of a disc of
     /// this ink that has the same total darkness.
     double ink_reflectance = 0.15;
-    /// Called after each part of the work. Returning false stops the work with an Error.
+    /// Called after each part of the work. `total` is an estimate that grows with `done`. Returning
+    /// false stops the work with an Error.
     std::function<bool(int done, int total)> progress;
 };
 
@@ -110,7 +111,9 @@ struct PrintField {
     double spacing_px = 0;                  ///< spacing in the middle of the field
     /// Rms deviation per axis of the dots from their fitted places, in mm on the paper.
     double residual_mm = 0;
-    /// Rms deviation per axis of a dot from its neighbours, in mm on the paper.
+    /// Standard deviation, per axis, of the displacement of single dots, in mm on the paper. It is
+    /// computed from the differences between neighbouring dots, which do not contain the distortion
+    /// of the page.
     double scatter_mm = 0;
     std::vector<DistortionBin> distortion;
     double largest_distortion_mm = 0;  ///< maximum length of a deviation in `distortion`
@@ -148,17 +151,19 @@ struct PrintField {
 
 /// Kinds of faults and remarks.
 enum class FindingKind {
-    good,           ///< no fault was found
-    scaled,         ///< the page as a whole is too large or too small
-    uneven_scale,   ///< horizontal and vertical scale differ
-    rotated,        ///< the page is turned in the scan, which is harmless
-    skewed,         ///< the axes are not perpendicular
-    distorted,      ///< the dots of some regions are displaced
-    swollen,        ///< dots are too large or run together
-    thin,           ///< dots are too small or too pale
-    missing,        ///< dots are missing
-    covered,        ///< other print covers dots
-    bits_wrong,     ///< dots are displaced so much that they are read incorrectly
+    good,          ///< no fault was found
+    scaled,        ///< the page as a whole is too large or too small
+    uneven_scale,  ///< horizontal and vertical scale differ
+    rotated,       ///< the page is turned in the scan, which is harmless
+    skewed,        ///< the axes are not perpendicular
+    distorted,     ///< the dots of some regions are displaced
+    swollen,       ///< dots are too large or run together
+    thin,          ///< dots are too small or too pale
+    missing,       ///< dots are missing
+    covered,       ///< other print covers dots
+    /// Many bits are wrong, because dots are displaced too much or the page has another code
+    /// variant.
+    bits_wrong,
     too_coarse,     ///< the scan has too few pixels per dot
     pale,           ///< the contrast of the dots is low
     no_resolution,  ///< the scale could not be checked, because the resolution is not known
@@ -201,27 +206,32 @@ struct PrintCheck {
     /// True if there are no fields, but the flipped image shows the pattern.
     bool is_mirrored = false;
     CodeVariant code = CodeVariant::anoto;  ///< code variant that was given or detected
-    double code_p_wrong = 0;                ///< probability that a detected code variant is wrong
-    std::optional<Resolution> resolution;   ///< resolution that was used; none for a photo
-    bool is_photo = false;                  ///< CheckPrintOptions::is_photo
-    /// Evidence that the image is a photo, if the stated resolution was ignored because of it.
+    /// Probability that the detected code variant is wrong. 0 if the code variant was given.
+    double code_p_wrong = 0;
+    std::optional<Resolution> resolution;  ///< resolution that was used; none for a photo
+    bool is_photo = false;                 ///< copy of CheckPrintOptions::is_photo
+    /// Evidence that the image is a photo. None if there is no such evidence, or if no resolution
+    /// was given. If there is evidence, the given resolution is ignored.
     std::optional<CameraSigns> camera;
     std::vector<RepeatedCells> repeated;
     bool is_test_page = false;
     /// Patches of the default test page (`make_test_page` with default options) that are not among
     /// the fields.
     std::vector<Pattern> unread_patches;
-    /// On a test page: index of the field with the best settings for each spacing, finest spacing
-    /// first.
+    /// On a test page: index of the best patch for each spacing, finest spacing first. The best
+    /// patch is the patch whose dots have the diameter closest to a sixth of the spacing. Patches
+    /// with many faulty cells are excluded.
     std::vector<std::size_t> best_per_spacing;
-    /// Index of the field with the best settings overall. Valid if best_per_spacing is not empty.
+    /// Index of the best patch of all spacings. It is the first element of `best_per_spacing`,
+    /// because more dots of a fine pattern are in view. Valid if `best_per_spacing` is not empty.
     std::size_t best = 0;
     std::vector<Finding> findings;
 };
 
 /// Checks a scan or photo of at least 64 x 64 px. Needs about 100 bytes of memory per dot in
-/// addition to the image. Throws BadArgument if `pattern` is invalid (see `validate` in sheet.hpp)
-/// or an option is out of range.
+/// addition to the image. Throws BadArgument if a length of `pattern` is not positive and finite,
+/// if the displacement is half the spacing or more, or if the ink reflectance or the resolution is
+/// out of range.
 PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& options);
 
 }  // namespace dotpose

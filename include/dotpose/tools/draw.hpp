@@ -90,7 +90,7 @@ void draw_path(const std::filesystem::path& file, const Sheet& sheet,
 void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
 
 /// Sums of the residuals of a lens calibration in square parts of the image, as `draw_calibration`
-/// draws them. For programs that draw the residuals themselves.
+/// draws them. Programs can use this struct to draw the residuals themselves.
 struct ResidualField {
     struct Part {
         PixelPoint before;  ///< sum of the residuals before the calibration, in px
@@ -105,8 +105,8 @@ struct ResidualField {
 };
 ResidualField residual_field(const LensCalibration& calibration);
 
-/// Draws the positions of the camera while the robot turned, and the centre of rotation from each
-/// frame.
+/// Draws the positions of the camera while the robot turned, and the centres of rotation computed
+/// from single frames.
 void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibration);
 
 /// Draws the sheets before and after stitching. Each frame that shows two sheets gives two
@@ -114,8 +114,8 @@ void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibra
 void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
                     const Stitching& stitching);
 
-/// Draws the smooth distortion of a mapped page as a deformed grid, enlarged. Draws the x and y
-/// offsets of all dots as two images.
+/// Draws two views of the map of a page: the smooth distortion as an enlarged, deformed grid, and
+/// the x and y offsets of all dots as two images.
 void draw_print_map(const std::filesystem::path& path, const MapPage& page);
 
 /// Draws the sheets in the world, seen from above with x to the right and y up. Sheets without a
@@ -123,7 +123,8 @@ void draw_print_map(const std::filesystem::path& path, const MapPage& page);
 /// drawn.
 void draw_sheets(const std::filesystem::path& path, std::span<const SheetEntry> sheets);
 
-/// Draws the enlarged deviations of all fields of a printed page over the outline of the scan.
+/// Draws the deviations in `PrintField::distortion` of all fields of a printed page, enlarged, over
+/// the outline of the scan.
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check);
 

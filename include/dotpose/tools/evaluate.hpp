@@ -54,7 +54,8 @@ FrameSource frames_of_folder(const std::filesystem::path& folder, std::vector<Tr
 /// Returns the rendered frames of `draw_shot(setup, index)`.
 FrameSource frames_of_setup(const Setup& setup);
 
-/// Called regularly from the calling thread. If it returns false, the work ends with an Error.
+/// Called regularly from the thread that called `evaluate`. If it returns false, the work ends with
+/// an Error.
 using Progress = std::function<bool(int done, int total)>;
 
 /// The frames to locate, and the options for `locate`.
@@ -74,6 +75,8 @@ struct FrameRun {
 };
 
 /// Locates all frames. Element [k][i] of the result is the outcome of frame i with options[k].
+/// Throws BadArgument if there is no `frame_at` or `frames` is negative, and Error if `progress`
+/// returned false. Exceptions of `frame_at` end the work and are passed on.
 std::vector<std::vector<Outcome>> evaluate(const FrameRun& run);
 
 }  // namespace dotpose

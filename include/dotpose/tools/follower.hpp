@@ -68,12 +68,14 @@ struct Located {
     /// The pose of the reference point, corrected by the camera file if there is one.
     Fix fix;
     std::optional<SheetPlace> place;  ///< place of the fix; none if the fix is not on any sheet
-    /// The fix with its code variant and, if a place in another code variant also explains the
-    /// image, with this place. In results of `locate`, `reading.fix` does not include the
-    /// correction by the camera file. In results of `follow`, it equals `fix`.
+    /// Code variant of the fix and, if a place in another code variant also explains the image,
+    /// this other place. In results of `locate`, `reading.fix` does not include the correction by
+    /// the camera file. In results of `follow`, it equals `fix`, except that its `p_wrong` does not
+    /// include the prior (see Followed).
     CodeReading reading;
-    /// Spacing of the sheet, or the common spacing of all sheets, in mm. NaN if spacings differ and
-    /// the fix is not on any sheet.
+    /// Nominal spacing, in mm, of the sheet of the fix. If the fix is not on any sheet, this is the
+    /// common spacing of all sheets, or NaN if the sheets differ in spacing. If there are no
+    /// sheets, it is FollowerOptions::spacing_mm.
     double spacing_mm = 0;
     /// Spacing computed from the fix and the view of the camera file, in mm. NaN if unknown.
     /// `contradicts` (mounted_pose.hpp) compares this spacing with `spacing_mm`.
@@ -82,7 +84,7 @@ struct Located {
     /// does not contain the readout time of a rolling shutter.
     std::optional<ReadoutVelocity> velocity;
     /// Pose of the camera in space, if `FollowerOptions::fits_space_pose` is set. None if there is
-    /// no fix, or if the spacing is not known.
+    /// no fix, if the spacing is not known, or if too few dots are in view (see `space_pose`).
     std::optional<SpacePose> space;
     /// Tip of the pen in the pattern frame, if `space` is known and not ambiguous, and the camera
     /// file contains a tip.
@@ -90,29 +92,35 @@ struct Located {
     bool is_pen_down = false;  ///< true if `tip` is on the paper; see PenContact
     /// Result of applying `FollowerOptions::print_map` to the fix.
     MapUse map_use = MapUse::no_map;
-    bool code_is_given = false;  ///< true if the options or the sheets determine the code variant
-    int reduced_by = 1;          ///< factor by which the image was reduced
+    /// True if the options or the sheets limit the code variants. False if all were tried.
+    bool code_is_given = false;
+    int reduced_by = 1;  ///< ratio of the width of the given image to that of the located image
 };
 
 /// The result for one image of a sequence, which depends on the previous images.
 struct Followed {
-    /// Result of the image. If the fix was accepted only because of the predicted place, its
-    /// `p_wrong` takes the prior probability of that place into account.
+    /// Result of the image. If the fix was accepted only because it is at the predicted place, its
+    /// `p_wrong` takes the prior probability of the predicted place into account.
     Located located;
     Track track;
 };
 
 /// Converts a fix to a sighting in the world of its sheet, for the Tracker of a robot that drives
-/// over several sheets. `place` is the place of the fix. Returns none if the sheet has no place in
-/// the world. The fix must be ok, and its `spacing_nm` must be known.
+/// over several sheets. `place` is the place of the fix. Returns none if the world pose of the
+/// sheet is not known. The fix must be ok, and its `spacing_nm` must be known, that is, above 0.
 std::optional<Sighting> world_sighting(const Fix& fix, const SheetPlace& place,
                                        std::int64_t time_us);
 
 /// Locates single images, or the images of a sequence in order.
 class Follower {
   public:
-    /// Throws BadArgument if the options require a pose in space, and the camera file is missing or
-    /// has no focal length. Throws Error if the print map is of other sheets.
+    /// Throws BadArgument in these cases:
+    /// - The options require a pose in space, and the camera file is missing or has no focal
+    /// length.
+    /// - The camera has a flat field and is not valid.
+    /// - The region of a sheet is not inside the code plane.
+    ///
+    /// Throws Error if the print map contains a page that is not one of the sheets.
     explicit Follower(const FollowerOptions& options);
 
     /// Locates an image without a prediction from other images. Reduces images larger than
@@ -121,7 +129,8 @@ class Follower {
     Located locate(const GreyImage& image);
 
     /// Locates the next image of a sequence, taken at `time_us`. The previous images predict the
-    /// place of the pattern, and a weak fix is accepted at the predicted place.
+    /// place of the pattern. A fix that is not certain on its own is accepted only if the tracker
+    /// is certain of it, given the predicted place.
     Followed follow(ImageView image, std::int64_t time_us);
 
     /// Returns true if the robot is tracked in the world of the sheet file (m, y up) instead of the
@@ -213,7 +222,7 @@ class Follower {
     Locator locator_{DeviceOptions{}};
     Tracker tracker_;
     PenContact contact_;
-    std::optional<Seen> seen_;  ///< none if the latest fix is too old for a prediction
+    std::optional<Seen> seen_;  ///< none if there was no fix, or if it is too old for a prediction
 };
 
 }  // namespace dotpose

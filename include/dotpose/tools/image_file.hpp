@@ -32,13 +32,14 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Maximum side and maximum number of pixels of an image that can be read, and the default limit on
-/// the number of pixels.
+/// Limits of the images that can be read: the maximum side, the maximum number of pixels, and the
+/// default for `max_pixels` of `read_image`.
 inline constexpr int kMaxImageSide_px = 100'000;
 inline constexpr int kMaxImagePixels = 1 << 28;
 inline constexpr int kDefaultImagePixels = 100'000'000;
 
-/// Thrown if an image has more pixels than the limit, according to its header. It is not decoded.
+/// Thrown if an image has more pixels than the limit, according to its header. The pixels of
+/// such an image are not decoded.
 struct ImageTooLarge : Error {
     ImageTooLarge(const std::string& what, int width, int height)
         : Error(what), width_px(width), height_px(height) {}
@@ -55,8 +56,8 @@ struct ImageTooLarge : Error {
 GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels,
                      int page = 1);
 
-/// Reads one image as above. Sets `note` to a sentence about the file for the user, for example
-/// that its end marker is missing, or to an empty string.
+/// Reads one image as the function above does. Sets `note` to a sentence about the file for the
+/// user, for example that its end marker is missing, or to an empty string.
 GreyImage read_image(const std::filesystem::path& path, int max_pixels, std::string& note,
                      int page = 1);
 

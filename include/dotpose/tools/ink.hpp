@@ -55,16 +55,17 @@ struct InkPage {
     std::vector<InkStroke> strokes;
 };
 
-/// Maximum interval between samples of a stroke. A longer interval ends the stroke.
+/// Maximum interval between consecutive samples of a stroke. A longer interval ends the stroke.
 inline constexpr double kMaxInkGap_s = 0.1;
 
-/// Returns the strokes on each page, in the order of the first strokes. `samples` must be in the
-/// order of their times.
+/// Returns the strokes on each page. The pages are in the order of their first strokes. `samples`
+/// must be in the order of their times.
 ///
 /// The path is smoothed forwards and backwards (Rauch, Tung and Striebel 1965). The motion model is
-/// an acceleration driven by white noise, whose density maximises the likelihood of the samples.
-/// PenContact detects when the pen is lifted from the paper. Samples before and after this time
-/// also belong to the lift if their smoothed heights are above the paper.
+/// an acceleration driven by white noise. The power of the noise is the power for which the samples
+/// are most likely. PenContact detects when the pen is lifted from the paper. It detects a lift
+/// late and its end early, so adjacent samples also belong to the lift if their smoothed heights
+/// are clearly above the paper.
 std::vector<InkPage> ink_of(std::span<const InkSample> samples);
 
 /// Returns the page as SVG, in mm, with the size of the page.

@@ -35,11 +35,12 @@ struct McapQuality {
     bool is_transient_local = false;
 };
 
-/// Maximum size of a chunk.
+/// Size of the chunks of a file.
 struct McapOptions {
-    /// Limits of a chunk. A chunk ends with the message that exceeds one of them. With longer
-    /// chunks, more messages are lost if the program is killed. With shorter chunks, the index is
-    /// larger.
+    /// A chunk ends with the message at which it reaches `chunk_bytes`, or `chunk_ns`. Chunks that
+    /// are smaller than the index at the end of the file do not end because of `chunk_ns`. With
+    /// longer chunks, more messages are lost if the program is killed. With shorter chunks, the
+    /// index is larger.
     std::int64_t chunk_ns = 1'000'000'000;
     std::size_t chunk_bytes = 4 << 20;
 };
@@ -57,7 +58,7 @@ class McapFile {
     McapChannel add_channel(const std::string& topic, const ros::MessageType& type,
                             const McapQuality& quality = {});
 
-    /// Appends a message. `time_ns` should not be negative. Throws Error if writing fails.
+    /// Appends a message. A negative `time_ns` is written as 0. Throws Error if writing fails.
     void write(McapChannel channel, std::int64_t time_ns, std::span<const std::uint8_t> cdr);
 
     /// Writes the remaining messages and closes the file. Throws Error if writing fails.

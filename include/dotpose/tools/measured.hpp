@@ -28,7 +28,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// A place found in a frame.
+/// Place of the fix of a frame, in the coordinate frame of the true places.
 struct FoundPlace {
     std::string sheet;
     double x_mm = 0;
@@ -47,45 +47,50 @@ struct MeasuredFrame {
     double spacing_mm = kDefaultSpacing_mm;
 };
 
-/// Map from the found places to the true places: true = shift + middle + scale * turned(found -
-/// middle).
+/// Map from the found places to the true places: true = middle + shift + scale * R (found -
+/// middle), where R is the rotation by `turn_rad`.
 struct Similarity {
     double middle_x_mm = 0;  ///< mean of the found places
     double middle_y_mm = 0;
-    double shift_x_mm = 0;  ///< translation of the middle
+    double shift_x_mm = 0;  ///< true minus found position of the middle
     double shift_y_mm = 0;
-    double turn_rad = 0;  ///< positive in the direction of positive angles
+    /// Angle of the rotation, in the direction of the angles of the coordinate frame.
+    double turn_rad = 0;
     double scale = 1;
-    /// Mean of true minus found angles after the rotation by `turn_rad`. It is the angle from the
-    /// image x axis to the heading that was measured independently.
+    /// Mean of the true angles minus the found angles, after the found angles are increased by
+    /// `turn_rad`. It is the angle from the image x axis to the heading that was measured
+    /// independently. 0 if no true angle is known.
     double angle_offset_rad = 0;
 };
 
-/// Returns the least-squares similarity over the frames, with outliers excluded. If all true places
-/// are equal, only the shift and the angle offset are determined. Throws Error if no frame has a
-/// true and a found place.
+/// Fits the found places to the true places by least squares, with outliers excluded. If all true
+/// places are equal, `turn_rad` is 0 and `scale` is 1. Throws Error if no frame has a true place
+/// and a found place on the same sheet.
 Similarity align(std::span<const MeasuredFrame> frames);
 
-/// Difference between the found and the true place of a frame, after the alignment.
+/// Difference between the found and the true place of a frame, after the alignment. 0 if the frame
+/// has no true place.
 struct MeasuredError {
     double x_mm = 0;
     double y_mm = 0;
     std::optional<double> angle_rad;  ///< none if the true angle is not known
-    /// True if the fix is wrong: it is on another sheet, there is no true place, or its error is
-    /// too large. The error of position or angle is too large if it exceeds both a fixed limit
-    /// (half a spacing, 2 degrees) and ten times the median error.
+    /// True if the fix is wrong: there is no true place, the true place is on another sheet, or the
+    /// error of position or angle is too large. An error is too large if it exceeds both a fixed
+    /// limit (half a spacing, 2 degrees) and ten times the median error.
     bool is_wrong = false;
 };
 
 /// All frames with their errors.
 struct Measurement {
     std::vector<MeasuredFrame> frames;
-    std::vector<std::optional<MeasuredError>> errors;  ///< error of each frame; none if the frame
-                                                       ///< has no fix
-    std::optional<Similarity> alignment;  ///< none if places were compared without alignment
+    /// Error of each frame. None if the frame has no found place.
+    std::vector<std::optional<MeasuredError>> errors;
+    /// Alignment of the found places. None if they were compared without an alignment.
+    std::optional<Similarity> alignment;
     bool is_in_world = false;
 
-    // Numbers of correct and wrong fixes, and statistics of the errors of correct fixes.
+    // Numbers of correct and wrong fixes, and statistics of the errors of correct fixes. A fix
+    // without a found place counts as wrong.
     int located = 0;
     int wrong = 0;
     Quantiles position_um;
@@ -103,9 +108,10 @@ std::vector<std::pair<std::string, std::string>> described(const Measurement& me
 /// Writes one line for each frame: true place, found place and error.
 void write_errors_csv(std::ostream& out, const Measurement& measurement);
 
-/// Writes positions.csv, figure-13 and figure-14. If the true angles differ, also writes angles.csv
-/// and figure-15. The figures correspond to the figures of the paper. Each figure is written as
-/// .svg and .png. Frames with the same true place are samples of one position.
+/// Writes positions.csv, figure-13 and figure-14. If there are different true angles, also writes
+/// angles.csv and figure-15. The figures correspond to the figures of the paper with the same
+/// numbers. Each figure is written as .svg and .png. Frames with the same true place are samples of
+/// one position. Throws Error if no frame has a true place, or if a file cannot be written.
 void write_measurement(const std::filesystem::path& folder, const Measurement& measurement);
 
 }  // namespace dotpose

@@ -21,17 +21,19 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Refines a fix, given the camera file and the trace of the frame. The perspective and the scale
-/// of a mounted camera are constant and known from the camera file. Only these parameters are
+/// Refines a fix, given the camera file and the trace of the frame. The perspective and the nominal
+/// scale of a mounted camera are constant and known from the camera file. Only these parameters are
 /// fitted:
 /// - the place and the angle,
-/// - a scale factor, because the scale of a print differs from its nominal scale,
+/// - the ratio of the actual to the nominal scale, because prints differ in scale,
 /// - the displacement of the dots, because ink and blur change it,
-/// - the velocity, if the file contains the readout time of a rolling shutter.
+/// - the velocity and the turn rate, if the file contains the readout time of a rolling shutter.
 ///
 /// The result is more accurate than `fix`, especially far from the image centre. Its theta is the
 /// heading of the robot. `print` is the print scale of the sheet, if it is known. The position of
-/// the result is in nominal units of the pattern, like that of `fix`.
+/// the result is in nominal units of the pattern, like that of `fix`. If the camera file has no
+/// view of the paper, or if the trace has fewer than 12 dots, only theta is changed. A fix that is
+/// not ok is returned unchanged.
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace,
                 const AxisScale& print = {});
 
@@ -48,8 +50,8 @@ struct ReadoutVelocity {
 };
 
 /// A fix refined by `with_camera`, and the velocity of the camera during the readout. Pose and
-/// velocity are fitted together. There is no velocity if there is no fix, or if the camera file has
-/// no `readout_ms` or no view.
+/// velocity are fitted together. There is no velocity if there is no fix, if the camera file has no
+/// `readout_ms` or no view, or if the trace has fewer than 12 dots.
 struct MovingFix {
     Fix fix;
     std::optional<ReadoutVelocity> velocity;
@@ -63,8 +65,10 @@ struct MappedMovingFix {
     std::optional<ReadoutVelocity> velocity;
     MapUse map_use = MapUse::no_map;
 };
-/// Variant of `with_camera_and_velocity` that uses the places of the dots in a map of the print
-/// instead of their nominal places.
+/// Variant of `with_camera_and_velocity` that uses the measured places of the dots in a map of the
+/// print instead of their nominal places. If the map cannot be used, uses the nominal places, and
+/// `map_use` is the reason. If the camera file has no view of the paper, the fix is corrected as in
+/// `with_print_map`.
 MappedMovingFix with_camera_and_map(const Fix& fix, const Camera& camera, const Trace& trace,
                                     const AxisScale& print, const PrintMap& map);
 

@@ -19,7 +19,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Parts of a device. All lengths must be above 0.
+/// Parts of a device. Speed and turn rate must not be below 0, and all other values must be above
+/// 0.
 struct Optics {
     int width_px = 188;
     int height_px = 120;
@@ -30,9 +31,10 @@ struct Optics {
     double dot_mm = kDefaultSpacing_mm / 6;
     double f_number = 2.8;  ///< focal length divided by the diameter of the aperture
     double exposure_s = 1.0 / 7684;
-    double speed_mm_s = 100;     ///< maximum speed of straight motion along the image x or y axis
-    double turn_rpm = 60;        ///< maximum turn rate about the image centre
-    double largest_blur_px = 1;  ///< maximum permitted motion in the image during the exposure
+    double speed_mm_s = 100;  ///< maximum speed of straight motion along the image x or y axis
+    double turn_rpm = 60;     ///< maximum turn rate about the image centre
+    /// Maximum permitted motion in the image during the exposure, in px.
+    double largest_blur_px = 1;
 
     /// Measured size of a pixel on the paper, and measured field of view after the correction of
     /// distortion. If given, they replace the values of the thin-lens model.
@@ -63,8 +65,8 @@ struct OpticsReport {
     double field_angle_rad = 0;  ///< angle of view along the diagonal of the field
     double dots_in_view = 0;     ///< mean number of dots in the field
 
-    /// Maximum diagonal of a block of 8 x 8 dots: sqrt(2) spacing (7 + 3/6). The dots have a
-    /// diameter of a sixth of the spacing and a displacement of a sixth in each direction.
+    /// Maximum diagonal of a block of 8 x 8 dots that are displaced by a sixth of the spacing:
+    /// sqrt(2) (spacing (7 + 2/6) + diameter of a dot).
     double block_diagonal_mm = 0;
     /// True if the shorter side of the field is at least `block_diagonal_mm` (paper III-A.3).
     bool block_fits = false;
@@ -77,8 +79,9 @@ struct OpticsReport {
     /// Maximum rate of rotation about the image centre at the given exposure. The blur is evaluated
     /// at the middle of the image edge that is farthest from the image centre.
     double fastest_turn_rpm = 0;
-    double longest_exposure_s = 0;  ///< maximum exposure at the given speed and turn rate
-    double blur_px = 0;             ///< blur at the given speed, turn rate and exposure
+    /// Maximum exposure at the given speed and turn rate. Infinite if both are 0.
+    double longest_exposure_s = 0;
+    double blur_px = 0;  ///< blur at the given speed, turn rate and exposure
 
     /// Distances from the lens at which the defocus blur is one pixel. `near_mm` is less than the
     /// focused distance, and `far_mm` is greater. `far_mm` may be infinite.
@@ -89,7 +92,8 @@ struct OpticsReport {
     std::vector<OpticsAdvice> advice;
 };
 
-/// Returns the report on a device. Throws BadArgument for values out of range.
+/// Returns the report on a device. Throws BadArgument for values out of range, and if the distance
+/// is not more than the focal length.
 OpticsReport design_optics(const Optics& optics);
 
 }  // namespace dotpose

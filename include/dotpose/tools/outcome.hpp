@@ -11,12 +11,13 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Deviations above which a fix is wrong. Wrong fixes do not count as located, and are excluded
-/// from the error statistics.
+/// Limits of the deviation of a fix from the truth, in spacings and in degrees. A fix with a larger
+/// deviation is wrong. Wrong fixes do not count as located, and are excluded from the error
+/// statistics.
 inline constexpr double kWrongFrom_grid = 0.5;
 inline constexpr double kWrongFrom_deg = 2;
 
-/// Difference between a fix and the truth.
+/// Fix minus truth. The position is in spacings.
 struct Deviation {
     double x_grid = 0;
     double y_grid = 0;
@@ -30,13 +31,13 @@ struct Outcome {
     Fix fix;
     Truth truth;
     double elapsed_us = 0;  ///< time of `locate`, without reading the frame
-    std::string problem;    ///< error while reading the file; if not empty, no other member is
-                            ///< valid
+    std::string problem;    ///< error while reading the file; if not empty, `fix` and `elapsed_us`
+                            ///< are not valid
 
     /// Returns true if the frame was read and located, correctly or not.
     bool is_fix() const { return problem.empty() && fix.status == Status::ok; }
-    /// Returns true if the frame has a wrong fix: the deviation is above kWrongFrom_grid or
-    /// kWrongFrom_deg, the fix is in another section, or the frame has no true pose.
+    /// Returns true if the frame has a wrong fix: its deviation is above kWrongFrom_grid or
+    /// kWrongFrom_deg, its section is not the true section, or the frame has no true pose.
     bool is_wrong() const;
 };
 

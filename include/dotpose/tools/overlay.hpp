@@ -23,8 +23,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// One page with dots. The origin of its sheet's coordinate frame is the top left corner of the
-/// displayed page.
+/// One page with dots. The coordinates of its sheet are relative to the top left corner of the
+/// displayed page or, if there are cards, of the card.
 struct OverlaidPage {
     /// Number of the page among the pages of all copies, from 1. The pages of the second copy are
     /// numbered after the pages of the first copy.
@@ -47,9 +47,8 @@ struct OverlayOptions {
     std::string pages;
     int copies = 1;  ///< number of copies of the document, each with its own cells
     /// Paper on which several pages with dots are printed side by side as cards, with cut marks.
-    /// The sheet of a card begins at the corner of the card. Cards have no links or form fields,
-    /// and pages without dots are omitted. Without this option, there are no cards, and each page
-    /// of the document remains a page.
+    /// All pages with dots must have the same size. Cards have no links or form fields, and pages
+    /// without dots are omitted. Without card paper, each page of the document remains a page.
     std::optional<Paper> card_paper;
     bool under = false;    ///< true for dots below the content of the page instead of above
     std::string password;  ///< password of an encrypted file; the result is also encrypted

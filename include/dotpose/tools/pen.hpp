@@ -33,16 +33,18 @@ struct TipPose {
     double sigma_mm(std::size_t axis) const;
 };
 
-/// Returns the place of the tip in the frame of the pose. `sigma` is `Camera::sigma`.
+/// Returns the place of the tip in the frame of the pose. `sigma` is `Camera::sigma`. If it
+/// contains no standard deviations of the tip, the tip in the camera file is assumed to be exact.
 TipPose tip_of(const SpacePose& pose, const PenTip& tip,
                const std::map<std::string, double>& sigma = {});
 
 /// Converts a tip from the pattern frame to the frame of a sheet.
 TipPose on_sheet(const TipPose& tip, const SheetEntry& entry);
 
-/// Detects with hysteresis whether a pen touches the paper. A pen on the paper leaves it if the
-/// height exceeds `kLift_mm` by three standard deviations. A pen above the paper touches it if the
-/// height is below `kLift_mm`.
+/// Detects with hysteresis whether a pen touches the paper. A pen on the paper counts as lifted if
+/// its height is at least `kLift_mm` plus three standard deviations. A lifted pen counts as on the
+/// paper again if its height is below `kLift_mm`. Before the first pose, the pen counts as on the
+/// paper.
 class PenContact {
   public:
     /// Height above the nominal plane that uneven paper on a table may cause.

@@ -42,7 +42,7 @@ struct Paper {
 /// text, and for sizes outside (0, kMaxPage_mm].
 Paper paper_by_name(std::string_view name);
 
-/// Returns the page in landscape orientation.
+/// Returns the page in landscape orientation: its longer side is the width.
 Paper landscape(Paper paper);
 
 /// Options for `make_sheet`.
@@ -71,9 +71,9 @@ Sheet make_sheet(const SheetOptions& options);
 /// Throws BadArgument as `make_sheet` does, and if `pages` is not 1 to kMaxPages.
 std::vector<Sheet> make_sheets(const SheetOptions& options, int pages);
 
-/// Checks that a printer of this resolution can print the pattern. The displacement must be at
-/// least one printer pixel, and at least one white pixel must be between any two dots. Throws
-/// BadArgument otherwise.
+/// Checks that a printer of this resolution can print the pattern. The resolution must be above 0
+/// and at most kMaxResolution_dpi. The displacement must be at least one printer pixel, and at
+/// least one white pixel must be between any two dots. Throws BadArgument otherwise.
 void validate_resolution(const Sheet& sheet, double dpi);
 
 /// File formats of printed sheets.
@@ -89,7 +89,8 @@ enum class PrintFormat {
 /// lower case. Throws BadArgument for other extensions.
 PrintFormat print_format(const std::filesystem::path& path);
 
-/// Called after each row of the pattern. Returning false stops the work.
+/// Called after each part of the work, usually a row of the pattern. `rows` is the total number of
+/// parts. Returning false stops the work with an Error.
 using Progress = std::function<bool(int rows_done, int rows)>;
 
 /// Methods of drawing dots in a PDF.
@@ -105,7 +106,9 @@ enum class DotDrawing {
 /// Options for `write_sheet`.
 struct PrintOptions {
     /// Resolution of PNG and TIFF in dots per inch, which should be the resolution of the printer.
-    /// A PDF has no pixels, but its dots are drawn for this resolution. Not used for text and SVG.
+    /// A PDF has no pixels, but the printer must be able to print its dots at this resolution (see
+    /// `validate_resolution`), and DotDrawing::glyphs refers to these pixels. Not used for text and
+    /// SVG.
     double dpi = 600;
     DotDrawing drawing = DotDrawing::automatic;  ///< PDF only: method of drawing dots
     /// PDF only: true to add labels (name, page, region and spacing) and rulers in the margins
@@ -113,7 +116,8 @@ struct PrintOptions {
     bool labels = true;
     std::string name;     ///< PDF only: the first label, and the title of the document
     std::string command;  ///< PDF only: label with the command that reprints the sheet
-    /// PDF only: separate commands for each page. If not empty, they replace `command`.
+    /// PDF only: separate commands for each page, in the order of the sheets. If not empty, they
+    /// replace `command`.
     std::vector<std::string> page_commands;
     int first_page = 1;  ///< PDF only: page number of the first sheet in the labels
     /// PDF only: total number of pages in the labels. 0 means the number of sheets.
@@ -151,8 +155,8 @@ struct InkRectangle {
     double height_mm = 0;
 };
 
-/// A page that may contain several regions of the code, and other marks. Each sheet has the size of
-/// the page.
+/// A page that may contain several regions of the code, and other marks. There must be at least one
+/// sheet. The width and height of each sheet must be those of the page.
 struct PrintPage {
     double width_mm = 0;
     double height_mm = 0;
@@ -160,14 +164,16 @@ struct PrintPage {
     std::vector<InkRectangle> marks;
 };
 
-/// Returns rectangles that form a text of digits, '.', '/', '-', 'x', 'm' and spaces. Other
-/// characters are left blank. (`x_mm`, `y_mm`) is the upper left corner of the text.
+/// Returns rectangles that form a line of text. `text` may contain digits, '.', '/', '-', 'x', 'm'
+/// and spaces. Other characters are left blank. (`x_mm`, `y_mm`) is the upper left corner of the
+/// text, and `height_mm` is the height of its characters.
 std::vector<InkRectangle> ink_text(std::string_view text, double x_mm, double y_mm,
                                    double height_mm);
 
 /// Writes a page as `write_sheet` does, as PDF, SVG, PNG or TIFF. Throws BadArgument for the text
-/// format. If regions overlap, both are printed. For PNG and TIFF, the whole page is stored in
-/// memory with one bit per pixel. A PDF contains the marks but no labels.
+/// format, and for pages without sheets or with a sheet of another size. If regions overlap, both
+/// are printed. For PNG and TIFF, the whole page is stored in memory with one bit per pixel. A PDF
+/// contains the marks but no labels.
 void write_page(const PrintPage& page, const std::filesystem::path& path,
                 const PrintOptions& options = {});
 

@@ -35,8 +35,8 @@ struct PrintMappingOptions {
     /// Lens and view of the camera. Without a camera file, the lens is assumed to have no
     /// distortion, and the view is taken from the fixes.
     std::optional<Camera> camera;
-    /// Earlier map of the same pages, which is updated by the frames. Pages without frames remain
-    /// as they are.
+    /// Earlier map of some of the sheets, which the frames update. Pages that are in view in fewer
+    /// than `PrintMapping::kMinFrames` frames are copied from this map unchanged.
     PrintMap earlier;
 };
 
@@ -49,11 +49,13 @@ struct MappedPage {
     std::size_t observations = 0;  ///< number of measured dots in all frames
     std::size_t outliers = 0;      ///< number of measured dots that were not used
     double noise_mm = 0;           ///< standard deviation of a measured dot, per axis
-    double jitter_mm = 0;          ///< standard deviation of the print jitter, per axis
-    double slow_mm = 0;            ///< rms of the smooth, low-frequency distortion of the page, per
-                                   ///< axis
-    bool is_rigid = true;          ///< true if height and tilt of the camera were constant
-    int iterations = 0;            ///< conjugate gradient iterations in the last round
+    /// Standard deviation of the print jitter, per axis (see MapPage::jitter).
+    double jitter_mm = 0;
+    /// Rms offset of the dots, per axis, without the jitter: the smooth distortion of the page.
+    double slow_mm = 0;
+    /// True if all frames had the same scale, because the camera was mounted at a constant height.
+    bool is_rigid = true;
+    int iterations = 0;  ///< conjugate gradient iterations in the last round
 };
 
 struct PrintMapResult {
@@ -74,16 +76,18 @@ class PrintMapping {
     PrintMapping(PrintMapping&&) noexcept;
     PrintMapping& operator=(PrintMapping&&) noexcept;
 
-    /// Locates a frame. Returns true if the frame is on one of the sheets, so that it is used.
-    /// Throws BadArgument if the image does not have the size in the camera file.
+    /// Locates a frame, and stores its dots for `solve`. Returns false if the frame is not used,
+    /// because it is not on one of the sheets or shows fewer than 20 dots of the sheet. Throws
+    /// BadArgument if the image does not have the size in the camera file.
     bool add(const ImageView& image);
 
-    /// Minimum number of frames that must show a page.
+    /// Minimum number of frames of a page. If fewer frames were used, the page is not mapped.
     static constexpr std::size_t kMinFrames = 10;
 
-    /// Computes the map. `progress` is called with the completed fraction of the work. If it
-    /// returns false, the work ends with an Error. Throws Error if no page was seen in kMinFrames
-    /// frames, or if the frames contradict the earlier map.
+    /// Computes the map. `progress` is called with the completed fraction of the work on one page,
+    /// and starts again at 0 for each page. If it returns false, the work ends with an Error.
+    /// Throws Error if no page was seen in kMinFrames frames, or if the frames contradict the
+    /// earlier map.
     PrintMapResult solve(const std::function<bool(double share)>& progress = {});
 
   private:
@@ -102,7 +106,10 @@ struct MappedFix {
 /// significant. The covariance is computed from the residuals, so it no longer contains the errors
 /// of the print.
 ///
-/// The map is used only if the residuals of the dots are smaller with the map than without.
+/// A map that contains the dots in view is used only if the variance of the residuals with the map
+/// is at most 0.8 times the variance without the map, or at most twice the square of
+/// `MapPage::noise`. Otherwise, `use` is MapUse::contradicted. If the map is not used, `fix` is
+/// returned unchanged.
 MappedFix with_print_map(const Fix& fix, const PrintMap& map, const Trace& trace);
 
 }  // namespace dotpose

@@ -54,7 +54,8 @@ class Rng {
 
     /// Returns a normal number with mean 0 and standard deviation 1: the number of ones among 128
     /// random bits, smoothed by a uniform number. The excess kurtosis is -0.016, and the absolute
-    /// value is at most 11.4. Uses no logarithm, because its last digit differs between machines.
+    /// value is at most 11.4. Uses no logarithm, because the last digit of a logarithm differs
+    /// between machines.
     constexpr double normal() noexcept {
         constexpr double kInverseDeviation = 0.1765469659009499;  // 1 / sqrt(128 / 4 + 1 / 12)
         const int ones = ones_in(bits(), bits());

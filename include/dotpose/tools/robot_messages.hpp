@@ -79,8 +79,8 @@ struct RobotUpdate {
     /// Pose of the camera in space, in `map`. None if poses in space are not fitted, or if the dots
     /// do not exclude the second pose.
     std::optional<CameraInWorld> camera;
-    std::uint32_t plane = 0;      ///< ID of the plane; poses in different planes are
-                                  ///< unrelated
+    std::uint32_t plane = 0;      ///< TrackedPose::plane of the motion; poses in different planes
+                                  ///< are unrelated
     bool is_found_again = false;  ///< true if the motion does not continue the previous motion
     std::string state;            ///< "lost", "moving" or "stationary"
     std::string problem;          ///< reason why there is no fix; empty if there is one
@@ -104,7 +104,8 @@ struct RobotFrames {
 /// slash or contains a space or a control character.
 RobotFrames with_prefix(const std::string& prefix, RobotFrames frames = {});
 
-/// Messages of one frame. `odometry` is empty while the robot is lost.
+/// Messages of one frame. `pose` is none if there is no fix. `odometry` is empty while the robot is
+/// lost.
 struct RobotMessages {
     std::optional<PoseWithCovarianceStamped> pose;  ///< pose of the fix, in `map`
     std::optional<Odometry> odometry;  ///< pose of the track in `odom`, twist in `base_link`
@@ -138,8 +139,8 @@ class RobotMessenger {
 
 /// Returns the mount of the camera: the pose of the optical frame in `base_link`. The origin of the
 /// optical frame is above the point under the image centre. z points to the paper, and x and y are
-/// along the axes of the image. The height is 0 if the camera file has no focal length. Returns
-/// none if the camera file has no view of the paper.
+/// along the axes of the image. The height is 0 if `camera.focal_px` is none. Returns none if the
+/// camera file has no view of the paper.
 std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFrames& frames = {});
 
 }  // namespace dotpose::ros

@@ -147,11 +147,13 @@ std::vector<std::uint8_t> to_cdr(const TFMessage& message);
 std::vector<std::uint8_t> to_cdr(const DiagnosticArray& message);
 std::vector<std::uint8_t> to_cdr(const CompressedImage& message);
 
-/// A message type with its description for files that are readable without ROS.
+/// Name and definition of a message type. Recordings contain them, so that programs without ROS can
+/// read the messages.
 struct MessageType {
-    std::string name;        ///< such as "geometry_msgs/msg/PoseWithCovarianceStamped"
-    std::string definition;  ///< the .msg files of the type and of all types in it (ros2msg)
-    std::string hash;        ///< "RIHS01_" and 64 hexadecimal digits (ROS REP 2011)
+    std::string name;  ///< such as "geometry_msgs/msg/PoseWithCovarianceStamped"
+    /// The .msg files of the type and of all types in it, in the format ros2msg.
+    std::string definition;
+    std::string hash;  ///< "RIHS01_" and 64 hexadecimal digits (ROS REP 2011)
 };
 
 /// Returns the type of a message.

@@ -16,8 +16,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Quantiles by the nearest-rank method: the smallest value that is not exceeded by a given
-/// fraction of all values. NaN if there are no values.
+/// Quantiles by the nearest-rank method. The quantile of a fraction is the smallest value such that
+/// at least this fraction of all values is at most as large. NaN if there are no values.
 struct Quantiles {
     double median = std::numeric_limits<double>::quiet_NaN();
     double p95 = std::numeric_limits<double>::quiet_NaN();
@@ -28,7 +28,8 @@ Quantiles quantiles_of(std::vector<double> values);
 
 /// Counts and error statistics of many frames.
 struct Score {
-    /// Number of readable frames. Each frame is located, is wrong, or has a status other than ok.
+    /// Number of frames that could be read. `unreadable` is the number of other frames. Each frame
+    /// that could be read is located, is wrong, or has a status other than ok.
     int frames = 0;
     int unreadable = 0;
     int located = 0;                               ///< number of correct fixes
@@ -44,8 +45,9 @@ struct Score {
     /// correct fixes, or if any of them has no covariance.
     std::array<double, 3> normalised = {};
 
-    double largest_p_wrong = 0;  ///< maximum p_wrong of all fixes
-    Quantiles elapsed_us;        ///< time of `locate` for each readable frame
+    /// Maximum p_wrong of all fixes, correct or wrong. 0 if there are no fixes.
+    double largest_p_wrong = 0;
+    Quantiles elapsed_us;  ///< time of `locate` for each readable frame
 
     double located_share() const { return frames > 0 ? 1.0 * located / frames : 0; }
 };

@@ -15,8 +15,8 @@
 ///
 /// Coordinate frames: *pixel* (centre of the first pixel (0, 0), v down), *pattern* (x right, y
 /// DOWN as the page is read, mm). Offsets named `offset_mm` are in the pattern frame, relative to
-/// the pose point, which is the pattern point under the image centre. Offsets are therefore exact
-/// anywhere on the plane, which is 2.1e8 mm wide.
+/// the pose point, which is the pattern point under the image centre. Offsets are small numbers, so
+/// they are not rounded noticeably, although the plane is 2.1e8 mm wide.
 #pragma once
 
 #include <array>
@@ -51,8 +51,8 @@ struct CameraModel {
     /// Size on the paper of the pixel at the image centre, without tilt. Above 0.
     double mm_per_px = 0.046;
     /// Radial distortion k of eq. 1-2, p_u = m + r_d / (1 + k |r_d|^2), in 1 / px^2, where m is the
-    /// image centre. Negative for barrel distortion. 1 + k |r|^2 must stay in (0, 2) over the whole
-    /// image.
+    /// image centre. Negative for barrel distortion. |k| |r|^2 must be at most 0.9 in the corners
+    /// of the image.
     double k = 0;
     /// Distance of the projection centre from the pose point, relevant only with tilt. Above 0.
     double working_distance_mm = 16;
@@ -62,7 +62,7 @@ struct CameraModel {
     Vec2 readout_px;
     /// Rotation of the scene about the image centre while a rolling shutter reads the rows, in
     /// addition to the motion. The direction is from the image x axis towards the image y axis.
-    /// Both rates are constant, as for a camera on a robot that drives in a circle. No part of the
+    /// Velocity and turn rate are constant, as on a robot that drives in a circle. No part of the
     /// scene may move down faster than the rows are read, which limits the rotation to about 80
     /// degrees in a 4:3 image.
     double readout_turn_rad = 0;
@@ -201,8 +201,8 @@ class Projection {
     /// the middle row. Points are in px from the image centre of the undistorted image. `time` is
     /// in units of the readout time, from the middle row.
     Vec2 moved(Vec2 undistorted, double time) const;
-    /// Returns the motion of the pose point in the undistorted image, along an arc, from the middle
-    /// row to `time`.
+    /// Returns the motion of the pose point in the undistorted image, along an arc, from the time
+    /// of the middle row to `time`.
     Vec2 way_at(double time) const;
 
     Vec2 centre_px_;
@@ -226,8 +226,8 @@ GreyImage render(const Page& page, const CameraModel& camera, const CameraPose& 
 GreyImage render(const Pattern& pattern, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
-/// A page given as an image, for example a PDF rendered at 1200 dpi. Interpolated linearly between
-/// pixels.
+/// A page given as an image, for example a PDF rendered at 1200 dpi. Between its pixels, the grey
+/// levels are interpolated linearly.
 struct PageImage {
     ImageView image;  ///< 255 is bare paper, and 0 is solid ink; the page is surrounded by
                       ///< unlimited paper
@@ -237,8 +237,9 @@ struct PageImage {
     Vec2 centre_mm;
 };
 
-/// Renders the camera's image of a page image. Uses only the angles of the pose, and ignores the
-/// imperfections of the printer (jitter, missing dots), dirt and graphics.
+/// Renders the camera's image of a page image. Ignores the position in `pose`, because the page
+/// image contains it. Also ignores the imperfections of the printer (jitter, missing dots), dirt
+/// and graphics.
 GreyImage render(const PageImage& page, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
@@ -261,7 +262,8 @@ struct Shot {
 };
 
 /// Draws the random parameters of frame `index` of a run: an angle, a position at which the whole
-/// frame is on the plane, and imperfections from the preset.
+/// frame is inside the code plane, imperfections from the preset and, if `setup.random_section` is
+/// set, a section. Throws BadArgument if the frame is larger than the code plane.
 Shot draw_shot(const Setup& setup, std::uint64_t index);
 
 /// A view that is only partly covered by the pattern.
@@ -270,8 +272,8 @@ struct PartialView {
     /// dots. 0 for one area along a border or in a corner of the image.
     int islands = 0;
     static constexpr int kMinIslandDots = 60;
-    /// Minimum and maximum fraction of the image covered by the single area. The area has at least
-    /// `min_dots` dots.
+    /// Minimum and maximum fraction of the image that the single area covers. The area has at least
+    /// `min_dots` dots, even if it must therefore cover more than `max_share`.
     double min_share = 0.15;
     double max_share = 0.45;
     int min_dots = 150;
@@ -280,26 +282,28 @@ struct PartialView {
 };
 
 /// Chooses the areas with dots and the edge of the paper at random, from the shot's seed. Areas are
-/// aligned either with the pattern or with the image, with equal probability. Throws BadArgument if
-/// there is no room for the islands.
+/// aligned either with the pattern or with the image, with equal probability. Throws BadArgument
+/// unless 0 < `min_share` <= `max_share` <= 1, if the number of islands is not 0 to 16, or if there
+/// is no room for the islands.
 void cover_partly(Shot& shot, const PartialView& view);
 
 /// Renders a shot.
 GreyImage render(const Shot& shot);
 
-/// Frames without a unique valid position, which a locator must refuse. At a seam between two
-/// sections, however, the position and section of either side count as correct.
+/// Kinds of frames without a unique valid position. A locator must refuse them. The two seams are
+/// an exception: the position and section of either side of a seam also count as correct.
 enum class Scene : std::uint8_t {
     black,
     white,
-    noise,            ///< each pixel is dark with probability `density`; nothing else
+    noise,            ///< each pixel is dark with probability `density`, without any pattern
     text,             ///< a page of words
     plain_grid,       ///< dots on the intersections, not displaced
     random_symbols,   ///< a perfect grid with random symbols
     scattered_dots,   ///< dots at random places, `density` per grid cell
     checkerboard,     ///< squares of two grid spacings
     seam_vertical,    ///< two sections side by side, with the border through the image centre
-    seam_horizontal,  ///< two sections, one above the other
+    seam_horizontal,  ///< two sections, one above the other, with the border through the image
+                      ///< centre
     mirrored,         ///< the pattern seen from behind
 };
 /// All values of Scene, for tables.

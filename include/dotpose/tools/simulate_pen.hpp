@@ -30,9 +30,10 @@ struct PenPose {
     double turn_rad = 0;
 };
 
-/// Returns `shot` with the pose and working distance of the camera of a pen. The focal length of
-/// the camera is `working_distance_mm / mm_per_px` of `shot.camera`, and does not change. Throws
-/// BadArgument if the camera does not look down at the paper.
+/// Returns `shot` with the camera at its place in a pen. Sets the pose, the working distance and
+/// the scale of the camera. The focal length in px, which is the ratio of `working_distance_mm` to
+/// `mm_per_px`, does not change. Throws BadArgument if the camera does not look down at the paper,
+/// or is not above it.
 Shot shot_of_pen(const Shot& shot, const PenTip& tip, const PenPose& pose);
 
 /// Options of simulated handwriting.
@@ -50,9 +51,10 @@ struct PenSample {
     bool is_down = false;  ///< true if the tip is on the paper
 };
 
-/// Returns a path of random strokes with loops, written from left to right. Between the strokes,
-/// the pen is lifted by 1 to 3 mm. At both ends of a stroke, the pen does not move along the paper,
-/// but it has a vertical velocity. The tilt changes slowly between 20 and 40 degrees.
+/// Returns a path of random strokes with loops, in lines of four strokes from left to right.
+/// Between the strokes, the pen is lifted by 1 to 3 mm. After the last stroke, it remains above the
+/// paper. At both ends of a stroke, the pen does not move along the paper, but it has a vertical
+/// velocity. The tilt varies slowly between 20 and 40 degrees.
 std::vector<PenSample> simulate_handwriting(const Handwriting& options);
 
 }  // namespace dotpose

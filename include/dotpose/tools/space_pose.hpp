@@ -98,13 +98,14 @@ struct SpacePose {
     bool is_ambiguous() const { return second && second->odds_log2 > kMaxOdds_log2; }
 };
 
-/// Throws BadArgument unless the camera file contains the focal length.
+/// Throws BadArgument if `camera` has neither a focal length nor a pinhole model (see
+/// `pinhole_of`).
 void require_focal_length(const Camera& camera);
 
-/// Fits position and rotation of `camera` to all dots of `image` by maximum likelihood. A first
-/// pose is fitted to the dots in the trace of `fix`. It predicts the places of all dots in view,
-/// including dots at the image border and far from a tilted camera. These dots are measured again
-/// for the final pose.
+/// Fits position and rotation of `camera` to all dots of `image` by maximum likelihood. First, a
+/// preliminary pose is fitted to the dots in the trace of `fix`. The preliminary pose predicts the
+/// places of all dots in view, including dots at the image border and far from a tilted camera.
+/// These dots are measured again for the final pose.
 ///
 /// The errors of the dots consist of print errors, which are foreshortened in a tilted view, and of
 /// errors of the dot centres in the image. Both variances are estimated from the residuals. Dots
@@ -136,8 +137,8 @@ struct CameraInWorld {
 };
 
 /// Converts a pose in the sheet frame, with the covariance of SpacePose, to the world. `page` is
-/// the pose of the page. If it is at (0, 0) with yaw 0, the result is the pose in the sheet frame,
-/// in metres and with y up.
+/// the world pose of the page. If the page is at (0, 0) with yaw 0, the result is the pose in the
+/// sheet frame, but in metres, with y up and z out of the paper.
 CameraInWorld in_world(const CameraInSpace& camera, const SpaceCovariance& covariance,
                        const WorldPose& page);
 

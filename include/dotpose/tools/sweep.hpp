@@ -43,8 +43,9 @@ struct SweepOptions {
     /// Options for `locate`. Both decoders are run, so `decoder` is ignored.
     DeviceOptions locate;
     int threads = 0;
-    /// Called with the progress. If it returns false, the sweep ends, and its result contains the
-    /// values completed so far.
+    /// Called with the number of frames that are done and the number of all frames. Returning false
+    /// ends the sweep. If at least two values are complete, the result contains the complete
+    /// values. Otherwise, `run_sweep` throws Error.
     Progress progress;
 };
 

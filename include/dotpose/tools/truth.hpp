@@ -57,9 +57,10 @@ struct TruthRow {
 ///   - x_sheet_mm, y_sheet_mm; optional theta_sheet_deg, sheet;
 ///   - x_m, y_m (they take precedence over places on sheets); optional sheet, and yaw_rad or
 ///     yaw_deg (yaw_rad takes precedence).
-/// Other optional columns are section_u, section_v, code and spacing_mm. A row with an empty pose
-/// is a frame without a pose. `spacing_mm`, if given, replaces the spacings in the file. Throws
-/// Error if the file cannot be read, contains no frames, or has invalid content. The message
+/// Other optional columns are section_u, section_v, code and spacing_mm. If the pose of a row is
+/// empty, the frame has no readable pattern. If a row has no spacing, its spacing is
+/// kDefaultSpacing_mm. The argument `spacing_mm`, if given, replaces the spacings of all rows.
+/// Throws Error if the file cannot be read, contains no frames, or has invalid content. The message
 /// contains the name of the file and, for an invalid line, its number.
 std::vector<TruthRow> read_truth(const std::filesystem::path& path,
                                  std::optional<double> spacing_mm = std::nullopt);

@@ -414,5 +414,21 @@ TEST(PartOf, SeesTheSamePaper) {
     EXPECT_THROW(part_of(camera, -1, 50, 400, 300), BadArgument);
 }
 
+/// Regression: the flat field of the whole image was stretched over the crop, and the readout time
+/// was that of the whole image.
+TEST(CameraFile, ACropHasItsPartOfTheFlatFieldAndOfTheReadoutTime) {
+    Camera camera;
+    camera.width_px = 641;
+    camera.height_px = 481;
+    // The brightness decreases by 1/1600 per pixel along u, and by 1/2400 along v.
+    camera.flat_field = {{1.0, 0.8, 0.6}, {0.8, 0.6, 0.4}};
+    camera.readout_ms = 48.1;
+    const Camera part = part_of(camera, 160, 240, 321, 121);
+    EXPECT_NEAR(part.flat_field[0][0], 1 - 160.0 / 1600 - 240.0 / 2400, 1e-12);
+    EXPECT_NEAR(part.flat_field[1][2], 1 - 480.0 / 1600 - 360.0 / 2400, 1e-12);
+    EXPECT_NEAR(brightness_at(part, {10, 30}), brightness_at(camera, {170, 270}), 1e-12);
+    EXPECT_NEAR(part.readout_ms.value(), 12.1, 1e-12);
+}
+
 }  // namespace
 }  // namespace dotpose
