@@ -38,9 +38,10 @@ class NormalEquations {
             columns_[i].set(i, columns_[i].at(i) * by);
     }
 
-    /// Replaces M with L. A parameter is excluded if the equations hardly determine it: the
-    /// preceding eliminations reduce its diagonal element to `min_determined` times the original
-    /// value or less. Returns false if one of the first `required` parameters is excluded.
+    /// Replaces M with L. Excludes parameters that the equations hardly determine: a parameter is
+    /// excluded if the preceding eliminations reduce its diagonal element to at most
+    /// `min_determined` times the original value. Returns false if one of the first `required`
+    /// parameters is excluded.
     bool decompose(float min_determined, std::size_t required) {
         Vector minima;
         for (std::size_t i = 0; i < N; ++i)

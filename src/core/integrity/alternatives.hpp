@@ -9,9 +9,10 @@
 namespace dotpose::core {
 
 /// Returns log2 of the summed odds of all alternatives except seam alternatives, rounded up to an
-/// integer and clamped to at most 0. The odds of some far alternatives are expectations. All other
-/// odds are exact or upper bounds. The sum is only as precise as a comparison with 2^limit_log2
-/// requires. Returns 0 if there are at most 5 lines.
+/// integer and clamped to at most 0. The sum contains the exact odds of an alternative or an upper
+/// bound. Some far alternatives are the exception: they count with their expected odds. The
+/// summation stops when the sum reaches 2^limit_log2, so a result above `limit_log2` may be too
+/// small. Returns 0 if there are at most 5 lines, or if the ratios come from hard bits.
 int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2 = 0);
 
 }  // namespace dotpose::core

@@ -58,8 +58,8 @@ class PossibleCodes {
     std::array<CodeVariant, kCodeVariantCount> order_{};
 };
 
-/// Returns the likelihood of the bits in each code relative to the code `read`, as log2 in units of
-/// 2^-8. Likelihoods that differ by at most 1 % count as equal.
+/// Returns the likelihood of the bits in each code divided by their likelihood in the code `read`,
+/// as log2 in units of 2^-8. Likelihoods that differ by at most 1 % count as equal.
 CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others);
 
 }  // namespace dotpose::core

@@ -26,11 +26,11 @@ struct Losses {
     explicit Losses(const LikelihoodRatios& ratios)
         : loss_limit(ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain()) {
         for (int line = 0; line < ratios.count(); ++line) {
-            const int least = ratios.min_loss(line);
-            const int eighths = std::max(least, 0) / kUnit;
+            const int min_loss = ratios.min_loss(line);
+            const int eighths = std::max(min_loss, 0) / kUnit;
             of[static_cast<std::size_t>(line)] = static_cast<std::uint16_t>(eighths);
             all += eighths;
-            at_best += least;
+            at_best += min_loss;
         }
     }
 
@@ -114,8 +114,8 @@ class OtherPlaces {
     /// place of the reading in a4 at all shifts except `shift_here_`, and every place at shifts
     /// without a shared line.
     void add_unsimilar() {
-        // A place with the rolls of the reading shares all lines at one shift and no line at any
-        // other shift, so `add` would add nothing.
+        // A place with the rolls of the reading shares all lines at `shift_here_`, which is left
+        // out, and no line at any other shift. `add` would therefore add nothing.
         if (!has_same_rolls_) add(ratios_.places[kA4], here_, shift_here_);
         add_sharing_none();
     }
@@ -196,13 +196,13 @@ class OtherPlaces {
         // For each roll offset, the summed losses of the lines with this offset, in units of kUnit.
         // These lines are shared at the same shift.
         std::array<std::uint16_t, kSections + 1> shared{};
-        std::uint16_t most = 0;
+        std::uint16_t max_shared = 0;
         for (std::size_t line = 0; line < count_; ++line) {
             std::uint16_t& here = shared[offsets[line]];
             here = static_cast<std::uint16_t>(here + losses_.of[line]);
-            most = std::max(most, here);
+            max_shared = std::max(max_shared, here);
         }
-        if (losses_.exceed_limit(most) && shift_left_out == kNoShift) {
+        if (losses_.exceed_limit(max_shared) && shift_left_out == kNoShift) {
             add_skipped(1);
             return;
         }
