@@ -230,8 +230,8 @@ class Ink {
             square_root(static_cast<std::uint64_t>(typical.shade_q8 * tuned::kSolidInk_q8)));
     }
 
-    /// Darkness at the four places of a cell. `reliability_q4` scales the cell's bit weights, in
-    /// 1/16. `light_q8` is the light relative to the image centre, in 1/256.
+    /// Darkness at the four places of a cell. `reliability_q4` is a factor for the cell's bit
+    /// weights, in 1/16. `light_q8` is the result of `CellSampler::light_q8`, at most kMaxLight_q8.
     struct Sample {
         std::array<int, 4> darkness_q8;  ///< indexed by Symbol
         int reliability_q4 = 16;

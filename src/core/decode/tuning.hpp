@@ -58,8 +58,8 @@ inline constexpr int kReliabilityTooDark_q4 = 6;
 /// is enough for the maximum weight. The value 150 locates 1,994 frames, and the value 600
 /// locates 1,992.
 inline constexpr int kGain = 300;
-/// Maximum light at a cell relative to the image centre, in 1/256. A brighter cell has the same
-/// weights as a cell at this limit.
+/// Maximum ratio of the paper level at a cell to the paper level at the image centre, in 1/256. If
+/// the ratio is larger, the bit weights are those for this maximum.
 inline constexpr int kMaxLight_q8 = 1024;
 /// Test for two patterns in one image. A cell has two dots if the darkness of its second darkest
 /// place is more than kSecondDot_3rds / 3 of a typical dot and more than kSecondDot_4ths / 4 of the

@@ -9,10 +9,10 @@
 namespace dotpose::core {
 
 /// Returns log2 of the summed odds of all alternatives except seam alternatives, rounded up to an
-/// integer and clamped to at most 0. The sum contains the exact odds of an alternative or an upper
-/// bound. Some far alternatives are the exception: they count with their expected odds. The
-/// summation stops when the sum reaches 2^limit_log2, so a result above `limit_log2` may be too
-/// small. Returns 0 if there are at most 5 lines, or if the ratios come from hard bits.
+/// integer and clamped to at most 0. Each alternative counts with its odds or with an upper bound
+/// on its odds, except that some far alternatives count with their expected odds. The summation
+/// stops when the sum reaches 2^limit_log2, so a result above `limit_log2` may be too small.
+/// Returns 0 if there are at most 5 lines, or if the ratios come from hard bits.
 int alternatives_log2(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2 = 0);
 
 }  // namespace dotpose::core

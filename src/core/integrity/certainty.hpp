@@ -56,11 +56,11 @@ Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& plac
                      const BitBlock& block, const std::array<Confidence, 2>& bits,
                      std::span<ScoredLine> storage);
 
-/// Returns true if the position is certain: the upper bound on the error probability is at most the
-/// limit in `options`, and so is the fraction of wrong bits on each axis. Returns false if the
-/// evidence has at most kMaxShared columns, or at most kMaxShared rows. Sets `fix.bit_errors`. On
-/// success, also sets `fix.p_wrong_log2` and, unless `others` is null, the odds of the other codes.
-/// On failure, `fix.p_wrong_log2` is not valid.
+/// Returns true if the position is certain: the upper bound on the error probability is at most
+/// 2^max_p_wrong_log2, and at most max_bit_error_q8 / 256 of the bits on each axis are wrong (see
+/// IntegrityOptions). Returns false if the evidence has at most kMaxShared columns, or at most
+/// kMaxShared rows. Sets `fix.bit_errors`. On success, also sets `fix.p_wrong_log2` and, unless
+/// `others` is null, the odds of the other codes. On failure, `fix.p_wrong_log2` is not valid.
 bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                 const IntegrityOptions& options, Fix& fix, OtherCodes* others = nullptr);
 

@@ -52,7 +52,7 @@ class Confidence {
     }
 
   private:
-    /// Numbers of correct and wrong bits, alternating, for each level.
+    /// For each level, the number of correct bits, followed by the number of wrong bits.
     std::array<std::int32_t, 2 * kLevels> counts_{};
 };
 

@@ -14,8 +14,8 @@ namespace {
 
 /// log2(741) in units of 2^-8, rounded up. The four sequences have 741 places.
 constexpr int kSingles_q8 = 2441;
-/// Limit for the odds of the far alternatives, as log2 in units of 2^-8. Below this limit, no
-/// tighter bound is needed.
+/// Limit for the odds of the far alternatives, as log2 in units of 2^-8. If a bound is below this
+/// limit, no tighter bound is computed.
 constexpr int kSmallOdds_q8 = -36 * 256;
 /// Default limit of the error probability, as log2 in units of 2^-8. Even if the limit of the
 /// caller is larger, bounds are at least as tight as the default limit requires.
@@ -46,8 +46,8 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
         const auto half_bits = static_cast<std::size_t>(-ratios.log2_odds_q8(best - score) >> 7);
         return kPowers[std::min(half_bits, kPowers.size() - 1)];
     };
-    // The odds of most rolls are at least 2^12 times smaller than the odds of the best roll. Each
-    // of these rolls adds the last element of kPowers to the sum.
+    // The odds of most rolls are smaller than the odds of the best roll by a factor of at least
+    // 2^12. Each of these rolls adds the last element of kPowers to the sum.
     const int min_power_score = best - ratios.loss_for(-12 * 256 - 8);
     std::uint32_t sum_q12 = 0;
     for (int roll = 0; roll < kSections; ++roll)

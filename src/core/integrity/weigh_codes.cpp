@@ -17,7 +17,8 @@ constexpr std::size_t kA4 = 3;
 /// Upper bound on the odds of each skipped place, as log2 in units of 2^-8 and as a number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
-/// Limit for the summed odds. Below this limit, no tighter bound is needed.
+/// Limit for the summed odds. If an upper bound on them is at most this limit, no tighter bound is
+/// computed.
 constexpr float kNegligibleOdds = 1e-12F;
 
 /// Lower bounds on the losses of a place in another code. A place loses at least of[line] in each
@@ -52,7 +53,7 @@ struct Losses {
     }
 
     /// Returns true if a place loses more than `loss_limit`. `shared` is an upper bound on the sum
-    /// of `of` over the lines that the place shares, in units of kUnit.
+    /// of `of` over the lines that the place shares at one shift, in units of kUnit.
     bool exceed_limit(int shared) const { return kUnit * (all - shared) > loss_limit; }
 
     /// Unit of `all` and `of`, in score units. Losses are rounded down to this unit, because their
