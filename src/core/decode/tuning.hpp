@@ -102,9 +102,9 @@ inline constexpr int kVotersOfBits = 5;
 /// The vote ends early when the difference between the total scores of the two reading directions
 /// reaches this value, which is the score of 8 bits.
 inline constexpr int kLandslide = 8 * 127;
-/// Minimum agreement with the mirrored pattern for reporting a mirrored image, in fourths of the
-/// agreement with the unmirrored pattern. Lines of random bits reach about 60 % of a correct line's
-/// agreement.
+/// The image is reported as mirrored if the agreement with the mirrored pattern exceeds
+/// kMirrored_4ths / 4 of the agreement with the unmirrored pattern. Lines of random bits reach
+/// about 60 % of a correct line's agreement.
 inline constexpr int kMirrored_4ths = 5;
 }  // namespace turns
 

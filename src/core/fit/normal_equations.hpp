@@ -20,8 +20,8 @@ class NormalEquations {
     void set(std::size_t row, std::size_t column, float number) {
         columns_[column].set(row, number);
     }
-    /// Adds an equation with the given residual and weight. `derivatives` are with respect to the
-    /// parameters.
+    /// Adds an equation with the given residual and weight. `derivatives` contains the derivatives
+    /// of the modelled quantity with respect to the parameters.
     void add(const Vector& derivatives, float residual, float weight) {
         const Column all(derivatives);
         for (std::size_t i = 0; i < N; ++i) {
