@@ -56,10 +56,11 @@ LineRange lines_with_bits(const BitLines& lines, int max_count) {
     return {std::clamp(BitBlock::kMiddle - max_count / 2, first, last + 1 - max_count), max_count};
 }
 
-/// Returns the score of a line that is read backwards minus its score if it is read forwards. If
-/// all n bits agree with the main sequence in only one direction, the result is 127 (n - 6) or its
-/// negative. The first six bits do not count, because the main sequence contains almost every
-/// string of six bits.
+/// Returns the best score of a line after a half turn minus its best score as read. If the line is
+/// exact (see `exact_roll`) in only one of these directions, its scores are not computed: the
+/// result is 127 (n - 6) if the line is exact after the half turn, and -127 (n - 6) otherwise,
+/// where n is the number of valid bits. Six bits do not count, because the main sequence contains
+/// almost every string of six bits.
 int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
     const std::uint64_t back = reversed(~bits);
     const std::uint64_t valid_back = reversed(valid);
@@ -78,7 +79,7 @@ int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid
 }
 
 /// Sums `backwardness` over several lines. Stops early if the magnitude of the sum reaches
-/// `kLandslide`.
+/// `tuning::turns::kLandslide`.
 int backwardness(const Kernels& kernels, const BitLines& lines) {
     constexpr int kVoters = tuning::turns::kVotersOfBits;
     const LineRange range = lines_with_bits(lines, BitBlock::kSide);

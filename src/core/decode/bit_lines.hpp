@@ -64,7 +64,7 @@ Place place_of_middle(CodeVariant code, int first_column, int first_row, const A
                       const AxisReading& row);
 
 /// Finds the place of cell (0, 0) in an upright block. Returns false if there are fewer than six
-/// columns or rows, or if no position is found.
+/// columns, fewer than six rows, or no position that agrees with them.
 bool find_place(CodeVariant code, const BlockLines& lines, Place& place);
 
 }  // namespace dotpose::core

@@ -85,8 +85,8 @@ void take_sums(const std::array<Sums, kGroups>& sums, std::size_t phase, LineSco
         std::int32_t sum = sum_at(sums[0], string[0]);
         for (std::size_t group = 1; group < Groups; ++group)
             sum += sum_at(sums[group], string[group * kGroup]);
-        // Unpacks the sum of line b. The result is (sum + 0x8000) >> 16, but the constant would
-        // occupy a register.
+        // Unpacks the sum of line b. (sum + 0x8000) >> 16 has the same result, but its constant
+        // would occupy a register.
         const std::int32_t of_b = ((sum >> 15) + 1) >> 1;
         *a = static_cast<std::int16_t>(Adds ? *a + sum : sum);
         *b = static_cast<std::int16_t>(Adds ? *b + of_b : of_b);

@@ -27,7 +27,7 @@ void correlate_both(std::span<const std::int8_t> a, std::span<const std::int8_t>
 Match best_match(const LineScores& scores);
 
 /// Returns the match that follows `last` in the order of decreasing scores. Matches with equal
-/// scores are in the order of increasing rolls.
+/// scores are in the order of increasing rolls. There must be a match after `last`.
 Match next_match(const LineScores& scores, Match last);
 
 /// Returns the highest score and its margin over the second highest score.

@@ -11,17 +11,19 @@ namespace dotpose::core {
 /// is the dot's projected offset, in 2^-16 spacings.
 std::int8_t quasi_probability(std::int32_t projection_q16);
 
-/// Clears the grid and moves it to the cells from `min` to `max`. Crops an axis to the `grid.side`
-/// cells nearest cell (0, 0).
+/// Clears the grid and moves it to the cells from `min` to `max`. If an axis has more than
+/// `grid.side` cells, keeps the `grid.side` cells nearest cell (0, 0).
 void lay_out(FixedVec min, FixedVec max, Grid& grid);
 
 /// Fills the grid from all dots (paper, Fig. 8). If a cell contains several dots, uses the dot with
-/// the highest quality. Crops an axis to the `grid.side` cells nearest cell (0, 0). Error:
-/// grid_too_small if the dots span fewer than kWindowSide columns or rows.
+/// the highest quality. If an axis has more than `grid.side` cells, keeps the `grid.side` cells
+/// nearest cell (0, 0). Error: grid_too_small if the dots span fewer than kWindowSide columns or
+/// rows.
 Status assign_likelihoods(std::span<const DetectedDot> dots, const PlaneFromImage& grid_from_image,
                           Grid& grid);
 
 /// Faster variant of `assign_likelihoods`, for a plane without perspective or lens distortion.
+/// `min_side` is the minimum number of columns and of rows.
 Status assign_affine_likelihoods(std::span<const DetectedDot> dots,
                                  const PlaneFromImage& grid_from_image, Grid& grid,
                                  int min_side = kWindowSide);

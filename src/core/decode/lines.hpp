@@ -44,8 +44,8 @@ struct AxisReading {
     /// Upper bound of `score`: the sum of each line's highest score.
     std::int32_t max_possible = 0;
 
-    /// Returns true if the score exceeds 7/8 of `max_possible`. The search then stops, because
-    /// other readings are unlikely to reach a similar score.
+    /// Returns true if the score exceeds 7/8 of `max_possible`. The search then stops, because it
+    /// is unlikely that another reading has a higher score.
     bool is_clear() const { return 8 * std::int64_t{score} > 7 * std::int64_t{max_possible}; }
 };
 

@@ -97,8 +97,8 @@ std::int32_t best_agreement(const Voters& voters) {
 }  // namespace
 
 Orientation rank_turns(const Grid& grid, const GridRegion& region) {
-    // Sums the best scores of the lines. Unlike the paper's number of lines that occur exactly in
-    // the main sequence, this sum includes lines with misread bits.
+    // Sums the best scores of the lines. The paper counts the lines that occur exactly in the main
+    // sequence. Unlike this count, the sum includes lines with misread bits.
     const Voters x_columns(grid, region, true, &GridCell::x);
     const Voters y_rows(grid, region, false, &GridCell::y);
     const BothWays of_columns = agreement(x_columns);

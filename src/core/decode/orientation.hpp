@@ -17,9 +17,10 @@ struct Orientation {
 /// sequence as read and after a half turn. A half turn reverses the line and flips its bits.
 Orientation rank_turns(const Grid& grid, const GridRegion& region);
 
-/// Returns true if the bits of the region agree much better with a mirrored pattern than with the
-/// upright pattern. In a mirrored pattern, columns contain y bits and rows contain x bits.
-/// `agreement` is the region's `Orientation::agreement`.
+/// Returns true if the bits of the region agree better with a mirrored pattern than with the
+/// upright pattern, by the factor `tuning::turns::kMirrored_4ths` / 4. In a mirrored pattern,
+/// columns contain y bits and rows contain x bits. `agreement` is the region's
+/// `Orientation::agreement`.
 bool is_mirrored(const Grid& grid, const GridRegion& region, std::int32_t agreement);
 
 }  // namespace dotpose::core

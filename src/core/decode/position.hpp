@@ -9,10 +9,10 @@
 
 namespace dotpose::core {
 
-/// Decodes with the paper's method, as a baseline. The turn is found by a vote, and the position
-/// from the best roll of each line in the clearest 8 x 8 window. Errors: not_in_code, ambiguous,
-/// and grid_too_small, which also means that the mean quality in the window is below a third of the
-/// maximum.
+/// Decodes with the paper's method, as a baseline. A vote determines the turn. The best roll of
+/// each line in the clearest 8 x 8 window determines the position. Errors: not_in_code, ambiguous,
+/// or grid_too_small. The last error means that the window has fewer than 8 columns or rows, or
+/// that its mean quality is below a third of the maximum.
 Status decode_window(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,
                      Decoding& decoding);
 

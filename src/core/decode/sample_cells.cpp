@@ -230,8 +230,8 @@ class Ink {
             square_root(static_cast<std::uint64_t>(typical.shade_q8 * tuned::kSolidInk_q8)));
     }
 
-    /// Darkness at the four places of a cell. `reliability_q4` scales the cell's bit weights, in
-    /// 1/16. `light_q8` is the light relative to the image centre, in 1/256.
+    /// Darkness at the four places of a cell. `reliability_q4` is a factor for the cell's bit
+    /// weights, in 1/16. `light_q8` is the result of `CellSampler::light_q8`, at most kMaxLight_q8.
     struct Sample {
         std::array<int, 4> darkness_q8;  ///< indexed by Symbol
         int reliability_q4 = 16;
@@ -287,8 +287,8 @@ class Ink {
     /// at the other two. `one_q8` and `zero_q8` are the darkness of the darker place of each pair.
     std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
         // The weight is proportional to the log-likelihood ratio of the bit. With constant sensor
-        // noise, the ratio is proportional to the level difference times the contrast. Both factors
-        // are proportional to the light, so the weight is proportional to the squared light.
+        // noise, this ratio is proportional to the level difference times the contrast. Both are
+        // proportional to the paper level at the cell, so the weight is proportional to its square.
         const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = sample.light_q8 * sample.light_q8;
         // High contrast does not make a bit more reliable, because its errors are mostly not caused

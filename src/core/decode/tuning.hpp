@@ -58,8 +58,8 @@ inline constexpr int kReliabilityTooDark_q4 = 6;
 /// is enough for the maximum weight. The value 150 locates 1,994 frames, and the value 600
 /// locates 1,992.
 inline constexpr int kGain = 300;
-/// Maximum light at a cell relative to the image centre, in 1/256. A brighter cell has the same
-/// weights as a cell at this limit.
+/// Maximum ratio of the paper level at a cell to the paper level at the image centre, in 1/256. If
+/// the ratio is larger, the bit weights are those for this maximum.
 inline constexpr int kMaxLight_q8 = 1024;
 /// Test for two patterns in one image. A cell has two dots if the darkness of its second darkest
 /// place is more than kSecondDot_3rds / 3 of a typical dot and more than kSecondDot_4ths / 4 of the
@@ -102,9 +102,9 @@ inline constexpr int kVotersOfBits = 5;
 /// The vote ends early when the difference between the total scores of the two reading directions
 /// reaches this value, which is the score of 8 bits.
 inline constexpr int kLandslide = 8 * 127;
-/// Minimum agreement with the mirrored pattern for reporting a mirrored image, in fourths of the
-/// agreement with the unmirrored pattern. Lines of random bits reach about 60 % of a correct line's
-/// agreement.
+/// The image is reported as mirrored if the agreement with the mirrored pattern exceeds
+/// kMirrored_4ths / 4 of the agreement with the unmirrored pattern. Lines of random bits reach
+/// about 60 % of a correct line's agreement.
 inline constexpr int kMirrored_4ths = 5;
 }  // namespace turns
 

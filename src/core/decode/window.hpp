@@ -5,8 +5,9 @@
 
 namespace dotpose::core {
 
-/// Returns the `side` x `side` window with the highest total quality. If the grid has fewer columns
-/// or rows, the window contains all of them.
+/// Returns the `side` x `side` window with the highest total quality (see `quality` in
+/// decode/likelihood.hpp). If the grid has fewer than `side` columns or rows, the window contains
+/// all of them.
 GridRegion choose_window(const Grid& grid, int side);
 
 /// Returns the mean quality of a region, in 1/256. The mean is 256 if every dot is exactly at one

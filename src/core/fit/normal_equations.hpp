@@ -20,8 +20,8 @@ class NormalEquations {
     void set(std::size_t row, std::size_t column, float number) {
         columns_[column].set(row, number);
     }
-    /// Adds an equation with the given residual and weight. `derivatives` are with respect to the
-    /// parameters.
+    /// Adds an equation with the given residual and weight. `derivatives` contains the derivatives
+    /// of the modelled quantity with respect to the parameters.
     void add(const Vector& derivatives, float residual, float weight) {
         const Column all(derivatives);
         for (std::size_t i = 0; i < N; ++i) {
@@ -38,9 +38,10 @@ class NormalEquations {
             columns_[i].set(i, columns_[i].at(i) * by);
     }
 
-    /// Replaces M with L. A parameter is excluded if the equations hardly determine it: the
-    /// preceding eliminations reduce its diagonal element to `min_determined` times the original
-    /// value or less. Returns false if one of the first `required` parameters is excluded.
+    /// Replaces M with L. Excludes parameters that the equations hardly determine: a parameter is
+    /// excluded if the preceding eliminations reduce its diagonal element to at most
+    /// `min_determined` times the original value. Returns false if one of the first `required`
+    /// parameters is excluded.
     bool decompose(float min_determined, std::size_t required) {
         Vector minima;
         for (std::size_t i = 0; i < N; ++i)

@@ -36,7 +36,7 @@ class PlaneNormal : public NormalEquations<kPoseParameters> {
     explicit PlaneNormal(const FitSums& sums);
 
     /// Decomposes the matrix. Returns false if the points do not determine position, scale and
-    /// rotation.
+    /// rotation. Any other parameter that they do not determine is excluded.
     bool decompose() {
         constexpr float kDetermined = 1e-4F;
         return NormalEquations::decompose(kDetermined, kTilt);

@@ -1,7 +1,7 @@
-// Posterior: shrinks fitted distortion terms towards 0 by Bayes' rule. The terms are 0 for a camera
-// that looks straight at flat paper. The pose is less accurate if a tilt is fitted that is not
-// present, or if a real tilt is not fitted, so the shrinkage depends on the probability of a tilt.
-// The paper does not fit these terms.
+// Posterior: shrinks fitted distortion terms towards 0 by Bayes' rule. The terms are 0 if a camera
+// without lens distortion looks straight at flat paper. The pose is less accurate if a distortion
+// is fitted that is not present, or if a real distortion is not fitted, so the shrinkage depends on
+// the probability of distortion. The paper does not fit these terms.
 #pragma once
 
 #include <array>

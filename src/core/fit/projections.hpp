@@ -26,9 +26,9 @@ struct FourVecs {
 };
 
 /// Returns the derivatives of the pattern coordinates x and y with respect to all parameters, at
-/// one of four places. Each derivative is a polynomial in the place (u, v). For example, the
-/// derivatives of (x, y) are u (u, v) and v (u, v) for perspective, and (u^2 + v^2) (u, v) for lens
-/// distortion.
+/// one of four places. Each derivative is a polynomial in the place (u, v). For perspective, for
+/// example, the derivatives of (x, y) with respect to the two parameters are u (u, v) and v (u, v).
+/// For lens distortion, the derivative is (u^2 + v^2) (u, v).
 std::array<Parameters, 2> jacobian(const FourVecs& places, std::size_t point);
 
 /// A plane whose parameters transform pattern coordinates, not image coordinates. Changes in scale,

@@ -19,8 +19,7 @@ constexpr std::array<DistortionPrior, 3> kTerms{{
 }};
 
 /// Shrinks the distortion terms of a step to their posterior means. Sets the covariance of `fit`.
-/// `whole` contains the whitened distortion terms that the plane would have after the complete
-/// step.
+/// `whole` contains the whitened distortion terms of the plane after the step without shrinkage.
 void shrink(const Parameters& whole, float unit, PoseFit& fit, Parameters& step) {
     fit.covariance = {};
     for (std::size_t i = 0; i < kTilt; ++i)

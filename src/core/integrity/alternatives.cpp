@@ -19,9 +19,9 @@ namespace {
 /// each sequence, and five digits determine a place. In `libdots`, some positions share more lines.
 /// The near alternatives include these positions.
 constexpr int kMaxSharedInARow = code::kOrder;
-/// Limit for the expected odds of the far alternatives. At or above this limit, the detailed
-/// evaluation is skipped, because it cannot make the fix certain.
-constexpr float kBeyondHelp = 1e-4F;
+/// The far alternatives are evaluated in detail only if their expected odds are below this value.
+/// If the expected odds are larger, a detailed evaluation would hardly make the fix certain.
+constexpr float kMaxOddsForDetail = 1e-4F;
 /// Default limit of the summed odds.
 constexpr float kUsualLimit = 0x1p-30F;
 
@@ -45,20 +45,22 @@ int log2_rounded_up(float sum) {
     return exponent;
 }
 
-/// Expected odds of the far alternatives, averaged over all places.
+/// Expected sums of the odds of the far alternatives. The expectation is over all places.
 struct Expectation {
     float of_two;   ///< alternatives that differ in two sequences
     float of_more;  ///< alternatives that differ in three or four sequences
 };
 
-/// Returns the sum of the odds of all alternatives. Where possible, counts the double alternatives,
-/// and the near alternatives that share kMaxSharedInARow - 1 lines, one by one, because their
-/// expected odds may be lower than their true odds. `known` is the sum of the odds of all other
-/// alternatives.
+/// Returns the summed odds of all alternatives. `known` is the sum of the odds of the single
+/// alternatives, the other sections, and the near alternatives that share kMaxSharedInARow lines.
+/// The function adds the other alternatives. It counts double alternatives, and near alternatives
+/// that share kMaxSharedInARow - 1 lines, one by one, because their true odds may exceed their
+/// expected odds. It uses expected odds only for sums that are negligible, or that cannot be
+/// counted in reasonable time. Stops when the sum reaches `limit`.
 float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float known,
                         Expectation expected, float limit) {
-    // The result is as precise as the default limit requires, even if the limit of the caller is
-    // larger.
+    // Even if the caller's limit is larger than the default limit, sums count as negligible only if
+    // they are small relative to the default limit.
     const float usual = std::min(limit, kUsualLimit);
     float sum = kMargin * expected.of_more;
     if (sum > usual / 16) {
@@ -70,8 +72,8 @@ float counted_in_detail(const Kernels& kernels, const RankedLines& lines, float 
     sum += known;
     if (sum >= limit) return sum;
     // Maximum of the expected odds of the double alternatives that are not counted one by one. It
-    // is at most an eighth of the odds that remain below the limit, so that an expectation alone
-    // does not cause a refusal.
+    // is at most an eighth of the difference between the limit and the sum so far, so that an
+    // expectation alone does not cause a refusal.
     const float negligible = std::min(sum < usual / 8 ? usual / 16 : sum / 8, (limit - sum) / 8);
     return sum +
            sum_of_double_alternatives(kernels, lines, expected.of_two, negligible, limit - sum);
@@ -83,7 +85,7 @@ float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
     if (ratios.lines.count() <= kMaxSharedInARow) return 1;
     const RankedLines lines(ratios);
     const float limit = power_of_two_exactly(limit_log2);
-    // Computes the fastest sums first, and stops when a sum exceeds the limit.
+    // Computes the fastest sums first, and stops when the sum exceeds the limit.
     float known = sum_of_single_alternatives(kernels, lines) + sum_of_other_sections(lines);
     if (known >= limit) return known;
     const float max_rest = std::min(limit, kUsualLimit) / 32;
@@ -95,11 +97,11 @@ float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
     };
     const Expectation expected{expected_of(2, 2), expected_of(3, 4)};
     const float far = expected.of_two + expected.of_more;
-    if (far >= std::max(limit, kBeyondHelp)) return far;
+    if (far >= std::max(limit, kMaxOddsForDetail)) return far;
     known += sum_of_near_alternatives(kernels, lines, kMaxSharedInARow);
     const float sum = known + far;
     const bool needs_detail =
-        sum > std::min(limit, kUsualLimit) / 1024 && far > known && far < kBeyondHelp;
+        sum > std::min(limit, kUsualLimit) / 1024 && far > known && far < kMaxOddsForDetail;
     if (known >= limit || !needs_detail) return sum;
     return counted_in_detail(kernels, lines, known, expected, limit);
 }

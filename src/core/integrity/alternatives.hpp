@@ -8,10 +8,11 @@
 
 namespace dotpose::core {
 
-/// Returns the summed odds of all alternatives except seam alternatives, accurate to 2 %. The odds
-/// of some far alternatives are expectations. All other odds are exact or upper bounds. The sum is
-/// only as precise as a comparison with 2^limit_log2 requires. Returns 1 or more if there are at
-/// most 5 lines.
+/// Returns the summed odds of all alternatives except seam alternatives, accurate to 2 %. Each
+/// alternative counts with its odds or with an upper bound on its odds, except that some far
+/// alternatives count with their expected odds. The summation stops when the sum reaches
+/// 2^limit_log2, so a larger result may be too small. Returns 1 or more if there are at most 5
+/// lines, or if the ratios come from hard bits.
 float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2);
 
 /// Returns log2 of this sum, rounded up to an integer and clamped to at most 0.

@@ -28,7 +28,8 @@ constexpr float kSkippedOdds = 2.3e-16F;
 /// Total number of places in the four sequences.
 constexpr float kSingles = 741;
 
-/// Returns 2^(n_q8 / 256), rounded up by about 2 %. The result is at least 2^-100.
+/// Returns an upper bound on 2^(n_q8 / 256), which is about 2 % too large. Exponents below -100
+/// count as -100.
 constexpr float power_of_two_rounded_up(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
     const int whole = n >> 8;
@@ -53,8 +54,9 @@ constexpr FarAlternatives kFarAlternatives = [] {
     return sets;
 }();
 
-/// Returns an upper bound on the expected odds of the far alternatives. This is the rough bound of
-/// quick_alternatives.cpp in floating point, for all alternative sets in parallel.
+/// Returns an upper bound on the expected odds of the far alternatives. This is the bound of
+/// `far_log2_q8` in quick_alternatives.cpp with `roughly` set, but in floating point, and for all
+/// alternative sets in parallel.
 float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
     std::array<float, kMaxLines> odds;
     const auto count = static_cast<std::size_t>(ratios.count());
@@ -107,8 +109,8 @@ std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> loss
     return count;
 }
 
-/// Returns the loss of a single alternative at the shift where it shares the line `shared`. If the
-/// odds cannot exceed kSkippedOdds, stops early and returns the loss so far.
+/// Returns the loss of a single alternative at the shift at which it shares the line `shared`. If
+/// the odds cannot exceed kSkippedOdds, stops early and returns the loss so far.
 int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place, int shared) {
     const std::uint8_t* own = ratios.basis[sequence].rolls + ratios.places[sequence];
     const std::uint8_t* alternative = ratios.basis[sequence].rolls + place;
@@ -124,9 +126,11 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
     return lost;
 }
 
-/// Returns an upper bound on the odds of the single alternatives that share a line. Sequences whose
-/// table bound is too large are searched for alternatives with relevant odds. Returns 1 if this
-/// search is impossible (see `Kernels::list_similar_places`).
+/// Returns an upper bound on the odds of the single alternatives that share a line. A sequence
+/// counts with its table bound if this bound is at most `limit` / 12. Otherwise, the function lists
+/// the places in the sequence whose odds may exceed kSkippedOdds, and adds the odds of these
+/// places. All other places count with kSkippedOdds for each line. Returns 1 if the list cannot be
+/// made (see `Kernels::list_similar_places`).
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;
@@ -147,8 +151,9 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
     return sum;
 }
 
-/// Returns an upper bound on the summed odds of all alternatives except seam alternatives. Skips
-/// the single alternatives if the other alternatives already exceed `limit`.
+/// Returns an upper bound on the summed odds of all alternatives except seam alternatives. If the
+/// other alternatives already exceed `limit`, leaves out the single alternatives, because the
+/// position is refused anyway.
 float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                    const UnsharedLines& unshared, float limit) {
     const float sum = far_alternatives(kernels, ratios) + sharing_none(ratios);
@@ -173,8 +178,8 @@ bool is_code_in_question(const Query& query) {
     return query.others != nullptr && query.others->log2_in_question_q8 >= 0;
 }
 
-/// Returns an upper bound on the probability that random bits agree with the code at least as well
-/// as the bits of one axis do.
+/// Returns an upper bound on the probability that random bits agree with any place in the code at
+/// least as well as the bits of one axis do.
 float chance_of(const Confidence& bits, const Query& query) {
     if (!is_code_in_question(query))
         return power_of_two_exactly(chance_log2(bits, query.odds_per_bit_q8));
@@ -190,8 +195,8 @@ float codes_in_question(const Query& query) {
                                        : power_of_two_rounded_up(query.others->log2_in_question_q8);
 }
 
-/// Returns an upper bound on the probability that one axis is wrong. Returns 1 if the bounds on
-/// chance and alternatives exceed 2^limit_log2. Tries up to three bounds on the alternatives, each
+/// Returns an upper bound on the probability that one axis is wrong. Returns 1 if chance and
+/// alternatives together exceed 2^limit_log2. Tries up to three bounds on the alternatives, each
 /// slower and tighter than the preceding bound. If the ratios come from hard bits, only the first
 /// bound is available.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,

@@ -1,6 +1,6 @@
 // Certainty: tests whether a position is certain. The test computes an upper bound on the
 // probability that the position is wrong, due to chance, alternatives or seams. See
-// docs/integrity.md, "First and tracked attempts".
+// docs/integrity.md, "First and tracked attempts". likelihood_ratios.hpp defines the terms.
 #pragma once
 
 #include <array>
@@ -29,9 +29,10 @@ struct AxisBits {
 /// Returns true if the hard bits make the position certain. If the result is false, `is_certain`
 /// may still find the position certain. This test takes a tenth of the work of `is_certain`, and is
 /// sufficient for clean frames. It compares alternatives only with the bits near the middle of the
-/// view. Ignoring all other bits can only increase the bound on the error probability. Sets
-/// `fix.bit_errors`. On success, also sets `fix.p_wrong_log2` and, unless `others` is null, the
-/// odds of the other codes. On failure, `fix.p_wrong_log2` is not valid.
+/// view. Ignoring all other bits can only increase the bound on the error probability. Returns
+/// false if an axis has at most kMaxShared lines. Sets `fix.bit_errors`. On success, also sets
+/// `fix.p_wrong_log2` and, unless `others` is null, the odds of the other codes. On failure,
+/// `fix.p_wrong_log2` is not valid.
 bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
                           CodeVariant code, const IntegrityOptions& options, Fix& fix,
                           OtherCodes* others = nullptr);
@@ -55,17 +56,17 @@ Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& plac
                      const BitBlock& block, const std::array<Confidence, 2>& bits,
                      std::span<ScoredLine> storage);
 
-/// Returns true if the position is certain: the upper bound on the error probability is within the
-/// limit in `options`, and the number of wrong bits is within its limit. Returns false if there are
-/// at most kMaxShared columns or rows. Sets `fix.bit_errors`. On success, also sets
-/// `fix.p_wrong_log2` and, unless `others` is null, the odds of the other codes. On failure,
-/// `fix.p_wrong_log2` is not valid.
+/// Returns true if the position is certain: the upper bound on the error probability is at most
+/// 2^max_p_wrong_log2, and at most max_bit_error_q8 / 256 of the bits on each axis are wrong (see
+/// IntegrityOptions). Returns false if the evidence has at most kMaxShared columns, or at most
+/// kMaxShared rows. Sets `fix.bit_errors`. On success, also sets `fix.p_wrong_log2` and, unless
+/// `others` is null, the odds of the other codes. On failure, `fix.p_wrong_log2` is not valid.
 bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
                 const IntegrityOptions& options, Fix& fix, OtherCodes* others = nullptr);
 
 /// Sets `fix.p_wrong_log2` to the smallest integer above log2(wrong), but at most 0. `wrong` is an
-/// upper bound on the error probability. Returns true if `fix.p_wrong_log2` is at most
-/// `limit_log2`.
+/// upper bound on the error probability, and must be positive. Returns true if `fix.p_wrong_log2`
+/// is at most `limit_log2`.
 bool is_within_limit(float wrong, int limit_log2, Fix& fix);
 
 /// Sets the odds of the other codes without a certainty test. Does nothing if the bits contain no

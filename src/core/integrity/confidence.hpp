@@ -8,7 +8,8 @@
 
 namespace dotpose::core {
 
-/// Histogram of bits by weight and by agreement with the code. Each level covers 8 weights.
+/// Histogram of bits by weight and by agreement with the code. Each level covers eight magnitudes
+/// of the weight.
 class Confidence {
   public:
     static constexpr int kLevels = 16;
@@ -51,7 +52,7 @@ class Confidence {
     }
 
   private:
-    /// Numbers of correct and wrong bits, alternating, for each level.
+    /// For each level, the number of correct bits, followed by the number of wrong bits.
     std::array<std::int32_t, 2 * kLevels> counts_{};
 };
 
@@ -66,9 +67,10 @@ int odds_per_bit_q8(const Confidence& confidence);
 /// of `odds_per_bit_q8` gives an upper bound.
 int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8);
 
-/// Returns log2 of an upper bound on the probability that random bits agree equally well with any
-/// place, in any section and orientation. See docs/integrity.md, "Chance: a bound". Any value of
-/// `odds_per_bit_q8` gives an upper bound. The bound is smallest near the true odds.
+/// Returns log2 of an upper bound on the probability that random bits agree with any place, in any
+/// section and orientation, at least as well as the bits that were read. See docs/integrity.md,
+/// "Chance: a bound". Any value of `odds_per_bit_q8` gives an upper bound. The bound is smallest
+/// near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
 /// Variant of `chance_log2` with a result in units of 2^-8. Multiplies the number of hypotheses by

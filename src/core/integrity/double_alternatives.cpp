@@ -17,8 +17,8 @@ namespace {
 /// reading.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// log2 of the odds above which all alternatives are counted individually, unless this takes too
-/// long.
+/// log2 of the odds above which every alternative is counted individually, unless the search for
+/// these alternatives takes too long (see `kMaxPairs`).
 constexpr int kLargeOdds_log2 = -36;
 
 /// Set of anchors, which are the lines with the most information. Bit n represents anchor n.
@@ -29,7 +29,7 @@ using Anchors = std::uint32_t;
 using AnchorBytes [[gnu::vector_size(16)]] = std::uint8_t;
 static_assert(sizeof(AnchorBytes) >= kMaxAnchors);
 
-/// Returns differences of roll offsets modulo 63. The differences are in [-62, 62], and negative
+/// Reduces differences of roll offsets modulo 63. The differences are in [-62, 62], and negative
 /// differences are represented modulo 256.
 AnchorBytes modulo_sections(AnchorBytes offsets) {
     return offsets + (static_cast<AnchorBytes>(offsets >= kSections) & kSections);
@@ -129,7 +129,7 @@ class AnchorOffsets {
         return all_[sequence][place];
     }
 
-    /// Returns the line in view that an anchor represents.
+    /// Returns the index of an anchor among the lines in view.
     std::size_t line(std::size_t anchor) const { return lines_[anchor]; }
 
   private:
@@ -257,7 +257,7 @@ class Finder {
         lines_.set_offsets(sequence_a, place_a, a);
         lines_.set_offsets(sequence_b, place_b, b);
         // Adding 126, a multiple of 63, keeps the index of the loss positive without changing the
-        // shift.
+        // roll offset.
         const std::size_t shared = offsets_.line(anchor);
         const int base = 2 * kSections - a[shared] - b[shared];
         int lost = 0;
@@ -275,12 +275,14 @@ class Finder {
     Groups groups_;
     AnchorBytes anchors_{};  ///< 1 for each anchor
     /// Minimum loss of an alternative that does not share the anchor, rounded down. The unit is
-    /// 1/kLimit of the loss at which the odds are kSkippedOdds.
+    /// 1/kLimit of the loss at which the odds are at most kSkippedOdds, whatever the alternative
+    /// gains in other lines.
     AnchorBytes losses_{};
 };
 
-/// Returns, for each n, the minimum loss of an alternative that does not share n anchors. This is
-/// the sum of the n smallest minimum losses of the anchors, minus the maximum gain.
+/// Returns, for each n, a lower bound on the loss of an alternative that does not share n of the
+/// anchors. This is the sum of the n smallest minimum losses of the anchors, minus the maximum
+/// gain.
 std::array<int, kMaxAnchors + 1> min_losses_of_unshared(const RankedLines& lines, int anchors) {
     std::array<int, kMaxAnchors> losses{};
     std::size_t count = 0;
@@ -316,7 +318,8 @@ struct Search {
 /// Maximum number of pairs of anchors in a search for all alternatives with large odds.
 constexpr int kMaxPairs = 18;
 
-/// Returns the fastest search that finds all alternatives whose odds may exceed 2^log2_odds.
+/// Returns the fastest search that finds all alternatives whose odds may exceed 2^log2_odds. If no
+/// search with three or more shared anchors finds all of them, returns the search with two.
 Search fastest_search(const RankedLines& lines, int log2_odds) {
     const int loss_limit = lines.ratios.loss_for(256 * log2_odds);
     Search fastest{std::min(lines.count(), kMaxAnchors), 2};
@@ -347,7 +350,7 @@ float sum_of_double_alternatives(const Kernels& kernels, const RankedLines& line
     };
     // The search takes longer if fewer shared anchors are required: it visits 6 pairs of anchors
     // for seven shared anchors, 18 pairs for four, and 66 pairs for two. Fewer than four are
-    // required only if the fix would be refused otherwise.
+    // required only if the expected odds of the other pairs would exceed an eighth of `max_odds`.
     constexpr int kMinForDetail = 4;
     int shared = std::min(kMinFound, anchors);
     while (shared > 2 &&

@@ -1,5 +1,5 @@
 // Double alternatives: positions whose places differ from those of the reading in two secondary
-// sequences. See docs/integrity.md, "Alternatives: odds".
+// sequences. See docs/integrity.md, "Alternatives: odds". likelihood_ratios.hpp defines the terms.
 #pragma once
 
 #include "core/integrity/ranked_lines.hpp"
@@ -13,9 +13,11 @@ namespace dotpose::core {
 /// odds of the pairs that share at least k anchors. For all other pairs, the sum contains their
 /// expected odds times kMargin. `expected` is the expected sum of the odds of all pairs.
 ///
-/// k is chosen such that the expected part of the sum is at most 4 * `negligible`, unless the
-/// search would take too long. If the expected part exceeds `max_odds`, the function returns it
-/// without evaluating any pairs, because the caller refuses the fix.
+/// A smaller k reduces the expected part of the sum, but the search for the pairs takes longer.
+/// Normally, the expected part is at most 4 * `negligible`. If this would require k < 4, an
+/// expected part of up to `max_odds` / 8 is accepted instead, and k is at least 2. If the expected
+/// part exceeds `max_odds` even then, the function returns it without evaluating any pairs, because
+/// the caller refuses the fix.
 float sum_of_double_alternatives(const Kernels& kernels, const RankedLines& lines, float expected,
                                  float negligible, float max_odds);
 

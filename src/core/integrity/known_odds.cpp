@@ -48,8 +48,8 @@ struct PositionAndRoll {
     std::size_t roll;
 };
 
-/// Summed odds of all positions except `left_out`, by class and by added roll. The class of a
-/// position is the position modulo 63.
+/// Summed odds of all positions, by class and by added roll, without the odds of `left_out`. The
+/// class of a position is the position modulo 63.
 class OddsByClass {
   public:
     OddsByClass(const ScoredAxis& axis, CodeVariant code, const PositionRange& range,
@@ -89,9 +89,9 @@ float random_agreement(int bits, int wrong) {
     return term * power_of_two_exactly(exponent) / (1 - ratio);
 }
 
-/// If no known sheet is in view, the bits are random. Returns an upper bound on the probability
-/// that random bits agree with a known place at least as well as the bits that were read. `bits` is
-/// the number of bits per axis, and `wrong` the number of wrong bits per axis. `lines` is the
+/// Returns an upper bound on the probability that a view without a known sheet agrees with a known
+/// place at least as well as the bits that were read. The bits of such a view are random. `bits` is
+/// the number of bits per axis, and `wrong` the number of wrong bits on each axis. `lines` is the
 /// number of columns or rows, whichever is larger.
 float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int, 2>& wrong,
                       int lines) {
@@ -105,7 +105,8 @@ float chance_of_known(const KnownSheets& sheets, int bits, const std::array<int,
         columns += static_cast<float>(x.count / kSections + 1);
         rows += static_cast<float>(y.count / kSections + 1);
     }
-    // A tracked attempt tests only one place, but chooses among up to 2^10 planes.
+    // A tracked attempt tests only one place, but chooses among up to 2^10 planes. The number of
+    // trials is therefore at least 2^10.
     const float trials = std::max(kTurns * places, 1024.0F);
     const float anywhere = trials * random_agreement(2 * bits, wrong[0] + wrong[1]);
     if (sheets.are_all()) return anywhere;

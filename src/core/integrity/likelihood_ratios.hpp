@@ -2,13 +2,16 @@
 //
 // Terms in this folder:
 // - Line: a column or a row. A step leads from one line to the next.
-// - Reading: the position and the section that were read. Its odds are 1.
+// - Reading: the position and the section that were read.
 // - Alternative: any other position or section.
+// - Loss: the score of the reading minus the score of the alternative, in a line or in all lines. A
+//   negative loss is a gain.
+// - Odds: the likelihood of the alternative divided by the likelihood of the reading.
 // - Place: the index of a position in a secondary sequence.
 // - Roll offset: the roll of the alternative minus the roll of the reading in a line, modulo 63.
-//   The places determine the roll offsets up to a shift.
-// - Shift: a number that is added to the rolls of all lines. It depends on the section.
-// - Shared line: a line in which the roll offset is 0.
+// - Shift: a number that is added to the roll offsets of all lines. The places of an alternative
+//   determine its roll offsets only up to a shift, which depends on its section.
+// - Shared line: a line in which the roll offset is 0. Its loss is 0.
 // - Single alternative: an alternative whose place differs in one sequence.
 // - Double alternative: an alternative whose places differ in two sequences.
 // - Far alternative: an alternative whose places differ in two or more sequences.
@@ -40,11 +43,11 @@ inline constexpr int kOtherRolls_q8 = 1525;
 inline constexpr int kNegligible_q8 = -64 * 256;
 inline constexpr float kNegligible = 5.5e-20F;
 
-/// Losses and odds of alternatives, line by line. The loss in a line is the score of the reading
-/// minus the score of the alternative. A negative loss is a gain. A shared line has no loss.
+/// Losses and odds of alternatives, line by line.
 class LikelihoodRatios {
   public:
-    /// Constructs the ratios from scored lines. `odds_per_bit_q8` must be positive.
+    /// Constructs the ratios from scored lines. `odds_per_bit_q8` is the result of
+    /// `core::odds_per_bit_q8` and must be positive.
     LikelihoodRatios(CodeVariant code, const Lines& lines_, const AxisReading& reading,
                      int odds_per_bit_q8);
     /// Constructs the ratios from hard bits. Each bit that was read has the weight 127.
@@ -61,11 +64,11 @@ class LikelihoodRatios {
     /// Returns true if the ratios come from hard bits. `lines` is then empty.
     bool is_of_bits() const { return !bits_.empty(); }
 
-    /// Returns the loss of an alternative in a line. `shift` is the roll of the alternative minus
-    /// the roll of the reading, modulo 63, with |shift| < 63.
-    int loss(int line, int shift) const {
+    /// Returns the loss of an alternative in a line. `roll_offset` must be in [-62, 62]. Negative
+    /// values count modulo 63.
+    int loss(int line, int roll_offset) const {
         const int own = rolls_[static_cast<std::size_t>(line)];
-        const int moved = own + shift;
+        const int moved = own + roll_offset;
         const int other =
             moved < 0 ? moved + kSections : (moved < kSections ? moved : moved - kSections);
         if (is_of_bits()) return kScoreOfBit * loss_of_bits(line, other);
@@ -74,7 +77,7 @@ class LikelihoodRatios {
     }
     int own_roll(int line) const { return rolls_[static_cast<std::size_t>(line)]; }
     /// Returns the minimum loss of an alternative that does not share the line. The minimum is
-    /// negative if another roll agrees better with the line.
+    /// negative if another roll agrees better with the bits of the line.
     int min_loss(int line) const { return min_losses_[static_cast<std::size_t>(line)]; }
     std::span<const std::int16_t> min_losses(int first, int count) const {
         return std::span(min_losses_)
@@ -115,8 +118,8 @@ class LikelihoodRatios {
         // The cast to 32 bits lets compilers vectorise loops over odds.
         return static_cast<float>(static_cast<std::int32_t>(exp2_q16(log2_q8 & 255))) * power;
     }
-    /// Returns true if an alternative with the loss `lost` so far is negligible, regardless of its
-    /// gains in the remaining lines.
+    /// Returns true if an alternative that loses `lost` in some lines is negligible: its odds are
+    /// at most 2^-64, whatever it gains in the other lines.
     bool is_hopeless(int lost) const { return lost > hopeless_score_; }
 
     const code::Basis& basis;
@@ -154,8 +157,8 @@ class LikelihoodRatios {
     std::array<std::int16_t, kMaxComparedLines> log2_of_nearest_q8_;
 };
 
-/// Roll offsets of an alternative in each line, from 0 to 62. They are known only up to a shift
-/// that is common to all lines.
+/// Roll offsets of an alternative in each line, from 0 to 62. Without a section, they are known
+/// only up to a shift.
 using RollOffsets = std::array<std::uint8_t, kMaxLines>;
 
 /// Returns the roll offset, from 0 to 62. `own` is the roll of the reading, and `alternative` is
@@ -177,9 +180,9 @@ inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequenc
 }
 
 /// Returns the loss of an alternative at the shift at which it shares the line `shared`. If the
-/// alternative is negligible, stops early and returns the loss so far. Returns nullopt if the
-/// alternative also shares an earlier line at this shift, because the caller counts the alternative
-/// at the earlier line.
+/// alternative is negligible (see `LikelihoodRatios::is_hopeless`), stops early and returns the
+/// loss so far. Otherwise, returns nullopt if the alternative also shares an earlier line at this
+/// shift, because the caller counts the alternative at the earlier line.
 std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOffsets& offsets,
                                    int shared);
 

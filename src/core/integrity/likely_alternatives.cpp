@@ -34,13 +34,15 @@ Bytes modulo_sections(Bytes offsets) {
     return offsets - (static_cast<Bytes>(offsets >= kSections) & kSections);
 }
 
-/// The ends of the first two gaps between shared lines. If there are fewer gaps, both ends of each
-/// missing gap are the first shared line.
+/// The first two gaps between shared lines. A gap consists of adjacent lines that are not shared.
+/// `before` and `after` are the shared lines directly before and after each gap. For a missing gap,
+/// both are the first shared line.
 struct Gaps {
     explicit Gaps(LineSet shared) {
         before = after = {std::countr_zero(shared), std::countr_zero(shared)};
         for (LineSet rest = shared; count < before.size(); ++count) {
-            // The addition carries through the first run of shared lines.
+            // The addition carries through the first run of shared lines, so `beyond` contains the
+            // shared lines after this run.
             const LineSet beyond = rest & (rest + (rest & -rest));
             if (beyond == 0) break;
             before[count] = std::countr_zero(rest);
@@ -53,7 +55,7 @@ struct Gaps {
     std::array<int, 2> after;
 };
 
-/// Places in one sequence at which an alternative may share the given lines.
+/// Places in one sequence at which an alternative may share a given set of lines.
 class PlaceList {
   public:
     void list(const PlaceBits& places) {
@@ -65,7 +67,7 @@ class PlaceList {
             }
         }
     }
-    /// Sets the roll offsets and the keys of the listed places.
+    /// Sets the results of `offsets` and `key` for the listed places.
     void set_offsets(const RankedLines& lines, std::size_t sequence, const Gaps& gaps) {
         const auto line_count = static_cast<std::size_t>(lines.count());
         for (std::size_t n = 0; n < count_; ++n) {
@@ -88,7 +90,7 @@ class PlaceList {
     std::uint8_t place(std::size_t n) const { return places_[n]; }
     /// Returns the roll offsets of a place relative to the first shared line.
     const RollOffsets& offsets(std::size_t n) const { return offsets_[n]; }
-    /// Returns the changes of the roll offset across the two gaps, 64 * first + second.
+    /// Returns the changes of the roll offset across the two gaps, combined as 64 * first + second.
     unsigned key(std::size_t n) const { return keys_[n]; }
 
   private:
@@ -102,13 +104,14 @@ class PlaceList {
 
 constexpr unsigned kKeys = 64 * kSections;
 
-/// Returns the key of two places in different sequences.
+/// Returns the key of a combination of two places in different sequences, from the keys `a` and `b`
+/// of these places.
 unsigned sum_of_keys(unsigned a, unsigned b) {
     unsigned sum = a + b;
     if (a % 64 + b % 64 >= kSections) sum -= kSections;
     return sum >= kKeys ? sum - kKeys : sum;
 }
-/// Returns the key that cancels `key`.
+/// Returns the key that gives 0 if it is added to `key` by `sum_of_keys`.
 unsigned opposite(unsigned key) {
     const unsigned first = key / 64;
     const unsigned second = key % 64;
@@ -116,9 +119,9 @@ unsigned opposite(unsigned key) {
 }
 
 /// Finds the likely alternatives. Visits all sets of lines whose minimum losses add up to less than
-/// the loss limit. For each set, lists the places in each sequence at which an alternative may
-/// share all other lines. Two positions share two adjacent lines only if all four digits in the
-/// step between these lines are equal.
+/// the loss limit. An alternative may leave exactly these lines unshared, so the search lists the
+/// places in each sequence at which it may share all other lines. Two positions share two adjacent
+/// lines only if all four digits in the step between these lines are equal.
 class Finder {
   public:
     Finder(const RankedLines& lines, int loss_limit, float max_odds)
@@ -142,7 +145,7 @@ class Finder {
     }
 
   private:
-    /// Maximum time, about in processor instructions.
+    /// Maximum work of the search, in processor instructions (estimated).
     static constexpr std::size_t kMaxWork = 2'000'000;
     static constexpr std::size_t kMaxPairs = code::kA3.size() * code::kA4Restored.size();
     static constexpr std::uint16_t kNone = 0xFFFF;
@@ -160,14 +163,16 @@ class Finder {
         }
     }
 
-    /// Extends a set of shared lines, all before `line`, by the lines from `line` on. `lost` is the
-    /// loss in the lines before `line`. Returns false if the search ends early.
+    /// Decides for `line` and all later lines which of them are shared. `shared` contains the
+    /// shared lines before `line`, and `places` the places at which an alternative may share them.
+    /// `lost` is the sum of the minimum losses of the other lines before `line`. Returns false if
+    /// the search ends early.
     bool visit(int line, int lost, const PlaceSets& places, LineSet shared) {
         if (line == count_) return add_all(places, shared);
         const int loss = std::max(lines_.ratios.min_loss(line), 0);
         if (lost + loss < loss_limit_ && !visit(line + 1, lost + loss, places, shared))
             return false;
-        // A line without information does not restrict the places.
+        // If the minimum loss is 0, the line counts as not shared and does not restrict the places.
         if (loss == 0) return true;
         const LineSet with_line = shared | LineSet{1} << line;
         if (line == 0 || (shared >> (line - 1) & 1) == 0)
@@ -187,8 +192,8 @@ class Finder {
         return visit(line + 1, lost, fewer, with_line);
     }
 
-    /// Adds the odds of all combinations of the given places that share exactly the lines `shared`,
-    /// among the lines with information. Returns false if the search ends early.
+    /// Adds the odds of all combinations of the given places that share exactly the lines `shared`.
+    /// Lines with a minimum loss of 0 may be shared or not. Returns false if the search ends early.
     bool add_all(const PlaceSets& places, LineSet shared) {
         std::size_t combinations = 1;
         for (std::size_t k = 0; k < lists_.size(); ++k) {
@@ -209,7 +214,8 @@ class Finder {
         return sum_ <= max_odds_;
     }
 
-    /// Sets the bytes that `add` compares.
+    /// Sets `is_compared_` and `is_shared_`, which `add` compares with the lines that an
+    /// alternative shares.
     void set_pattern(LineSet shared) {
         for (int line = 0; line < count_; ++line) {
             const auto n = static_cast<std::size_t>(line);
@@ -243,9 +249,9 @@ class Finder {
         visit_pairs([](std::uint16_t& newest, std::uint16_t) { newest = kNone; });
     }
 
-    /// Adds the odds of an alternative at the shift at which it shares the first shared line. Does
-    /// not add them if it shares other lines than those of the pattern, or if it differs in fewer
-    /// than two sequences. `indices` are indices into the lists of places.
+    /// Adds the odds of an alternative at the shift at which it shares the first shared line. Adds
+    /// nothing if the lines that it shares are not exactly those of `set_pattern`, or if it differs
+    /// in fewer than two sequences. `indices` are indices into the lists of places.
     void add(const std::array<std::size_t, 4>& indices) {
         const auto& [a, b, c, d] = indices;
         RollOffsets shifts;
@@ -282,35 +288,36 @@ class Finder {
     /// For each step, the places at which the digit is equal to the digit of the reading.
     std::array<PlaceSets, kMaxLines> equal_;
     std::array<PlaceList, 4> lists_;
-    /// 255 for each line with information, and for each line of these that must be shared.
+    /// Masks with one byte for each line, which is 0 or 255. `is_compared_` selects the lines with
+    /// a positive minimum loss, and `is_shared_` selects the lines that must be shared.
     RollOffsets is_compared_{};
     RollOffsets is_shared_{};
-    /// Newest pair of places with each key, and for each pair the previous pair with the same key.
+    /// `newest_` contains the newest pair of places with each key, and `before_` contains for each
+    /// pair the previous pair with the same key.
     std::array<std::uint16_t, kKeys> newest_;
     std::array<std::uint16_t, kMaxPairs> before_;
     std::size_t work_ = 0;
     float sum_ = 0;
 };
 
-/// Part of the minimum losses by which the odds are raised in the expectation. In small views,
-/// values from 0.8 to 1 need the smallest loss limit.
+/// Fraction of the minimum losses by which the odds are increased in the expectation (see
+/// `log2_of_tilted_odds`). In small views, fractions from 0.8 to 1 give the smallest loss limit.
 constexpr float kTilt = 0.9F;
 
-/// Loss limit if a smaller limit would suffice, in bits. Up to this limit, the search takes little
-/// time.
+/// Minimum of the loss limit, in bits. A smaller limit would save little time.
 constexpr float kMinBits = 28;
 
-/// Returns log2 of kMargin times the expected sum of 2^(kTilt * least) times the odds, over all
-/// alternatives that differ in at least two sequences. `least` is the sum of the minimum losses in
-/// the lines that an alternative does not share, in bits.
+/// Returns log2 of kMargin times the expected sum of the tilted odds of all far alternatives. The
+/// tilted odds of an alternative are its odds times 2^(kTilt * min_lost). `min_lost` is the sum, in
+/// bits, of the minimum losses of the lines that the alternative does not share.
 float log2_of_tilted_odds(const Kernels& kernels, const RankedLines& lines) {
     const LikelihoodRatios& ratios = lines.ratios;
     std::array<OddsByOffset, kMaxLines> storage;
     const auto tilted = std::span(storage).first(static_cast<std::size_t>(lines.count()));
     for (std::size_t line = 0; line < tilted.size(); ++line) {
-        const int least = std::max(ratios.min_loss(static_cast<int>(line)), 0);
+        const int min_loss = std::max(ratios.min_loss(static_cast<int>(line)), 0);
         const float factor =
-            std::exp2(-kTilt / 256 * static_cast<float>(ratios.log2_odds_q8(least)));
+            std::exp2(-kTilt / 256 * static_cast<float>(ratios.log2_odds_q8(min_loss)));
         tilted[line] = lines.odds()[line];
         for (float& odds : std::span(tilted[line]).subspan(1))
             odds *= factor;
@@ -328,8 +335,8 @@ float log2_of_tilted_odds(const Kernels& kernels, const RankedLines& lines) {
 
 std::optional<float> sum_of_likely_alternatives(const Kernels& kernels, const RankedLines& lines,
                                                 float max_rest, float max_odds) {
-    // The odds of an alternative that loses at least n bits are at most 2^(-kTilt * n) times its
-    // tilted odds.
+    // If the minimum losses of the lines that an alternative does not share add up to n or more
+    // bits, its odds are at most 2^(-kTilt * n) times its tilted odds.
     const float log2_tilted = log2_of_tilted_odds(kernels, lines);
     const float needed_bits = (log2_tilted - std::log2(max_rest)) / kTilt;
     constexpr float kMaxBits = 100;

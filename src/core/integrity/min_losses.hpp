@@ -1,14 +1,15 @@
 // Minimum losses: lower bounds on the loss of every alternative. An alternative shares at most
-// `LikelihoodRatios::max_shared` adjacent lines, so it has a loss in at least one of any max_shared
-// + 1 adjacent lines. In most frames, these bounds prove that all alternatives are negligible.
+// `LikelihoodRatios::max_shared` adjacent lines, so it does not share at least one of any
+// max_shared + 1 adjacent lines. In most frames, these bounds prove that all alternatives are
+// negligible. likelihood_ratios.hpp defines the terms.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
 
 namespace dotpose::core {
 
-/// Lower bounds on the loss of an alternative in n adjacent lines at one end of the view, indexed
-/// by n. Gains count as 0.
+/// Lower bounds on the loss of an alternative in the n lines at one end of the view, indexed by n.
+/// Gains count as 0.
 using MinLosses = std::array<int, kMaxLines + 1>;
 /// Returns the lower bounds for the first n lines, or for the last n lines if `from_last` is true.
 MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last);

@@ -9,7 +9,7 @@ namespace dotpose::core {
 namespace {
 
 /// Number of periods of a sequence that are added to a place before a line index is subtracted, so
-/// that the difference is positive. kPeriods periods of any sequence contain more than kMaxLines
+/// that the result is not negative. In any sequence, kPeriods periods contain more than kMaxLines
 /// places.
 constexpr std::uint32_t kPeriods = kMaxLines / code::kA3.size() + 1;
 

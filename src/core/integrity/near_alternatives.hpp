@@ -1,5 +1,5 @@
 // Near alternatives: positions that share several adjacent lines with the reading. See
-// docs/integrity.md, "Alternatives: odds".
+// docs/integrity.md, "Alternatives: odds". likelihood_ratios.hpp defines the terms.
 #pragma once
 
 #include "core/integrity/ranked_lines.hpp"

@@ -41,7 +41,7 @@ class PossibleCodes {
     /// Returns the weighted number of possible codes. The weight of a code is its odds relative to
     /// the code `read`.
     float number(CodeVariant read) const;
-    /// Returns log2(2^log2 * factor), rounded up. Factors up to 1.01 count as 1.
+    /// Returns log2(2^log2 * factor), rounded up to an integer. Factors up to 1.01 count as 1.
     static int rounded_up(int log2, float factor);
 
     /// Returns the certainty of a fix that was read in the code `read` and has the status ok.
@@ -58,8 +58,8 @@ class PossibleCodes {
     std::array<CodeVariant, kCodeVariantCount> order_{};
 };
 
-/// Returns the likelihood of the bits in each code relative to the code `read`, as log2 in units of
-/// 2^-8. Likelihoods that differ by at most 1 % count as equal.
+/// Returns the likelihood of the bits in each code divided by their likelihood in the code `read`,
+/// as log2 in units of 2^-8. Likelihoods that differ by at most 1 % count as equal.
 CodeEvidence::LogOdds likelihoods(CodeVariant read, const OtherCodes& others);
 
 }  // namespace dotpose::core

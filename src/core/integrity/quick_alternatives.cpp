@@ -14,11 +14,11 @@ namespace {
 
 /// log2(741) in units of 2^-8, rounded up. The four sequences have 741 places.
 constexpr int kSingles_q8 = 2441;
-/// Limit for the odds of the far alternatives, as log2 in units of 2^-8. Below this limit, no
-/// tighter bound is needed.
+/// Limit for the odds of the far alternatives, as log2 in units of 2^-8. If a bound is below this
+/// limit, no tighter bound is computed.
 constexpr int kSmallOdds_q8 = -36 * 256;
-/// Default limit of the error probability, as log2 in units of 2^-8. Bounds are at least as tight
-/// as this limit requires, even if the limit of the caller is larger.
+/// Default limit of the error probability, as log2 in units of 2^-8. Even if the limit of the
+/// caller is larger, bounds are at least as tight as the default limit requires.
 constexpr int kUsualLimit_q8 = -30 * 256;
 /// Upper bound on the odds of a single alternative that is not evaluated, as log2 in units of 2^-8.
 constexpr int kSkippedOdds_q8 = -52 * 256;
@@ -46,8 +46,8 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
         const auto half_bits = static_cast<std::size_t>(-ratios.log2_odds_q8(best - score) >> 7);
         return kPowers[std::min(half_bits, kPowers.size() - 1)];
     };
-    // The odds of most rolls are at least 2^12 times smaller than the odds of the best roll. Each
-    // of these rolls adds the last element of kPowers to the sum.
+    // The odds of most rolls are smaller than the odds of the best roll by a factor of at least
+    // 2^12. Each of these rolls adds the last element of kPowers to the sum.
     const int min_power_score = best - ratios.loss_for(-12 * 256 - 8);
     std::uint32_t sum_q12 = 0;
     for (int roll = 0; roll < kSections; ++roll)
@@ -57,18 +57,19 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
 }
 
 /// Returns an upper bound on the expected odds of the alternatives in one set, as log2 in units of
-/// 2^-8. The bound treats all nonzero roll offsets as one state. If p is the probability that all
-/// digits in a step are equal, the step leads to a given roll offset with a probability of at most
-/// p. A line that is not shared therefore multiplies the odds by at most p * `sum`, and by at most
-/// `best` (see `LineOdds`).
+/// 2^-8. The bound treats all nonzero roll offsets as one state. In each step, only one combination
+/// of digits leads to a given roll offset. Its probability is at most the probability p that all
+/// digits are equal to those of the reading. A line that is not shared therefore multiplies the
+/// odds by at most p * `sum`, and by at most `best` (see `LineOdds`).
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
     static_assert(code::kOrder % 2 == 1 && kMaxShared % 2 == 1);
     const auto max_shared = static_cast<std::size_t>(ratios.max_shared());
     const int equal = set.equal_q8 + kUnevenness_q8;
     // Summed odds of the alternatives that have shared all lines since a given line, with one
-    // element per line. All sums in this function are divided by the probability that all digits so
-    // far are equal, so an element remains constant while an alternative shares lines.
+    // element for each such line. All sums in this function are divided by the probability that all
+    // digits so far are equal. An element therefore does not change while its alternatives continue
+    // to share lines.
     std::array<int, kMaxShared + kMaxLines> sharing;
     // pairs[n] is sharing[n] + sharing[n - 1]. Adding pairs halves the number of additions.
     std::array<int, kMaxShared + kMaxLines> pairs;
@@ -97,7 +98,8 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
 /// least the sum of all minimum losses except the seven largest. The bound is the product of these
 /// factors:
 /// - the odds at this loss,
-/// - the number of alternatives,
+/// - four times the number of alternatives in the largest set, because all sets together have
+///   fewer,
 /// - the number of rolls in the first line,
 /// - the safety factor `kUnevenness` for each line,
 /// - 2^lines, which bounds the number of ways to choose the shared lines.
@@ -120,9 +122,10 @@ int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
 }
 
 /// Returns an upper bound on the odds of the far alternatives in all sets, as log2 in units of
-/// 2^-8. If `roughly` is true, bounds the sum over the rolls of a line by the number of rolls times
-/// the best odds. Ratios of hard bits always use the bound of
-/// `LikelihoodRatios::log2_of_nearest_q8`. Stops when the sum exceeds `max_log2_q8`.
+/// 2^-8. If `roughly` is true, bounds the sum of the odds over the other rolls of a line by the
+/// number of these rolls times the best odds. Ratios of hard bits always use the bound of
+/// `LikelihoodRatios::log2_of_nearest_q8`. Stops when the sum exceeds `max_log2_q8`; the result is
+/// then too small.
 int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     AllLineOdds odds;
     odds[0] = {};
@@ -150,7 +153,7 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
     return sum;
 }
 
-/// Sums the odds of single alternatives at every shift where the loss may be below `loss_limit`.
+/// Sums the odds of single alternatives at every shift at which the loss may be below `loss_limit`.
 class ByShift {
   public:
     ByShift(const LikelihoodRatios& ratios, int loss_limit);
@@ -164,7 +167,7 @@ class ByShift {
 
   private:
     struct Loss {
-        std::uint16_t least;  ///< minimum loss if the line is not shared
+        std::uint16_t min_loss;  ///< minimum loss if the line is not shared
         std::uint8_t line;
         /// Contribution of the sequence to the roll of the line, at the place of the reading.
         std::uint8_t own = 0;
@@ -204,16 +207,16 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     : ratios_(ratios), loss_limit_(static_cast<std::uint32_t>(loss_limit)), none_(loss_limit_) {
     for (int line = 0; line < ratios.count(); ++line) {
         if (ratios.min_loss(line) <= 0) continue;
-        const auto least = static_cast<std::uint16_t>(ratios.min_loss(line));
+        const auto min_loss = static_cast<std::uint16_t>(ratios.min_loss(line));
         std::size_t i = count_++;
-        for (; i > 0 && losses_[i - 1].least < least; --i)
+        for (; i > 0 && losses_[i - 1].min_loss < min_loss; --i)
             losses_[i] = losses_[i - 1];
-        losses_[i] = {least, static_cast<std::uint8_t>(line)};
-        in_all_ += least;
+        losses_[i] = {min_loss, static_cast<std::uint8_t>(line)};
+        in_all_ += min_loss;
     }
     while (first_count_ < count_) {
-        const std::uint32_t with_next = first_losses_ + losses_[first_count_].least;
-        if (with_next >= loss_limit_ + losses_[0].least) break;
+        const std::uint32_t with_next = first_losses_ + losses_[first_count_].min_loss;
+        if (with_next >= loss_limit_ + losses_[0].min_loss) break;
         first_losses_ = with_next;
         ++first_count_;
     }
@@ -229,19 +232,19 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     const auto keep = [&](const Loss& loss) {
         const int difference = alternative[loss.line] - loss.own;
         const int shift = difference < 0 ? difference + kSections : difference;
-        const std::uint32_t now = std::max(kept[shift], none) + loss.least;
+        const std::uint32_t now = std::max(kept[shift], none) + loss.min_loss;
         kept[shift] = now;
         largest = std::max(largest, now);
     };
     const Loss* loss = losses_.data();
     for (const Loss* const end = loss + first_count_; loss != end; ++loss)
         keep(*loss);
-    // Maximum value of `largest` at which the lines that were added so far cost the alternative at
-    // least `loss_limit_`, whatever its shift.
+    // Maximum value of `largest` at which the alternative loses at least `loss_limit_` in the lines
+    // that were added so far, at any shift.
     std::uint32_t max_to_keep = none - loss_limit_ + first_losses_;
     for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
         keep(*loss);
-        max_to_keep += loss->least;
+        max_to_keep += loss->min_loss;
         if (largest <= max_to_keep) return false;
     }
     return true;
@@ -257,7 +260,7 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     for (int line = 0; line < ratios_.count(); ++line)
         kept[offsets[static_cast<std::size_t>(line)]] = 0;
     for (std::size_t i = 0; i < count_; ++i)
-        kept[offsets[static_cast<std::size_t>(losses_[i].line)]] += losses_[i].least;
+        kept[offsets[static_cast<std::size_t>(losses_[i].line)]] += losses_[i].min_loss;
     for (int line = 0; line < ratios_.count(); ++line) {
         std::uint32_t& here = kept[offsets[static_cast<std::size_t>(line)]];
         if (in_all_ - here < loss_limit_) {
@@ -273,8 +276,9 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
 }
 
 /// Returns an upper bound on the odds of the single alternatives of one sequence that share a line,
-/// as log2 in units of 2^-8. Assumes the minimum loss for each alternative. An alternative counts
-/// once for each shift where it shares a line, so at most `ratios.count()` times.
+/// as log2 in units of 2^-8. Assumes that each alternative has the minimum loss of the sequence. An
+/// alternative counts once for each shift at which it shares a line, so at most `ratios.count()`
+/// times.
 int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
                      std::size_t sequence) {
     const int lost = unshared.min_loss(sequence, Sharing::at_one_shift) - ratios.max_gain();
@@ -340,7 +344,8 @@ int other_sections_log2_q8(const LikelihoodRatios& ratios) {
 }  // namespace
 
 int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
-    // There is no tighter bound for hard bits, so the sum stops only at the caller's limit.
+    // There is no tighter bound for hard bits, so the summation stops only if it exceeds the limit
+    // of the caller.
     const bool is_last = ratios.is_of_bits();
     int far = far_log2_q8(ratios, true, is_last ? limit_q8 : kSmallOdds_q8);
     if (far > kSmallOdds_q8 && !is_last) far = far_log2_q8(ratios, false, limit_q8);
@@ -350,8 +355,8 @@ int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
     Sequences sequences = kAllSequences;
     int singles = kNever_q8;
     if (is_last) {
-        // Tries table bounds first. They are larger than the sums of an enumeration, but take much
-        // less work.
+        // Tries table bounds first. They are larger than a sum over all places, but take much less
+        // work.
         constexpr int kLittle_q8 = -5 * 256;
         const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
         sequences = add_by_tables(ratios, little_q8, sequences, singles);

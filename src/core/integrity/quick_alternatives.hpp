@@ -1,7 +1,7 @@
 // Quick alternatives: computes an upper bound on the summed odds of all alternatives except seam
 // alternatives, in integer arithmetic. This takes a thousandth of the work of `alternatives_log2`
 // and is sufficient in most frames, because the bound is far below the accepted error probability.
-// See docs/integrity.md, "The quick bound".
+// See docs/integrity.md, "The quick bound". likelihood_ratios.hpp defines the terms.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -9,8 +9,8 @@
 namespace dotpose::core {
 
 /// Returns log2 of an upper bound on the summed odds of all alternatives except seam alternatives,
-/// in units of 2^-8. The result is at most 0. Returns 0 if the far alternatives and the other
-/// sections alone reach `limit_q8`.
+/// in units of 2^-8. The result is at most 0. `limit_q8` is the limit of the caller, in the same
+/// unit. Returns 0 if the far alternatives and the other sections alone reach this limit.
 int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8 = 0);
 
 }  // namespace dotpose::core

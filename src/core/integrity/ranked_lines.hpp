@@ -1,6 +1,6 @@
 // Ranked lines: ranks the lines in view by decreasing information, and tabulates the losses and
 // odds of alternatives in each line. A line has more information if alternatives that do not share
-// it have smaller odds.
+// it have smaller odds. likelihood_ratios.hpp defines the terms.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
@@ -43,8 +43,8 @@ class RankedLines {
 /// Minimum losses of the lines, rounded down to coarse units so that sums of losses fit in bytes.
 /// Each loss is at most `limit`.
 struct CoarseLosses {
-    /// Alternatives that lose at least `skipped_bits` bits, regardless of their gains in other
-    /// lines, reach the limit.
+    /// Chooses the unit such that an alternative loses at least `skipped_bits` bits if its coarse
+    /// losses add up to `limit` or more. This holds whatever the alternative gains in other lines.
     CoarseLosses(const LikelihoodRatios& ratios, int skipped_bits);
 
     int limit;  ///< at most 200, the maximum of `Kernels::list_similar_places`

@@ -1,6 +1,6 @@
 // Similar places: the places in a sequence whose digits are similar to the digits of the reading.
 // All other places lose too much to be relevant. The search tests 32 places at a time, one per bit
-// of a word.
+// of a word. likelihood_ratios.hpp defines the terms.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"

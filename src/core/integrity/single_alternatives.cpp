@@ -8,9 +8,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the loss, in bits, from which alternatives are not evaluated line by line. In small
-/// views, many places lose 52 to 56 bits, and fewer lines add up the odds of skipped places: with
-/// 16 lines, their upper bound is 2^-38.
+/// Returns the loss, in bits, at which an alternative is skipped. Skipped alternatives are not
+/// evaluated line by line, but count with the odds at this loss. In small views, many places lose
+/// 52 to 56 bits, so the loss is smaller there. The skipped alternatives still count little,
+/// because each is added once per line: with 16 lines, their odds add up to at most 2^-38.
 int bits_of_skipped(int lines) {
     return lines <= 16 ? 52 : 56;
 }

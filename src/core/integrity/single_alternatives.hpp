@@ -1,5 +1,5 @@
 // Single alternatives: positions whose place differs from that of the reading in one secondary
-// sequence. See docs/integrity.md, "Alternatives: odds".
+// sequence. See docs/integrity.md, "Alternatives: odds". likelihood_ratios.hpp defines the terms.
 #pragma once
 
 #include "core/integrity/ranked_lines.hpp"

@@ -19,8 +19,8 @@ class Bounds {
             odds_[n] = ratios.odds(unshared.min_loss_of(n) - ratios.max_gain());
     }
     /// Returns the bound for a sequence. An alternative with n unshared table lines loses at least
-    /// the n smallest losses. `kMaxPositionsWith` bounds the number of such alternatives, and
-    /// `kUnshared` contains the smallest n.
+    /// the sum of the n smallest minimum losses, minus the maximum gain. `kMaxPositionsWith` bounds
+    /// the number of such alternatives, and `kUnshared` contains the smallest n.
     float operator[](std::size_t sequence) const {
         const LikelihoodRatios& ratios = unshared_.ratios();
         const auto& max_with = code::kMaxPositionsWith[unshared_.tables() - 1][sequence];

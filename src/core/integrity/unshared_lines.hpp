@@ -1,6 +1,6 @@
 // Unshared lines: lower bounds on the losses of single alternatives. The bounds are computed from
 // tables, which contain the minimum number of lines that an alternative does not share. With these
-// bounds, few alternatives have to be enumerated.
+// bounds, few alternatives have to be enumerated. likelihood_ratios.hpp defines the terms.
 #pragma once
 
 #include <array>
@@ -43,7 +43,8 @@ class UnsharedLines {
     /// Returns the minimum number of table lines that a single alternative does not share. Returns
     /// 0 if the sequence has no table.
     std::size_t min_unshared(std::size_t sequence, Sharing sharing) const;
-    /// Returns the minimum loss of an alternative with n unshared table lines, for n <= 8.
+    /// Returns the minimum loss of an alternative that does not share n of the table lines, for n
+    /// <= 8.
     int min_loss_of(std::size_t n) const { return smallest_sums_[n]; }
     /// Returns the minimum loss of the single alternatives in a sequence, or 0 if the sequence has
     /// no table.
@@ -69,7 +70,7 @@ class UnsharedLines {
 
 inline std::size_t UnsharedLines::min_unshared(std::size_t sequence, Sharing sharing) const {
     const code::Secondary& a = ratios_.basis[sequence];
-    // For a4, `kUnshared` covers only one of the codes.
+    // For a4, `kUnshared` contains only the restored variant, kA4Restored.
     const bool is_known = sequence < 3 || a.digits == code::kA4Restored.data();
     if (row_ == SIZE_MAX || !is_known) return 0;
     const std::uint32_t ahead = ratios_.places[sequence] + first_line_;

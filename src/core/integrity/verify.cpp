@@ -57,8 +57,8 @@ Place corner_place(CodeVariant code, const Decoding& decoding, const Upright& up
 struct Doubt {
     int odds_per_bit_q8 = 0;  ///< 0 if the bits contain no information, or if too many bits are
                               ///< wrong
-    /// For each axis, log2 of an upper bound on the probability that random bits agree with the
-    /// code at least as well as the bits that were read, in units of 2^-8.
+    /// For each axis, log2 of an upper bound on the probability that random bits agree with any
+    /// place in the code at least as well as the bits that were read, in units of 2^-8.
     std::array<int, 2> by_chance_q8{};
 };
 
@@ -131,7 +131,8 @@ int sum(const std::array<int, 2>& p_wrong_q8) {
 }
 
 /// Returns true if the position must be refused regardless of the alternatives: the bits contain no
-/// information, too many bits are wrong, or the bound on chance exceeds `limit_q8`.
+/// information, too many bits are wrong, or the bounds on chance for both axes add up to more than
+/// `limit_q8`.
 bool is_hopeless(const Doubt& doubt, int limit_q8) {
     return doubt.odds_per_bit_q8 == 0 || sum(doubt.by_chance_q8) > limit_q8;
 }
@@ -282,8 +283,8 @@ Status verify(const Kernels& kernels, const Grid& grid, CodeVariant code, const 
                           [&](std::size_t, const LikelihoodRatios& ratios) {
                               return quick_alternatives_log2_q8(ratios, limit_q8) + codes_q8;
                           });
-    // The result is as precise as the default limit requires, even if the limit of the caller is
-    // larger.
+    // Even if the caller's limit is larger than the default limit, the result is as precise as the
+    // default limit requires.
     const int doubtful_q8 = std::min(limit_q8, -30 * 256);
     if (sum(p_wrong_q8) > doubtful_q8) {
         const auto counted_q8 = with_alternatives(

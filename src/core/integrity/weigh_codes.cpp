@@ -17,7 +17,8 @@ constexpr std::size_t kA4 = 3;
 /// Upper bound on the odds of each skipped place, as log2 in units of 2^-8 and as a number.
 constexpr int kSkippedOdds_q8 = -52 * 256;
 constexpr float kSkippedOdds = 2.3e-16F;
-/// Limit for the summed odds. Below this limit, no tighter bound is needed.
+/// Limit for the summed odds. If an upper bound on them is at most this limit, no tighter bound is
+/// computed.
 constexpr float kNegligibleOdds = 1e-12F;
 
 /// Lower bounds on the losses of a place in another code. A place loses at least of[line] in each
@@ -26,11 +27,11 @@ struct Losses {
     explicit Losses(const LikelihoodRatios& ratios)
         : loss_limit(ratios.loss_for(kSkippedOdds_q8) + ratios.max_gain()) {
         for (int line = 0; line < ratios.count(); ++line) {
-            const int least = ratios.min_loss(line);
-            const int eighths = std::max(least, 0) / kUnit;
+            const int min_loss = ratios.min_loss(line);
+            const int eighths = std::max(min_loss, 0) / kUnit;
             of[static_cast<std::size_t>(line)] = static_cast<std::uint16_t>(eighths);
             all += eighths;
-            at_best += least;
+            at_best += min_loss;
         }
     }
 
@@ -52,7 +53,7 @@ struct Losses {
     }
 
     /// Returns true if a place loses more than `loss_limit`. `shared` is an upper bound on the sum
-    /// of `of` over the lines that the place shares, in units of kUnit.
+    /// of `of` over the lines that the place shares at one shift, in units of kUnit.
     bool exceed_limit(int shared) const { return kUnit * (all - shared) > loss_limit; }
 
     /// Unit of `all` and `of`, in score units. Losses are rounded down to this unit, because their
@@ -114,8 +115,8 @@ class OtherPlaces {
     /// place of the reading in a4 at all shifts except `shift_here_`, and every place at shifts
     /// without a shared line.
     void add_unsimilar() {
-        // A place with the rolls of the reading shares all lines at one shift and no line at any
-        // other shift, so `add` would add nothing.
+        // A place with the rolls of the reading shares all lines at `shift_here_`, which is left
+        // out, and no line at any other shift. `add` would therefore add nothing.
         if (!has_same_rolls_) add(ratios_.places[kA4], here_, shift_here_);
         add_sharing_none();
     }
@@ -196,13 +197,13 @@ class OtherPlaces {
         // For each roll offset, the summed losses of the lines with this offset, in units of kUnit.
         // These lines are shared at the same shift.
         std::array<std::uint16_t, kSections + 1> shared{};
-        std::uint16_t most = 0;
+        std::uint16_t max_shared = 0;
         for (std::size_t line = 0; line < count_; ++line) {
             std::uint16_t& here = shared[offsets[line]];
             here = static_cast<std::uint16_t>(here + losses_.of[line]);
-            most = std::max(most, here);
+            max_shared = std::max(max_shared, here);
         }
-        if (losses_.exceed_limit(most) && shift_left_out == kNoShift) {
+        if (losses_.exceed_limit(max_shared) && shift_left_out == kNoShift) {
             add_skipped(1);
             return;
         }

@@ -24,7 +24,9 @@ struct Waves {
     /// Wave vectors (kx, ky), in cycles per px.
     std::array<float, 2> kx{};
     std::array<float, 2> ky{};
-    float power = 0;  ///< total power of both waves; about 2 n^2 for n dots on intersections
+    /// Total power: the sum of phase_cos^2 + phase_sin^2 over both waves. It is about 2 n^2 for n
+    /// dots on intersections.
+    float power = 0;
     /// Sums over all dots of cos(p) and sin(p), where p = 2 pi (kx x + ky y). The phase of a wave
     /// is atan2(phase_sin, phase_cos).
     std::array<float, 2> phase_cos{};
@@ -62,7 +64,7 @@ struct CellSums {
                                     ///< j^2
 };
 
-/// Maximum number of columns in view, at any rotation. The same limit applies to rows.
+/// Maximum number of columns in view, at any rotation of the grid. The same limit applies to rows.
 inline constexpr int kMaxLinesInView = 1024;
 
 /// Where `list_cells` places the measurement windows.
@@ -100,10 +102,11 @@ struct WindowOptions {
     /// Half the window side, in spacings. In px, the half side is clamped to [2,
     /// kMaxHalfWindow_px].
     float reach = 0.36F;
-    /// Contrast threshold for dot pixels, in 1/256 of the paper level.
+    /// A pixel belongs to a dot if its level is below the paper level by more than `cut_q8` / 256
+    /// of the paper level.
     int cut_q8 = 128;
-    /// Typical dot mass relative to the paper level. If 0, `measure_windows` estimates the typical
-    /// mass from the windows.
+    /// Typical mass of a dot, relative to the paper level. The mass is the summed darkness of the
+    /// dot's pixels. If 0, `measure_windows` estimates the typical mass from the windows.
     float typical_mass = 0;
 };
 /// Maximum half side of a measurement window.
@@ -113,8 +116,8 @@ inline constexpr float kMaxCentroidRadius_px = 24;
 /// Maximum radius of a small centroid window. Small windows take a tenth of the time of larger
 /// windows.
 inline constexpr float kSmallCentroidRadius_px = 4;
-/// Radius of the centroid window for predicted dots. Small enough to limit noise, and large enough
-/// to include the edge of a dot at 8 to 13 px per spacing.
+/// Radius of the centroid window for predicted dots. It is small enough to limit noise, and large
+/// enough to include the edge of a dot at 8 to 13 px per spacing.
 inline constexpr float kPredictedCentroidRadius_px = 3.65F;
 
 /// Sums over the inliers for a nine-parameter fit (see PlaneNormal). (u, v) is the pattern point of
@@ -123,11 +126,11 @@ inline constexpr float kPredictedCentroidRadius_px = 3.65F;
 struct FitSums {
     int points = 0;      ///< number of inliers
     int outliers = 0;    ///< number of measured dots that are not inliers
-    float farthest = 0;  ///< largest squared residual of an inlier
+    float farthest = 0;  ///< largest squared residual of an inlier, in spacings^2
     /// Sum of the offsets of the dots from their intersections, in spacings. Each offset is
     /// projected onto the direction of the coded displacement.
     float projected = 0;
-    float squares = 0;  ///< sum of the squared residuals
+    float squares = 0;  ///< sum of the squared residuals, in spacings^2
     /// Sums of 1, u, v, uu, uv, vv, uuu, uuv, uvv, vvv, quu, quv, qvv, qqu, qqv and qqq, with q =
     /// uu + vv.
     std::array<float, 16> places{};
@@ -209,8 +212,8 @@ struct SimilarPlaceList {
 /// Set of places in a sequence, one bit per place. Bit 0 of the first word is the first place.
 using PlaceBits = std::array<std::uint32_t, 8>;
 
-/// Lower bounds on the loss of an alternative in each step, which is a pair of adjacent lines. If
-/// the digit of the alternative differs from the digit of the reading in a step, the alternative
+/// Lower bounds on the loss of an alternative in each step. A step consists of two adjacent lines.
+/// If the digit of the alternative differs from the digit of the reading in a step, the alternative
 /// shares at most one of the two lines and therefore loses at least this bound. The unit is
 /// 1/kLimitParts of the loss limit.
 struct StepLosses {
@@ -219,8 +222,9 @@ struct StepLosses {
     std::array<std::uint8_t, 64> parts;  ///< bound for each step; at most kLimitParts
 };
 
-/// Groups of alternatives. Two alternatives are in the same group if they differ from the reading
-/// in the same sequences.
+/// Groups of alternatives that differ from the reading in two or more sequences (see
+/// `kAlternativeSets` in core/integrity/alternative_sets.hpp). Unused groups contain no
+/// alternatives.
 struct FarAlternatives {
     /// For each group, the probability that an alternative has the same digits as the reading in a
     /// step.
@@ -304,10 +308,10 @@ struct Kernels {
     /// relative to the paper level.
     float (*measure_windows)(const ImageView& image, const CellsInView& view,
                              const WindowOptions& options, MeasuredDots& dots);
-    /// Replaces the centres with weighted centroids from centroid windows, without a threshold,
-    /// because a threshold would bias the centres. `radius_px` is at most kMaxCentroidRadius_px,
-    /// and is reduced near the image border. Ignores corrections of 1 px or more. Does nothing if
-    /// the image is too small for a window.
+    /// Replaces the centres with centroids that are weighted by centroid windows. Uses no
+    /// threshold, because a threshold would bias the centres. `radius_px` is at most
+    /// kMaxCentroidRadius_px, and is reduced near the image border. A centre does not change if its
+    /// correction would be 1 px or more. Does nothing if the image is too small for a window.
     void (*refine_centres)(const ImageView& image, const CellsInView& view, float radius_px,
                            MeasuredDots& dots);
     /// Reads cell bits from the grey levels at the four places. The darkest place counts as the
@@ -339,8 +343,8 @@ struct Kernels {
     void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float limit, float reach_px, int side, BlockSums& sums);
     /// Returns the places in a sequence where an alternative may lose less than the loss limit,
-    /// except `own`, the place of the reading. `steps` contains a lower bound on the loss in each
-    /// step.
+    /// which is StepLosses::kLimitParts parts. The result excludes `own`, the place of the reading.
+    /// `steps` contains a lower bound on the loss in each step.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);
     /// Returns an upper bound on the expected total odds of the far alternatives in `sets`. A far
@@ -348,9 +352,10 @@ struct Kernels {
     /// maximum odds in line i over all rolls except the roll of the reading.
     float (*sum_far_alternatives)(std::span<const float> best, int max_shared,
                                   const FarAlternatives& sets);
-    /// Lists the places where an alternative may lose less than `loss_limit` in the given lines.
-    /// Searches the sequences whose bit is set in `sequences`, and skips `own`, the places of the
-    /// reading. The lines must be sorted by decreasing loss. Returns false if
+    /// Lists the places where an alternative that shares one of the given lines may lose less than
+    /// `loss_limit` in the other lines. Searches the sequences whose bit is set in `sequences`, and
+    /// skips `own`, the places of the reading. The lines must be sorted by decreasing loss. Returns
+    /// false if
     /// - there are too many places,
     /// - there are fewer than two lines,
     /// - `loss_limit` exceeds 200, or
@@ -368,18 +373,19 @@ struct Kernels {
     /// other combination in each line.
     std::uint32_t (*similar_in_batch)(const OffsetBatch& batch, const std::uint8_t* opposite,
                                       std::span<const std::uint8_t> losses, int limit);
-    /// Returns the expected odds of the alternatives that differ from the reading in the sequences
-    /// `different` (one bit per sequence), and share at most `max_shared` (up to 8) adjacent lines
-    /// with it. Assumes that the digits of the alternatives are uniformly distributed. `places` are
-    /// the places of the first line. `lines` contains the odds of an alternative in each line, by
-    /// roll offset. The odds at offset 0 are 1, and the padding is 0.
+    /// Returns the expected sum of the odds of the alternatives that differ from the reading in the
+    /// sequences `different` (one bit per sequence), and share at most `max_shared` (up to 8)
+    /// adjacent lines with it. Assumes that the digits of the alternatives are uniformly
+    /// distributed, except for the safety factor `kUnevenness`. `places` are the places of the
+    /// first line. `lines` contains the odds of an alternative in each line, by roll offset. The
+    /// odds at offset 0 are 1, and the padding is 0.
     float (*sum_expected_alternatives)(const code::Basis& basis,
                                        const std::array<std::uint32_t, 4>& places,
                                        unsigned different, std::span<const OddsByOffset> lines,
                                        int max_shared);
-    /// Computes the expected odds of the alternatives that differ from the reading in two
-    /// sequences, by the number of shared anchors. Excludes alternatives that share more than 6
-    /// anchors. Bit n of `anchors` is 1 if line n is an anchor. The other arguments are those of
+    /// Computes the expected sum of the odds of the alternatives that differ from the reading in
+    /// two sequences, for each number of shared anchors. Excludes alternatives that share more than
+    /// 6 anchors. Bit n of `anchors` is 1 if line n is an anchor. The other arguments are those of
     /// `sum_expected_alternatives`.
     void (*sum_expected_doubles)(const code::Basis& basis,
                                  const std::array<std::uint32_t, 4>& places,

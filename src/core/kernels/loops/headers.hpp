@@ -19,8 +19,8 @@
 
 namespace dotpose::core {
 
-/// True if each loop has only its general version, without faster special cases. This is so in
-/// WebAssembly, because its code must be small.
+/// True if each loop has only its general version, without faster special cases. This is the case
+/// in WebAssembly, because its code must be small.
 #if defined(__wasm__)
 inline constexpr bool kOneForm = true;
 #else
