@@ -66,7 +66,7 @@ void Follower::use_sheets() {
     const OtherSheets others =
         options_.has_only_sheets ? OtherSheets::impossible : OtherSheets::possible;
     if (locator_.set_known(known_, others) != Status::ok)
-        throw BadArgument("a sheet is not in the plane of the code");
+        throw BadArgument("the section or the cells of a sheet are outside of the code plane");
 }
 
 void Follower::use_options_for(int width_px, int height_px) {

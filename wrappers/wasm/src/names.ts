@@ -24,7 +24,7 @@ export type Surface = (typeof kSurfaces)[number];
 
 /** All values of `Prior`, indexed by their numbers in C. */
 export const kPriors = ["plane", "sheets", "only_sheets"] as const;
-/** Places that counted as possible for `p_wrong`. */
+/** Places that were considered possible when `p_wrong` was computed. */
 export type Prior = (typeof kPriors)[number];
 
 /** All values of `Verdict`, indexed by their numbers in C. */
