@@ -1,5 +1,6 @@
 /// The image of one dot, computed from its geometry, and frames drawn with it. Independent of the
-/// simulator (`render`) and of the core, so a fault of the simulator does not remain hidden.
+/// simulator (`render`) and of the core, so a fault of the simulator is
+/// detected.
 #pragma once
 
 #include <vector>

@@ -26,7 +26,8 @@ std::string text_in(const serve::Command& request, std::string_view key) {
     return text == nullptr ? std::string() : *text;
 }
 
-/// Returns a number of a request, limited to whole numbers from 0 to `max`.
+/// Returns a numeric argument of a request, truncated to a whole number and clamped to [0, `max`].
+/// Returns 0 if there is no such argument.
 std::size_t count_in(const serve::Command& request, std::string_view key, std::size_t max) {
     const auto* number = request.argument<double>(key);
     if (number == nullptr || !(*number > 0)) return 0;

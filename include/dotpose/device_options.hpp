@@ -33,9 +33,9 @@ struct FixedLens {
     }
 };
 
-/// Thresholds that separate dots from paper (paper, section II-B.1). Used on devices and in the
-/// second attempt (see Effort). The second attempt uses lower thresholds than these, because it
-/// filters the image first.
+/// Thresholds that separate dots from paper (paper, section II-B.1). Devices use these values. The
+/// second attempt (see Effort) filters the image first, so it derives lower thresholds from these
+/// values.
 struct ThresholdOptions {
     /// Low threshold, in 1/256 of the local contrast. All pixels in a blob must be at least this
     /// much darker than the paper. Smaller values merge neighbouring dots. Larger values lose

@@ -137,13 +137,15 @@ class Locator : public RowLocator {
     Fix locate(const ImageView& image, const Prediction& prediction);
 
     /// Locates an image of a camera that has moved by `since_last` since the previous image. If the
-    /// previous image was located, first searches near the place that the motion predicts. If this
-    /// image alone does not give a certain position, reads it together with the previous images of
-    /// the series. A series of views that are too small or too dirty can therefore give a fix while
-    /// the camera moves. `Fix::frames` is the number of images read together. The series may
-    /// include images without a pattern. It ends if another function locates an image. If the
-    /// motion is not usable, or if the options do not contain the spacing of the printed grid,
-    /// locates the image alone.
+    /// previous image was located, first searches near the place that the motion predicts.
+    ///
+    /// Successive images that are located with a motion form a series, which may include images
+    /// without a pattern. If this image alone does not give a certain position, reads it together
+    /// with the previous images of its series. A series of views that are too small or too dirty
+    /// can therefore give a fix while the camera moves. `Fix::frames` is the number of images read
+    /// together. The series ends if another function locates an image. If the motion is not usable
+    /// (see `MeasuredMotion::is_usable`), or if the options do not contain the spacing of the
+    /// printed grid, the series also ends, and the image is located alone.
     Fix locate(const ImageView& image, const MeasuredMotion& since_last);
 
     /// Locates an image whose code variant is not known. Considers places in all code variants,

@@ -96,9 +96,10 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
     }
     const std::int32_t paper = paper_around(tracking, at);
     const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
-    // A clear dot is darker than the paper by at least 2 times `depth`, and darker than each other
-    // place by at least `depth`. The expected values are about 6 and 4 times `depth`, because a dot
-    // also darkens the adjacent places by about 2 times `depth`.
+    // `depth` is a level difference of one pixel, and the sums are over four pixels. At a clear
+    // dot, the sum is below that of paper by at least 2 times `depth`, and below the sum at every
+    // other place by at least `depth`. The expected differences are about 6 and 4 times `depth`,
+    // because a dot also reduces the sums at the adjacent places by about 2 times `depth`.
     const bool is_clear =
         paper * 4 - (darkest >> 2) >= 2 * depth && (second >> 2) - (darkest >> 2) >= depth;
     return is_clear ? ReadSymbol(darkest & 3, paper - depth) : ReadSymbol::unclear();

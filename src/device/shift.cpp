@@ -60,9 +60,9 @@ void Shifts::measure_paper(const Tracking& tracking) {
 void Shifts::add_dots(const Tracking& tracking) {
     const int reach = step_px_ * steps_.y;
     // Maximum distance of the visited cells from the middle cell, in cells along each axis. At any
-    // rotation of the grid, the visited cells contain all dots within two spacings of the middle
-    // column. They also contain the dots outside the first rows that a shift may move into these
-    // rows.
+    // rotation of the grid, the visited cells contain every dot that is within two spacings of the
+    // middle column of the image, and that is in the first rows or can be moved into them by a
+    // shift.
     constexpr int kAround = 5;
     const FixedVec middle = middle_cell(tracking);
     const auto around = [&](int cell) {

@@ -54,9 +54,10 @@ struct Measurement {
 };
 
 /// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose.
-/// Tries direct sampling first if the hypothesis is predicted and its dots allow it. If the result
-/// is ok, sets the fix and the results of `measurement`. Otherwise, only `p_wrong_log2`, `prior`,
-/// `frames` and `bit_errors` of the fix may have changed.
+/// If the hypothesis is predicted, and its dots can be sampled directly (see
+/// `can_sample_directly`), tries direct sampling first. If the result is ok, sets the fix and the
+/// results of `measurement`. Otherwise, only `p_wrong_log2`, `prior`, `frames` and `bit_errors` of
+/// the fix may have changed.
 Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvidence& evidence,
                      Measurement& measurement, Fix& fix);
 

@@ -127,7 +127,7 @@ struct Camera {
     std::optional<double> exposure_us;
     std::optional<double> gain;
 
-    /// Standard deviations of the calibrated values, in the units of the values. The index is the
+    /// Standard deviations of the calibrated values, in the units of the values. The key is the
     /// name of the value in the camera file, for example "centre_u_px".
     std::map<std::string, double> sigma;
 };

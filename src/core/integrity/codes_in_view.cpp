@@ -23,7 +23,8 @@ bool differ_from(std::uint32_t position, CodeVariant read, CodeVariant other) {
 
 /// Returns true if more bits may change the odds of the other codes:
 /// - the odds of other places in another code are not negligible, or
-/// - the block has more lines, and a code that is not ruled out has different rolls in the block.
+/// - the block has lines that the certainty test did not use, and a code that is not ruled out has
+///   different rolls in the block.
 bool may_change_odds(CodeVariant read, const Place& place, bool has_more_lines,
                      const OtherCodes& others) {
     const auto have_other_rolls = [&](CodeVariant other) {

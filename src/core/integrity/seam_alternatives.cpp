@@ -123,8 +123,9 @@ class SeamAlternatives {
     SeamAlternatives(const LikelihoodRatios& ratios, int loss_limit)
         : ratios_(ratios), loss_limit_(loss_limit) {}
 
-    /// Adds the alternatives with `place` in `sequence` and a seam, one for each border between two
-    /// lines. Skips alternatives whose odds without the prior are at most kMin_q8.
+    /// For each border between two lines, adds the odds of the best seam alternative that has
+    /// `place` in `sequence` and its seam at this border. Skips alternatives whose odds without the
+    /// prior are at most kMin_q8.
     void add(std::size_t sequence, std::uint32_t place) {
         RollOffsets offsets;
         set_roll_offsets(ratios_, sequence, place, offsets);

@@ -18,8 +18,8 @@ float limit_of(const PoseFit& fit) {
     return tuning::fit::kOutlier * fit.variance;
 }
 
-/// Converts a dot centre between two images without rotation: the rotation `from` was removed from
-/// the first image, and the rotation `to` from the second.
+/// Converts a dot centre from one derotated image to another. `from` is the rotation that was
+/// removed from the first image, and `to` is the rotation that was removed from the second image.
 FloatVec transferred(const ReadoutTurn& from, const ReadoutTurn& to, FloatVec dot) {
     constexpr int kSteps = 4;
     return to.without_turn(from.seen_from(dot, dot.y, kSteps));

@@ -114,8 +114,8 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
     if (fit_far_side(kernels, dots, reference_px, split, beyond))
         return add_difference(split.plane, beyond, reference_px, 1, fit);
     // The plane beyond the line is unknown. Its displacement is assumed to be uniformly distributed
-    // between -1/2 and 1/2 cell, which has a variance of 1/12, and its rotation to have a standard
-    // deviation of 0.02 rad.
+    // between -1/2 and 1/2 cell, which has a variance of 1/12. Its rotation is assumed to have a
+    // standard deviation of 0.02 rad.
     add(1.0F / 12, 0, fit);
     add(1.0F / 12, 1, fit);
     add(0.02F * 0.02F, 2, fit);

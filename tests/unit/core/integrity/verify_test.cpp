@@ -62,8 +62,8 @@ TEST(Verify, CountsEveryBitThatContradicts) {
             // Additional contradictions must not reduce the quick estimate of p_wrong.
             const Verdict quick = judge(reading, any, verify_quickly);
             ASSERT_EQ(quick.fix.bit_errors, flipped);
-            // The quick estimate is coarse below 2^-36 on either axis, so estimates below 2^-34
-            // count as equal. Rounding may change each estimate by 1.
+            // Below odds of 2^-36 on an axis, `quick_alternatives` computes no tighter bound, so
+            // estimates below 2^-34 count as equal. Rounding may change each `p_wrong_log2` by 1.
             constexpr int kCoarse = -34;
             ASSERT_GE(std::max(quick.fix.p_wrong_log2, kCoarse),
                       std::max(quick_before.fix.p_wrong_log2, kCoarse) - 1);
