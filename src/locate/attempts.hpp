@@ -49,8 +49,8 @@ class Attempts {
     bool shows_turn();
     /// Returns true if the last attempt found too few cells for a certain fix in any code.
     bool shows_too_few_cells() const { return w_.measurement.shows_too_few_cells; }
-    /// Returns true if all dots that the last first attempt measured are clear and agree with the
-    /// code, but are too few.
+    /// Returns true if the last first attempt measured only clear dots that agree with the code,
+    /// but too few of them for a certain position.
     bool has_clear_bits() const { return w_.measurement.has_clear_bits; }
 
   private:
@@ -62,7 +62,7 @@ class Attempts {
     static constexpr int kMaxErrors = std::numeric_limits<int>::max();
 
     const ImageView& image_;
-    DeviceOptions options_;  ///< with the code of the last attempt
+    DeviceOptions options_;  ///< `code` is the code of the last attempt
     const PossibleCodes& codes_;
     DesktopWorkspace& w_;
     SecondAttempt second_;

@@ -43,9 +43,10 @@ class DotReader {
     /// due to the remaining bias. Returns false without any change if the bias does not matter.
     bool correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                             const PoseFit& fit, FloatVec& remaining_px2) const;
-    /// Corrects the bias of facing dots if the centroid windows extend to the neighbouring dot. The
-    /// plane must be fitted again afterwards. Returns false without any change if the windows are
-    /// too small or the bias is not significant.
+    /// Corrects the bias of facing dots, which are adjacent dots that are displaced towards each
+    /// other. They are biased if a centroid window extends to the neighbouring dot. After the call,
+    /// the plane must be fitted again. Returns false without any change if the windows are too
+    /// small or the bias is not significant.
     bool correct_neighbour_bias(const Hypothesis& hypothesis, const PoseFit& fit) const;
     const MeasuredDots& dots() const { return dots_; }
 

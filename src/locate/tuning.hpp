@@ -77,8 +77,8 @@ namespace tracked {
 inline constexpr float kNear = 2.6F;
 /// Minimum number of dots for a correction.
 inline constexpr int kMinNear = 10;
-/// Maximum prediction error that the search covers, in spacings. The limit is only slightly larger
-/// than half a spacing. At larger errors, a neighbouring dot is closer than the correct dot.
+/// Maximum prediction error that the search covers, in spacings. It is only slightly larger than
+/// half a spacing, because at larger errors a neighbouring dot is closer than the correct dot.
 inline constexpr float kMaxOff = 0.6F;
 /// Range of spacings that can be tracked.
 inline constexpr float kFinest_px = 5;
@@ -91,7 +91,8 @@ inline constexpr float kFirstOff = 0.30F;
 inline constexpr float kSecondOff = 0.15F;
 /// Maximum offset at which a dot is measured in a centroid window.
 inline constexpr float kMaxOffset_px = 1.5F;
-/// Offset of a typical dot, in px, at a moment-to-weight ratio of 1. Accurate to 20 %.
+/// Factor that converts the ratio of moment to weight in a centroid window to the offset of the
+/// dot, in px (see `find_centres`). Accurate to 20 % for a typical dot.
 inline constexpr float kWeight_px = 0.84F;
 /// The dots are measured again if the scale and rotation of a correction move the dots at the image
 /// border by at least this distance.
@@ -122,12 +123,13 @@ inline constexpr float kDecidingOfPart = 32;
 inline constexpr float kFarther = 3.5F;
 /// Limits for clean bits, which need no second reading. At least kClear_percent of the dots must be
 /// clear. If n dots were read, at most max(kMaxWrong, n / kDotsPerWrong) bits may be wrong.
-/// kMaxWrong is the number of bits of one dot.
+/// kMaxWrong is 2 because one misread dot can have two wrong bits.
 inline constexpr int kClear_percent = 97;
 inline constexpr int kMaxWrong = 2;
 inline constexpr int kDotsPerWrong = 200;
-/// Outlier limit: squared residual divided by the mean squared residual. The limit is four standard
-/// deviations of one coordinate.
+/// A dot is an outlier if its squared residual exceeds kOutlier times the mean squared residual.
+/// The mean is over dots and contains both coordinates, so the limit is four standard deviations of
+/// one coordinate.
 inline constexpr float kOutlier = 8.3F;
 /// Maximum distance by which a fit may move a corner of the measured part, in spacings along an
 /// axis. After a larger motion, the dots are measured again, because small centroid windows do not
@@ -168,9 +170,10 @@ inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
 /// cache. Larger parts would evict their own first rows.
 inline constexpr int kMinFetched_bytes = 32 << 10;
 inline constexpr int kMaxFetched_bytes = 1 << 20;
-/// Minimum number of dots for `DotReader::find_centres`.
+/// Minimum number of dots that `DotReader::find_centres` must find to fit a plane to them.
 inline constexpr int kMinFound = 8;
-/// Maximum distance between a dot and its predicted place.
+/// Maximum offset of a directly sampled dot from its predicted place. Dots with larger offsets are
+/// dropped.
 inline constexpr float kMaxOff_px = 1;
 /// Maximum of sqrt(variance) / displacement + bit_errors / bits (`is_implausible`). Positions above
 /// this maximum do not explain the frame well. docs/integrity.md contains the measurements.
@@ -226,9 +229,9 @@ inline constexpr int kHigh_10ths = 9;
 /// dots that are 6 grey levels darker than the paper (`dotpose_tables alike --spacings 8 --dots
 /// 0.10 --blurs 1.5`).
 inline constexpr int kPaleParts = 3;
-/// Maximum rotations of the grid in the periodogram search, relative to the first grid estimate, in
-/// degrees. The search tries these limits in order. Printed text can rotate the first estimate by
-/// 26 degrees.
+/// Maximum rotations of the grid relative to the first grid estimate in the periodogram search, in
+/// degrees. If the search finds no grid within the first maximum, it is repeated with the second,
+/// because printed text can rotate the first estimate by 26 degrees.
 inline constexpr int kMaxTurns_deg[] = {12, 45};
 }  // namespace second
 

@@ -39,8 +39,8 @@ struct DesktopWorkspace : DeviceWorkspace {
         patch->min_side_px = sheets.any() ? kMinKnownFrameSide_px : Patch::kMinSide_px;
     }
 
-    /// Returns the input of an attempt. Known sheets and frames that are read together need fewer
-    /// dots.
+    /// Returns the input of an attempt. If sheets are known or frames are read together, the
+    /// attempt needs fewer dots, because a place can be certain with fewer bits.
     Frame frame(const Kernels& kernels, const ImageView& image,
                 const DeviceOptions& options) const {
         const bool need_few = known.any() || earlier.is_in_series();
@@ -49,7 +49,7 @@ struct DesktopWorkspace : DeviceWorkspace {
                          : options.lattice.min_dots};
     }
 
-    /// Returns the evidence for places in a frame.
+    /// Returns the sources of evidence with which an attempt finds and tests places in a frame.
     PlaceEvidence evidence(const Frame& frame) {
         return {frame.kernels, frame.options, known,
                 earlier,       line_scores,   other_codes.are_wanted ? &other_codes : nullptr};
@@ -119,7 +119,8 @@ class WorkspaceOf : public DesktopWorkspace {
     // and 1280 x 1024 px otherwise.
     static constexpr std::size_t kPushed_px = std::min(MaxWidth * MaxWidth, 1280 * 1024);
 
-    // Maximum number of lines that cross an image at any angle.
+    // Maximum number of columns in view, and of rows in view. Further columns and rows are not
+    // read.
     static constexpr std::size_t kRolls = 1024;
 
     Patch patch_;
