@@ -46,7 +46,8 @@ struct SpaceTrackOptions {
     double acceleration_mm_s2 = 2000;
     double angular_acceleration_rad_s2 = 20;
     double hold_s = 0.5;  ///< time constant of the decay of accelerations
-    /// Standard deviation of the velocities of a camera that is seen for the first time.
+    /// Standard deviation of the velocity along each axis, and of the angular velocity about each
+    /// axis, at the start of a track.
     double speed_mm_s = 500;
     double turn_rad_s = 5;
     /// Maximum normalised squared innovation of the six coordinates of an accepted sighting. A
@@ -89,8 +90,9 @@ namespace space_track {
 
 inline constexpr std::size_t kStates = 18;
 
-/// Estimated motion. The elements are position and rotation, the velocities, and the accelerations:
-/// six each. Rotations are about the axes of the camera frame.
+/// Estimated motion. Each row of `covariance` has six elements for position and rotation, six for
+/// their velocities, and six for their accelerations. Rotations are about the axes of the camera
+/// frame.
 struct Motion {
     std::int64_t time_us = 0;
     CameraInSpace camera;
@@ -131,7 +133,8 @@ class SpaceTracker {
     SpaceTrack track_;
     space_track::Motion motion_;
     std::int64_t accepted_us_ = 0;  ///< time of the latest accepted sighting
-    // Rejected sightings since then that are consistent with each other.
+    // The newest sighting that was rejected since then, and the number of consecutive rejected
+    // sightings that are consistent with it.
     std::optional<SpaceSighting> rejected_;
     int rejections_ = 0;
 };
