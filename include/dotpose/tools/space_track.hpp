@@ -113,13 +113,15 @@ class SpaceTracker {
     explicit SpaceTracker(const SpaceTrackOptions& options = {}) : options_(options) {}
 
     /// Takes the sighting of a frame. A sighting in another plane, or not later than the previous
-    /// frame, starts a new track.
+    /// frame, starts a new track. An ambiguous sighting cannot start a track, so the camera is then
+    /// lost.
     const SpaceTrack& update(const SpaceSighting& sighting);
-    /// Takes a frame without a sighting.
+    /// Takes a frame without a sighting. The camera is lost if the frame is earlier than the
+    /// previous frame, or too late (see `lost_after_us`).
     const SpaceTrack& update(std::int64_t time_us);
 
-    /// Returns the track at a later time. The verdict is `none`. Returns none while the camera is
-    /// lost, or for an earlier time.
+    /// Predicts the track at a time after the last accepted sighting. The verdict is `none`.
+    /// Returns none while the camera is lost, or for an earlier time.
     std::optional<SpaceTrack> predict(std::int64_t time_us) const;
 
     const SpaceTrack& track() const { return track_; }
@@ -133,8 +135,8 @@ class SpaceTracker {
     SpaceTrack track_;
     space_track::Motion motion_;
     std::int64_t accepted_us_ = 0;  ///< time of the latest accepted sighting
-    // The newest sighting that was rejected since then, and the number of consecutive rejected
-    // sightings that are consistent with it.
+    // The newest unambiguous sighting that was rejected since then, and the length of the series of
+    // rejected sightings up to it in which each is consistent with the one before.
     std::optional<SpaceSighting> rejected_;
     int rejections_ = 0;
 };
