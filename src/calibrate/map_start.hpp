@@ -29,15 +29,16 @@ bool add_sighting(const Fix& fix, const Trace& trace, const MapPage& page, std::
 /// approximate poses of the frames of `solution`. All frames use the view of the camera file. If it
 /// has none, they use their median view or, if the views differ because the camera was hand-held,
 /// each frame uses its own view. All places are scaled such that the median scale between the
-/// frames and the page, including the offsets of the earlier map, is 1. Returns the distance from
-/// the camera to the most distant dot on the paper, in mm.
+/// frames and the page, including the offsets of the earlier map, is 1. Returns the maximum
+/// distance between a dot and the origin of the camera frame, in mm.
 double start_map(const MapGrid& grid, const EarlierOffsets& earlier,
                  const std::optional<Camera>& camera, const std::vector<MapSighting>& frames,
                  std::vector<MapObservation>& observations, MapSolution& solution);
 
-/// Returns how well the earlier map explains the residuals: the median squared residual of a frame,
-/// summed over all frames, with the offsets of the map, divided by the same sum without these
-/// offsets. The value is below 1 if the map fits. `solution` contains the poses of `start_map`.
+/// Returns a ratio that shows how well the earlier map explains the residuals. The numerator is the
+/// sum over all frames of the median squared residual with the offsets of the map. The denominator
+/// is the same sum without these offsets. The ratio is below 1 if the offsets reduce the residuals.
+/// `solution` must contain the poses of `start_map`.
 double misfit(const MapGrid& grid, const EarlierOffsets& earlier, double reach_mm,
               const std::vector<MapObservation>& observations, const MapSolution& solution);
 

@@ -78,8 +78,8 @@ bool fit_to_dots(const Frame& frame, const MeasuredDots& dots, const BitsRead& b
 }
 
 /// Corrects pixel bias and neighbour bias if they matter, and then fits the plane again. Returns
-/// the variance of the mean centre due to the remaining pixel bias, along u and v, in px^2. Returns
-/// 0 if nothing was corrected, or if the new fit failed.
+/// the variance that the remaining pixel bias adds to the mean dot centre, along u and v, in px^2.
+/// Returns 0 if nothing was corrected, or if the new fit failed.
 FloatVec fit_without_bias(const Frame& frame, const DotReader& reader, const CellsInView& view,
                           Hypothesis& hypothesis, PoseFit& fit) {
     FloatVec remaining_px2;
@@ -138,8 +138,9 @@ void write_results(const Frame& frame, const Hypothesis& hypothesis, const BitsR
 }
 
 /// Returns true if the fit moved a corner of the measured part by more than kFar spacings along an
-/// axis. The measured part is the part of the image within `reach_px` of the image centre. Small
-/// centroid windows do not measure such large offsets accurately.
+/// axis. The dots must then be measured again, because small centroid windows do not measure such
+/// large offsets accurately. The measured part is the part of the image within `reach_px` of the
+/// image centre.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);

@@ -58,13 +58,14 @@ struct Measurement {
 };
 
 /// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose.
-/// Tries direct sampling first if the hypothesis is predicted and its dots allow it. If the result
-/// is ok, sets the fix and the results of `measurement`. Otherwise, only `p_wrong_log2`, `prior`,
-/// `frames` and `bit_errors` of the fix may have changed.
+/// Tries direct sampling first if the hypothesis is predicted and `can_sample_directly` permits it.
+/// If the result is ok, sets the fix and the results of `measurement`. Otherwise, only
+/// `p_wrong_log2`, `prior`, `frames` and `bit_errors` of the fix may have changed.
 Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvidence& evidence,
                      Measurement& measurement, Fix& fix);
 
-/// Returns true if the residuals of a fix are large. A second attempt may then give a better fix.
+/// Returns true if the residual of a fix is at least kRough_px and at least kRough spacings. A
+/// second attempt may then give a better fix.
 bool is_rough(const Fix& fix);
 
 }  // namespace dotpose::core

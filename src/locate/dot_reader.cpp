@@ -90,7 +90,7 @@ bool can_sample_directly(const Hypothesis& hypothesis) {
 
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px) {
     if (variance_px2 > tuned::kMaxVariance_px2) return false;
-    // Phase drift per grid step that adds up to kDriftInView_px across the view.
+    // Change of the phase from one dot to the next that adds up to kDriftInView_px across the view.
     const float drift_px = tuned::kDriftInView_px * spacing_px(plane) / static_cast<float>(side_px);
     return has_common_phase(plane, drift_px);
 }

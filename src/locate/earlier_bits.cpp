@@ -19,7 +19,7 @@ namespace tuned = tuning::joined;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// Returns a word shifted by `by` cells, which may be negative.
+/// Shifts a word by `by` cells towards higher bits, or towards lower bits if `by` is negative.
 std::uint64_t shifted(std::uint64_t word, int by) {
     if (std::abs(by) >= BitBlock::kSide) return 0;
     return by >= 0 ? word << by : word >> -by;

@@ -35,8 +35,8 @@ class EarlierBits {
     /// Begins a frame. `motion` is the motion since the previous frame. The options must contain
     /// the spacing.
     void begin_frame(const MeasuredMotion& motion, const DeviceOptions& options);
-    /// Ends the frame. Stores the bits of the frame, joined with the earlier bits if the grids
-    /// match.
+    /// Ends the frame. Keeps the bits of the frame for the next frames, joined with the earlier
+    /// bits if the grids match. If the frame has no bits, keeps the earlier bits.
     void end_frame();
 
     /// Stores a block of bits of the current frame. Must be called between `begin_frame` and

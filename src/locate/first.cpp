@@ -41,7 +41,8 @@ bool is_whole_image(const Patch& patch, const ImageView& image) {
     return patch.width_px == image.width_px && patch.height_px == image.height_px;
 }
 
-/// Searches patches of the image for a grid, and tests the hypotheses from their bits.
+/// Searches patches of the image for a grid, and tests the hypotheses that the bits of these grids
+/// give.
 class PatchSearch {
   public:
     PatchSearch(const Frame& frame, const PlaceEvidence& evidence, Patch& patch,

@@ -19,9 +19,10 @@ inline constexpr float kMinSpacingForPrediction_px = 9.5F;
 /// Maximum number of uncertain hypotheses away from the image centre. The number is limited,
 /// because each uncertain hypothesis increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
-/// Parameters of the wave search away from the image centre: the numbers of central dots, and
-/// factors for the estimated spacing. The search tries all combinations. Large displacements weaken
-/// the waves, and only some combinations find a grid with weak waves.
+/// Parameters of the wave search away from the image centre: the numbers of central dots from which
+/// the waves are computed, and factors for the estimated spacing. The search tries all
+/// combinations. Large displacements weaken the waves, and only some combinations find a grid with
+/// weak waves.
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
 /// Factors for the estimated spacing if sheets are known. On a known sheet, the place of a strip of
@@ -139,8 +140,8 @@ inline constexpr float kFar = 0.055F;
 /// last fit still moves the plane by more than kFar. docs/accuracy.md, "Dots with the same
 /// sub-pixel phase", lists the remaining errors.
 inline constexpr int kMaxLooks = 3;
-/// Fraction of the paper level below which windows are dropped. Such windows are on the table
-/// beyond the sheet, where noise can look like dots.
+/// Windows are dropped if their paper level is less than kTable times the mean paper level. Such
+/// windows are on the table beyond the sheet, where noise can look like dots.
 inline constexpr float kTable = 0.4F;
 /// Range of spacings for direct sampling. Below kMaxSpacingForSmallWindow_px, a dot with any blur
 /// fits in a small centroid window. Below kMinSpacingForDirectSampling_px, one sample per place
@@ -237,8 +238,8 @@ inline constexpr int kMaxTurns_deg[] = {12, 45};
 
 /// Choice of attempts and codes (locate/locate, locate/other_place).
 namespace cascade {
-/// Minimum odds of another code, relative to the code of the fix, at which a frame is read again in
-/// the other code.
+/// If the odds of another code relative to the code of the fix exceed this number, the frame is
+/// read again in the other code.
 inline constexpr float kBetterOdds = 2;
 /// Minimum number of dots per wrong bit at which a reading in another code is reported. A dot has
 /// two bits, so at most one bit in a hundred is wrong in such a reading. Misread bits can cause

@@ -21,8 +21,9 @@
 
 namespace dotpose::core {
 
-/// Memory of a Locator, and results of its attempts. Only the entry points and the attempts see it.
-/// They pass its parts to the stages. Contains the memory of a DeviceLocator, for `Effort::device`.
+/// Memory of a Locator, and results of its attempts. Only the entry points and the attempts use the
+/// whole workspace. They pass parts of it to the stages. Contains the memory of a DeviceLocator,
+/// for `Effort::device`.
 struct DesktopWorkspace : DeviceWorkspace {
     Patch* patch = nullptr;   ///< first attempt, turning
     Smoothing smoothing;      ///< second attempt
