@@ -44,7 +44,8 @@ PrintMapResult map_of_area(const test::DriveCamera& camera, std::uint64_t frames
     return mapping.solve();
 }
 
-/// Errors of the raw positions of a drive, on each page.
+/// Errors of the positions of single frames of a drive, without the smoothing of the tracker, for
+/// each page.
 struct PageErrors {
     std::array<test::PlaceErrors, 2> pages;
 

@@ -22,7 +22,7 @@
 namespace dotpose::tables {
 namespace {
 
-/// Print jitter of the preset `nominal`.
+/// Standard deviation of the print jitter of the preset `nominal`, per axis.
 constexpr double kJitter_mm = 0.010;
 /// Errors of one method. The errors of the coordinates are divided by the Cramer-Rao bound of their
 /// standard deviations.

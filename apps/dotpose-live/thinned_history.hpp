@@ -39,7 +39,7 @@ class ThinnedHistory {
     struct Point {
         std::int64_t span = 0;       ///< index of the span of time
         std::int64_t time_us = 0;    ///< time of the first state
-        std::optional<Place> place;  ///< first place. None if there is none
+        std::optional<Place> place;  ///< first known place, if any
         double speed_mm_s = 0;       ///< maximum speed
         /// `lost` if any state is lost, otherwise `moving` if any state is moving.
         store::Motion motion = store::Motion::still;

@@ -57,7 +57,7 @@ class MapDeformation {
 
     MapField nodes_;
     std::vector<MapField::Around> field_nodes_;  ///< coarse nodes around each node of the field
-    std::vector<Follower> followers_;            ///< of each frame
+    std::vector<Follower> followers_;            ///< response of each frame
     Eigen::LLT<Eigen::MatrixXd> equations_;
 };
 

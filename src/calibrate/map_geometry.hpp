@@ -34,8 +34,9 @@ class MapView {
         double y;
         Eigen::Vector2d direction;
 
-        /// Returns the change of the residual for a change of the parameters. `shared` is the sum
-        /// of the view terms of the frame and the camera.
+        /// Returns the change of the residual for changes of the parameters. `frame` contains the
+        /// changes of place, angle and displacement. `shared` is the sum of the view terms of the
+        /// frame and the terms of the camera.
         Eigen::Vector2d change(const FrameVector& frame, const CameraVector& shared) const {
             const double scale =
                 shared[0] + shared[3] * x + shared[4] * y + shared[5] * (x * x + y * y);

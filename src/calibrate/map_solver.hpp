@@ -86,7 +86,7 @@ struct MapSolution {
     std::vector<std::uint32_t> views;            ///< number of views of each dot
     double noise_mm = 0;                         ///< see MapPage::noise
     double jitter_mm = 0;                        ///< see MapPage::jitter
-    /// Standard deviations of the view terms between frames. 0 at the start if not known.
+    /// Standard deviations of the view terms between frames, estimated by `solve_map`.
     std::array<double, kViewTerms> view_sigma{};
     std::size_t outliers = 0;
     int iterations = 0;  ///< iterations of conjugate gradients in all rounds

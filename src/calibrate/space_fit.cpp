@@ -207,8 +207,8 @@ class NoiseModel {
         return 2 * static_cast<double>(residuals_.size()) * std::log(squares) + log_determinants;
     }
     double likeliest_fraction() const {
-        // Golden-section search. At the fraction 1, the covariances of a plane seen from the side
-        // would be singular.
+        // Golden-section search. The fraction 1 is excluded, because the covariances of print
+        // errors are singular if the plane is seen edge-on.
         constexpr double kMaxFraction = 0.999;
         constexpr double kTolerance = 0.02;
         double low = 0;

@@ -40,7 +40,7 @@ struct SpaceSighting {
 };
 SpaceSighting sighting_of(const SpacePose& pose, std::int64_t time_us, std::uint32_t plane = 0);
 
-/// Limits on the motion of the camera, and criteria for accepting sightings.
+/// Assumptions about the motion of the camera, and criteria for accepting sightings.
 struct SpaceTrackOptions {
     /// Standard deviation of the acceleration along each axis. The default is suitable for a hand.
     double acceleration_mm_s2 = 2000;
@@ -64,9 +64,10 @@ struct SpaceTrackOptions {
 enum class SpaceVerdict : std::uint8_t {
     none,             ///< there was no sighting
     accepted,         ///< the first pose was used
-    second_accepted,  ///< the second pose was used, because the track contradicts the first pose
-    /// The sighting was rejected: the track contradicts it, or there is no track yet that could
-    /// resolve its ambiguity.
+    second_accepted,  ///< the second pose was used, because it agrees better with the track
+    /// The sighting was rejected. Either the track contradicts it, or it is ambiguous and the track
+    /// does not decide between its poses. An ambiguous sighting is also rejected if there is no
+    /// track.
     rejected,
 };
 /// Returns the identifier, such as "second_accepted".
