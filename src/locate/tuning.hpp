@@ -108,8 +108,8 @@ inline constexpr FloatVec kPoints[] = {
 
 /// Measurement of dots at known places (locate/confirm, locate/dot_reader).
 namespace confirm {
-/// Reading distance in the first round for images that the pattern fills and that exceed
-/// kDenseAtMost, in spacings. The first round measures all dots within this distance of
+/// Reading distance in the first round, in spacings, for images that the pattern fills and whose
+/// half side exceeds kDenseAtMost. The first round measures all dots within this distance of
 /// `Hypothesis::from_centre`. The bits of these dots must make the position certain.
 inline constexpr float kDense = 10;
 /// Maximum half side of an image that is measured in a single round, in spacings.
@@ -161,11 +161,12 @@ inline constexpr float kFacing = 0.55F;
 /// have about the same sub-pixel phase. At larger deviations, the phases in view are evenly
 /// distributed.
 inline constexpr float kDrift_px = 0.05F;
-/// The pixel bias is corrected only if the phase drift across the view is at most this distance,
-/// because the correction takes several times as long as all other steps of a frame.
+/// The pixel bias is corrected only if the sub-pixel phases of the dots of a row or column change
+/// by less than this distance across the view. The correction is restricted in this way because it
+/// takes several times as long as all other steps of a frame.
 inline constexpr float kDriftInView_px = 0.35F;
 /// The pixel bias matters only if the variance of the mean centre along one axis is at most this
-/// value. Otherwise, other errors are larger.
+/// value. At a larger variance, other errors are larger than the bias.
 inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
 /// Minimum and maximum size of image parts that are prefetched. Smaller parts are already in the
 /// cache. Larger parts would evict their own first rows.
@@ -189,9 +190,9 @@ inline constexpr float kRough = 0.027F;
 /// Views of known sheets (locate/hypothesis, locate/on_sheets).
 namespace known {
 /// Shorter image side, in spacings, below which dots are read up to kMargin_px from the border. The
-/// usual margin is 1.7 px. Of 300 views of 36 x 36 px at 6 px per spacing, 97 % are located with a
-/// margin of 1.0 px, and 88 % with the usual margin. The pose errors are equal (`dotpose_tables
-/// known`).
+/// usual margin is at least 1.7 px. Of 300 views of 36 x 36 px at 6 px per spacing, 97 % are
+/// located with a margin of 1.0 px, and 88 % with the usual margin. The pose errors are equal
+/// (`dotpose_tables known`).
 inline constexpr float kSmallView = 9;
 inline constexpr float kMargin_px = 1;
 /// Minimum weight of a bit, in 1/127. The second attempt uses a cell only if each of its two bits
@@ -213,7 +214,8 @@ inline constexpr float kBlunder_log2 = -36;
 /// on the camera tilt. The place error is in spacings.
 inline constexpr float kGridAngle_rad = 0.035F;
 inline constexpr float kGridPhase = 0.06F;
-/// Maximum deviation of a match from the prediction, in standard deviations and in spacings.
+/// Maximum deviation of a match from the prediction: kReach_sigmas standard deviations, but at most
+/// kMaxReach spacings.
 inline constexpr float kReach_sigmas = 8;
 inline constexpr float kMaxReach = 24;
 }  // namespace joined

@@ -242,7 +242,8 @@ bool find_isolated_dots(const Frame& frame, Patch& patch, Fix& fix) {
     return static_cast<float>(patch.dots.count) >= tuned::kMinIsolated * static_cast<float>(seen);
 }
 
-/// Measures the dots of a hypothesis in the image from which the rotation is removed. See `settle`.
+/// Measures the dots of a hypothesis in the image from which the rotation is removed, and fits the
+/// rotation (see `settle`). Returns implausible if the fitted rotation is not significant.
 Confirmation confirm_turning(const Frame& frame, Hypothesis hypothesis,
                              const PlaceEvidence& evidence, std::span<std::uint8_t> pixels,
                              ReadoutTurn& turn, Measurement& measurement, Fix& fix) {
