@@ -1,6 +1,6 @@
 // Measures how much a map of the print improves a drive (docs/print-map.md). The drive is that of
-// `dotpose_tables drive`. The map is made of other frames, all over the rectangle around its path:
-// a map of a narrow band would bend slowly along it.
+// `dotpose_tables drive`. The map is made of other frames. They cover the whole rectangle around
+// the path, because a map of the narrow band along the path would be bent.
 //
 //   dotpose_tables print_map_drive [--frames N]
 //
@@ -44,7 +44,8 @@ PrintMapResult map_of_area(const test::DriveCamera& camera, std::uint64_t frames
     return mapping.solve();
 }
 
-/// Errors of the raw positions of a drive, on each page.
+/// Errors of the positions of single frames of a drive, without the smoothing of the tracker, for
+/// each page.
 struct PageErrors {
     std::array<test::PlaceErrors, 2> pages;
 

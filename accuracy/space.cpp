@@ -22,9 +22,10 @@
 namespace dotpose::tables {
 namespace {
 
-/// Print jitter of the preset `nominal`.
+/// Standard deviation of the print jitter of the preset `nominal`, per axis.
 constexpr double kJitter_mm = 0.010;
-/// Errors of one method. Errors are relative to the bound.
+/// Errors of one method. The errors of the coordinates are divided by the Cramer-Rao bound of their
+/// standard deviations.
 struct SpaceErrors {
     std::array<Errors, 6> coordinates;
     Errors all;  ///< sum of the normalised squared errors of the six coordinates
@@ -42,7 +43,7 @@ struct SpaceTally {
     std::uint64_t located = 0;
     std::uint64_t wrong = 0;
     std::uint64_t ambiguous = 0;
-    std::uint64_t second = 0;  ///< frames with a second solution, whether it is excluded or not
+    std::uint64_t second = 0;  ///< frames with a second solution, even if it is excluded
     SpaceErrors ours;
     SpaceErrors opencv;
 
@@ -88,7 +89,8 @@ void measure(const Shot& shot, SpaceTally& tally) {
 #endif
 }
 
-/// Returns two table cells: the errors of position and rotation, relative to the bound.
+/// Returns two table cells: the rms errors of the position and of the rotation, divided by the
+/// bound.
 std::string ratios_text(const SpaceErrors& errors) {
     const auto& e = errors.coordinates;
     if (e[0].count == 0) return " - | - |";

@@ -17,7 +17,8 @@
 namespace dotpose::tables {
 namespace {
 
-/// The lenses of the table `space`, and narrow lenses whose views have two similar poses.
+/// The lenses of the table `space`, and lenses with a narrow field of view, in which perspective
+/// hardly distinguishes the two poses of a view.
 constexpr std::array kSecondLenses = {kSpaceLenses[0], kSpaceLenses[1],
                                       SpaceLens{"10 degrees", 167, -0.03e-6},
                                       SpaceLens{"2 degrees", 838, 0}};
@@ -32,11 +33,11 @@ constexpr std::array kTiltRanges = {TiltRange{0, 15}, TiltRange{15, 30}, TiltRan
 struct SecondTally {
     std::uint64_t frames = 0;
     std::uint64_t located = 0;
-    std::uint64_t second = 0;  ///< frames with a second pose, excluded or not
+    std::uint64_t second = 0;  ///< frames with a second pose, even if it is excluded
     std::uint64_t ambiguous = 0;
     std::uint64_t swapped =
         0;                ///< ambiguous frames in which the second pose is closer to the true pose
-    double expected = 0;  ///< number of swapped frames according to the odds
+    double expected = 0;  ///< expected number of swapped frames, computed from the odds
     std::uint64_t wrong = 0;  ///< frames with a wrong pose that is not reported as ambiguous
 
     void operator+=(const SecondTally& other) {

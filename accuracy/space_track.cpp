@@ -19,9 +19,10 @@
 namespace dotpose::tables {
 namespace {
 
-constexpr int kStart = 30;  ///< number of frames in which the tracker estimates the agility
+constexpr int kStart = 30;  ///< first frames, not counted while the tracker adapts
 
-/// Returns the view of a camera in a hand that writes: 20 mm wide, with tilts up to 30 degrees.
+/// Returns the view of a camera that moves like a writing hand, over a width of 20 mm and with
+/// tilts of up to 30 degrees.
 Shot hand_shot(const Shot& first, double t_s, std::uint64_t seed) {
     Shot shot = first;
     CameraPose& pose = shot.pose;
@@ -60,7 +61,7 @@ struct TrackErrors {
     }
 };
 
-/// Tracks a sequence of sightings. Returns a row of the table.
+/// Tracks a sequence of sightings, and returns the row of the table with the errors.
 std::string row_text(double fps, const std::vector<Shot>& shots,
                      const std::vector<std::optional<SpaceSighting>>& sightings) {
     SpaceTracker tracker;

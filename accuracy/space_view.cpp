@@ -28,8 +28,8 @@ bool is_in_view(const Shot& shot, const Vec2& pixel) {
            pixel.y <= camera.height_px - 1 - radius_px;
 }
 
-/// Returns the length of a spacing in the image at a place, in the direction in which it is
-/// shortest.
+/// Returns the length that a spacing at a place on the paper has in the image, in the direction in
+/// which it is shortest.
 double shortest_spacing_px(const Projection& projection, const Vec2& place_mm, double spacing_mm) {
     const auto step = [&](double x_mm, double y_mm) {
         const Vec2 to = projection.pixel_from_offset({place_mm.x + x_mm, place_mm.y + y_mm});
@@ -71,7 +71,8 @@ Matrix2d centre_bound(const Shot& shot, const Matrix2d& by_place) {
     const double root = std::sqrt(shape.determinant());
     const double peak =
         noise.paper_level * (1 - noise.ink_reflectance) * area_px2 / (2 * std::numbers::pi * root);
-    // The information is peak^2 / noise^2 * pi / 2 * root * shape^-1.
+    // The Fisher information of the centre is peak^2 / variance * pi / 2 * root * shape^-1. The
+    // bound is its inverse.
     const double rounding = 1.0 / 12;
     const double variance = noise.noise_sigma * noise.noise_sigma + rounding;
     return variance / (peak * peak * std::numbers::pi / 2 * root) * shape;
@@ -189,7 +190,8 @@ SpaceMatrix space_bound(const Shot& shot, double jitter_mm) {
     const double mm = pattern.spacing_mm;
     const Vector3d from_camera =
         Vector3d(x_grid(shot.pose) * mm, y_grid(shot.pose) * mm, 0) - truth.position_mm;
-    // A strongly tilted camera sees dots at several times the width of its untilted view.
+    // A tilted camera also sees dots outside the area that it would see without tilt, so the search
+    // extends to three times the width of that area.
     const auto reach = static_cast<int>(3 * shot.camera.width_px * shot.camera.mm_per_px / mm);
     SpaceMatrix information = SpaceMatrix::Zero();
     for (int j = -reach; j <= reach; ++j) {

@@ -22,7 +22,7 @@ struct SpaceLens {
 inline constexpr std::array kSpaceLenses = {SpaceLens{"52 degrees", 30, -0.7e-6},
                                             SpaceLens{"28 degrees", 60, -0.2e-6}};
 
-/// Returns frame `index` of a camera that is tilted in any direction.
+/// Returns frame `index` of a camera that is tilted by `tilt_deg` in a random direction.
 Shot space_shot(const SpaceLens& lens, double tilt_deg, std::uint64_t seed, std::uint64_t index);
 
 /// Position in mm in the pattern frame, and rotation from the camera to the pattern.
@@ -45,11 +45,12 @@ SpaceVector space_error(const CameraInSpace& camera, const TrueSpacePose& truth)
 
 SpaceMatrix matrix_of(const SpaceCovariance& covariance);
 
-/// Returns the normalised squared error of the six coordinates.
+/// Returns the squared error of the six coordinates, normalised by the covariance: error^T
+/// covariance^-1 error.
 double normalised_square(const SpaceVector& error, const SpaceMatrix& covariance);
 
-/// Limit of the normalised squared error of the six coordinates. Above the limit, a pose is wrong.
-/// A correct pose exceeds the limit by chance once in 10^19.
+/// Maximum normalised squared error of the six coordinates of a correct pose. A correct pose
+/// exceeds it by chance once in 10^19.
 inline constexpr double kMaxNormalisedSquare = 100;
 
 /// A rendered frame, and the pose in space that dotpose finds in it.

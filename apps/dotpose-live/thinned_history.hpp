@@ -21,11 +21,12 @@ class ThinnedHistory {
 
     std::int64_t states() const { return states_; }
 
-    /// Returns the points as columns, and counts of all states. docs/fleet.md describes the value.
+    /// Returns one array per member of the points, and the numbers of states by motion.
+    /// docs/fleet.md describes the value.
     nlohmann::json value() const;
 
   private:
-    /// Maximum number of points. If there are more, two adjacent spans of time become one.
+    /// Maximum number of points. If there are more, the spans of time become twice as long.
     static constexpr std::size_t kMaxPoints = 2000;
     static constexpr std::size_t kMaxMaps = 100;
 
@@ -38,8 +39,8 @@ class ThinnedHistory {
     struct Point {
         std::int64_t span = 0;       ///< index of the span of time
         std::int64_t time_us = 0;    ///< time of the first state
-        std::optional<Place> place;  ///< first place; none if the robot was lost
-        double speed_mm_s = 0;       ///< maximum
+        std::optional<Place> place;  ///< first known place, if any
+        double speed_mm_s = 0;       ///< maximum speed
         /// `lost` if any state is lost, otherwise `moving` if any state is moving.
         store::Motion motion = store::Motion::still;
     };

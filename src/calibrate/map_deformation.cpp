@@ -14,7 +14,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-/// Maximum number of coarse nodes. The factorisation then takes 5 Gflop, and the matrix 46 MB.
+/// Maximum number of coarse nodes. With this number, the factorisation takes 5 Gflop, and the
+/// matrix takes 46 MB.
 constexpr std::size_t kMaxNodes = 800;
 /// Unknowns of a node: shift along x, shift along y, and change of the displacement.
 constexpr int kNodeTerms = 3;
@@ -49,7 +50,8 @@ MapDeformation::MapDeformation(const MapGrid& grid, const EarlierOffsets& earlie
     add_frames(grid, observations, solution, matrix);
     add_dots(grid, earlier, solution, matrix);
     add_smoothness(solution.field, matrix);
-    // Shifts and turns of the whole page have no equations.
+    // The observations do not determine shifts and turns of the whole page. This term makes the
+    // matrix invertible nevertheless.
     matrix.diagonal().array() += 1e-9 * matrix.diagonal().maxCoeff();
     equations_.compute(matrix);
 }
@@ -112,7 +114,8 @@ void MapDeformation::add_frames(const MapGrid& grid,
                                 const MapSolution& solution, MatrixXd& matrix) {
     const std::vector<MapFrame>& frames = solution.frames;
     followers_.resize(frames.size());
-    // The matrices of all frames together would need more memory than the observations.
+    // Computes the matrices in batches, because the matrices of all frames together would need more
+    // memory than the observations.
     constexpr std::size_t kBatch = 256;
     for (std::size_t first = 0; first < frames.size(); first += kBatch) {
         std::vector<FrameEquations> batch(std::min(kBatch, frames.size() - first));
@@ -142,7 +145,8 @@ void MapDeformation::add_dots(const MapGrid& grid, const EarlierOffsets& earlier
         NodeBlock square = NodeBlock::Zero();
         if (!earlier.views.empty())
             square = weight * static_cast<double>(earlier.views[dot]) * offset.transpose() * offset;
-        // The field follows the shifts, but not the change of the displacement.
+        // The prior applies to the difference between the offset and the field. Shifts change both
+        // equally, so only a change of the displacement contributes.
         square(2, 2) += prior_weight;
         const MapField::Around near = around_dot(nodes_, grid, dot);
         for (std::size_t i = 0; i < 4; ++i) {
@@ -156,7 +160,8 @@ void MapDeformation::add_dots(const MapGrid& grid, const EarlierOffsets& earlier
 }
 
 void MapDeformation::add_smoothness(const MapField& field, MatrixXd& matrix) const {
-    // The rows of each difference have at most 4 nodes of the field, with 4 coarse nodes each.
+    // A difference depends on at most 4 nodes of the field, and each of these depends on 4 coarse
+    // nodes.
     field.for_each_difference([&](const auto& fine, const auto& coefficients) {
         std::array<std::pair<Eigen::Index, double>, 16> terms;
         std::size_t count = 0;

@@ -1,5 +1,7 @@
-// Map deformation: preconditioner for slow deformations of the page. The frames follow a slow
-// deformation and hardly see it, so the blocks of single frames do not solve for it.
+// Map deformation: the part of the preconditioner for slow deformations of the page. A slow
+// deformation moves all dots in a frame together, so a different pose of the frame nearly cancels
+// it in the residuals. The diagonal blocks of single frames therefore correct slow deformations
+// only in many iterations. This part solves for the deformation and the poses together.
 #pragma once
 
 #include <cstdint>
@@ -15,25 +17,29 @@
 namespace dotpose::calibrate {
 
 /// The equations for slow deformations. A deformation consists of shifts along x and y, and of a
-/// change of the displacement of the dots, which are bilinear between coarse nodes. The field and
-/// the offsets have the value of the deformation. Each frame has the terms that fit it best.
+/// change of the displacement of the dots. These three values are interpolated bilinearly between
+/// coarse nodes. In a deformation, the field is equal to the shifts, the offset of a dot is the
+/// shift plus the change of its displacement, and the terms of a frame are the least-squares fit to
+/// the offsets of its dots.
 class MapDeformation {
   public:
     MapDeformation(const MapGrid& grid, const EarlierOffsets& earlier,
                    const std::vector<MapObservation>& observations, const MapSolution& solution);
 
-    /// Adds the deformation that solves the equations for `residual` to `result`.
+    /// Solves the equations with the right-hand side `residual`, and adds the resulting deformation
+    /// to `result`.
     void add_solution(const MapUnknowns& residual, MapUnknowns& result) const;
 
   private:
     using Following = Eigen::Matrix<float, kFrameTerms, Eigen::Dynamic>;
 
-    /// Terms of a frame for deformations at the nodes of its dots.
+    /// Response of a frame to a deformation: the terms of the frame for a unit value at each coarse
+    /// node around its dots.
     struct Follower {
         std::vector<std::uint32_t> nodes;
         Following terms;  ///< columns: shifts and displacement of each node
     };
-    /// A frame, with its part of the equations.
+    /// Response of a frame, and its part of the matrix. The matrix has the nodes of the response.
     struct FrameEquations {
         Follower follower;
         Eigen::MatrixXd matrix;
@@ -51,7 +57,7 @@ class MapDeformation {
 
     MapField nodes_;
     std::vector<MapField::Around> field_nodes_;  ///< coarse nodes around each node of the field
-    std::vector<Follower> followers_;            ///< of each frame
+    std::vector<Follower> followers_;            ///< response of each frame
     Eigen::LLT<Eigen::MatrixXd> equations_;
 };
 

@@ -6,7 +6,8 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Distance between nodes, in mm. A wave with a wavelength of 40 mm is reproduced to 8 %.
+/// Distance between nodes, in mm. Interpolation reproduces a wave with a wavelength of 40 mm with
+/// errors of at most 8 % of its amplitude.
 constexpr double kNodePitch_mm = 5;
 
 }  // namespace

@@ -11,14 +11,15 @@ namespace dotpose::calibrate {
 
 class MapField {
   public:
-    /// The nodes that surround a place, with their weights.
+    /// The four nodes around a dot, with their weights in the interpolation.
     struct Around {
         std::array<std::size_t, 4> nodes;
         std::array<double, 4> weights;
     };
 
     MapField() = default;
-    /// A field with the value 0 over a page with these numbers of cells.
+    /// Makes a field with the value 0 for a page with `columns` x `rows` dots at a distance of
+    /// `pitch_mm`.
     MapField(int columns, int rows, double pitch_mm);
 
     Around around(int column, int row) const;
@@ -27,11 +28,11 @@ class MapField {
     std::vector<Eigen::Vector2d>& values() { return values_; }
     std::size_t nodes() const { return values_.size(); }
 
-    /// Adds the product of the smoothness prior and `values` to `product`. The prior is a sum of
-    /// squared second differences, each divided by its variance.
+    /// Adds the product of `values` and the matrix of the smoothness prior to `product`. The prior
+    /// is a sum of squared second differences, each divided by its variance.
     void add_prior(const std::vector<Eigen::Vector2d>& values,
                    std::vector<Eigen::Vector2d>& product) const;
-    /// Adds the diagonal of the smoothness prior.
+    /// Adds the diagonal of the matrix of the smoothness prior to `diagonal`.
     void add_prior_diagonal(std::vector<double>& diagonal) const;
 
     /// Returns a field with the value 0, with at most `max_nodes` nodes, that covers all nodes of
@@ -40,8 +41,9 @@ class MapField {
     /// Returns, for each node of this field, the nodes of a coarser field that surround it.
     std::vector<Around> nodes_in(const MapField& coarse) const;
 
-    /// Standard deviation of the second differences of adjacent nodes, in mm. The value is that of
-    /// a feed wave of 40 µm with a wavelength of 50 mm.
+    /// Standard deviation of the second differences of adjacent nodes, in mm. The value is about
+    /// the largest second difference of a feed wave with an amplitude of 40 µm and a wavelength of
+    /// 50 mm.
     static constexpr double kDifference_mm = 0.016;
     /// Weight of a squared second difference.
     static constexpr double kDifferenceWeight = 1 / (kDifference_mm * kDifference_mm);

@@ -18,21 +18,25 @@ class MapView {
 
     const Eigen::Matrix2d& page_from_camera() const { return rotation_; }
 
-    /// Returns the residual without the view terms and the offset of the dot.
+    /// Returns the observed place of a dot minus the place expected from the pose and the
+    /// displacement of the frame. The view terms and the offset of the dot are not taken into
+    /// account.
     Eigen::Vector2d residual(const MapObservation& seen) const {
         const Eigen::Vector2d target = grid_.place_mm(seen.index(), frame_.displacement_mm);
         return Eigen::Vector2d(seen.x_mm, seen.y_mm) -
                rotation_.transpose() * (target - frame_.place_mm);
     }
 
-    /// Terms from which the derivatives of an observation are computed.
+    /// Place of an observation, in units of the reach, and direction of the displacement of its
+    /// dot. The derivatives of the residual are computed from them.
     struct Terms {
         double x;
         double y;
         Eigen::Vector2d direction;
 
-        /// Returns the change of the residual for a change of the parameters. `shared` is the sum
-        /// of the view terms of the frame and the camera.
+        /// Returns the change of the residual for changes of the parameters. `frame` contains the
+        /// changes of place, angle and displacement. `shared` is the sum of the view terms of the
+        /// frame and the terms of the camera.
         Eigen::Vector2d change(const FrameVector& frame, const CameraVector& shared) const {
             const double scale =
                 shared[0] + shared[3] * x + shared[4] * y + shared[5] * (x * x + y * y);
@@ -41,7 +45,8 @@ class MapView {
                     frame[1] + frame[2] * x + y * (scale - shared[1]) + x * shared[2] -
                         frame[3] * direction.y()};
         }
-        /// Adds the product of the transposed derivatives and `g`.
+        /// Multiplies the transposed derivatives by `g`, and adds the elements for the frame to
+        /// `frame`, and the element for the lens distortion to `distortion`.
         void add_transposed(const Eigen::Vector2d& g, FrameVector& frame,
                             double& distortion) const {
             const double along = x * g.x() + y * g.y();

@@ -28,7 +28,7 @@ void for_each_part(const Work& work) {
     run();
 }
 
-/// Calls `work(part, item)` for the items of all parts, from 0 to count - 1.
+/// Divides the items 0 to count - 1 among the parts, and calls `work(part, item)` for each item.
 template <typename Work>
 void for_each_item(std::size_t count, const Work& work) {
     const auto begin_of = [count](int part) {

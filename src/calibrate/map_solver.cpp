@@ -23,8 +23,8 @@ using FrameBlock = Eigen::Matrix<double, kFrameTerms, kFrameTerms>;
 /// again.
 constexpr int kRounds = 3;
 /// Mean square of the preconditioned residual at which conjugate gradients end, in units of the
-/// variance of an unknown. Smaller values do not change the errors of the map. The rounds before
-/// the last one only estimate variances and find outliers.
+/// variance of an unknown. Smaller values do not change the errors of the map. kFirstConverged
+/// applies to all rounds but the last one, because they only estimate variances and find outliers.
 constexpr double kConverged = 1e-6;
 constexpr double kFirstConverged = 1e-4;
 /// Maximum squared residual of an observation, in units of the variance per axis. Noise exceeds it
@@ -99,7 +99,7 @@ double typical_square(const std::vector<float>& squares) {
 }
 
 /// Computes the squared residuals of a frame. Adds those that are not outliers to `sum`. Returns
-/// the view terms of the frame.
+/// the view terms estimated from this frame alone.
 FreeView measure_frame(const MapGrid& grid, const MapSolution& solution, const MapFrame& frame,
                        const std::vector<MapObservation>& observations, std::vector<float>& squares,
                        double& sum) {
@@ -122,8 +122,8 @@ FreeView measure_frame(const MapGrid& grid, const MapSolution& solution, const M
     return free_view(block, right, frame, own / (2 * static_cast<double>(frame.count)));
 }
 
-/// Computes the statistics and marks outliers. `limit` is the limit of squared residuals, in units
-/// of their typical variance per axis.
+/// Computes the statistics, then marks the outliers anew: observations whose squared residual
+/// exceeds `limit` times the typical variance per axis.
 Statistics measure(const MapGrid& grid, double limit, MapSolution& solution,
                    std::vector<MapObservation>& observations) {
     std::vector<float> squares(observations.size());
@@ -149,8 +149,8 @@ Statistics measure(const MapGrid& grid, double limit, MapSolution& solution,
     return result;
 }
 
-/// Estimates noise and jitter from the residuals. `used` is the number of observations that are not
-/// outliers.
+/// Estimates noise and jitter. `used` is the number of observations that are not outliers, and
+/// `squares` is the sum of their squared residuals.
 void estimate_variances(const MapGrid& grid, double squares, std::size_t used,
                         MapSolution& solution) {
     const double weight = 1 / (solution.noise_mm * solution.noise_mm);

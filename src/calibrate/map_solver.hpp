@@ -31,7 +31,7 @@ struct MapObservation {
 
 /// Number of terms of the view that may differ between frames: scale, two shears, two perspectives.
 inline constexpr int kViewTerms = 5;
-/// Number of terms that all frames have in common: these terms and the lens distortion.
+/// Number of terms that all frames have in common: the view terms and the lens distortion.
 inline constexpr int kCameraTerms = kViewTerms + 1;
 /// Parameters of a frame: place (2), angle, displacement of the dots, and the view terms.
 inline constexpr int kFrameTerms = 4 + kViewTerms;
@@ -53,7 +53,7 @@ struct MapGrid {
     int columns = 0;
     int rows = 0;
     Eigen::Vector2d pitch_mm = Eigen::Vector2d::Zero();
-    /// Directions of the displacements of the dots.
+    /// Direction of the displacement of each dot, along x and along y: -1, 0 or 1.
     std::vector<std::array<std::int8_t, 2>> directions;
 
     std::size_t dots() const { return directions.size(); }
@@ -86,7 +86,7 @@ struct MapSolution {
     std::vector<std::uint32_t> views;            ///< number of views of each dot
     double noise_mm = 0;                         ///< see MapPage::noise
     double jitter_mm = 0;                        ///< see MapPage::jitter
-    /// Standard deviations of the view terms between frames. 0 at the start if not known.
+    /// Standard deviations of the view terms between frames, estimated by `solve_map`.
     std::array<double, kViewTerms> view_sigma{};
     std::size_t outliers = 0;
     int iterations = 0;  ///< iterations of conjugate gradients in all rounds
@@ -96,8 +96,9 @@ struct MapSolution {
 /// the work.
 using MapProgress = std::function<void(double share)>;
 
-/// Computes the map and marks outliers. `solution` must contain the approximate poses of the
-/// frames, and the observations of each frame must be consecutive.
+/// Computes the offsets of the dots, refines the poses of the frames, and marks outliers.
+/// `solution` must contain the approximate poses of the frames, and the observations of each frame
+/// must be consecutive.
 void solve_map(const MapGrid& grid, const EarlierOffsets& earlier, double reach_mm,
                std::vector<MapObservation>& observations, MapSolution& solution,
                const MapProgress& progress);

@@ -19,23 +19,26 @@ struct MapSighting {
     PlaneFromImage plane;
 };
 
-/// Adds the dots of a fix on a page. Their places are undistorted pixels, until `start_map`
-/// converts them to mm. Returns false, without adding dots, if there are fewer than `min_dots`.
+/// Adds the dots of a fix that are on the page. Their coordinates are undistorted pixels, until
+/// `start_map` converts them to mm. Returns false, without adding dots, if there are fewer than
+/// `min_dots` such dots.
 bool add_sighting(const Fix& fix, const Trace& trace, const MapPage& page, std::size_t min_dots,
                   std::vector<MapSighting>& frames, std::vector<MapObservation>& observations);
 
 /// Converts the observations to places on the paper in the frame of the camera, and sets the
-/// approximate poses of the frames of `solution`. All frames use the view of the camera file or, if
-/// it has none, their median view. If the views differ too much, because the camera was hand-held,
+/// approximate poses of the frames of `solution`. All frames use the view of the camera file. If it
+/// has none, they use their median view or, if the views differ because the camera was hand-held,
 /// each frame uses its own view. All places are scaled such that the median scale between the
-/// frames and the page, including the offsets of the earlier map, is 1. Returns the distance to the
-/// most distant dots, in mm.
+/// frames and the page, including the offsets of the earlier map, is 1. Returns the maximum
+/// distance between a dot and the origin of the camera frame, in mm.
 double start_map(const MapGrid& grid, const EarlierOffsets& earlier,
                  const std::optional<Camera>& camera, const std::vector<MapSighting>& frames,
                  std::vector<MapObservation>& observations, MapSolution& solution);
 
-/// Returns the median squared residual of the dots with the offsets of a map, divided by the median
-/// without these offsets. `solution` contains the poses of `start_map`.
+/// Returns a ratio that shows how well the earlier map explains the residuals. The numerator is the
+/// sum over all frames of the median squared residual with the offsets of the map. The denominator
+/// is the same sum without these offsets. The ratio is below 1 if the offsets reduce the residuals.
+/// `solution` must contain the poses of `start_map`.
 double misfit(const MapGrid& grid, const EarlierOffsets& earlier, double reach_mm,
               const std::vector<MapObservation>& observations, const MapSolution& solution);
 

@@ -19,8 +19,9 @@ class MapSystem {
               const std::vector<MapObservation>& observations, const MapSolution& solution);
 
     /// Solves the equations by preconditioned conjugate gradients, until the mean square of the
-    /// preconditioned residual is at most `converged` variances of an unknown. Updates frames,
-    /// camera, field and offsets of `solution`, which must be the solution of the constructor.
+    /// preconditioned residual is at most `converged` times the variance of an unknown, or for
+    /// kMaxIterations. Updates frames, camera, field and offsets of `solution`, which must be the
+    /// solution of the constructor.
     void solve(MapSolution& solution, double converged, const MapProgress& progress);
 
   private:
@@ -28,8 +29,8 @@ class MapSystem {
 
     MapUnknowns zeros() const;
     MapUnknowns unknowns_of(const MapSolution& solution) const;
-    /// Returns the product of the matrix and `at`. With Residuals::add, returns the gradient at
-    /// `at`.
+    /// Returns the product of the matrix and `at`. With Residuals::add, subtracts the right-hand
+    /// side, so the result is the gradient at `at`.
     MapUnknowns product(const MapUnknowns& at, Residuals residuals);
     /// Sets `offsets_` to the most likely offsets for `at`.
     void eliminate(const MapUnknowns& at, Residuals residuals);
@@ -49,9 +50,9 @@ class MapSystem {
     const MapSolution& solution_;
     double weight_;                   ///< weight of an observation: 1 / noise^2
     double prior_weight_;             ///< weight of the field in the offset of a dot: 1 / jitter^2
-    std::vector<float> information_;  ///< total weight of all that is known about each offset
+    std::vector<float> information_;  ///< for each offset, sum of all its weights
     std::vector<Eigen::Vector2d> offsets_;
-    std::vector<std::vector<Eigen::Vector2d>> sums_;  ///< of each part
+    std::vector<std::vector<Eigen::Vector2d>> sums_;  ///< for each part, sums by dot
     std::vector<Eigen::LLT<Eigen::Matrix<double, kFrameTerms, kFrameTerms>>> frame_blocks_;
     Eigen::LLT<Eigen::Matrix<double, kCameraTerms, kCameraTerms>> camera_block_;
     std::vector<double> field_diagonal_;

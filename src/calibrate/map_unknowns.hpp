@@ -7,8 +7,9 @@
 
 namespace dotpose::calibrate {
 
-/// Unknowns that remain after the elimination. Places, angles (times the reach) and displacements
-/// of the frames are relative to the frames of the solution. All other values are absolute.
+/// Unknowns that remain after the elimination of the offsets. The places, the angles (times the
+/// reach) and the displacements of the frames are relative to the frames of the solution. All other
+/// values are absolute.
 struct MapUnknowns {
     std::vector<FrameVector> frames;
     CameraVector camera = CameraVector::Zero();

@@ -154,8 +154,8 @@ std::vector<WeightedDot> inliers(const SpaceState& state, const std::vector<Weig
     return kept;
 }
 
-/// Error model of the dots. A fraction of the variance is due to the print, whose variance is equal
-/// in all directions on the paper. The other part is due to the measurement of the centres.
+/// Error model of the dots. A fraction of the variance is due to print errors, whose variance on
+/// the paper is equal in all directions. The rest is due to the measurement of the centres.
 class NoiseModel {
   public:
     NoiseModel(const SpaceState& state, const std::vector<WeightedDot>& dots,
@@ -171,7 +171,8 @@ class NoiseModel {
         normalize(centre_);
     }
 
-    /// Sets the whitening of the dots for the fraction with the maximum likelihood.
+    /// Estimates the fraction of the print errors by maximum likelihood, and sets the whitening of
+    /// the dots for this fraction.
     void whiten(std::vector<WeightedDot>& dots) const {
         const double fraction = likeliest_fraction();
         for (std::size_t i = 0; i < dots.size(); ++i) {
@@ -181,8 +182,8 @@ class NoiseModel {
     }
 
   private:
-    /// Divides the covariances by their harmonic mean. A few large covariances do not change this
-    /// mean.
+    /// Divides the covariances by the harmonic mean of their mean variances per axis. A few large
+    /// covariances hardly change this mean.
     static void normalize(std::vector<Matrix2d>& covariances) {
         double sum = 0;
         for (const Matrix2d& covariance : covariances)
@@ -194,7 +195,7 @@ class NoiseModel {
     Matrix2d covariance(std::size_t i, double fraction) const {
         return (1 - fraction) * centre_[i] + fraction * print_[i];
     }
-    /// -2 log(likelihood), maximized over the common factor, up to a constant.
+    /// Returns -2 log(likelihood) at the most likely common factor, up to an additive constant.
     double cost(double fraction) const {
         double squares = 0;
         double log_determinants = 0;
@@ -206,8 +207,8 @@ class NoiseModel {
         return 2 * static_cast<double>(residuals_.size()) * std::log(squares) + log_determinants;
     }
     double likeliest_fraction() const {
-        // Golden-section search. At the fraction 1, the covariances of a plane seen from the side
-        // would be singular.
+        // Golden-section search. The fraction 1 is excluded, because the covariances of print
+        // errors are singular if the plane is seen edge-on.
         constexpr double kMaxFraction = 0.999;
         constexpr double kTolerance = 0.02;
         double low = 0;

@@ -34,7 +34,8 @@ struct SpaceFit {
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
     std::vector<SpaceDot> used;  ///< dots that are not outliers
     /// Shift of the pose caused by the residual of each of these dots, in the coordinates of the
-    /// covariance. The shifts show the errors that frames of the same dots have in common.
+    /// covariance. If two frames show the same dots, the shifts that their poses have in common can
+    /// be computed from these values.
     std::vector<Eigen::Matrix<double, 6, 1>> influences;
     double residual_px = 0;  ///< rms residual of these dots, per axis
     std::optional<SpaceState> second;

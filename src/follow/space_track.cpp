@@ -24,16 +24,16 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector18 = Eigen::Matrix<double, 18, 1>;
 using Matrix18 = Eigen::Matrix<double, 18, 18>;
 
-/// Factors by which a sighting increases or decreases the agility. With equal factors, as in the
-/// tracker of the plane, the normalised squared errors of single axes are up to 1.4 at 200 frames
-/// per second (tests/unit/follow/space_track_test.cpp).
+/// Factors by which a sighting increases or decreases the agility. If the factors were reciprocal,
+/// as in the tracker of the plane, the normalised squared errors of single axes would be up to 1.4
+/// instead of 1 at 200 frames per second (tests/unit/follow/space_track_test.cpp).
 constexpr double kAgilityIncrease = 1.57;
 constexpr double kAgilityDecrease = 1 / 1.5;
 constexpr double kMinAgility = 1e-6;
 /// Innovations above this number of standard deviations are not considered noise.
 constexpr double kSurprise = 4;
-/// Minimum difference of two normalised squared innovations. With a smaller difference, the track
-/// does not resolve an ambiguous sighting. The value is 2 ln of the likelihood ratio 1000.
+/// Minimum of twice the log-likelihood ratio of the two poses of an ambiguous sighting. With a
+/// smaller ratio, the track does not decide between the poses. The value is 2 ln 1000.
 constexpr double kMinContrast = 13.8;
 
 Eigen::Map<const Vector6> vector_of(const std::array<double, 6>& values) {
@@ -141,7 +141,8 @@ Motion predicted(const Motion& motion, std::int64_t time_us, const SpaceTrackOpt
     return later;
 }
 
-/// Returns the normalised squared innovation of a pose, for a camera that manoeuvres.
+/// Returns the normalised squared innovation of a pose. Uses the accelerations of the options
+/// instead of the adapted agility, so that the start of a manoeuvre is not rejected.
 double squared_innovation(const Motion& motion, const SpaceSighting& sighting,
                           const CameraInSpace& camera, const SpaceTrackOptions& options) {
     Motion agile = motion;
@@ -153,8 +154,9 @@ double squared_innovation(const Motion& motion, const SpaceSighting& sighting,
     return innovation.dot(covariance.ldlt().solve(innovation));
 }
 
-/// Adapts the agility to an innovation. Consecutive innovations have equal signs as often as
-/// opposite signs if the noise of the filter is correct.
+/// Adapts the agility to an innovation. If the agility is correct, consecutive innovations have
+/// equal signs as often as opposite signs. Equal signs increase the agility, and opposite signs
+/// decrease it.
 void adapt(Motion& motion, const Vector6& innovation, const Matrix6& covariance) {
     for (std::size_t i = 0; i < 6; ++i) {
         const auto axis = static_cast<Eigen::Index>(i);
@@ -263,7 +265,9 @@ void SpaceTracker::start(const SpaceSighting& sighting) {
     track_.verdict = SpaceVerdict::accepted;
 }
 
-/// Corrects the track by the pose that the track supports. Returns false if there is none.
+/// Corrects the track by the pose of the sighting that is consistent with the track. Returns false
+/// if neither pose is consistent, or if the track does not decide between the two poses of an
+/// ambiguous sighting.
 bool SpaceTracker::take(const SpaceSighting& sighting) {
     const double first = squared_innovation(motion_, sighting, sighting.camera, options_);
     SpaceVerdict verdict = SpaceVerdict::accepted;
@@ -272,8 +276,8 @@ bool SpaceTracker::take(const SpaceSighting& sighting) {
     if (is_ambiguous(sighting)) {
         const double second =
             squared_innovation(motion_, sighting, sighting.second->camera, options_);
-        // Twice the natural logarithm of the ratio of the likelihoods of the first and the second
-        // pose.
+        // Twice the natural logarithm of the likelihood of the first pose divided by that of the
+        // second pose.
         const double contrast = second - first - 2 * std::numbers::ln2 * sighting.second->odds_log2;
         if (std::abs(contrast) < kMinContrast) return false;
         if (contrast < 0) {

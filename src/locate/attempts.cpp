@@ -28,12 +28,14 @@ std::span<const CodeVariant> Attempts::codes_for(Step step) const {
     return codes_.in_order();
 }
 
-/// Returns the input of an attempt in one code. Removes the odds of the last attempt.
+/// Returns the input of an attempt in one code. Discards the odds of the other codes that the
+/// previous attempt found.
 Frame Attempts::frame_in(CodeVariant code) {
     options_.code = code;
     if (w_.other_codes.are_wanted) w_.other_codes.of = {};
-    // The bounds on the probability of a wrong position apply to a single code. If several codes
-    // are possible, each bound is multiplied by the number of codes, weighted by their odds.
+    // A bound on the probability of a wrong position applies to a single code. If several codes are
+    // possible, the bound is multiplied by the weighted number of codes (see
+    // `PossibleCodes::number`).
     if (!codes_.is_known())
         w_.other_codes.log2_in_question_q8 = log2_of_odds_q8(codes_.number(code));
     return frame();

@@ -43,14 +43,16 @@ class Attempts {
     /// Returns true if the options allow a second attempt and the image is large enough for one.
     bool may_try_twice() const;
 
-    /// Returns the certainty of the fix of the last attempt, which was read in the code `read`.
+    /// Returns how certain the fix of the last attempt is, and whether another code is more likely.
+    /// The attempt was made in the code `read`.
     Judgement judge(CodeVariant read) const;
-    /// Returns true if a rotation during the readout may explain the residuals of the fix.
+    /// Returns true if a rotation of the scene during the readout may explain the residuals of the
+    /// fix. A search for this rotation (`Step::turning`) may then give a better fix.
     bool shows_turn();
     /// Returns true if the last attempt found too few cells for a certain fix in any code.
     bool shows_too_few_cells() const { return w_.measurement.shows_too_few_cells; }
-    /// Returns true if all dots that the last first attempt measured are clear and agree with the
-    /// code, but are too few.
+    /// Returns true if the last first attempt measured only clear dots that agree with the code,
+    /// but too few of them for a certain position.
     bool has_clear_bits() const { return w_.measurement.has_clear_bits; }
 
   private:
@@ -62,7 +64,7 @@ class Attempts {
     static constexpr int kMaxErrors = std::numeric_limits<int>::max();
 
     const ImageView& image_;
-    DeviceOptions options_;  ///< with the code of the last attempt
+    DeviceOptions options_;  ///< `code` is the code of the last attempt
     const PossibleCodes& codes_;
     DesktopWorkspace& w_;
     SecondAttempt second_;

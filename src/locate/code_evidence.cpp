@@ -11,7 +11,8 @@ namespace {
 /// Two frames count as frames of the same place if their distance along each axis is below this
 /// limit, in cells. Such frames may contain the same dots.
 constexpr std::uint32_t kSamePlace_cells = 64;
-/// Maximum number of frames counted at one place. Floats represent all integers up to this number.
+/// Maximum number of frames counted at one place. Further frames are ignored. A float represents
+/// all integers up to this number exactly.
 constexpr std::uint32_t kMaxFrames = 1U << 23;
 
 bool is_near(std::uint32_t a, std::uint32_t b) {
@@ -19,8 +20,9 @@ bool is_near(std::uint32_t a, std::uint32_t b) {
     return std::min(apart, kPositionsPerAxis - apart) < kSamePlace_cells;
 }
 
-/// Returns the log odds relative to the most likely code, clamped to at least -`max_log2` bits.
-/// `log2_q8` is in units of 2^-8 bits.
+/// Converts log odds to log odds relative to the most likely code, and raises values below
+/// -`max_log2` bits to -`max_log2` bits. Both the argument and the result are in units of 2^-8
+/// bits.
 CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int32_t max_log2) {
     const std::int32_t likeliest = *std::max_element(log2_q8.begin(), log2_q8.end());
     for (std::int32_t& log2 : log2_q8)
@@ -33,8 +35,10 @@ CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int3
 CodeEvidence::LogOdds CodeEvidence::sum() const {
     LogOdds sum = before_log2_q8_;
     if (frames_here_ == 0) return sum;
-    // Markov's inequality: for the true code, the probability of a mean factor of m or more at one
-    // place is at most 1/m. This also holds if the frames are not independent.
+    // The factor of a code in a frame is the ratio of the odds of the likeliest code in the frame
+    // to the odds of this code. If the code is the true code, its mean factor at one place is m or
+    // more with a probability of at most 1/m, by Markov's inequality. This also holds if the frames
+    // are not independent. The odds of the code are therefore multiplied by 1/m.
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const float mean = factors_here_[i] / static_cast<float>(frames_here_);
         sum[i] +=

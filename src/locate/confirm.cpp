@@ -40,16 +40,17 @@ bool are_plausible(const BitsRead& bits, const MeasuredDots& dots, const Frame& 
            !exceeds_error_rate(bits.wrong_x) && !exceeds_error_rate(bits.wrong_y);
 }
 
-/// Returns true if the bits need no second reading. At least kClear_percent of the dots seen must
-/// be clear. If n dots were read, at most max(kMaxWrong, n / kDotsPerWrong) bits may be wrong.
+/// Returns true if the bits need no second reading: at least kClear_percent of the dots seen were
+/// read, and of n dots read, at most max(kMaxWrong, n / kDotsPerWrong) bits are wrong.
 bool is_clean(const BitsRead& bits) {
     return 100 * bits.read >= tuned::kClear_percent * bits.seen &&
            bits.wrong_x + bits.wrong_y <=
                std::max(tuned::kMaxWrong, bits.read / tuned::kDotsPerWrong);
 }
 
-/// Returns true if the image shows fewer cells than any certain position needs without known
-/// sheets. With so few cells, random bits would agree with some position. Overwrites the list of
+/// Returns true if the image shows too few cells for a certain position, even if all their bits
+/// were clear and agreed with the code. The bits of so few cells could agree with some position by
+/// chance. Returns false if sheets are known, because they need fewer cells. Overwrites the list of
 /// dots.
 bool shows_too_few_cells(const Frame& frame, CellsInView view, MeasuredDots& dots) {
     if (frame.known.any()) return false;
@@ -77,8 +78,8 @@ bool fit_to_dots(const Frame& frame, const MeasuredDots& dots, const BitsRead& b
 }
 
 /// Corrects pixel bias and neighbour bias if they matter, and then fits the plane again. Returns
-/// the variance of the mean centre due to the remaining pixel bias, along u and v, in px^2. Returns
-/// 0 if nothing was corrected, or if the new fit failed.
+/// the variance that the remaining pixel bias adds to the mean dot centre, along u and v, in px^2.
+/// Returns 0 if nothing was corrected, or if the new fit failed.
 FloatVec fit_without_bias(const Frame& frame, const DotReader& reader, const CellsInView& view,
                           Hypothesis& hypothesis, PoseFit& fit) {
     FloatVec remaining_px2;
@@ -97,8 +98,8 @@ FloatVec fit_without_bias(const Frame& frame, const DotReader& reader, const Cel
     return remaining_px2;
 }
 
-/// Adds the variance of an image point to the pose covariance. Converts the variance from px^2,
-/// along u and v, to spacings^2.
+/// Adds the variance of the mean dot centre to the position part of the pose covariance. Converts
+/// the variance from px^2 along u and v to spacings^2.
 void add_variance(FloatVec px2, const FloatPlane& plane, PoseFit& fit) {
     const std::array<float, 2> by_u{plane.du_x, plane.du_y};
     const std::array<float, 2> by_v{plane.dv_x, plane.dv_y};
@@ -115,7 +116,6 @@ void add_covariance(const std::array<std::array<float, 3>, 3>& covariance, PoseF
     }
 }
 
-/// Writes the results of a confirmed hypothesis, with its fitted plane.
 void write_results(const Frame& frame, const Hypothesis& hypothesis, const BitsRead& bits,
                    const PoseFit& fit, Measurement& measurement, Fix& fix) {
     const FixedVec middle_q8 = centre_q8(frame.image);
@@ -138,8 +138,9 @@ void write_results(const Frame& frame, const Hypothesis& hypothesis, const BitsR
 }
 
 /// Returns true if the fit moved a corner of the measured part by more than kFar spacings along an
-/// axis. The measured part is the part of the image within `reach_px` of the image centre. Small
-/// centroid windows do not measure such large offsets accurately.
+/// axis. The dots must then be measured again, because small centroid windows do not measure such
+/// large offsets accurately. The measured part is the part of the image within `reach_px` of the
+/// image centre.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);
@@ -153,7 +154,7 @@ bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageVie
     return false;
 }
 
-/// Returns the reference point, in px relative to `from_centre` of the hypothesis.
+/// Returns the reference point of the options, in px relative to `Hypothesis::from_centre`.
 FloatVec reference_px(const DeviceOptions& options, const Hypothesis& hypothesis) {
     return {static_cast<float>(options.reference_dx_q8) / 256 - hypothesis.from_centre.x,
             static_cast<float>(options.reference_dy_q8) / 256 - hypothesis.from_centre.y};
@@ -175,8 +176,9 @@ struct Reach {
           deciding(full <= tuned::kDenseAtMost * spacing_px ? full : tuned::kDense * spacing_px),
           now(deciding) {
         if (!hypothesis.is_partial_view) return;
-        // A partial view may end anywhere, so the first round reads only nearby dots. These may be
-        // too few for a certain position, so the deciding distance is larger.
+        // The pattern may end anywhere in a partial view, so the first round reads only nearby
+        // dots. Their bits may be too few for a certain position, so the position is tested only in
+        // the round that reaches the deciding distance.
         deciding = std::min(full, tuned::kDecidingOfPart * spacing_px);
         now = std::min(full, tuned::kDenseOfPart * spacing_px);
     }
@@ -186,8 +188,8 @@ struct Reach {
 
 /// Corrects biases, fits the rotation during the readout if a rotation was removed from the image,
 /// tests for uneven paper, and writes the results. Returns implausible if the rotation cannot be
-/// fitted or the fitted plane is not plausible, and uncertain if the fit does not explain the frame
-/// well.
+/// fitted or if the fitted plane is not plausible. Returns uncertain if the fit does not explain
+/// the frame well (see `is_implausible`).
 Confirmation finish(const Frame& frame, const DotReader& reader, const CellsInView& view,
                     const BitsRead& bits, Hypothesis& hypothesis, PoseFit& fit,
                     Measurement& measurement, Fix& fix) {
@@ -211,8 +213,8 @@ Confirmation finish(const Frame& frame, const DotReader& reader, const CellsInVi
 }
 
 /// Tests a hypothesis: measures its dots, compares their bits with the code, and fits the pose. An
-/// exact hypothesis is implausible if its bits are not clean, or if the fit still moves its plane
-/// after kMaxLooks rounds (see `is_far_from`).
+/// exact hypothesis is implausible if its bits are not clean. It is also implausible if the fit
+/// still moves its plane far (see `is_far_from`) in each of kMaxLooks measurements.
 Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
                                  const PlaceEvidence& evidence, Measurement& measurement,
                                  Fix& fix) {

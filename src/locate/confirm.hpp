@@ -20,10 +20,13 @@ bool is_plausible(const ImageView& image, const FloatPlane& plane);
 ///
 ///     sqrt(variance) / displacement + bit_errors / bits > kMaxImplausible.
 ///
-/// Two overlapping patterns that are nearly aligned can look like a third pattern, with the columns
-/// of one pattern and the rows of the other. In such a frame, a quarter of the cells have no dot at
-/// the expected place, and half of the dots are at another place of their cell. docs/integrity.md
-/// contains the measurements.
+/// `bits` is the number of bits read, two per dot, and `bit_errors` is the number of these bits
+/// that contradict the code.
+///
+/// For example, two overlapping patterns that are nearly aligned can look like a third pattern,
+/// with the columns of one pattern and the rows of the other. In such a frame, a quarter of the
+/// cells have no dot at the expected place, and half of the dots are at another place of their
+/// cell. docs/integrity.md contains the measurements.
 bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
 /// Result of `confirm`.
@@ -43,13 +46,14 @@ struct Measurement {
     Hypothesis hypothesis;              ///< with the fitted plane
     PlaneFromImage pattern_from_image;  ///< plane of `hypothesis`, in fixed point
     TurnFit turn;                       ///< fitted rotation, if `Frame::removed_turn` is not null
-    /// Number of bits that made the place certain, two per dot. Not set for a certain hypothesis.
+    /// Number of bits that were read to decide whether the place is certain, two per dot. Not set
+    /// for a hypothesis that is certain beforehand.
     int bits = 0;
-    /// True if the frame shows fewer cells than a certain position needs without known sheets. Set
-    /// with the result `too_few_bits`.
+    /// True if the frame shows fewer cells than a certain position needs without known sheets.
+    /// Computed only if the result is `too_few_bits`.
     bool shows_too_few_cells = false;
-    /// True if the result of the first attempt is `too_few_bits`. A rotation during the readout
-    /// would misplace some of the dots.
+    /// True if the result of the first attempt is `too_few_bits`. In this case, the scene did not
+    /// rotate during the readout, because a rotation would misplace some of the dots.
     bool has_clear_bits = false;
 };
 
@@ -61,7 +65,8 @@ struct Measurement {
 Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvidence& evidence,
                      Measurement& measurement, Fix& fix);
 
-/// Returns true if the residuals of a fix are large. A second attempt may then give a better fix.
+/// Returns true if the residual of a fix is at least kRough_px and at least kRough spacings. A
+/// second attempt may then give a better fix.
 bool is_rough(const Fix& fix);
 
 }  // namespace dotpose::core

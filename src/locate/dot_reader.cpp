@@ -90,7 +90,7 @@ bool can_sample_directly(const Hypothesis& hypothesis) {
 
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px) {
     if (variance_px2 > tuned::kMaxVariance_px2) return false;
-    // Phase drift per grid step that adds up to kDriftInView_px across the view.
+    // Change of the phase from one dot to the next that adds up to kDriftInView_px across the view.
     const float drift_px = tuned::kDriftInView_px * spacing_px(plane) / static_cast<float>(side_px);
     return has_common_phase(plane, drift_px);
 }
@@ -106,8 +106,8 @@ BitsRead DotReader::read(const CellsInView& view, Hypothesis& hypothesis, BitBlo
     if (hypothesis.is_exact)
         return kernels_.read_levels(image_, view, hypothesis.depth_q8, dots_, columns, rows);
     WindowOptions window = window_options(hypothesis);
-    // In later rounds of a partial view, most windows may be empty. These rounds use the typical
-    // mass of the first round.
+    // In later rounds of a partial view, most windows may be empty. A typical mass estimated from
+    // them would be wrong, so these rounds use the typical mass of the first round.
     if (hypothesis.is_partial_view) window.typical_mass = typical_mass_;
     typical_mass_ = hypothesis.typical_mass = kernels_.measure_windows(image_, view, window, dots_);
     if (hypothesis.is_partial_view) drop_table(dots_, paper_);

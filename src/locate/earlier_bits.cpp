@@ -19,7 +19,7 @@ namespace tuned = tuning::joined;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// Returns a word shifted by `by` cells, which may be negative.
+/// Shifts a word by `by` cells towards higher bits, or towards lower bits if `by` is negative.
 std::uint64_t shifted(std::uint64_t word, int by) {
     if (std::abs(by) >= BitBlock::kSide) return 0;
     return by >= 0 ? word << by : word >> -by;
@@ -41,7 +41,8 @@ BitBlock shifted(const BitBlock& block, FixedVec by) {
     return {shifted(block.columns, by.x, by.y), shifted(block.rows, by.y, by.x)};
 }
 
-/// Number of common bits of two blocks, and number of common bits that differ.
+/// Number of bits that both blocks contain, and number of these bits that differ between the
+/// blocks.
 struct Overlap {
     int shared = 0;
     int different = 0;
@@ -57,8 +58,8 @@ void count_overlap(const BitLines& a, const BitLines& b, int across, int along, 
     }
 }
 
-/// Returns log2 of the likelihood ratio of two hypotheses: the blocks match, or the blocks are from
-/// unrelated parts of the pattern.
+/// Returns log2 of a likelihood ratio: the likelihood of the overlap if both blocks show the same
+/// cells, divided by its likelihood if they show unrelated parts of the pattern.
 float log2_ratio(const Overlap& overlap) {
     return tuned::kEqualBit_log2 * static_cast<float>(overlap.shared - overlap.different) +
            tuned::kDifferentBit_log2 * static_cast<float>(overlap.different);
@@ -108,7 +109,9 @@ float power_of_two(float exponent) {
     return natural_exp(std::numbers::ln2_v<float> * exponent);
 }
 
-/// The likeliest match of two grids, and the summed weight of all possible matches.
+/// The likeliest match of two grids, and the summed weight of all possible matches. The weight of a
+/// match is its likelihood ratio (see `log2_ratio`) times the probability density of its angle and
+/// shift after the measured motion, relative to the maximum of this density.
 struct Match {
     int quarters = 0;
     FixedVec shift;  ///< from the turned earlier grid to the current grid, in cells
@@ -125,8 +128,10 @@ struct Match {
         quarters = at_quarters;
         shift = at_shift;
     }
-    /// Returns an upper bound on the probability of a wrong match. `blunder_log2` is log2 of the
-    /// weight of a wrongly measured motion.
+    /// Returns an upper bound on the probability of a wrong match: the summed weight of all other
+    /// matches and of a blunder, relative to the best weight. In a blunder, the measured motion is
+    /// wrong by far more than its standard deviation. `blunder_log2` is log2 of the weight of a
+    /// blunder.
     float p_wrong(float blunder_log2) const {
         return std::max(sum - 1, 0.0F) + power_of_two(std::min(blunder_log2 - best_log2, 99.0F));
     }
@@ -218,8 +223,7 @@ std::optional<JoinedBits> EarlierBits::join(const BitBlock& block,
         const float off_rad = std::remainder(
             angle_of(grid_from_image) - angle_of(before) - motion_.turn_rad, 2 * kPi);
         if (std::abs(off_rad) > tuned::kReach_sigmas * std::sqrt(variance_rad2)) continue;
-        // Image point, in the earlier frame, of the spot of paper that is now at the reference
-        // point.
+        // Point of the earlier image that showed the paper which is now at the reference point.
         const float scale = spacing_px(before) / spacing_mm_;
         const FloatVec reached{reference_px_.x + scale * motion_.right_mm,
                                reference_px_.y + scale * motion_.down_mm};

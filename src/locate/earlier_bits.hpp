@@ -35,12 +35,13 @@ class EarlierBits {
     /// Begins a frame. `motion` is the motion since the previous frame. The options must contain
     /// the spacing.
     void begin_frame(const MeasuredMotion& motion, const DeviceOptions& options);
-    /// Ends the frame. Stores the bits of the frame, joined with the earlier bits if the grids
-    /// match.
+    /// Ends the frame. Keeps the bits of the frame for the next frames, joined with the earlier
+    /// bits if the grids match. If the frame has no bits, keeps the earlier bits.
     void end_frame();
 
-    /// Stores bits of the current frame. Must be called between `begin_frame` and `end_frame`.
-    /// Keeps the last block with a confirmed place, or the largest block if no place is confirmed.
+    /// Stores a block of bits of the current frame. Must be called between `begin_frame` and
+    /// `end_frame`. Only one block is kept: the last block with a confirmed place or, if no place
+    /// is confirmed, the block with the most bits.
     void note(const BitBlock& block, const FloatPlane& grid_from_image, bool is_confirmed);
 
     /// True while an attempt reads the current frame together with earlier frames.
@@ -49,8 +50,9 @@ class EarlierBits {
     bool is_in_series() const { return is_in_frame_; }
     bool has_earlier() const { return is_in_frame_ && earlier_.frames > 0; }
     /// Joins a block of the current frame with the earlier bits. Drops cells in which the frames
-    /// contradict each other. Returns nullopt if there are no earlier bits, or if a wrong grid
-    /// match is too probable. The limit is half of the accepted probability of a wrong fix.
+    /// contradict each other. Returns nullopt if there are no earlier bits, or if the upper bound
+    /// on the probability of a wrong grid match exceeds half of the accepted probability of a wrong
+    /// fix.
     std::optional<JoinedBits> join(const BitBlock& block, const FloatPlane& grid_from_image) const;
 
   private:

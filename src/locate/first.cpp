@@ -41,7 +41,8 @@ bool is_whole_image(const Patch& patch, const ImageView& image) {
     return patch.width_px == image.width_px && patch.height_px == image.height_px;
 }
 
-/// Searches patches of the image for a grid, and tests the hypotheses from their bits.
+/// Searches patches of the image for a grid, and tests the hypotheses that the bits of these grids
+/// give.
 class PatchSearch {
   public:
     PatchSearch(const Frame& frame, const PlaceEvidence& evidence, Patch& patch,
@@ -55,8 +56,8 @@ class PatchSearch {
             if (!place_patch_in_middle(frame_.image, scale, patch_)) break;
             const Confirmation confirmation = search_middle();
             if (confirmation == Confirmation::ok) return confirmation;
-            // If the patch covers the whole image, other patches contain the same dots and give the
-            // same bits.
+            // If the patch covers the whole image, the search ends, because other patches contain
+            // the same dots and give the same bits.
             if (confirmation == Confirmation::too_few_bits && is_whole_image(patch_, frame_.image))
                 return confirmation;
             is_mirrored =
@@ -86,8 +87,8 @@ class PatchSearch {
         auto hypothesis = read_hypothesis(patch_, view, middle_of(patch_, frame_.image), evidence_);
         if (!hypothesis) return Confirmation::implausible;
         move_origin_to_centre(*hypothesis);
-        // The grid predicts all dots in the image to within a fraction of a pixel, if it is fitted
-        // to all dots.
+        // If the patch is the whole image, the grid is fitted to all dots. It then predicts each
+        // dot to within a fraction of a pixel, unless the spacing is too small.
         hypothesis->is_predicted =
             is_whole_image(patch_, frame_.image) &&
             spacing_px(hypothesis->pattern_from_image) >= tuned::kMinSpacingForPrediction_px;
@@ -167,8 +168,9 @@ class PatchSearch {
     Patch& patch_;
     Measurement& measurement_;
     Fix& fix_;
-    /// Number of uncertain hypotheses that are still permitted. Each uncertain hypothesis increases
-    /// the probability of a wrong fix.
+    /// Number of hypotheses that may still be tested and turn out to be uncertain. Each of them
+    /// increases the probability of a wrong fix, because it is a further chance of agreeing with
+    /// the bits by accident.
     int tries_left_ = 0;
 };
 

@@ -56,12 +56,13 @@ inline constexpr int kCutOfDepth_q8 = 160;
 
 FloatLens float_lens(const FixedLens& lens);
 
-/// Returns the input of `list_cells` for the cells in view within `reach_px` of `from_centre`,
-/// subsampled to about `max_cells`. Writes the rolls of the lines in view into `rolls`.
+/// Returns the input of `list_cells` for the cells in view within `reach_px` of `from_centre` along
+/// each image axis, subsampled to about `max_cells` cells. Writes the rolls of the columns and rows
+/// in view into `rolls`.
 CellsInView cells_in_view(const Frame& frame, const Hypothesis& hypothesis, float reach_px,
                           int max_cells, const RollMemory& rolls);
 
-/// Moves the origin of the cells to the intersection nearest to `from_centre`.
+/// Renumbers the cells, so that cell (0, 0) is at the intersection nearest to `from_centre`.
 void count_from_centre(CodeVariant code, Hypothesis& hypothesis);
 
 /// Least-squares similarity from predicted dots to measured dots: shift, scale and rotation.
@@ -69,10 +70,11 @@ struct Similarity {
     FloatVec shift_px;
     float scale = 0;  ///< scale factor minus 1
     float turn_rad = 0;
-    float squares_px2 = 0;  ///< summed squared offsets after the fit
+    float squares_px2 = 0;  ///< sum of the squared residuals of the fit
 };
 
-/// Fits a similarity to the offsets of at least two dots.
+/// Fits a similarity to the offsets of at least one dot. Fits only the shift if all dots are at the
+/// same place.
 Similarity similarity_of(const DotOffsets& found);
 
 /// Moves, scales and rotates a plane by a similarity.

@@ -1,5 +1,5 @@
-// On sheets: finds and verifies places on known sheets, for views that are too small to be certain
-// on the whole plane.
+// On sheets: finds and verifies places on known sheets. A view with few cells may be certain on the
+// known sheets although it would not be certain among all places of the code.
 #pragma once
 
 #include <optional>
@@ -12,23 +12,25 @@
 
 namespace dotpose::core {
 
-/// Returns true if the decoded region may be in view. If no other sheets are possible, the region
-/// must be at least partly on a known sheet.
+/// Returns true if the decoded region may be in view. If only known sheets are possible, this is
+/// the case if the region is at least partly on one of them. Otherwise, it is always the case.
 bool is_possible(CodeVariant code, const Decoding& decoding, const KnownSheets& known);
 
-/// Returns the most likely place of a block on the known sheets. Returns nullopt if this place is
-/// in a code other than the code of the options, or if too many bits contradict the place.
+/// Returns the most likely place of a block on the known sheets. Returns nullopt if there is none,
+/// if this place is in a code other than the code of the options, or if too many bits contradict
+/// the place.
 std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const DeviceOptions& options,
                                                const BitBlock& block, const KnownSheets& known);
 
-/// Returns true if `place` is certain on the known sheets. `block` must be upright. Sets
-/// `p_wrong_log2` of the fix and, if the place is certain, `prior`.
+/// Returns true if `place` is certain among the places on the known sheets. `block` must be
+/// upright. Sets `p_wrong_log2` of the fix and, if the place is certain, `prior`.
 bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Place& place,
                           const BitBlock& block, const KnownSheets& known, Fix& fix);
 
-/// Finds the position of the decoded region on the known sheets. If there is a position, sets
-/// `bit_errors` and `p_wrong_log2` of the fix. If the position is certain, also sets the decoding
-/// and `prior` of the fix, and returns true.
+/// Finds the position of the decoded region on the known sheets. Returns false without any change
+/// if there is no position. Otherwise, sets `bit_errors` and `p_wrong_log2` of the fix, and returns
+/// true if the position is certain. Only in this case, also sets the decoding and `prior` of the
+/// fix.
 bool read_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Grid& grid,
                     const KnownSheets& known, Decoding& decoding, Fix& fix);
 

@@ -38,8 +38,8 @@ std::uint8_t section(CodeVariant code, const Line& line, const Line& crossing) {
     return static_cast<std::uint8_t>(section_of(code, roll, line.position, crossing.position));
 }
 
-/// Returns the largest likelihood ratio of a place that differs from the fix along at least one
-/// axis.
+/// Returns the likelihood of the most likely place that differs from the fix along at least one
+/// axis, divided by the likelihood of the fix.
 float best_odds(const OtherCode& there) {
     return std::max(
         {there.x.best * there.y.here, there.x.here * there.y.best, there.x.best * there.y.best});
@@ -78,7 +78,8 @@ void name_other_place(CodeVariant read, CodeVariant other, const OtherCodes& oth
                               steps(fix.place.cell.y, others.first.y));
     const int x_roll = code::roll_from(read, first.cell.x, first.section.u, first.cell.y);
     const int y_roll = code::roll_from(read, first.cell.y, first.section.v, first.cell.x);
-    // The place may differ from the fix along one axis or along both axes.
+    // Likelihood ratios of the places that differ from the fix along x, along y, or along both
+    // axes.
     const float by_x = there.x.best * there.y.here;
     const float by_y = there.x.here * there.y.best;
     const float by_both = there.x.best * there.y.best;

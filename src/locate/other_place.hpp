@@ -18,10 +18,11 @@ void name_code_that_explains(const OtherCodes& others, CodeReading& reading);
 void name_other_place(CodeVariant read, CodeVariant other, const OtherCodes& others,
                       CodeReading& reading);
 
-/// Sets `other_code`, `other_cell` and `other_section` of `reading` to the code and place of `any`,
-/// a reading of the same frame in any code. If both readings are in the same code, copies these
-/// members from `any` instead. Does nothing if `any` has no place, or if `any` has more than one
-/// bit error per kBitsPerError dots.
+/// Sets `has_other`, `other_code`, `other_cell` and `other_section` of `reading`. `any` is a
+/// reading of the same frame in any code. If its code differs from the code of `reading`, the other
+/// place is the place of `any`. If both codes are equal, it is the other place of `any`, if there
+/// is one. Does nothing if `any` has no place, or if `any` has more than one bit error per
+/// kBitsPerError dots.
 void note_other_reading(const CodeReading& any, CodeReading& reading);
 
 }  // namespace dotpose::core

@@ -13,22 +13,25 @@
 
 namespace dotpose::core {
 
-/// Moves the dots to their undistorted image points. The dots are relative to `middle`, in px from
-/// the image centre. Does nothing if the lens has no distortion.
+/// Moves the dots to their undistorted image points. The coordinates of the dots are relative to
+/// `middle`, which is in px relative to the image centre. Does nothing if the lens has no
+/// distortion.
 void undistort(const FixedLens& lens, FloatVec middle, PatchDots& dots);
 
 /// Returns the middle of a patch, in px relative to the image centre.
 FloatVec middle_of(const Patch& patch, const ImageView& image);
 
-/// Places a patch around a point of the image, in px. Returns false if the patch is too small for a
-/// grid.
+/// Places a patch around a point of the image, in px. The patch is `scale` times as wide and high
+/// as the smallest patch, at 1/`scale` of the resolution. Returns false if the patch is too small
+/// for a grid.
 bool place_patch(const ImageView& image, FixedVec around_px, int scale, Patch& patch);
 
 /// Places a patch around the image centre. Returns false if the patch is too small for a grid.
 bool place_patch_in_middle(const ImageView& image, int scale, Patch& patch);
 
-/// Finds the dots of the patch, and sets the status of the fix to the status that applies if no
-/// patch contains a grid. Returns false, without setting the status, if the patch has no contrast.
+/// Finds the dots of the patch. Sets the status of the fix to too_few_dots or no_grid, which
+/// applies if no patch contains a grid. Returns false, without setting the status, if the patch has
+/// no contrast.
 bool find_patch_dots(const Frame& frame, Patch& patch, Fix& fix);
 
 /// Finds a place in the code from the dots and the grid of a patch. The dots, the grid and the

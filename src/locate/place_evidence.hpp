@@ -18,7 +18,8 @@
 
 namespace dotpose::core {
 
-/// Evidence for the place of a block, apart from the bits of the block.
+/// What is known about the place of a block of bits apart from the bits, and memory for the
+/// comparison with the code.
 struct PlaceEvidence {
     const Kernels& kernels;
     const DeviceOptions& options;
@@ -34,21 +35,24 @@ struct TurnedPlace {
     Place place;
 };
 
-/// Finds the place of a block in the code. Prefers places on known sheets.
+/// Finds the place of a block in the code. Prefers places on known sheets. Returns nullopt if there
+/// is no place, or if only known sheets are possible and none of them has such a place.
 std::optional<TurnedPlace> find_turned_place(const PlaceEvidence& evidence, const BitBlock& block);
 
-/// In a series of frames, stores the bits of the current frame. If the frames are read together,
-/// replaces the bits with the bits of all frames instead, and returns false if the grids of the
-/// frames do not match. The plane is relative to `from_centre`.
+/// Does nothing and returns true outside a series of frames. Within a series, stores the bits of
+/// the current frame and returns true. While frames are read together, adds the bits of the earlier
+/// frames to the block instead, and returns false if the grids of the frames do not match. The
+/// plane is relative to `from_centre`.
 bool join_earlier(const FloatPlane& grid_from_image, FloatVec from_centre, EarlierBits& earlier,
                   BitBlock& block);
 
-/// Returns the agreement of the bits that were read with the code, on x and y.
+/// Returns how well the bits agree with the code: the numbers of bits read and of wrong bits, for x
+/// and for y.
 std::array<Confidence, 2> confidences_in(const BitsRead& bits);
 
 /// Returns true if the bits make the place of the hypothesis certain. Also uses the bits of earlier
-/// frames if frames are read together. If the place is certain, sets `p_wrong_log2` of the fix.
-/// Depending on the evidence that was used, also sets `prior` or `frames`.
+/// frames while frames are read together. If the place is certain, sets `p_wrong_log2` of the fix.
+/// Also sets `prior` if known sheets were needed, and `frames` if earlier frames were needed.
 bool confirm_place(const PlaceEvidence& evidence, const Hypothesis& hypothesis,
                    const CellsInView& view, const BitBlock& block, const BitsRead& bits, Fix& fix);
 

@@ -47,7 +47,8 @@ Status decode(const DeviceOptions& options, const Grid& grid, std::span<ScoredLi
     return decode_all(grid, options.code, line_scores, decoding);
 }
 
-/// Returns true if the pixel bias of the fix matters. The tracked attempt corrects this bias.
+/// Returns true if the pixel bias of the fix matters. If it does, the dots are measured again as in
+/// the tracked attempt, which corrects this bias.
 bool may_be_biased(const Fix& fix, const PlaneFromImage& plane, const ImageView& image) {
     const float variance_px2 =
         fix.residual_px * fix.residual_px / static_cast<float>(fix.dots_used);
@@ -57,8 +58,7 @@ bool may_be_biased(const Fix& fix, const PlaneFromImage& plane, const ImageView&
 
 }  // namespace
 
-/// Finds the grid, including perspective and lens distortion. Takes longer than `find_grid` in
-/// device/attempt.cpp.
+/// Finds the grid, including perspective and lens distortion.
 Status SecondAttempt::find_grid(const LatticeOptions& options, FixedVec centre_q8) {
     Status status = find_axes(centre_q8, kMaxSeeds, w_);
     if (status != Status::ok) return status;
@@ -75,7 +75,7 @@ Status SecondAttempt::find_grid(const LatticeOptions& options, FixedVec centre_q
 }
 
 /// Filters the image, finds its dots and their grid, and reads the bits (paper, sections II-B.1 to
-/// II-B.4). Error not_certain: the image shows two overlapping patterns.
+/// II-B.4). Returns not_certain if the image shows two overlapping patterns.
 Status SecondAttempt::read_filtered_with(const DeviceOptions& filtered, const ImageView& image) {
     begin_frame(image.width_px, image.height_px, w_);
     begin_smoothing(image, w_.smoothing);
@@ -91,9 +91,9 @@ Status SecondAttempt::read_filtered_with(const DeviceOptions& filtered, const Im
     return status;
 }
 
-/// Finds dots and grid, and reads the bits. If there is too little contrast or there are too few
-/// dots, tries again with a lower minimum contrast, but only if the largest contrast in the image
-/// reaches this minimum.
+/// Finds dots and grid, and reads the bits. If the status is no_contrast or too_few_dots, tries
+/// again with a lower minimum contrast, but only if the largest contrast in the image reaches the
+/// lower minimum.
 Status SecondAttempt::read_filtered(const Frame& frame) {
     DeviceOptions filtered = for_filtered(frame);
     const Status status = read_filtered_with(filtered, frame.image);
@@ -161,7 +161,8 @@ Status SecondAttempt::resample(const Frame& frame, const PlaceEvidence& evidence
 }
 
 /// Measures the pose at the decoded position (paper, section II-B.8), and writes the pose and its
-/// covariance into the fix. Errors: no_grid, not_certain.
+/// covariance into the fix. Returns no_grid if the dots do not determine the pose, and not_certain
+/// if the pose does not explain the frame well (see `is_implausible`).
 Status SecondAttempt::measure_pose(const Frame& frame) {
     const Nominal nominal(w_.grid, frame.options.code, w_.decoding);
     PoseFit fit;

@@ -1,4 +1,4 @@
-// Trace: stores the results of `confirm` where `Locator::trace` finds them.
+// Trace: stores the results of `confirm` in the part of the workspace that `Locator::trace` reads.
 #pragma once
 
 #include "core/workspace.hpp"

@@ -13,12 +13,13 @@ namespace dotpose::core {
 /// of the workspace and returns true.
 bool locate_tracked(const Frame& frame, const Prediction& prediction, DesktopWorkspace& w);
 
-/// The same, with the parts of the workspace that the attempt uses, and without the trace.
+/// Does the same as `locate_tracked` with the given parts of the workspace. Does not reset the fix
+/// first, and stores no trace.
 bool confirm_prediction(const Frame& frame, const Prediction& prediction,
                         const PlaceEvidence& evidence, Measurement& measurement, Fix& fix);
 
-/// Measures the dots of a fix again, as the tracked attempt does. The fix must be certain. Returns
-/// false without a change of the fix if the dots do not confirm it.
+/// Measures the dots of a certain fix again, as the tracked attempt does, and updates the fix.
+/// Returns false without a change of the fix if the dots do not confirm it.
 bool measure_again(const Frame& frame, const PlaceEvidence& evidence, Measurement& measurement,
                    Fix& fix);
 

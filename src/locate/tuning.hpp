@@ -19,9 +19,10 @@ inline constexpr float kMinSpacingForPrediction_px = 9.5F;
 /// Maximum number of uncertain hypotheses away from the image centre. The number is limited,
 /// because each uncertain hypothesis increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
-/// Parameters of the wave search away from the image centre: the numbers of central dots, and
-/// factors for the estimated spacing. The search tries all combinations. Large displacements weaken
-/// the waves, and only some combinations find a grid with weak waves.
+/// Parameters of the wave search away from the image centre: the numbers of central dots from which
+/// the waves are computed, and factors for the estimated spacing. The search tries all
+/// combinations. Large displacements weaken the waves, and only some combinations find a grid with
+/// weak waves.
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
 /// Factors for the estimated spacing if sheets are known. On a known sheet, the place of a strip of
@@ -77,8 +78,8 @@ namespace tracked {
 inline constexpr float kNear = 2.6F;
 /// Minimum number of dots for a correction.
 inline constexpr int kMinNear = 10;
-/// Maximum prediction error that the search covers, in spacings. The limit is only slightly larger
-/// than half a spacing. At larger errors, a neighbouring dot is closer than the correct dot.
+/// Maximum prediction error that the search covers, in spacings. It is only slightly larger than
+/// half a spacing, because at larger errors a neighbouring dot is closer than the correct dot.
 inline constexpr float kMaxOff = 0.6F;
 /// Range of spacings that can be tracked.
 inline constexpr float kFinest_px = 5;
@@ -91,7 +92,8 @@ inline constexpr float kFirstOff = 0.30F;
 inline constexpr float kSecondOff = 0.15F;
 /// Maximum offset at which a dot is measured in a centroid window.
 inline constexpr float kMaxOffset_px = 1.5F;
-/// Offset of a typical dot, in px, at a moment-to-weight ratio of 1. Accurate to 20 %.
+/// Factor that converts the ratio of moment to weight in a centroid window to the offset of the
+/// dot, in px (see `find_centres`). Accurate to 20 % for a typical dot.
 inline constexpr float kWeight_px = 0.84F;
 /// The dots are measured again if the scale and rotation of a correction move the dots at the image
 /// border by at least this distance.
@@ -106,8 +108,8 @@ inline constexpr FloatVec kPoints[] = {
 
 /// Measurement of dots at known places (locate/confirm, locate/dot_reader).
 namespace confirm {
-/// Reading distance in the first round for images that the pattern fills and that exceed
-/// kDenseAtMost, in spacings. The first round measures all dots within this distance of
+/// Reading distance in the first round, in spacings, for images that the pattern fills and whose
+/// half side exceeds kDenseAtMost. The first round measures all dots within this distance of
 /// `Hypothesis::from_centre`. The bits of these dots must make the position certain.
 inline constexpr float kDense = 10;
 /// Maximum half side of an image that is measured in a single round, in spacings.
@@ -122,12 +124,13 @@ inline constexpr float kDecidingOfPart = 32;
 inline constexpr float kFarther = 3.5F;
 /// Limits for clean bits, which need no second reading. At least kClear_percent of the dots must be
 /// clear. If n dots were read, at most max(kMaxWrong, n / kDotsPerWrong) bits may be wrong.
-/// kMaxWrong is the number of bits of one dot.
+/// kMaxWrong is 2 because one misread dot can have two wrong bits.
 inline constexpr int kClear_percent = 97;
 inline constexpr int kMaxWrong = 2;
 inline constexpr int kDotsPerWrong = 200;
-/// Outlier limit: squared residual divided by the mean squared residual. The limit is four standard
-/// deviations of one coordinate.
+/// A dot is an outlier if its squared residual exceeds kOutlier times the mean squared residual.
+/// The mean is over dots and contains both coordinates, so the limit is four standard deviations of
+/// one coordinate.
 inline constexpr float kOutlier = 8.3F;
 /// Maximum distance by which a fit may move a corner of the measured part, in spacings along an
 /// axis. After a larger motion, the dots are measured again, because small centroid windows do not
@@ -137,8 +140,8 @@ inline constexpr float kFar = 0.055F;
 /// last fit still moves the plane by more than kFar. docs/accuracy.md, "Dots with the same
 /// sub-pixel phase", lists the remaining errors.
 inline constexpr int kMaxLooks = 3;
-/// Fraction of the paper level below which windows are dropped. Such windows are on the table
-/// beyond the sheet, where noise can look like dots.
+/// Windows are dropped if their paper level is less than kTable times the mean paper level. Such
+/// windows are on the table beyond the sheet, where noise can look like dots.
 inline constexpr float kTable = 0.4F;
 /// Range of spacings for direct sampling. Below kMaxSpacingForSmallWindow_px, a dot with any blur
 /// fits in a small centroid window. Below kMinSpacingForDirectSampling_px, one sample per place
@@ -158,19 +161,21 @@ inline constexpr float kFacing = 0.55F;
 /// have about the same sub-pixel phase. At larger deviations, the phases in view are evenly
 /// distributed.
 inline constexpr float kDrift_px = 0.05F;
-/// The pixel bias is corrected only if the phase drift across the view is at most this distance,
-/// because the correction takes several times as long as all other steps of a frame.
+/// The pixel bias is corrected only if the sub-pixel phases of the dots of a row or column change
+/// by less than this distance across the view. The correction is restricted in this way because it
+/// takes several times as long as all other steps of a frame.
 inline constexpr float kDriftInView_px = 0.35F;
 /// The pixel bias matters only if the variance of the mean centre along one axis is at most this
-/// value. Otherwise, other errors are larger.
+/// value. At a larger variance, other errors are larger than the bias.
 inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
 /// Minimum and maximum size of image parts that are prefetched. Smaller parts are already in the
 /// cache. Larger parts would evict their own first rows.
 inline constexpr int kMinFetched_bytes = 32 << 10;
 inline constexpr int kMaxFetched_bytes = 1 << 20;
-/// Minimum number of dots for `DotReader::find_centres`.
+/// Minimum number of dots that `DotReader::find_centres` must find to fit a plane to them.
 inline constexpr int kMinFound = 8;
-/// Maximum distance between a dot and its predicted place.
+/// Maximum offset of a directly sampled dot from its predicted place. Dots with larger offsets are
+/// dropped.
 inline constexpr float kMaxOff_px = 1;
 /// Maximum of sqrt(variance) / displacement + bit_errors / bits (`is_implausible`). Positions above
 /// this maximum do not explain the frame well. docs/integrity.md contains the measurements.
@@ -185,9 +190,9 @@ inline constexpr float kRough = 0.027F;
 /// Views of known sheets (locate/hypothesis, locate/on_sheets).
 namespace known {
 /// Shorter image side, in spacings, below which dots are read up to kMargin_px from the border. The
-/// usual margin is 1.7 px. Of 300 views of 36 x 36 px at 6 px per spacing, 97 % are located with a
-/// margin of 1.0 px, and 88 % with the usual margin. The pose errors are equal (`dotpose_tables
-/// known`).
+/// usual margin is at least 1.7 px. Of 300 views of 36 x 36 px at 6 px per spacing, 97 % are
+/// located with a margin of 1.0 px, and 88 % with the usual margin. The pose errors are equal
+/// (`dotpose_tables known`).
 inline constexpr float kSmallView = 9;
 inline constexpr float kMargin_px = 1;
 /// Minimum weight of a bit, in 1/127. The second attempt uses a cell only if each of its two bits
@@ -209,7 +214,8 @@ inline constexpr float kBlunder_log2 = -36;
 /// on the camera tilt. The place error is in spacings.
 inline constexpr float kGridAngle_rad = 0.035F;
 inline constexpr float kGridPhase = 0.06F;
-/// Maximum deviation of a match from the prediction, in standard deviations and in spacings.
+/// Maximum deviation of a match from the prediction: kReach_sigmas standard deviations, but at most
+/// kMaxReach spacings.
 inline constexpr float kReach_sigmas = 8;
 inline constexpr float kMaxReach = 24;
 }  // namespace joined
@@ -226,16 +232,16 @@ inline constexpr int kHigh_10ths = 9;
 /// dots that are 6 grey levels darker than the paper (`dotpose_tables alike --spacings 8 --dots
 /// 0.10 --blurs 1.5`).
 inline constexpr int kPaleParts = 3;
-/// Maximum rotations of the grid in the periodogram search, relative to the first grid estimate, in
-/// degrees. The search tries these limits in order. Printed text can rotate the first estimate by
-/// 26 degrees.
+/// Maximum rotations of the grid relative to the first grid estimate in the periodogram search, in
+/// degrees. If the search finds no grid within the first maximum, it is repeated with the second,
+/// because printed text can rotate the first estimate by 26 degrees.
 inline constexpr int kMaxTurns_deg[] = {12, 45};
 }  // namespace second
 
 /// Choice of attempts and codes (locate/locate, locate/other_place).
 namespace cascade {
-/// Minimum odds of another code, relative to the code of the fix, at which a frame is read again in
-/// the other code.
+/// If the odds of another code relative to the code of the fix exceed this number, the frame is
+/// read again in the other code.
 inline constexpr float kBetterOdds = 2;
 /// Minimum number of dots per wrong bit at which a reading in another code is reported. A dot has
 /// two bits, so at most one bit in a hundred is wrong in such a reading. Misread bits can cause

@@ -33,15 +33,16 @@ FloatVec axis_of(const FixedLens& lens) {
             static_cast<float>(lens.centre_dy_q8) / 256};
 }
 
-/// Returns the maximum rotation, in rad per row. At faster rotations, the scene would move down
-/// nearly as fast as the rows are read.
+/// Returns the maximum rotation, in rad per row. The rotation during the whole readout is at most
+/// kMaxTurn_rad. While a row is read, the left and right image borders move down by at most
+/// kMaxFall rows, because the readout must be faster than the scene.
 float max_rad_per_row(const ImageView& image) {
     return std::min(tuned::kMaxTurn_rad / static_cast<float>(image.height_px),
                     tuned::kMaxFall / (static_cast<float>(image.width_px) / 2));
 }
 
-/// Returns the motion of the dots in the corners of an area around the image centre, in px, for a
-/// rotation of 1 rad per row.
+/// Returns by how many px a rotation of 1 rad per row moves the dots in the corners of an area
+/// around the image centre.
 float corner_px_per_turn(int width_px, int height_px) {
     const float half_width = static_cast<float>(width_px) / 2;
     const float half_height = static_cast<float>(height_px) / 2;
@@ -79,8 +80,9 @@ class TurnSearch {
     /// Sets whether cells may be arbitrary parallelograms. Otherwise, cells must be about square.
     void accept_skewed(bool is_skewed) { view_.is_skewed = is_skewed; }
 
-    /// Searches from a rotation in decreasing steps. Returns false if the dots do not form a grid
-    /// at the first rotation.
+    /// Changes a rotation in decreasing steps as long as the dots agree better with a grid. Then
+    /// `turn` and `grid` return the best rotation and its grid, and the dots of the patch are those
+    /// without this rotation. Returns false if the dots do not form a grid at the first rotation.
     bool climb(float rad_per_row, FloatVec drift) {
         turn_.rad_per_row = rad_per_row;
         turn_.drift = drift;
@@ -89,7 +91,8 @@ class TurnSearch {
         for (float step = step_; step > finest;) {
             if (!improves(step) && !improves(-step) && !improves(0)) step /= 2;
         }
-        // Removes the best rotation from the dots of the patch.
+        // Removes the best rotation from the dots of the patch, because the last rotation tried may
+        // be a different one.
         PatchGrid last;
         return fits(turn_, last);
     }
@@ -107,8 +110,8 @@ class TurnSearch {
         return find_grid(frame_.kernels, patch_, view_, grid);
     }
 
-    /// Tries a rotation that is larger by `step`, with the drift of the best grid so far. Returns
-    /// true if the grid is better.
+    /// Tries a rotation that is larger by `step`, with the drift of the best grid so far. If the
+    /// new grid is better, stores it and the rotation, and returns true.
     bool improves(float step) {
         ReadoutTurn turn = turn_;
         turn.rad_per_row += step;
@@ -155,8 +158,8 @@ void store_turning(const Frame& frame, const ReadoutTurn& turn, const Measuremen
 }
 
 /// Returns true if the rotation explains enough of the squared residuals that the dots have without
-/// the rotation. The minimum is about a fifth, or three fifths if the remaining residuals are
-/// correlated (see kMinGainIfEven and kMinGain). It is larger for correlated residuals, because the
+/// the rotation: at least about a fifth, or three fifths if the remaining residuals are correlated
+/// (see kMinGainIfEven and kMinGain). Correlated residuals need the larger fraction, because the
 /// residuals of a wrinkled sheet may be similar to those of a rotation.
 bool is_significant(const TurnFit& fit, int dots, Surface surface) {
     const float min_gain = surface == Surface::even ? tuned::kMinGainIfEven : tuned::kMinGain;
@@ -164,9 +167,12 @@ bool is_significant(const TurnFit& fit, int dots, Surface surface) {
            min_gain * static_cast<float>(dots) * fit.variance;
 }
 
-/// Calls `locate` with the frame from which the rotation is removed. `locate` must call `confirm`,
-/// which fits the rotation to the measured dots. Repeats this with the fitted rotation until the
-/// rotation no longer changes. Sets `turn` to the rotation. `pixels` is memory for the image.
+/// Calls `locate` with the frame from which the rotation `turn` is removed. `locate` must call
+/// `confirm`, which fits the rotation to the measured dots. Repeats this with the fitted rotation
+/// until it moves the dots in the image corners by less than kSettled_px relative to the previous
+/// rotation. Sets `turn` to the fitted rotation. `pixels` is memory for the image. Returns the
+/// result of `locate` if it is not ok, and implausible if a rotation is out of range or still
+/// changes after kMaxRounds.
 template <typename Locate>
 Confirmation settle(const Frame& frame, std::span<std::uint8_t> pixels,
                     const Measurement& measurement, ReadoutTurn& turn, Locate locate) {
@@ -188,9 +194,9 @@ Confirmation settle(const Frame& frame, std::span<std::uint8_t> pixels,
     return Confirmation::implausible;
 }
 
-/// Searches for a grid with a place in the code, first at the rotation `turn` and then at rotations
-/// of increasing size. Sets `turn` to the rotation of this grid. Returns nullopt if there is no
-/// such grid.
+/// Searches for a grid with a place in the code, first at the rotation `turn` if it is not 0, and
+/// then at rotations of increasing size. Sets `turn` to the rotation of this grid. Returns nullopt
+/// if none of the first kMaxClimbs grids has a place in the code.
 std::optional<Hypothesis> find_turning_hypothesis(const Frame& frame, const Patch& patch,
                                                   const PlaceEvidence& evidence, TurnSearch& search,
                                                   ReadoutTurn& turn) {
@@ -226,8 +232,9 @@ std::optional<Hypothesis> search_patch(const Frame& frame, const PlaceEvidence& 
     return {};
 }
 
-/// Finds the dots of a patch around the image centre. Returns false if noise and dirt explain the
-/// failure of the first attempt.
+/// Finds the isolated dots of a patch. Returns false if the patch has no contrast, or if less than
+/// kMinIsolated of its dots are isolated. In that case, noise and dirt explain the failure of the
+/// first attempt.
 bool find_isolated_dots(const Frame& frame, Patch& patch, Fix& fix) {
     if (!find_patch_dots(frame, patch, fix)) return false;
     const int seen = patch.dots.count;
@@ -235,7 +242,8 @@ bool find_isolated_dots(const Frame& frame, Patch& patch, Fix& fix) {
     return static_cast<float>(patch.dots.count) >= tuned::kMinIsolated * static_cast<float>(seen);
 }
 
-/// Measures the dots of a hypothesis in the image from which the rotation is removed. See `settle`.
+/// Measures the dots of a hypothesis in the image from which the rotation is removed, and fits the
+/// rotation (see `settle`). Returns implausible if the fitted rotation is not significant.
 Confirmation confirm_turning(const Frame& frame, Hypothesis hypothesis,
                              const PlaceEvidence& evidence, std::span<std::uint8_t> pixels,
                              ReadoutTurn& turn, Measurement& measurement, Fix& fix) {

@@ -25,7 +25,9 @@ bool shows_turn(const Frame& frame, const Fix& fix, std::span<const std::uint8_t
 bool locate_turning(const Frame& frame, DesktopWorkspace& w);
 
 /// Removes the predicted rotation from the image, and measures the dots at their predicted places.
-/// Returns true if their bits confirm the prediction. The workspace then contains the fix.
+/// Returns true if their bits confirm the prediction. The workspace then contains the fix. Returns
+/// false if they do not, if the rotation is out of range, or if the workspace has no room for the
+/// image without rotation.
 bool locate_tracked_turning(const Frame& frame, const Prediction& prediction, DesktopWorkspace& w);
 
 }  // namespace dotpose::core

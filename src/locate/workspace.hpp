@@ -21,8 +21,9 @@
 
 namespace dotpose::core {
 
-/// Memory of a Locator, and results of its attempts. Only the entry points and the attempts see it.
-/// They pass its parts to the stages. Contains the memory of a DeviceLocator, for `Effort::device`.
+/// Memory of a Locator, and results of its attempts. Only the entry points and the attempts use the
+/// whole workspace. They pass parts of it to the stages. Contains the memory of a DeviceLocator,
+/// for `Effort::device`.
 struct DesktopWorkspace : DeviceWorkspace {
     Patch* patch = nullptr;   ///< first attempt, turning
     Smoothing smoothing;      ///< second attempt
@@ -39,8 +40,8 @@ struct DesktopWorkspace : DeviceWorkspace {
         patch->min_side_px = sheets.any() ? kMinKnownFrameSide_px : Patch::kMinSide_px;
     }
 
-    /// Returns the input of an attempt. Known sheets and frames that are read together need fewer
-    /// dots.
+    /// Returns the input of an attempt. If sheets are known or frames are read together, the
+    /// attempt needs fewer dots, because a place can be certain with fewer bits.
     Frame frame(const Kernels& kernels, const ImageView& image,
                 const DeviceOptions& options) const {
         const bool need_few = known.any() || earlier.is_in_series();
@@ -49,7 +50,7 @@ struct DesktopWorkspace : DeviceWorkspace {
                          : options.lattice.min_dots};
     }
 
-    /// Returns the evidence for places in a frame.
+    /// Returns the sources of evidence with which an attempt finds and tests places in a frame.
     PlaceEvidence evidence(const Frame& frame) {
         return {frame.kernels, frame.options, known,
                 earlier,       line_scores,   other_codes.are_wanted ? &other_codes : nullptr};
@@ -119,7 +120,8 @@ class WorkspaceOf : public DesktopWorkspace {
     // and 1280 x 1024 px otherwise.
     static constexpr std::size_t kPushed_px = std::min(MaxWidth * MaxWidth, 1280 * 1024);
 
-    // Maximum number of lines that cross an image at any angle.
+    // Maximum number of columns in view, and of rows in view. Further columns and rows are not
+    // read.
     static constexpr std::size_t kRolls = 1024;
 
     Patch patch_;

@@ -88,11 +88,12 @@ class Database {
     /// Removes the states of all days before the day of `time_us`. Throws Error if this fails.
     virtual void remove_days_before(std::int64_t time_us) = 0;
 
-    /// Calls `take` with each selected state, in the order of their times. An exception of `take`
-    /// ends the reading. Throws Error if reading fails.
+    /// Calls `take` with each state that the query selects, in the order of their times. An
+    /// exception thrown by `take` ends the reading and is passed on. Throws Error if reading fails.
     virtual void read(const Query& query, const std::function<void(const State&)>& take) = 0;
 
-    /// Returns all robots in the order of their names. Throws Error if this fails.
+    /// Returns all robots that have states, with the times of their first and last states, in the
+    /// order of their names. Throws Error if this fails.
     virtual std::vector<RobotSpan> robots() = 0;
 };
 

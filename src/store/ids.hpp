@@ -9,8 +9,8 @@
 
 namespace dotpose::store {
 
-/// Maps keys to database IDs. The size of the cache is limited, because any publisher can invent
-/// names.
+/// Maps keys to database IDs. The size of the cache is limited, because robots choose their names,
+/// so the number of names has no limit. A full cache is cleared.
 template <typename Key>
 class Ids {
   public:

@@ -19,8 +19,8 @@
 namespace dotpose::store {
 
 struct QueueOptions {
-    /// Maximum number of states in the queue. A new state replaces the oldest one if the queue is
-    /// full. A state takes 96 bytes.
+    /// Maximum number of states in the queue. If the queue is full, a new state replaces the oldest
+    /// one that is not in the current transaction. A state takes 96 bytes.
     std::size_t max_states = 1'000'000;
     /// Time between two transactions. PostgreSQL stores the states of a transaction together,
     /// sorted by robot, so with a longer period the states of one robot can be read faster.
@@ -35,7 +35,7 @@ struct QueueStatus {
     std::int64_t stored = 0;
     std::int64_t waiting = 0;
     std::int64_t dropped = 0;
-    bool is_away = false;  ///< true if the latest transaction failed
+    bool is_away = false;  ///< true from a failure to the next successful write
 };
 
 class Queue {
@@ -52,8 +52,9 @@ class Queue {
 
     QueueStatus status() const;
 
-    /// Writes all states in the queue, but stops if the database is not available for longer than
-    /// `patience`. Returns false if some states were not stored. No states may be added afterwards.
+    /// Writes all states in the queue. Gives up if an attempt to write fails later than `patience`
+    /// after the call. Returns false if some states were not stored. No states may be added
+    /// afterwards.
     bool finish(std::chrono::milliseconds patience);
 
   private:

@@ -32,7 +32,7 @@ inline constexpr std::string_view kColumns =
     "time_us, number, x_nm, y_nm, robot, place, delay_us, theta_urad, deviation_nm, vx_um_s, "
     "vy_um_s, omega_urad_s, state, reason";
 inline constexpr int kColumnCount = 14;
-inline constexpr int kIntegerCount = 12;  ///< the columns after these are text
+inline constexpr int kIntegerCount = 12;  ///< the remaining columns are text
 /// Number of 64-bit integer columns. The 32-bit integer columns follow them.
 inline constexpr int kWideCount = 4;
 

@@ -40,13 +40,14 @@ struct SpaceSighting {
 };
 SpaceSighting sighting_of(const SpacePose& pose, std::int64_t time_us, std::uint32_t plane = 0);
 
-/// Limits on the motion of the camera, and criteria for accepting sightings.
+/// Assumptions about the motion of the camera, and criteria for accepting sightings.
 struct SpaceTrackOptions {
     /// Standard deviation of the acceleration along each axis. The default is suitable for a hand.
     double acceleration_mm_s2 = 2000;
     double angular_acceleration_rad_s2 = 20;
     double hold_s = 0.5;  ///< time constant of the decay of accelerations
-    /// Standard deviation of the velocities of a camera that is seen for the first time.
+    /// Standard deviation of the velocity along each axis, and of the angular velocity about each
+    /// axis, at the start of a track.
     double speed_mm_s = 500;
     double turn_rad_s = 5;
     /// Maximum normalised squared innovation of the six coordinates of an accepted sighting. A
@@ -63,9 +64,10 @@ struct SpaceTrackOptions {
 enum class SpaceVerdict : std::uint8_t {
     none,             ///< there was no sighting
     accepted,         ///< the first pose was used
-    second_accepted,  ///< the second pose was used, because the track contradicts the first pose
-    /// The sighting was rejected: the track contradicts it, or there is no track yet that could
-    /// resolve its ambiguity.
+    second_accepted,  ///< the second pose was used, because it agrees better with the track
+    /// The sighting was rejected. Either the track contradicts it, or it is ambiguous and the track
+    /// does not decide between its poses. An ambiguous sighting is also rejected if there is no
+    /// track.
     rejected,
 };
 /// Returns the identifier, such as "second_accepted".
@@ -89,8 +91,9 @@ namespace space_track {
 
 inline constexpr std::size_t kStates = 18;
 
-/// Estimated motion. The elements are position and rotation, the velocities, and the accelerations:
-/// six each. Rotations are about the axes of the camera frame.
+/// Estimated motion. Each row of `covariance` has six elements for position and rotation, six for
+/// their velocities, and six for their accelerations. Rotations are about the axes of the camera
+/// frame.
 struct Motion {
     std::int64_t time_us = 0;
     CameraInSpace camera;
@@ -111,13 +114,15 @@ class SpaceTracker {
     explicit SpaceTracker(const SpaceTrackOptions& options = {}) : options_(options) {}
 
     /// Takes the sighting of a frame. A sighting in another plane, or not later than the previous
-    /// frame, starts a new track.
+    /// frame, starts a new track. An ambiguous sighting cannot start a track, so the camera is then
+    /// lost.
     const SpaceTrack& update(const SpaceSighting& sighting);
-    /// Takes a frame without a sighting.
+    /// Takes a frame without a sighting. The camera is lost if the frame is earlier than the
+    /// previous frame, or too late (see `lost_after_us`).
     const SpaceTrack& update(std::int64_t time_us);
 
-    /// Returns the track at a later time. The verdict is `none`. Returns none while the camera is
-    /// lost, or for an earlier time.
+    /// Predicts the track at a time after the last accepted sighting. The verdict is `none`.
+    /// Returns none while the camera is lost, or for an earlier time.
     std::optional<SpaceTrack> predict(std::int64_t time_us) const;
 
     const SpaceTrack& track() const { return track_; }
@@ -131,7 +136,8 @@ class SpaceTracker {
     SpaceTrack track_;
     space_track::Motion motion_;
     std::int64_t accepted_us_ = 0;  ///< time of the latest accepted sighting
-    // Rejected sightings since then that are consistent with each other.
+    // The newest unambiguous sighting that was rejected since then, and the length of the series of
+    // rejected sightings up to it in which each is consistent with the one before.
     std::optional<SpaceSighting> rejected_;
     int rejections_ = 0;
 };

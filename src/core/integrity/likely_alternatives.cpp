@@ -29,7 +29,7 @@ Bytes bytes_at(const RollOffsets& offsets, std::size_t line) {
     return bytes;
 }
 
-/// Returns offsets modulo 63. The arguments must be less than 126.
+/// Reduces roll offsets modulo kSections. The arguments must be less than 2 * kSections.
 Bytes modulo_sections(Bytes offsets) {
     return offsets - (static_cast<Bytes>(offsets >= kSections) & kSections);
 }
@@ -119,9 +119,10 @@ unsigned opposite(unsigned key) {
 }
 
 /// Finds the likely alternatives. Visits all sets of lines whose minimum losses add up to less than
-/// the loss limit. An alternative may leave exactly these lines unshared, so the search lists the
-/// places in each sequence at which it may share all other lines. Two positions share two adjacent
-/// lines only if all four digits in the step between these lines are equal.
+/// the loss limit. For each set, lists the places in each sequence at which an alternative may
+/// share all other lines, and adds the odds of the alternatives that share exactly these other
+/// lines. Two positions share two adjacent lines only if, in the step between these lines, they
+/// have the same digit in each of the four sequences.
 class Finder {
   public:
     Finder(const RankedLines& lines, int loss_limit, float max_odds)
@@ -163,16 +164,18 @@ class Finder {
         }
     }
 
-    /// Decides for `line` and all later lines which of them are shared. `shared` contains the
-    /// shared lines before `line`, and `places` the places at which an alternative may share them.
-    /// `lost` is the sum of the minimum losses of the other lines before `line`. Returns false if
-    /// the search ends early.
+    /// Visits all sets of shared lines that continue `shared`, which contains the shared lines
+    /// before `line`. `places` contains the places at which an alternative may share the lines in
+    /// `shared`. `lost` is the sum of the minimum losses of the other lines before `line`. Returns
+    /// false if the search ends early, because it takes too long or the sum exceeds `max_odds_`.
     bool visit(int line, int lost, const PlaceSets& places, LineSet shared) {
         if (line == count_) return add_all(places, shared);
         const int loss = std::max(lines_.ratios.min_loss(line), 0);
         if (lost + loss < loss_limit_ && !visit(line + 1, lost + loss, places, shared))
             return false;
-        // If the minimum loss is 0, the line counts as not shared and does not restrict the places.
+        // A line with a minimum loss of 0 costs nothing if it is not shared. The branch above
+        // therefore includes the alternatives that share it, and a second branch would count them
+        // twice.
         if (loss == 0) return true;
         const LineSet with_line = shared | LineSet{1} << line;
         if (line == 0 || (shared >> (line - 1) & 1) == 0)
@@ -249,9 +252,10 @@ class Finder {
         visit_pairs([](std::uint16_t& newest, std::uint16_t) { newest = kNone; });
     }
 
-    /// Adds the odds of an alternative at the shift at which it shares the first shared line. Adds
-    /// nothing if the lines that it shares are not exactly those of `set_pattern`, or if it differs
-    /// in fewer than two sequences. `indices` are indices into the lists of places.
+    /// Adds the odds of the alternative with the given places, at the shift at which it shares the
+    /// first shared line. Adds nothing if it does not share exactly the lines passed to
+    /// `set_pattern`, or if it differs from the reading in fewer than two sequences. `indices` are
+    /// indices into the lists of places.
     void add(const std::array<std::size_t, 4>& indices) {
         const auto& [a, b, c, d] = indices;
         RollOffsets shifts;
@@ -300,11 +304,11 @@ class Finder {
     float sum_ = 0;
 };
 
-/// Fraction of the minimum losses by which the odds are increased in the expectation (see
-/// `log2_of_tilted_odds`). In small views, fractions from 0.8 to 1 give the smallest loss limit.
+/// Exponent in the tilted odds (see `log2_of_tilted_odds`). In small views, exponents from 0.8 to 1
+/// give the smallest loss limit.
 constexpr float kTilt = 0.9F;
 
-/// Minimum of the loss limit, in bits. A smaller limit would save little time.
+/// Minimum of the loss limit, in bits. A smaller limit would shorten the search only a little.
 constexpr float kMinBits = 28;
 
 /// Returns log2 of kMargin times the expected sum of the tilted odds of all far alternatives. The
@@ -336,7 +340,8 @@ float log2_of_tilted_odds(const Kernels& kernels, const RankedLines& lines) {
 std::optional<float> sum_of_likely_alternatives(const Kernels& kernels, const RankedLines& lines,
                                                 float max_rest, float max_odds) {
     // If the minimum losses of the lines that an alternative does not share add up to n or more
-    // bits, its odds are at most 2^(-kTilt * n) times its tilted odds.
+    // bits, its odds are at most 2^(-kTilt * n) times its tilted odds. `needed_bits` is the
+    // smallest n at which the tilted odds, multiplied by this factor, are at most `max_rest`.
     const float log2_tilted = log2_of_tilted_odds(kernels, lines);
     const float needed_bits = (log2_tilted - std::log2(max_rest)) / kTilt;
     constexpr float kMaxBits = 100;

@@ -36,7 +36,8 @@ class Rows {
 
 class PostgresConnection {
   public:
-    /// Connects to the server. Throws Error if the connection fails or takes more than 5 s.
+    /// Connects to the server. Throws Error if the connection fails or takes too long (5 s, unless
+    /// the URL contains another limit).
     explicit PostgresConnection(const std::string& url);
 
     /// Runs statements without parameters, separated by semicolons. Throws Refused.

@@ -169,7 +169,8 @@ class Sqlite : public Database {
 
     void read(const Query& query, const std::function<void(const State&)>& take) override {
         run([&](const Connection& connection) {
-            // The places and the states must be of the same moment.
+            // Reads the places and the states in one transaction. Otherwise, a state could refer to
+            // a place that was added after the places were read.
             connection_->run("BEGIN");
             const auto robot = std::make_shared<const std::string>(query.robot);
             const auto places = all_places(connection);

@@ -81,7 +81,8 @@ typedef struct dotpose_space_pose {
      * radians, row by row. */
     double covariance_mm_rad[36]; /* 96 */
     double residual_px;           /* 384: rms residual of the dots, per axis */
-    /* Likelihood of the second pose divided by the likelihood of the first pose. */
+    /* Likelihood of the second pose divided by the likelihood of the first pose. 0 without a
+     * second pose. */
     double second_odds;               /* 392 */
     double second_position_mm[3];     /* 400 */
     double second_quaternion_xyzw[4]; /* 424 */

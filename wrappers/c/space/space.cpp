@@ -12,7 +12,7 @@ namespace {
 
 using namespace dotpose;
 
-/// Returns OK if the struct has the size of its only version.
+/// Returns OK if the member `size` has the size of the only version of the struct.
 template <typename Struct>
 dotpose_status check_size(const Struct* given) {
     if (given == nullptr) return DOTPOSE_NULL_POINTER;
@@ -76,8 +76,8 @@ void give(const SpacePose& pose, dotpose_space_pose& result) {
     copy(second.rotation, result.second_quaternion_xyzw);
 }
 
-/// Returns OK if the locator can give the dots of its last image. The shared library of dotpose_c
-/// hides its internal functions, so they cannot be used here.
+/// Returns OK if the locator stores the dots of its last image. Reads its members directly, because
+/// the shared library of dotpose_c hides its internal functions.
 dotpose_status check_locator(const dotpose_locator* locator) {
     if (locator == nullptr) return DOTPOSE_NULL_POINTER;
     if (locator->mark != c::kLocatorMark) return DOTPOSE_NOT_INITIALIZED;
