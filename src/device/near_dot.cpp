@@ -6,8 +6,8 @@ namespace dotpose::core {
 
 bool lay_dot_pixels(Tracking& tracking) {
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-        // Centre of the quarter of the pixel that contains the intersection, relative to the upper
-        // left corner of the pixel.
+        // Centre of a quarter of a pixel, relative to the upper left corner of the pixel. All
+        // intersections in the same quarter use the same pixels.
         const FixedVec in_pixel_q16{quarter % 2 == 0 ? 16384 : 49152, quarter < 2 ? 16384 : 49152};
         for (std::size_t s = 0; s < 4; ++s) {
             const FixedVec displaced_q16 = tracking.displaced_q16[s];
@@ -25,8 +25,8 @@ bool lay_dot_pixels(Tracking& tracking) {
 
 namespace {
 
-/// Not inlined, because only fine grids call this function. Inlining would take registers from the
-/// code for other grids.
+/// Not inlined, because only fine grids call this function, and the code for other grids would then
+/// have fewer registers.
 DOTPOSE_NOINLINE bool measure_fine_square(const Tracking& tracking, FixedVec intersection_q16,
                                           std::int32_t level, NearDot& dot) {
     return measure_square<kFineHalf_px>(tracking, intersection_q16, level, dot);

@@ -13,8 +13,9 @@ constexpr int kTurns = 4;
 /// bit error affects only one pair of each axis.
 constexpr int kMaxPairs = 3;
 
-/// The rolls at which all bits of a line agree with the main sequence. If a line has six correct
-/// consecutive bits, there is at most one such roll.
+/// The rolls at which all bits of a line agree with the main sequence. Empty if there are more than
+/// four such rolls, because the line then has too few bits. If a line has six consecutive bits,
+/// there is at most one such roll.
 class AgreeingRolls {
   public:
     AgreeingRolls() = default;
@@ -50,7 +51,7 @@ struct LinePair {
 
 /// Returns the first line of the pair of adjacent lines that has the most bits. The number of bits
 /// of a pair is that of its line with fewer bits. Skips the lines in the bit set `tried`, and adds
-/// the pair to this set. Returns nullopt if no pair is left.
+/// the pair to this set. Returns nullopt if no pair with bits is left.
 std::optional<int> longest_pair(const HardLines& lines, std::uint32_t& tried) {
     std::optional<int> longest;
     int most_bits = 0;
