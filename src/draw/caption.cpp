@@ -28,8 +28,8 @@ double text_width(const std::string& text, double size) {
     return 0.72 * size * static_cast<double>(std::ranges::count_if(text, is_first_byte));
 }
 
-/// Draws entries in columns of equal width and in one font size, which is reduced until each entry
-/// fits.
+/// Draws entries in columns of equal width and in one font size. The font size is at most `size`,
+/// and small enough that each value fits into its column.
 void draw_entries(const std::vector<Entry>& entries, double y, double column, double size,
                   Svg& svg) {
     double font = size;
@@ -156,7 +156,8 @@ void draw_pose(const Fix& fix, const DrawOptions& options, double width, Svg& sv
              R"(class="place" fill="#17202a")");
 }
 
-/// Breaks a text between words into lines of at most `max_bytes` bytes. Longer words are not split.
+/// Breaks a text between words into lines of at most `max_bytes` bytes. A word that is longer than
+/// this is not split, but gets a line of its own.
 std::vector<std::string> wrapped(const std::string& text, std::size_t max_bytes) {
     std::vector<std::string> lines(1);
     std::istringstream words(text);

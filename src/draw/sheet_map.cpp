@@ -44,8 +44,9 @@ std::array<Point, 4> corners_m(const SheetEntry& entry) {
             corner(0, sheet.height_mm)};
 }
 
-/// Returns the bounding box of the world's origin and of all pages with a world pose. The origin is
-/// omitted if the pages would be too small otherwise.
+/// Returns the bounding box of the world's origin and of all pages with a world pose. Omits the
+/// origin if it would make the box more than kMaxRatioForOrigin times as large. Throws Error if the
+/// box is too large to draw.
 Bounds world_bounds(std::span<const SheetEntry> sheets) {
     constexpr double kMaxRatioForOrigin = 3;
     Bounds bounds;

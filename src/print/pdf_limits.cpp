@@ -44,7 +44,8 @@ class ShallowFile : public FileInputSource {
     std::ptrdiff_t start_;
 };
 
-/// Counts the bytes that pass through and discards them. Throws if there are more than `max` bytes.
+/// Counts the bytes that pass through and discards them. Throws std::runtime_error if there are
+/// more than `max` bytes.
 class ByteCount : public Pipeline {
   public:
     explicit ByteCount(std::uint64_t max) : Pipeline("byte count", nullptr), max_(max) {}

@@ -29,7 +29,8 @@ void require_shallow_page_tree(QPDF& pdf);
 /// warning (see `is_too_deep`). Throws Error for pipes and devices.
 std::shared_ptr<InputSource> open_pdf(const std::filesystem::path& path);
 
-/// Returns true if qpdf gave this warning because a read would have used too much of the stack.
+/// Returns true if qpdf gave this warning because a read would have used too much of the stack, or
+/// because objects are nested too deeply.
 bool is_too_deep(const std::string& warning);
 
 /// Counts the bytes of streams after unpacking, before they are stored in memory. The limit is
@@ -44,8 +45,8 @@ class UnpackedBytes {
     /// many filters or needs too much memory for a row of a predictor.
     void count(QPDFObjectHandle stream);
 
-    /// Counts the bytes of the object streams, which are streams that contain other objects. The
-    /// limit for one page also applies to each object stream.
+    /// Counts the bytes of all object streams, which are streams that contain other objects. The
+    /// limit for one page applies to each of these streams, as if the stream were a page.
     void count_object_streams(QPDF& pdf);
 
   private:

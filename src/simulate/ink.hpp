@@ -34,8 +34,8 @@ struct View {
     CameraModel camera;
     CameraPose pose;
     Projection projection;
-    /// Maximum distance from which ink outside the image contributes to it, because of blur and
-    /// motion.
+    /// Maximum distance from the image, in px, at which ink outside the image affects it because of
+    /// blur and motion.
     double margin_px;
 
     View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperfections& blurred);
@@ -85,7 +85,8 @@ void add_word(Ink& ink, const View& view, const Word& word, double reflectance, 
 /// Adds `imperfections.graphics` thick strokes or words at random places in view.
 void add_graphics(Ink& ink, const View& view, const Imperfections& imperfections, Rng& rng);
 
-/// Adds `imperfections.dirt_blobs` specks with a diameter of 0.6 to 3 dots.
+/// Adds `imperfections.dirt_blobs` elliptical specks. Their longer axis is 0.6 to 3 times the
+/// diameter of a dot.
 void add_dirt(Ink& ink, const View& view, double dot_mm, const Imperfections& imperfections,
               Rng& rng);
 
