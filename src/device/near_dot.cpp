@@ -12,8 +12,8 @@ bool lay_dot_pixels(Tracking& tracking) {
         for (std::size_t s = 0; s < 4; ++s) {
             const FixedVec displaced_q16 = tracking.displaced_q16[s];
             // The four pixels in which a dot is read must be inside the square around the
-            // intersection. The offset of the first of these pixels differs from the displacement
-            // by at most 3/4 of a pixel.
+            // intersection. Because of rounding, the offset of the first of these pixels differs
+            // from the displacement by at most 3/4 of a pixel.
             if (!is_within(displaced_q16, tracking.half_px * 65536 - 49153)) return false;
             const FixedVec place_q16 = in_pixel_q16 + displaced_q16;
             tracking.dot_pixels[quarter][s] = static_cast<std::int16_t>(

@@ -9,7 +9,7 @@ namespace dotpose::core {
 namespace {
 
 /// Range of grid spacings that can be tracked, in px. The square in which a dot is read contains
-/// the dot only at these spacings. Spacings below kFine_px are tracked only on known sheets.
+/// the dot only at these spacings. Spacings below kFine_px are tracked only if sheets are known.
 constexpr int kFinest_px = 5;
 constexpr int kFine_px = 7;
 constexpr int kCoarsest_px = 13;

@@ -18,8 +18,8 @@ Shifts::Shifts(const Tracking& tracking) {
     // the prediction changes the sums over these dots only slightly.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
-    // Sideways movement of the first rows if the frame rotates by 4 degrees (18/256 rad) about its
-    // centre.
+    // If the frame is rotated by 4 degrees (18/256 rad) about its centre, its first rows move
+    // sideways by this distance. The search range includes this movement.
     const int sideways_px = 18 * ((tracking.height_px - rows_) / 2) >> 8;
     const auto steps = [&](int reach_px) {
         return std::min((reach_px + step_px_ - 1) / step_px_, kMaxSteps);

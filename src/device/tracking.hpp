@@ -100,7 +100,7 @@ struct Tracking {
     int rows_kept = 0;     ///< number of rows for which there is memory
     int rows_needed = 0;   ///< number of newest rows still needed after dots were read; less than
                            ///< half of rows_kept
-    int first_rows = 0;    ///< number of rows from which the error of the prediction is measured
+    int first_rows = 0;    ///< number of first rows in which the prediction error is measured
     int next_reading = 0;  ///< value of rows_taken at which dots are read next
     int reach_px = 0;  ///< maximum position error that the search covers, in px at the image centre
     Place corner;      ///< place of cell (0, 0) in the code

@@ -26,7 +26,7 @@ void require_shallow_page_tree(QPDF& pdf);
 /// Opens a PDF so that reading it cannot overflow the stack. qpdf reads recursively, because the
 /// length of a stream may be stored in another stream, whose length is in a third stream, and so
 /// on. If too much of the stack is in use, a read throws an exception, which qpdf turns into a
-/// warning (see `is_too_deep`). Throws Error for pipes and devices.
+/// warning (see `is_too_deep`). Throws Error for directories, pipes and devices.
 std::shared_ptr<InputSource> open_pdf(const std::filesystem::path& path);
 
 /// Returns true if qpdf gave this warning because a read would have used too much of the stack, or
@@ -41,8 +41,9 @@ class UnpackedBytes {
 
     void start_page() { page_ = 0; }
 
-    /// Counts the bytes of a stream. Throws Error if a limit is exceeded, or if the stream has too
-    /// many filters or needs too much memory for a row of a predictor.
+    /// Counts the bytes of a stream, and ignores objects that are not streams. Throws Error if a
+    /// limit is exceeded, or if the stream has too many filters or needs too much memory for a row
+    /// of a predictor.
     void count(QPDFObjectHandle stream);
 
     /// Counts the bytes of all object streams, which are streams that contain other objects. The

@@ -48,7 +48,8 @@ struct OffsetBox {
 };
 OffsetBox visible_offsets(const View& view);
 
-/// Adds the image of a disc if it is in view.
+/// Adds the image of a disc if it is in view. `offset_mm` is the offset of its centre from the pose
+/// point. `reflectance` is relative to bare paper.
 void add_disc(Ink& ink, const View& view, Vec2 offset_mm, double radius_mm, double reflectance);
 
 /// Function that returns the offset of the dot of a cell from its intersection, in units of the
