@@ -31,8 +31,8 @@ struct PlacedLines {
     int wrong;  ///< number of bits that contradict the code
 };
 
-/// Returns the difference between the rolls of an axis and its rolls in section 0: the section plus
-/// the position on the other axis, modulo 63.
+/// Returns the number, modulo 63, that is added to the rolls of an axis in section 0. It is the sum
+/// of the section of the axis and the position on the other axis.
 std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_across) {
     return code::modulo_sections(section + code::modulo_sections(position_across));
 }

@@ -151,7 +151,7 @@ void SheetSearch::search(const KnownRegion& region, const PairsOfLines& pairs) {
     const RegionAxis along(region, pairs.axis());
     const auto margin = static_cast<std::uint32_t>(
         std::max(block_.lines(pairs.axis(), 0).count, block_.lines(pairs.axis(), 1).count));
-    // Positions of the first line of a pair at which a part of the block is on the region.
+    // Positions of the first line of a pair at which a part of the block may be on the region.
     const std::uint32_t begin = along.first < margin ? 0 : along.first - margin;
     const std::uint32_t end = along.first + along.size + margin;
     Rolls rolls;
@@ -198,7 +198,9 @@ void SheetSearch::test_crossing(const KnownRegion& region, Axis axis, int quarte
     if (!PositionRange(along.first, along.size, block_.lines(axis, quarters).count)
              .contains(position))
         return;
-    // `added` is the section plus the position on the other axis, modulo 63.
+    // `added` is the section plus the position on the other axis, modulo 63. Within a region, it
+    // therefore determines the position on the other axis modulo 63, so only every 63rd position is
+    // tested.
     const PositionRange range(across.first, across.size, crossing.count);
     const std::uint32_t first_class = code::modulo_sections(range.first);
     const std::uint32_t wanted_class = difference(added, along.section);

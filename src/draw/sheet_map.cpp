@@ -26,7 +26,7 @@ constexpr double kBox = 190;  // longest side of a sheet without a pose
 constexpr double kBoxPitch_x = 230;
 constexpr double kBoxPitch_y = 300;
 constexpr std::size_t kBoxRows = 3;
-/// Maximum extent of the map. If it were larger, the numbers in the drawing would not be precise
+/// Maximum extent of the map. In a larger map, the numbers in the drawing would not be precise
 /// enough to show a page.
 constexpr double kMaxExtent_m = 1e7;
 constexpr const char* kCentred = R"(text-anchor="middle" fill="#17202a")";

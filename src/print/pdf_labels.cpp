@@ -118,7 +118,8 @@ bool has_ruler(const Sheet& sheet, Side side) {
     return free_margin_mm(sheet, side) >= kRulerRoom_mm;
 }
 
-/// Positions of the x arrow and the y arrow of the page. Both arrows are outside the rulers.
+/// Positions of the x arrow and the y arrow of the page. Both arrows are farther from the dots than
+/// the rulers.
 struct Arrows {
     double x_of_y_arrow_mm = 0;
     double y_of_x_arrow_mm = 0;
@@ -126,7 +127,8 @@ struct Arrows {
     double y_end_mm() const { return y_of_x_arrow_mm + kArrow_mm; }
 };
 
-/// Returns the positions of the arrows, or an empty optional if there is too little space for them.
+/// Returns the positions of the arrows, or an empty optional if a margin has too little space for
+/// an arrow beside the ruler.
 std::optional<Arrows> arrows_of(const Sheet& sheet) {
     const double x_mm = free_margin_mm(sheet, Side::left) - kRulerRoom_mm - kArrowGap_mm;
     const double y_mm = free_margin_mm(sheet, Side::top) - kRulerRoom_mm - kArrowGap_mm;

@@ -75,8 +75,8 @@ class Sensor {
         return paper_.data() + (static_cast<std::size_t>(row) * (width_ + 2 * border_));
     }
 
-    // Converts the ink of a row to lost light, and computes the ranges of row_ that this light
-    // changes.
+    // Computes the light that the ink of a sub-row absorbs, and the ranges of row_ that change
+    // because of it.
     void gather(std::span<const Raster::Spot> spots, const float* paper) {
         losses_.assign(spots.begin(), spots.end());
         reaches_.clear();

@@ -101,8 +101,8 @@ PageArea draw_island(const Shot& shot, Rng& rng) {
     return area;
 }
 
-/// Returns true if two areas are at least about two spacings apart. Approximates the area `a` by a
-/// circle.
+/// Returns true if two areas are at least about two spacings apart. Treats the area `a` as a circle
+/// whose radius is 0.85 times half its diagonal.
 bool are_apart(const PageArea& a, const PageArea& b) {
     constexpr double kGap = 2;
     const double reach = std::hypot(a.half_width, a.half_height);
