@@ -34,12 +34,12 @@ struct HardLines {
     const HardLine& operator[](int line) const { return first[line * step]; }
 
     /// Returns the number of bits that contradict the code if line i starts at index `rolls[i] +
-    /// added`, modulo 63, of the main sequence. If this number exceeds `limit`, the result may be
-    /// smaller than the number, but also exceeds `limit`.
+    /// added`, modulo 63, of the main sequence. If this number exceeds `limit`, may stop counting
+    /// early, with a result that also exceeds `limit`.
     int wrong_with(const std::uint8_t* rolls, std::uint32_t added, int limit) const;
     /// Returns the number of bits that contradict the code if the first line is at `position` and
     /// the roll of each line is its roll in section 0 plus `added`, modulo 63. If this number
-    /// exceeds `limit`, the result may be smaller than the number, but also exceeds `limit`.
+    /// exceeds `limit`, may stop counting early, with a result that also exceeds `limit`.
     int wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added, int limit) const;
 };
 
