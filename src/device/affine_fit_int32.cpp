@@ -7,14 +7,14 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the number of bits by which a value must be shifted right to fit in `bits` bits. The
-/// value must not be negative.
+/// Returns the number of bits by which `value` must be shifted right to fit in `bits` bits, or 0 if
+/// it fits already. `value` must not be negative.
 int excess_bits(std::int64_t value, int bits) {
     return std::max(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value))) - bits, 0);
 }
 
-/// Returns n / d. Divides in 32 bits if possible, because small processors divide 32-bit numbers
-/// five times as fast as 64-bit numbers.
+/// Returns n / d. If n fits in 32 bits, divides in 32 bits, which is five times as fast as a 64-bit
+/// division on small processors.
 std::int64_t quotient(std::int64_t n, std::int32_t d) {
     const auto small = static_cast<std::int32_t>(n);
     return small == n ? small / d : n / d;
@@ -48,8 +48,8 @@ bool AffineFitInt32::solve(int bits, PlaneFromImage& plane) {
                                           myy >> shift};
     const std::int64_t determinant = spread.determinant();
     const std::int64_t trace = spread.xx + spread.yy;
-    // Dots are collinear if their standard deviation across a line is less than about 1/32 of that
-    // along the line.
+    // The points count as collinear if their standard deviation across the best line is less than
+    // about 1/32 of their standard deviation along it.
     if (determinant <= 0 || determinant >> 8 < trace * trace >> 18) return false;
 
     const auto solve_one = [&](std::int32_t sum, std::int64_t of_x, std::int64_t of_y,

@@ -30,8 +30,10 @@ class AffineFitInt32 {
     };
 
     AffineFitInt32() = default;
-    /// Constructs the fit from existing sums. `count` is the number of points, or the sum of their
-    /// weights.
+    /// Constructs the fit from existing sums over points. `count` is the number of points, `p` and
+    /// `target` are the sums of the points and of their targets, and `sums` contains the sums of
+    /// products. If the points have weights, each term of these sums is multiplied by the weight of
+    /// its point, and `count` is the sum of the weights.
     AffineFitInt32(std::int32_t count, const FixedVec& p, const FixedVec& target,
                    const Products<std::int32_t>& sums)
         : changes_(count), p_(p), target_(target), recent_(sums) {}
@@ -42,7 +44,8 @@ class AffineFitInt32 {
     [[gnu::always_inline]] void add(const FixedVec& p, const FixedVec& target) {
         change(p, p, target);
     }
-    /// Adds a point if `weight` is 1. Removes a point if `weight` is -1.
+    /// Adds a point if `weight` is 1. If `weight` is -1, removes a point that was added before. p
+    /// and the target have the units and ranges of `add`.
     [[gnu::always_inline]] void count(const FixedVec& p, const FixedVec& target, int weight) {
         unused_ += 1 - weight;
         change(p, FixedVec{weight * p.x, weight * p.y},
@@ -50,14 +53,15 @@ class AffineFitInt32 {
     }
     int count() const { return changes_ - unused_; }
     /// Sets `at_centre`, du and dv of the plane, but no other members. Targets are in units of
-    /// 2^-bits cells. Returns false if there are fewer than three points, or if the points are
-    /// nearly collinear.
+    /// 2^-bits cells. Returns false and leaves the plane unchanged if there are fewer than three
+    /// points, or if the points are nearly collinear.
     bool solve(int bits, PlaneFromImage& plane);
 
   private:
-    /// Coordinates of near points are from -kNear to kNear - 1. Their products are summed in 32
-    /// bits, because small processors add 32-bit numbers three times as fast as 64-bit numbers. The
-    /// sums over kMaxRecent near points and one far point do not overflow.
+    /// A point is near if both of its coordinates are from -kNear to kNear - 1. The products of
+    /// near points are summed in 32 bits, because small processors add 32-bit numbers three times
+    /// as fast as 64-bit numbers. The sums over kMaxRecent near points and one far point do not
+    /// overflow.
     static constexpr std::uint32_t kNear = 1024;
     static constexpr int kMaxRecent = 32;
     static std::uint32_t offset(std::int32_t a) { return static_cast<std::uint32_t>(a) + kNear; }

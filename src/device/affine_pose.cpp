@@ -32,7 +32,7 @@ std::int32_t squared_q16(FixedVec a_q16) {
     return (a_q16.x >> 8) * (a_q16.x >> 8) + (a_q16.y >> 8) * (a_q16.y >> 8);
 }
 
-/// Not inlined, because inlining needs more registers than small processors have.
+/// Not inlined, because the caller would then need more registers than small processors have.
 [[gnu::noinline]] void add(AffineFitInt32& fit, FixedVec p, FixedVec target) {
     fit.add(p, target);
 }
@@ -67,8 +67,9 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
     const auto squared_residual_q16 = [&](FixedVec offset, Symbol symbol) {
         return squared_q16(offset - displaced_q16[static_cast<std::size_t>(symbol)]);
     };
-    // For a two-dimensional Gaussian, the median squared residual is 1.39 sigma^2. A limit of 12
-    // times the median corresponds to 4.1 sigma, which one dot in 4,000 exceeds by chance.
+    // Dots are excluded if their squared residual exceeds 12 times the median. For a
+    // two-dimensional Gaussian, the median squared residual is 1.39 sigma^2, so the limit of the
+    // residual is 4.1 sigma, which one dot in 4,000 exceeds by chance.
     const std::int32_t limit_q16 = 12 * sampled_median([&](const Offset& offset) {
                                        return squared_residual_q16(offset.q16, offset.symbol);
                                    }) +

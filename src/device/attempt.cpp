@@ -75,7 +75,8 @@ Status verify_position(const DeviceOptions& options, Workspace& w) {
     return status == Status::ok ? status : refused(status, w);
 }
 
-/// Finds the place in the code. Searches the known sheets first.
+/// Finds the place in the code: first on the known sheets, then in the whole code, unless only
+/// known sheets are read.
 Status find_place(const DeviceOptions& options, DeviceWorkspace& w) {
     if (w.on_sheets != nullptr) {
         if (w.on_sheets->read(options, w)) return Status::ok;

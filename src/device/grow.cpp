@@ -24,8 +24,8 @@ struct Square {
     }
 };
 
-/// Returns the plane points whose cells are within `limit` cells of cell (0, 0), in 2^-16 spacings.
-/// The cell of a point is its integer part.
+/// Returns the set of plane points, in 2^-16 spacings, whose cells are at most `limit` cells from
+/// cell (0, 0) along each axis. The cell of a point is its integer part.
 Square cells_within(int limit) {
     return {static_cast<std::uint32_t>(-limit * 65536),
             static_cast<std::uint32_t>((2 * limit + 1) * 65536 - 1)};
@@ -47,7 +47,8 @@ bool is_near(FixedVec rounding_q16, const Square& offsets) {
 constexpr int kFarthest_cells = 500;
 
 /// Calls `use(dot, c, is_within_reach)` for each dot. c is `rounding_plane_point_q16` of the dot,
-/// and its integer part is the nearest cell. Returns the statistics of the dots except
+/// and its integer part is the nearest cell. `is_within_reach` is true if this cell is at most
+/// `reach_cells` cells from cell (0, 0) along each axis. Returns the statistics of the dots except
 /// `near_intersections`.
 template <typename Use>
 Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const Cells& cells,
@@ -55,8 +56,8 @@ Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const
     int farthest_cell = 0;
     int beyond = 0;
     const Square reach = cells_within(reach_cells);
-    // Cells that are within reach and not farther away than the farthest dot so far. Most dots are
-    // in these cells, so they need no further test.
+    // Cells that are within reach and not farther from cell (0, 0) than the farthest dot so far.
+    // Most dots are in these cells and need no further test.
     Square common = cells_within(0);
     for (const DetectedDot& dot : dots) {
         const FixedVec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));
@@ -108,7 +109,8 @@ class Fits {
         if (remembers()) std::fill_n(before_.begin(), dots.size(), Used::no);
     }
 
-    /// Fits the plane to the dots that are within reach and near an intersection. Sets `found`.
+    /// Fits the plane to the dots that are within reach and near an intersection of the given
+    /// `plane`, which is replaced by the result. Sets `found` to the statistics of the dots.
     /// Returns false if the dots do not determine the plane, or if its cells are not nearly square.
     bool operator()(int reach_cells, Regularity& found, PlaneFromImage& plane) {
         const Cells cells(plane);
@@ -169,8 +171,8 @@ class Fits {
     std::span<const DetectedDot> dots_;
     Square near_;
     AffineFitInt32 sums_;
-    /// Cell of each dot in the previous fit. Not used if there are more dots than elements, so each
-    /// fit then sums up all dots.
+    /// Cell of each dot in the previous fit. If there are more dots than elements, the array is not
+    /// used, and each fit sums up all dots.
     std::array<Used, 384> before_;
 };
 

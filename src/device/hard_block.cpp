@@ -5,7 +5,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Minimum weight of each bit of a clear cell, in units of 1/127.
+/// Minimum magnitude of the weights of both bits of a clear cell. Weights are from -127 to 127.
 constexpr int kMinWeight = 48;
 
 bool is_clear(const GridCell& cell) {

@@ -34,11 +34,12 @@ struct HardLines {
     const HardLine& operator[](int line) const { return first[line * step]; }
 
     /// Returns the number of bits that contradict the code if line i starts at index `rolls[i] +
-    /// added`, modulo 63, of the main sequence. May stop counting when the number exceeds `limit`.
+    /// added`, modulo 63, of the main sequence. If this number exceeds `limit`, may stop counting
+    /// early, with a result that also exceeds `limit`.
     int wrong_with(const std::uint8_t* rolls, std::uint32_t added, int limit) const;
-    /// Returns the number of bits that contradict the code if the first line is at `position`. The
-    /// roll of each line is its roll in section 0 plus `added`. May stop counting when the number
-    /// exceeds `limit`.
+    /// Returns the number of bits that contradict the code if the first line is at `position` and
+    /// the roll of each line is its roll in section 0 plus `added`, modulo 63. If this number
+    /// exceeds `limit`, may stop counting early, with a result that also exceeds `limit`.
     int wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added, int limit) const;
 };
 
@@ -53,7 +54,7 @@ class HardBlock {
     /// Returns the number of clear cells, which is the number of bits per axis.
     int dots() const { return dots_; }
     /// Returns the lines of the block after `quarters` quarter turns in the direction of
-    /// QuarterTurn.
+    /// QuarterTurn. The result refers to the memory of this block.
     HardLines lines(Axis axis, int quarters) const;
 
   private:

@@ -6,14 +6,14 @@ namespace dotpose::core {
 
 bool lay_dot_pixels(Tracking& tracking) {
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-        // Centre of the quarter of the pixel that contains the intersection, relative to the upper
-        // left corner of the pixel.
+        // Centre of a quarter of a pixel, relative to the upper left corner of the pixel. All
+        // intersections in the same quarter use the same pixels.
         const FixedVec in_pixel_q16{quarter % 2 == 0 ? 16384 : 49152, quarter < 2 ? 16384 : 49152};
         for (std::size_t s = 0; s < 4; ++s) {
             const FixedVec displaced_q16 = tracking.displaced_q16[s];
             // The four pixels in which a dot is read must be inside the square around the
-            // intersection. The offset of the first of these pixels differs from the displacement
-            // by at most 3/4 of a pixel.
+            // intersection. Because of rounding, the offset of the first of these pixels differs
+            // from the displacement by at most 3/4 of a pixel.
             if (!is_within(displaced_q16, tracking.half_px * 65536 - 49153)) return false;
             const FixedVec place_q16 = in_pixel_q16 + displaced_q16;
             tracking.dot_pixels[quarter][s] = static_cast<std::int16_t>(
@@ -25,8 +25,8 @@ bool lay_dot_pixels(Tracking& tracking) {
 
 namespace {
 
-/// Not inlined, because only fine grids call this function. Inlining would take registers from the
-/// code for other grids.
+/// Not inlined, because only fine grids call this function, and the code for other grids would then
+/// have fewer registers.
 DOTPOSE_NOINLINE bool measure_fine_square(const Tracking& tracking, FixedVec intersection_q16,
                                           std::int32_t level, NearDot& dot) {
     return measure_square<kFineHalf_px>(tracking, intersection_q16, level, dot);

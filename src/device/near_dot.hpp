@@ -27,7 +27,7 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
     return {(place_q16.x + 32768) >> 16, (place_q16.y + 32768) >> 16};
 }
 
-/// Returns true if all pixels of a square around `pixel` are stored.
+/// Returns true if all pixels of the square with the half side `half` around `pixel` are stored.
 [[gnu::always_inline]] inline bool is_kept(const Tracking& tracking, FixedVec pixel, int half) {
     return static_cast<unsigned>(pixel.x - half) <
                static_cast<unsigned>(tracking.width_px - 2 * half) &&
@@ -36,7 +36,7 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
 }
 
 /// Returns the paper level around an intersection: the mean of the corner pixels of its square,
-/// which no dot reaches.
+/// which no dot reaches. `at` points to the pixel that contains the intersection.
 [[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking,
                                                         const std::uint8_t* at) {
     const std::uint8_t* const top = at + tracking.corner_offset;
@@ -67,9 +67,10 @@ class ReadSymbol {
     std::int32_t bits_;
 };
 
-/// Reads the symbol of the dot at an intersection: the darkest of its four possible places.
-/// Requires that the square around the intersection and a border of one pixel are stored. Not
-/// inlined, because small processors would otherwise not have enough registers.
+/// Reads the symbol of the dot at an intersection: the darkest of its four possible places. The
+/// result is unclear if no place is clearly the darkest and dark enough for a dot. Requires that
+/// the square around the intersection and a border of one pixel are stored. Not inlined, because
+/// small processors would otherwise not have enough registers.
 DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
                                                const FixedVec& intersection_q16) {
     const std::int32_t stride = tracking.stride_px;
@@ -113,7 +114,7 @@ struct NearDot {
 
 /// Measures the centroid of the pixels darker than `level` in a square around a place. The square
 /// has 2 Half + 1 px per side. Returns false if the square is not stored completely, or if the mass
-/// is not plausible for a dot.
+/// is not from Tracking::min_mass to Tracking::max_mass.
 template <int Half>
 [[gnu::always_inline]] inline bool measure_square(const Tracking& tracking, FixedVec place_q16,
                                                   std::int32_t level, NearDot& dot) {
@@ -130,7 +131,7 @@ template <int Half>
 }
 
 /// Measures the dot in the whole square around an intersection, with the threshold
-/// `Tracking::cut_q8`. Returns false if `measure_square` returns false or if the paper is black.
+/// `Tracking::cut_q8`. Returns false if `measure_square` returns false or if the paper level is 0.
 bool measure_around(const Tracking& tracking, FixedVec intersection_q16, NearDot& dot);
 
 }  // namespace dotpose::core

@@ -10,10 +10,11 @@ constexpr int stride_of(int width_px) {
     return (width_px + 3) & ~3;
 }
 
-/// Stores a row. The memory must have room for the row.
+/// Stores a row as image row `Tracking::rows_taken`, and increments this number. The memory must
+/// have room for the row.
 void keep_row(const std::uint8_t* pixels, Tracking& tracking);
 
-/// Makes room for `rows` more rows. If the memory is full, discards all but the newest
+/// If the memory does not have room for `rows` more rows, discards all but the newest
 /// `Tracking::rows_needed` rows.
 void make_room(int rows, Tracking& tracking);
 

@@ -1,15 +1,15 @@
 // Origin: finds the origin of the first grid (paper, section II-B.2). The paper requires a dot that
 // is connected to all eight neighbours, but such dots are rare if dots are displaced or missing.
-// Here, the origin follows from the mean phase of all dots near the centre, as in a Fourier
-// transform.
+// Here, the origin is computed from many dots near the centre: along each axis, from the circular
+// mean of their offsets from the grid.
 #pragma once
 
 #include "dotpose/trace.hpp"
 
 namespace dotpose::core {
 
-/// Sets the lattice origin near the point `near_q8`. Uses the seeds within a few cells of this
-/// point.
+/// Sets the lattice origin near the point `near_q8`. Uses the dots within a few cells of this point
+/// whose indices are in `seeds`. The vectors of the lattice must already be set.
 void find_origin(std::span<const DetectedDot> dots, std::span<const std::uint16_t> seeds,
                  FixedVec near_q8, Lattice& lattice);
 

@@ -9,7 +9,7 @@ namespace dotpose::core {
 namespace {
 
 /// Range of grid spacings that can be tracked, in px. The square in which a dot is read contains
-/// the dot only at these spacings. Spacings below kFine_px are tracked only on known sheets.
+/// the dot only at these spacings. Spacings below kFine_px are tracked only if sheets are known.
 constexpr int kFinest_px = 5;
 constexpr int kFine_px = 7;
 constexpr int kCoarsest_px = 13;
@@ -17,7 +17,8 @@ constexpr int kCoarsest_px = 13;
 constexpr std::int32_t kMinDisplacement_q16 = 65536 / 12;
 constexpr std::int32_t kMaxDisplacement_q16 = 65536 / 3;
 
-/// Returns true if the values of the prediction are small enough that no stage overflows.
+/// Returns true if the values of the prediction are in the ranges that can be tracked, in which no
+/// stage overflows.
 bool is_sane(const Prediction& prediction) {
     const PlaneFromImage& plane = prediction.pattern_from_image;
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
@@ -101,7 +102,8 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     tracking.rows_needed = 2 * tracking.half_px + 3;
     if (2 * tracking.rows_needed + kRowsAtOnce > tracking.rows_kept) return false;
     // If the memory has room for all rows, the error of the prediction is measured from the whole
-    // frame.
+    // frame. Otherwise, it is measured from rows with a height of 13/4 spacings. At least 5/2
+    // spacings are needed.
     const bool keeps_frame = tracking.height_px <= tracking.rows_kept;
     tracking.first_rows =
         keeps_frame ? tracking.height_px

@@ -16,7 +16,7 @@ inline constexpr int kRowsAtOnce = 12;
 /// and the image size must already be set. The image must have at most 4096 px per side. The
 /// prediction may have any values. Returns not_tracked in each of these cases:
 /// - a value of the prediction is out of range,
-/// - the spacing is not 7 to 13 px (5 to 13 px if only known sheets are read),
+/// - the spacing is not 7 to 13 px (5 to 13 px if sheets are known),
 /// - the cells are not nearly square,
 /// - the memory is too small,
 /// - the part of the image whose cells fit in the memory is too small.

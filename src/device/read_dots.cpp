@@ -11,7 +11,9 @@
 namespace dotpose::core {
 namespace {
 
-/// Direction along a row of cells in which the image coordinate v does not decrease.
+/// Direction along a row of cells in which the image coordinate v does not decrease. `step_q16` is
+/// the step from one cell to the next in the image, and `i_step` is the step of the column, 1 or
+/// -1.
 struct RowDirection {
     FixedVec step_q16;
     int i_step;
@@ -43,9 +45,10 @@ TrackedView view_of(const Tracking& tracking) {
             extent_q16(tracking.height_px)};
 }
 
-/// Finds the first visible cell of each row of cells, from row `j` in steps of `j_step`, until a
-/// row has no visible cell. The visible cells of a row are contiguous and close to those of the
-/// previous row, so each search starts at the result of the previous one.
+/// Finds the first visible cell, in the reading direction, of each row of cells from row `j` in
+/// steps of `j_step`. Stops at a row without a visible cell. The visible cells of a row are
+/// contiguous and close to those of the previous row, so each search starts at the result of the
+/// previous one.
 void lay_rows(Tracking& tracking, int j, int j_step) {
     const TrackedView view = tracking.view;
     const RowDirection direction = row_direction(tracking);
@@ -93,8 +96,9 @@ DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
 }
 
 /// Adds the next dot of a row to the sums, if its mass is plausible and its centre is near the
-/// predicted place. The symbol of the dot must agree with the code. Masses are below 2^12 and
-/// offsets at most 2 px, so the sums over a row of 32 dots are below 2^30.
+/// predicted place. The symbol of the dot must agree with the code. Masses are below 2^12, offsets
+/// are at most 2 px (2^9 units of 2^-8 px), and columns are at most 2^4 from the middle. The sums
+/// over a row of at most 32 dots are therefore at most 2^30.
 DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& row) {
     const auto symbol = static_cast<std::size_t>(read.symbol());
     const FixedVec place_q16 = row.next_q16 + tracking.displaced_q16[symbol];

@@ -22,7 +22,8 @@ int log2_of_places_q8(std::uint64_t n) {
     return log2_at_most_q8(static_cast<std::uint32_t>(n)) + 256 * halvings;
 }
 
-/// Consecutive lines of one axis, at a place in the code.
+/// Consecutive lines of one axis, at a place in the code. `position` is the position of the first
+/// line.
 struct PlacedLines {
     HardLines lines;
     std::uint32_t position;
@@ -30,22 +31,24 @@ struct PlacedLines {
     int wrong;  ///< number of bits that contradict the code
 };
 
-/// Returns the difference between the rolls of an axis and its rolls in section 0: the section plus
-/// the position on the other axis, modulo 63.
+/// Returns the number, modulo 63, that is added to the rolls of an axis in section 0. It is the sum
+/// of the section of the axis and the position on the other axis.
 std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_across) {
     return code::modulo_sections(section + code::modulo_sections(position_across));
 }
 
-/// Sum of the odds of the alternatives to a given place that agree with it on one axis. Only the
-/// lines of the other axis distinguish such an alternative from the given place.
+/// Sum of the odds of alternatives to a given place, which are other places on the known sheets.
+/// Includes the alternatives that agree with the given place on one axis. Only the lines of the
+/// other axis distinguish such an alternative from the given place.
 class OddsOfOthers {
   public:
     OddsOfOthers(CodeVariant code, int odds_per_bit_q8)
         : code_(code), odds_per_bit_q8_(odds_per_bit_q8) {}
 
-    /// Adds the alternatives in a region. They have the same lines as the given place on the axis
-    /// of `same`. Along this axis, the region has the section `same_section` and the positions
-    /// `same_range`. Along the other axis, it has `section` and `range`.
+    /// Adds the alternatives in a region that have the same lines as the given place on one axis.
+    /// `same` contains the lines of this axis at the given place, and `other` those of the other
+    /// axis. The region has the section `same_section` and the positions `same_range` on the axis
+    /// of `same`, and `section` and `range` on the other axis.
     void add(const PlacedLines& same, std::uint32_t same_section, const PositionRange& same_range,
              const PlacedLines& other, std::uint32_t section, const PositionRange& range) {
         if (!same_range.contains(same.position)) return;
@@ -86,7 +89,8 @@ int trials_log2_q8(const KnownSheets& sheets, CodeVariant code, int columns, int
 
 /// Returns log2 of an upper bound on the probability of an accidental match with an unknown sheet,
 /// in units of 2^-8. Such a sheet has the columns or the rows of a known sheet, and agrees on the
-/// other axis by chance. Its rolls determine its position on the other axis modulo 63.
+/// other axis by chance. On this other axis, only one position in 63 is possible, because the rolls
+/// of the matching lines determine the position modulo 63.
 int unknown_sheet_log2_q8(const KnownSheets& sheets, CodeVariant code, const PlacedLines& x,
                           const PlacedLines& y, int bits, int odds_per_bit_q8) {
     std::uint32_t columns = 0;

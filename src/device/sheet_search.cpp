@@ -13,8 +13,9 @@ constexpr int kTurns = 4;
 /// bit error affects only one pair of each axis.
 constexpr int kMaxPairs = 3;
 
-/// The rolls at which all bits of a line agree with the main sequence. If a line has six correct
-/// consecutive bits, there is at most one such roll.
+/// The rolls at which all bits of a line agree with the main sequence. Empty if there are more than
+/// four such rolls, because the line then has too few bits. If a line has six consecutive bits,
+/// there is at most one such roll.
 class AgreeingRolls {
   public:
     AgreeingRolls() = default;
@@ -50,7 +51,7 @@ struct LinePair {
 
 /// Returns the first line of the pair of adjacent lines that has the most bits. The number of bits
 /// of a pair is that of its line with fewer bits. Skips the lines in the bit set `tried`, and adds
-/// the pair to this set. Returns nullopt if no pair is left.
+/// the pair to this set. Returns nullopt if no pair with bits is left.
 std::optional<int> longest_pair(const HardLines& lines, std::uint32_t& tried) {
     std::optional<int> longest;
     int most_bits = 0;
@@ -150,7 +151,7 @@ void SheetSearch::search(const KnownRegion& region, const PairsOfLines& pairs) {
     const RegionAxis along(region, pairs.axis());
     const auto margin = static_cast<std::uint32_t>(
         std::max(block_.lines(pairs.axis(), 0).count, block_.lines(pairs.axis(), 1).count));
-    // Positions of the first line of a pair at which a part of the block is on the region.
+    // Positions of the first line of a pair at which a part of the block may be on the region.
     const std::uint32_t begin = along.first < margin ? 0 : along.first - margin;
     const std::uint32_t end = along.first + along.size + margin;
     Rolls rolls;
@@ -197,7 +198,9 @@ void SheetSearch::test_crossing(const KnownRegion& region, Axis axis, int quarte
     if (!PositionRange(along.first, along.size, block_.lines(axis, quarters).count)
              .contains(position))
         return;
-    // `added` is the section plus the position on the other axis, modulo 63.
+    // `added` is the section plus the position on the other axis, modulo 63. Within a region, it
+    // therefore determines the position on the other axis modulo 63, so only every 63rd position is
+    // tested.
     const PositionRange range(across.first, across.size, crossing.count);
     const std::uint32_t first_class = code::modulo_sections(range.first);
     const std::uint32_t wanted_class = difference(added, along.section);

@@ -18,14 +18,15 @@ Shifts::Shifts(const Tracking& tracking) {
     // the prediction changes the sums over these dots only slightly.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
-    // Sideways movement of the first rows if the frame rotates by 4 degrees (18/256 rad) about its
-    // centre.
+    // If the frame is rotated by 4 degrees (18/256 rad) about its centre, its first rows move
+    // sideways by this distance. The search range includes this movement.
     const int sideways_px = 18 * ((tracking.height_px - rows_) / 2) >> 8;
     const auto steps = [&](int reach_px) {
         return std::min((reach_px + step_px_ - 1) / step_px_, kMaxSteps);
     };
     steps_ = {steps(tracking.reach_px + sideways_px), steps(tracking.reach_px)};
-    // The margin is the largest shift, plus half a spacing for the displacement of dots.
+    // Minimum distance of dots from the left and the right edge of the image: the largest shift,
+    // plus half a spacing for the displacement of dots.
     const int margin = step_px_ * steps_.x + (tracking.spacing_q8 >> 9) + 1;
     left_ = std::max(tracking.width_px / 2 - half, margin);
     right_ = std::min(tracking.width_px / 2 + half, tracking.width_px - margin);
@@ -101,8 +102,8 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 }
 
 void Shifts::divide_by_dots() {
-    // Minimum number by which a sum of darkness is divided. If there are fewer dots, this reduces
-    // their mean, because a mean over a few dots may be large by chance.
+    // Minimum number by which a sum of darkness is divided. If a sum has fewer dots, its mean is
+    // thereby reduced, because a mean over a few dots may be large by chance.
     constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);

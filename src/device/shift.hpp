@@ -16,9 +16,10 @@ class Shifts {
     /// Measures the darkness in the first rows of the frame, which must be stored in `tracking`.
     explicit Shifts(const Tracking& tracking);
 
-    /// Sets `shift_q8` to the shift with the largest mean darkness, and returns true. Excludes
-    /// shifts within two steps of an earlier result along both axes. Returns false if no shift is
-    /// left.
+    /// Sets `shift_q8` to the shift from the predicted to the measured position with the largest
+    /// mean darkness, in 2^-8 px, and returns true. Excludes shifts that are, along both axes,
+    /// within two steps of an earlier result. Returns false if there is no darkness at any other
+    /// shift.
     bool next(FixedVec& shift_q8);
 
     int paper_level() const { return paper_; }

@@ -56,8 +56,8 @@ Status read_rows(DeviceWorkspace& w) {
     return Status::ok;
 }
 
-/// Verifies the predicted place with the bits of the dots. Tries it as a place on the known sheets
-/// first. Error: not_certain.
+/// Verifies the predicted place with the bits of the dots. If sheets are known, first tests whether
+/// the place is certain on these sheets. Error: not_certain.
 Status verify_place(const DeviceOptions& options, DeviceWorkspace& w) {
     const Tracking& t = w.tracking;
     if (w.on_sheets != nullptr) {

@@ -12,7 +12,8 @@ namespace dotpose::core {
 Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& options,
                             const Prediction& prediction, DeviceWorkspace& w);
 
-/// Takes the next row. Error: not_tracked. After an error, further rows are ignored.
+/// Takes the next row. Error: not_tracked. After an error, ignores further rows and returns the
+/// error again.
 Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w);
 
 /// Ends the frame. Sets and returns the fix in the workspace. The status is not_tracked if the dots

@@ -30,12 +30,13 @@ struct TrackedRow {
     /// Place of the next cell in the image, in 2^-16 px. y is kNever_q16 if there is no next cell.
     FixedVec next_q16{0, kNever_q16};
     std::int32_t i = 0;  ///< column of the next cell
-    // In the following sums, columns are relative to the middle column.
+    // Sums over the measured dots of the mass, the mass times i, and the mass times i^2. In all
+    // sums, i is the column of a dot relative to the middle column.
     std::int32_t mass = 0;
     std::int32_t mass_i = 0;
     std::int32_t mass_ii = 0;
-    /// Sum of the offsets of dots from their predicted places, each in 2^-8 px and multiplied by
-    /// its mass.
+    /// Sum of the offsets of dots from their predicted places. Each offset is in 2^-8 px and is
+    /// multiplied by the mass of its dot.
     FixedVec offset_q8;
     FixedVec offset_i_q8;
 };
@@ -99,7 +100,7 @@ struct Tracking {
     int rows_kept = 0;     ///< number of rows for which there is memory
     int rows_needed = 0;   ///< number of newest rows still needed after dots were read; less than
                            ///< half of rows_kept
-    int first_rows = 0;    ///< number of rows from which the error of the prediction is measured
+    int first_rows = 0;    ///< number of first rows in which the prediction error is measured
     int next_reading = 0;  ///< value of rows_taken at which dots are read next
     int reach_px = 0;  ///< maximum position error that the search covers, in px at the image centre
     Place corner;      ///< place of cell (0, 0) in the code

@@ -16,11 +16,11 @@ constexpr int kRounds = 4;
 /// of the measured dots.
 constexpr int kMinDots = 12;
 constexpr int kMinFraction_q3 = 6;
-/// Number of measured dots from which the fraction is tested.
+/// Minimum number of measured dots at which the fraction is tested.
 constexpr int kMinMeasured = 8;
 
 /// Least-squares fit of a shift, a rotation and a stretch: offset = shift + stretch p + turn J p,
-/// where J is a rotation by 90 degrees.
+/// where J is a rotation by 90 degrees and p is the place of a dot relative to the middle.
 class SimilarityFit {
   public:
     /// Adds a dot. p is the predicted place of the dot, in px relative to the middle.
@@ -82,8 +82,8 @@ class Rounds {
     Rounds(Tracking& tracking, FixedVec middle_q16)
         : tracking_(tracking), before_(tracking.cells), middle_q16_(middle_q16) {}
 
-    /// Shifts the cells by the mean offset of the dots nearest to the middle. These dots need not
-    /// agree with the code.
+    /// Shifts the cells by the mean offset of up to five dots, at the middle cell and its four
+    /// neighbours. These dots need not agree with the code.
     void recentre(FixedVec middle);
     void measure(int i, int j);
     /// Moves the cells to the fitted place.

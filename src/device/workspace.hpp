@@ -52,8 +52,8 @@ struct DeviceCapacity {
     int max_runs = 0;
 };
 
-/// Capacities for each frame size. They are sufficient for a spacing of about 11 px, or 6 px for 36
-/// x 36 px. Each size is also listed in dotpose/memory.hpp.
+/// Capacities for each frame size. They are sufficient for spacings of about 11 px or more, or of 6
+/// px or more for 36 x 36 px. Each size is also listed in dotpose/memory.hpp.
 template <int Width, int Height>
 inline constexpr DeviceCapacity kDeviceCapacity{};
 template <>

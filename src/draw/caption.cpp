@@ -22,14 +22,15 @@ struct Entry {
     std::string value;
 };
 
-/// Estimates the width of bold text. The estimate is too small for text with many wide letters.
+/// Estimates the width of bold text from its number of characters. For text with many wide letters,
+/// the result is too small.
 double text_width(const std::string& text, double size) {
     const auto is_first_byte = [](char c) { return (c & 0xC0) != 0x80; };
     return 0.72 * size * static_cast<double>(std::ranges::count_if(text, is_first_byte));
 }
 
-/// Draws entries in columns of equal width and in one font size, which is reduced until each entry
-/// fits.
+/// Draws entries in columns of equal width and in one font size. The font size is at most `size`,
+/// and small enough that each value fits into its column.
 void draw_entries(const std::vector<Entry>& entries, double y, double column, double size,
                   Svg& svg) {
     double font = size;
@@ -156,7 +157,8 @@ void draw_pose(const Fix& fix, const DrawOptions& options, double width, Svg& sv
              R"(class="place" fill="#17202a")");
 }
 
-/// Breaks a text between words into lines of at most `max_bytes` bytes. Longer words are not split.
+/// Breaks a text between words into lines of at most `max_bytes` bytes. A word that is longer than
+/// this is not split, but gets a line of its own.
 std::vector<std::string> wrapped(const std::string& text, std::size_t max_bytes) {
     std::vector<std::string> lines(1);
     std::istringstream words(text);

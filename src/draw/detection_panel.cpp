@@ -14,9 +14,9 @@ const DetectedDot& dot_of_seed(const Trace& trace, int seed) {
     return trace.dots[trace.seeds[static_cast<std::size_t>(seed)]];
 }
 
-/// Returns the radius of a dot in the drawing. If the dot was measured at its predicted place, its
-/// number of pixels is unknown, so it is drawn with a diameter of a third of the spacing, like a
-/// blurred dot.
+/// Returns the radius of a dot in the drawing. For dots that were measured at their predicted
+/// places, the number of pixels is unknown. They are drawn with a diameter of a third of the
+/// spacing, like blurred dots.
 double radius_of(const DetectedDot& dot, const FrameView& view) {
     return dot.area_px == 0 ? view.spacing() / 6
                             : std::sqrt(dot.area_px / std::numbers::pi) * view.scale();
@@ -96,7 +96,8 @@ void draw_edges(const FrameView& view, double side, Svg& svg) {
     const double scale = side / 2 / (1.7 * view.spacing() / view.scale());
     svg.add(R"(<g class="edges" fill="{0}" stroke="{0}" stroke-width="1" stroke-opacity="0.25">)",
             colour::kEdge);
-    // Maximum number of edges to draw. If there are more, a subset shows the same clusters.
+    // Maximum number of edges to draw. If there are more, only every `step`-th edge is drawn, which
+    // shows the same clusters.
     constexpr std::size_t kMaxEdges = 1000;
     const std::span<const SeedEdge> edges = view.trace().edges;
     const std::size_t step = 1 + edges.size() / kMaxEdges;

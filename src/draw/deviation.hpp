@@ -7,9 +7,9 @@
 
 namespace dotpose::draw {
 
-/// Returns " +- VALUE" with `decimals` decimals, or with one significant digit if the decimals
-/// would all be 0. Returns an empty string if the deviation is exactly 0, which means that the
-/// value was given and not measured.
+/// Returns " +- VALUE" with `decimals` decimals. If all digits would be 0, returns one significant
+/// digit instead. Returns an empty string if the deviation is exactly 0, which means that the value
+/// was given and not measured.
 inline std::string plus_minus(double sigma, int decimals) {
     if (sigma == 0) return {};
     const std::string text = fmt::format("{:.{}f}", sigma, decimals);

@@ -26,7 +26,7 @@ class Plane {
 
     Point plane_point(Point image_px) const;
     Point image_point(Point plane_point) const;
-    /// Returns the grid spacing at the image centre.
+    /// Returns the grid spacing at the image centre, or 0 if the map has no inverse.
     double spacing_px() const;
 
   private:
@@ -51,15 +51,16 @@ class FrameView {
     const Reached& reached() const { return reached_; }
     double width() const { return width_px_ * scale_; }
     double height() const { return height_px_ * scale_; }
-    /// Returns the size of a pixel on the drawing.
+    /// Returns the side of a pixel in the drawing, in units of the drawing.
     double scale() const { return scale_; }
     /// Returns true if the dots are too close together in the drawing for legible letters and
     /// rings.
     bool is_dense() const;
-    /// Returns the factor for the width of strokes. It is 1 if the grid spacing is at least 70
-    /// units of the drawing, and smaller otherwise.
+    /// Returns the factor for the width of strokes. It is the grid spacing in the drawing divided
+    /// by 70 units, but at least 0.2 and at most 1.
     double stroke() const { return stroke_; }
-    /// Returns the grid spacing on the drawing, estimated from the dots if no grid was found.
+    /// Returns the grid spacing in the drawing. If no grid was found, it is estimated from the size
+    /// of the dots.
     double spacing() const { return spacing_px_ * scale_; }
 
     /// Returns the point of the drawing that shows an ideal pixel.

@@ -95,7 +95,8 @@ class OffsetMap {
             for (int i = 0; i < columns_; ++i) {
                 const OffsetBlock& block = at(i, j);
                 if (block.dots == 0) continue;
-                // Blocks overlap a little, because otherwise seams would be visible between them.
+                // Adjacent blocks overlap slightly, because gaps between them would otherwise be
+                // visible.
                 svg_.add(
                     R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="{}"/>)",
                     corner.x + i * step, corner.y + j * step, step + 0.3, step + 0.3,

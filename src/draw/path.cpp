@@ -125,7 +125,6 @@ void PathSketch::draw_page() {
         if (!p.is_fix) svg_.circle({p.true_x_mm * scale_, p.true_y_mm * scale_}, 7, {});
     }
     svg_.add("</g>");
-    // A ruler shows the scale of the page.
     const double ruler_mm = round_up(sheet_.width_mm / 11);
     const Point left{(sheet_.width_mm - ruler_mm) * scale_ - 24, page_height - 28};
     svg_.line(left, left + Point{ruler_mm * scale_, 0},

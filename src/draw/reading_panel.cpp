@@ -67,8 +67,8 @@ class Reading {
     void draw_symbol(int i, int j, const GridCell& cell) const;
     void draw_points() const;
     /// Calls `draw` with the column, row and cell of each dot that was read. Returns the centres of
-    /// the other dots, which are either far from all intersections, or at an intersection with a
-    /// dot of higher quality.
+    /// the other dots. Such a dot is either far from all intersections, or another dot at the same
+    /// intersection has a higher quality.
     std::vector<Point> for_each_read_dot(
         const std::function<void(int, int, const GridCell&)>& draw) const;
     /// Draws a line of the grid as several strokes, because lens distortion may bend the line.
@@ -194,8 +194,8 @@ void Reading::draw_points() const {
 void Reading::draw_window() const {
     if (!view_.reached().window) return;
     const GridRegion& window = trace_.decoding.window;
-    // The outline is half a cell outside the outermost intersections. It consists of a stroke per
-    // cell, because lens distortion may bend it.
+    // The outline is half a cell outside the outermost intersections. Lens distortion may bend it,
+    // so it consists of one stroke per cell.
     const double left = window.i0 - 0.5;
     const double top = window.j0 - 0.5;
     std::string path;

@@ -26,7 +26,7 @@ constexpr double kBox = 190;  // longest side of a sheet without a pose
 constexpr double kBoxPitch_x = 230;
 constexpr double kBoxPitch_y = 300;
 constexpr std::size_t kBoxRows = 3;
-/// Maximum extent of the map. If it were larger, the numbers in the drawing would not be precise
+/// Maximum extent of the map. In a larger map, the numbers in the drawing would not be precise
 /// enough to show a page.
 constexpr double kMaxExtent_m = 1e7;
 constexpr const char* kCentred = R"(text-anchor="middle" fill="#17202a")";
@@ -44,8 +44,9 @@ std::array<Point, 4> corners_m(const SheetEntry& entry) {
             corner(0, sheet.height_mm)};
 }
 
-/// Returns the bounding box of the world's origin and of all pages with a world pose. The origin is
-/// omitted if the pages would be too small otherwise.
+/// Returns the bounding box of the world's origin and of all pages with a world pose. Omits the
+/// origin if it would make the box more than kMaxRatioForOrigin times as large. Throws Error if the
+/// box is too large to draw.
 Bounds world_bounds(std::span<const SheetEntry> sheets) {
     constexpr double kMaxRatioForOrigin = 3;
     Bounds bounds;

@@ -80,8 +80,8 @@ class SpinPicture {
         draw_cross(middle(0), colour::kBad);
     }
 
-    /// Draws the centre of rotation computed from each frame alone, relative to the centre computed
-    /// from all frames.
+    /// For each frame, draws the centre of rotation that is computed from this frame alone. The
+    /// centre computed from all frames is in the middle of the panel.
     void draw_residuals() {
         double full_mm = kMinFullScale_mm;
         for (const SpinStation& station : spin_.stations)

@@ -33,7 +33,7 @@ Bounds bounds_of(const Map& map) {
     return bounds;
 }
 
-/// Returns true if a page, given by its corners in order, contains a point.
+/// Returns true if a point is inside a page or on its edge.
 bool contains(const MapSheet& sheet, Point point) {
     bool has_positive = false;
     bool has_negative = false;

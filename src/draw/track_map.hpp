@@ -34,8 +34,8 @@ struct Map {
     std::vector<std::string> notes;  ///< lines of text below the drawing
 };
 
-/// Removes the sheets that no path touches, and adds a note with their number. If no path touches a
-/// sheet, all sheets are kept.
+/// Removes the sheets that contain neither a point of a path nor the place of a robot, and adds a
+/// note with their number. If this would remove all sheets, keeps all of them.
 void keep_visited_sheets(Map& map);
 
 /// Returns the drawing. The size of the drawing is the bounding box of its contents.

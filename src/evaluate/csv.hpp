@@ -11,7 +11,8 @@ namespace dotpose::csv {
 /// least one cell, which may be empty.
 std::vector<std::string> cells_of(const std::string& line);
 
-/// Formats a text as a cell, with quotes if the text contains a comma or a quote.
+/// Formats a text as a cell. If the text contains a comma or a quote, encloses it in quotes and
+/// doubles the quotes in it.
 std::string quoted(const std::string& text);
 
 }  // namespace dotpose::csv

@@ -38,8 +38,9 @@ double wrapped(double angle_rad) {
     return std::remainder(angle_rad, 2 * std::numbers::pi);
 }
 
-/// Returns true if both the located and the true place of a frame are known and can be compared. If
-/// the sheet of the true place is known, the located place must be on the same sheet.
+/// Returns true if both the located and the true place of a frame are known, and both are on the
+/// same sheet. If the sheet of the true place is not specified, the located place may be on any
+/// sheet.
 bool is_comparable(const MeasuredFrame& frame) {
     return frame.truth && frame.found &&
            (frame.truth->sheet.empty() || frame.truth->sheet == frame.found->sheet);
@@ -90,9 +91,10 @@ double near_limit(std::span<const Pair> pairs, const Map& map) {
     return kNear_medians * median_residual(pairs, map) + 1e-9;
 }
 
-/// Fits a similarity transform to the pairs that are not outliers. Tries the fit to all pairs and
-/// maps through two pairs, and takes the map with the smallest median residual. Then repeatedly
-/// fits all pairs within the outlier limit of the previous map.
+/// Fits a similarity transform to the pairs that are not outliers. The first map is the one with
+/// the smallest median residual among the fit to all pairs and maps that are each determined by
+/// only two of the pairs. Then repeatedly fits the pairs whose residuals are within the outlier
+/// limit of the previous map.
 Map fit_most(std::span<const Pair> pairs) {
     constexpr std::size_t kTries = 500;
     constexpr int kRounds = 5;
@@ -101,8 +103,8 @@ Map fit_most(std::span<const Pair> pairs) {
     const std::size_t n = pairs.size();
     const std::size_t all = n * (n - 1) / 2;
     for (std::size_t k = 0; k < std::min(all, kTries); ++k) {
-        // Frames that are far apart in the list are usually far apart on the sheet, which makes the
-        // map through them more accurate.
+        // Combines frames that are far apart in the list, because they are usually also far apart
+        // on the sheet. The map through distant places is more accurate.
         const std::size_t apart = 1 + (n / 2 + 7 * (k / n)) % (n - 1);
         const Map map = fit(std::array{pairs[k % n], pairs[(k + apart) % n]});
         const double median = median_residual(pairs, map);

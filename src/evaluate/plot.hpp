@@ -45,7 +45,8 @@ struct Scale {
 };
 
 /// Returns a logarithmic scale that contains `min` and `max` with a margin of at least 10 %. The
-/// ends of the scale are round numbers.
+/// upper end is a result of `rounded_up`, and the lower end is the reciprocal of such a result.
+/// `min` must be positive.
 Scale log_scale(double min, double max);
 
 /// A rectangular area with an x axis below it and a y axis to its left.

@@ -22,9 +22,10 @@ struct Stand {
     const PrintModel* print = nullptr;  ///< null for a perfect page
 };
 
-/// Sets the pose of the camera relative to the printed pattern. The ink at point p of the page is
-/// point p - shift(p) of the pattern, and the gradient of the shift rotates the pattern. The
-/// stretch of the pattern within a frame is neglected, because it is at most 1 % over 8.6 mm.
+/// Sets the pose of the camera relative to the printed pattern. The printer shifts ink, so the ink
+/// at point p of the page is point p - shift(p) of the pattern, and the gradient of the shift
+/// rotates the pattern. The stretch of the pattern within a frame is neglected, because it is at
+/// most 1 % over 8.6 mm.
 void place(CameraPose& pose, const Stand& stand, double spacing_mm) {
     Vec2 pattern_mm = stand.place_mm;
     pose.theta_rad = stand.theta_rad;
@@ -69,8 +70,8 @@ Station station_of(const Stand& stand, std::span<const Outcome> outcomes) {
         if (!outcome.is_fix() || outcome.is_wrong()) continue;
         ++station.located;
         const double spacing_mm = outcome.truth.spacing_mm;
-        // The printed pattern determines whether a fix is wrong, but the accuracy is measured
-        // relative to the commanded pose.
+        // Whether a fix is wrong is decided relative to the printed pattern, but the accuracy is
+        // measured relative to the commanded pose.
         const Deviation off = deviation_of(outcome.fix, sent_to(stand, spacing_mm));
         x_mm.push_back(off.x_grid * spacing_mm);
         y_mm.push_back(off.y_grid * spacing_mm);

@@ -25,10 +25,12 @@ struct Step {
 std::vector<Step> spiral(int side);
 
 /// Returns the mean and the sample standard deviation (divisor n - 1). With fewer than two values,
-/// the deviation is 0.
+/// the deviation is 0. Without values, the mean is also 0.
 Spread spread_of(std::span<const double> values);
 
-/// The best, mean and worst accuracy of the stations with fixes, and their worst precision.
+/// The best, mean and worst accuracy of the stations with fixes, and their worst precision. The
+/// accuracy of a station is the magnitude of Spread::bias, and the precision is Spread::sigma. All
+/// are 0 if no station has a fix.
 struct Summary {
     double best = 0;
     double mean = 0;

@@ -37,7 +37,6 @@ struct Coordinate {
     const char* unit;
 };
 
-/// The labels of a figure.
 struct Labels {
     const char* how;       ///< how the poses were obtained
     std::string stations;  ///< number of stations

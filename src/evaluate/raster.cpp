@@ -29,7 +29,6 @@ using Surface = std::unique_ptr<cairo_surface_t, Freed<cairo_surface_destroy>>;
 using Context = std::unique_ptr<cairo_t, Freed<cairo_destroy>>;
 using Problem = std::unique_ptr<GError, Freed<g_error_free>>;
 
-/// Throws Error with the message of a GError.
 [[noreturn]] void fail(const std::filesystem::path& path, GError* error) {
     const Problem problem(error);
     throw Error(fmt::format("cannot draw {}: {}", path.string(), problem->message));

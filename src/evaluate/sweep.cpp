@@ -141,7 +141,8 @@ Sweep run_sweep(SweepKind kind, const SweepOptions& options) {
             const auto outcomes = evaluate(run);
             sweep.points.push_back({value, score_of(outcomes[0]), score_of(outcomes[1])});
         } catch (const Error&) {
-            // If the sweep is interrupted, the completed values are kept.
+            // If the sweep is interrupted, the completed values are kept, provided there are at
+            // least two.
             if (goes_on || sweep.points.size() < 2) throw;
             break;
         }

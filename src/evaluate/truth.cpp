@@ -129,7 +129,8 @@ class TruthReader {
         return value;
     }
 
-    /// Returns the pose on a sheet or in the world, or an empty optional if its cells are empty.
+    /// Returns the pose on a sheet or in the world, or an empty optional if the cells of both
+    /// coordinates are empty.
     std::optional<TruePlace> place() const {
         TruePlace place;
         place.is_in_world = in_world_;

@@ -98,7 +98,8 @@ void open(QPDF& pdf, const fs::path& path, const std::string& password,
     }
 }
 
-/// Runs `work`. If qpdf throws an exception, reports that the document is damaged.
+/// Returns the result of `work`. If qpdf throws an exception, throws an Error instead, which
+/// reports that the document is damaged.
 template <typename Work>
 auto with_damage_errors(const fs::path& path, const Work& work) {
     try {
@@ -114,8 +115,8 @@ auto with_damage_errors(const fs::path& path, const Work& work) {
     }
 }
 
-/// Throws Error if the page would need more than kMaxDots dots. This can happen because pages of a
-/// document may have any size: with /UserUnit, a side may be kilometres long.
+/// Throws Error if the page would need more than kMaxDots dots. Such pages exist because a PDF page
+/// may have any size. For example, /UserUnit can make a side kilometres long.
 void require_few_dots(const Sheet& sheet) {
     constexpr double kMaxDots = 5e7;
     const double dots = double{1} * sheet.columns * sheet.rows;
@@ -300,7 +301,8 @@ class Overlay {
         }
     }
 
-    /// Returns the common size of all cards. Throws BadArgument if the sizes differ.
+    /// Returns the common size of all cards. Throws BadArgument if the sizes differ by more than
+    /// kTolerance_mm.
     Paper card_size() const {
         constexpr double kTolerance_mm = 0.1;
         const Sheet& first = report_.pages.front().sheet;
@@ -370,7 +372,7 @@ class Overlay {
     print::UnpackedBytes unpacked_;
     print::ColourConverter colours_;
     OverlayReport report_;
-    /// The pages of the document, followed by the pages of its copies.
+    /// The pages of the document, followed by those of each further copy (OverlayOptions::copies).
     std::vector<QPDFPageObjectHelper> pages_;
     /// Result of `scan_page` for each page of the document that gets dots, by page number.
     std::map<int, print::PageContent> contents_;

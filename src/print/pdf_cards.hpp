@@ -10,8 +10,8 @@
 
 namespace dotpose::print {
 
-/// Grid of cards in the middle of a page. Adjacent cards touch, and the margin has space for cut
-/// marks.
+/// Grid of cards in the middle of a page. Adjacent cards touch. The margin around the grid has
+/// space for cut marks.
 struct CardGrid {
     Paper paper;  ///< turned by 90 degrees if this gives more cards
     Paper card;
@@ -45,7 +45,7 @@ std::string place_card(QPDFPageObjectHelper page, const CardGrid& grid, int slot
 /// Adds an empty page with the size of the paper to a document.
 QPDFPageObjectHelper add_card_page(QPDF& pdf, const CardGrid& grid);
 
-/// Removes all pages of a document. Also removes everything that refers to pages, such as outlines,
+/// Removes all pages of a document, and everything that refers to pages, such as outlines,
 /// destinations and form fields.
 void remove_pages(QPDF& pdf);
 

@@ -13,9 +13,10 @@ namespace dotpose::print {
 
 class ColourFilter : public QPDFObjectHandle::TokenFilter {
   public:
-    /// `spaces` maps the names of colour spaces that the operator `cs` may select to their kinds.
-    /// If `starts_black` is true, as for pages, the initial colour is black, so the filter first
-    /// writes an operator that sets the converted black. Other content inherits the current colour.
+    /// `spaces` contains the kind of each colour space that the operators `cs` and `CS` may select
+    /// by name. If `starts_black` is true, as for pages, the initial colours are black. The filter
+    /// then first writes operators that set the converted black for fills and strokes. If it is
+    /// false, the initial colours are inherited.
     ColourFilter(InkChange change, std::map<std::string, ColourKind> spaces, bool starts_black);
 
     void handleToken(QPDFTokenizer::Token const& token) override;

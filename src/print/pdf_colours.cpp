@@ -24,8 +24,8 @@ std::map<std::string, ColourKind> named_spaces(QPDFObjectHandle resources) {
     return kinds;
 }
 
-/// Makes transparency groups blend in CMYK. If they blended in RGB, a mix of cyan, magenta and
-/// yellow would be converted back to black.
+/// If black is converted to cyan, magenta and yellow, makes the transparency group of `holder`
+/// blend in CMYK. If it blended in RGB, the mix of the three inks would be converted back to black.
 void blend_in_cmyk(QPDFObjectHandle holder, InkChange change) {
     QPDFObjectHandle group = holder.getKey("/Group");
     if (!change.black_to_cmy || !group.isDictionary() || !group.hasKey("/CS")) return;
@@ -82,8 +82,9 @@ bool convert_palette(InkChange change, QPDFObjectHandle dict, QPDFObjectHandle s
     return true;
 }
 
-/// Replaces the grey colour space of an image with a palette, so that the pixel data need not
-/// change or be decompressed.
+/// Replaces the grey colour space of an image with a palette of converted colours, so that the
+/// pixel data need not change or be decompressed. Returns false and changes nothing if a pixel does
+/// not have 1 to 8 bits.
 bool convert_grey(InkChange change, QPDFObjectHandle dict, ColourKind kind) {
     QPDFObjectHandle depth = dict.getKey("/BitsPerComponent");
     if (!depth.isInteger() || depth.getIntValue() > 8 || depth.getIntValue() < 1) return false;
@@ -114,7 +115,9 @@ QPDFObjectHandle cmy_space(QPDF* pdf) {
 }
 
 /// Converts the colours of an image by changing its /Decode array, which maps samples to colour
-/// values. The pixel data do not change.
+/// values, and if necessary its colour space. The pixel data do not change. Returns false and
+/// changes nothing if the image is in CMYK and its black is to be converted, because /Decode cannot
+/// express this conversion.
 bool convert_decode(InkChange change, QPDFObjectHandle dict, ColourKind kind, QPDF* pdf) {
     if (kind == ColourKind::cmyk && change.black_to_cmy) return false;
     const std::size_t count = 2 * components(kind);

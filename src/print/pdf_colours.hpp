@@ -14,9 +14,9 @@
 
 namespace dotpose::print {
 
-/// Converts the colours of pages. Converted objects are copies, which are shared by all pages of a
-/// converter. All other pages keep the originals. Content is only rewritten while the file is
-/// written.
+/// Converts the colours of pages. Objects that the content uses are not changed. Instead, converted
+/// copies are made, which all converted pages share. Pages that are not converted keep the
+/// originals. The content of streams is only rewritten while the file is written.
 class ColourConverter {
   public:
     /// `unpacked` counts the bytes of all converted content, and must outlive this object.

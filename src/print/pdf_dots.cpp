@@ -50,8 +50,9 @@ std::string glyph(const Pattern& pattern, Symbol symbol) {
            circle(x, y, r);
 }
 
-/// Returns the smallest shift, to the right or down, with which all renderers round the origin of a
-/// glyph to the same pixel.
+/// Returns the smallest shift in px, to the right or down, with which all renderers round the
+/// origin of a glyph to the same pixel. Tries shifts of up to 0.3 px. If none of them is
+/// sufficient, returns the one with the largest distance from all rounding limits.
 ///
 /// Renderers count pixels from the top left or from the bottom left corner of the page, and either
 /// truncate or round to the nearest pixel. `near_px` and `far_px` are the distances of the origin
@@ -132,8 +133,8 @@ WholeUnits whole_units(const Pattern& pattern) {
     return units;
 }
 
-// Number of columns of a tile. Tiles with equal symbols have equal text, so deflate encodes most
-// tiles as references to earlier rows.
+// Number of columns of a tile, which is a part of a row of dots. Tiles with equal symbols have
+// equal text, so deflate encodes most tiles as references to earlier rows.
 constexpr int kTileColumns = 8;
 // Number of columns after which the absolute position is written again. Otherwise, the rounding
 // errors of a renderer would accumulate from tile to tile.
@@ -241,7 +242,8 @@ bool is_whole_pixels(const Pattern& pattern, double dpi) {
         const double px = mm * dpi / kInch_mm;
         return std::round(px) >= 1 && std::abs(px - std::round(px)) < tolerance_px;
     };
-    // An error of the spacing accumulates over the page, so its tolerance is smaller.
+    // The error of the spacing accumulates over the page, so the tolerance for the spacing is
+    // smaller than for the other lengths.
     return is_whole(pattern.spacing_mm, 1e-6) && is_whole(pattern.displacement_mm, 0.01) &&
            is_whole(pattern.dot_mm, 0.01);
 }

@@ -23,9 +23,9 @@ inline constexpr const char* kCreator = "dotpose";
 /// Prefix of the resource names of the dots on a page.
 inline constexpr const char* kDotsName = "/Dots";
 
-/// Progress of writing the rows of all pages, and the first exception that `progress` threw. qpdf
-/// requests the rows while it writes the file, and would replace the message of an exception, so
-/// the exception is stored here.
+/// Progress of writing the rows of all pages. qpdf requests the rows while it writes the file. If
+/// `progress` throws an exception, qpdf replaces its message, so the first exception is stored
+/// here.
 struct RowCount {
     Progress progress;
     std::int64_t done = 0;

@@ -89,7 +89,7 @@ std::vector<double> InkChange::apply(ColourKind from, std::span<const double> co
             value = from == ColourKind::cmyk ? value * keep : lit(value);
         return changed;
     }
-    // This is the simplest conversion: equal parts of cyan, magenta and yellow replace black.
+    // Uses the simplest conversion, in which equal parts of cyan, magenta and yellow replace black.
     double cmy[3] = {};
     for (std::size_t i = 0; i < 3; ++i) {
         cmy[i] = from == ColourKind::grey    ? 1 - colour[0]

@@ -27,7 +27,8 @@ std::size_t components(ColourKind kind);
 ColourKind kind_of_space(QPDFObjectHandle space, QPDFObjectHandle spaces);
 
 /// Returns the amount of black ink, 0 to 1, with which a colour is printed. For grey and RGB, the
-/// printer computes this amount.
+/// printer converts the colour, and the result is the amount of black in the usual conversion.
+/// Returns 0 for `ColourKind::other`.
 double black_of(ColourKind kind, std::span<const double> colour);
 
 /// Changes of colours that `OverlayOptions` requests.

@@ -80,8 +80,8 @@ std::optional<std::string> in_helvetica(const std::string& utf8) {
     return std::nullopt;
 }
 
-/// Breaks text into lines that `fits` accepts. Lines end between words, except that a word wider
-/// than a line is split.
+/// Breaks text into lines for which `fits` returns true. Lines end between words, but a word that
+/// is wider than a line is split.
 template <typename Fits>
 std::vector<std::string> wrap(const std::string& text, const Fits& fits) {
     std::vector<std::string> lines = {""};
@@ -118,7 +118,8 @@ bool has_ruler(const Sheet& sheet, Side side) {
     return free_margin_mm(sheet, side) >= kRulerRoom_mm;
 }
 
-/// Positions of the x arrow and the y arrow of the page. Both arrows are outside the rulers.
+/// Positions of the x arrow and the y arrow of the page. Both arrows are farther from the dots than
+/// the rulers.
 struct Arrows {
     double x_of_y_arrow_mm = 0;
     double y_of_x_arrow_mm = 0;
@@ -126,7 +127,8 @@ struct Arrows {
     double y_end_mm() const { return y_of_x_arrow_mm + kArrow_mm; }
 };
 
-/// Returns the positions of the arrows, or an empty optional if there is too little space for them.
+/// Returns the positions of the arrows, or an empty optional if a margin has too little space for
+/// an arrow beside the ruler.
 std::optional<Arrows> arrows_of(const Sheet& sheet) {
     const double x_mm = free_margin_mm(sheet, Side::left) - kRulerRoom_mm - kArrowGap_mm;
     const double y_mm = free_margin_mm(sheet, Side::top) - kRulerRoom_mm - kArrowGap_mm;
@@ -271,8 +273,9 @@ std::string ruler_content(const Sheet& sheet, Side side) {
     return ticks + "S\n" + numbers + "ET\n";
 }
 
-/// Returns the PDF content of an arrow. It begins at the edge of the page and is parallel to x or
-/// y.
+/// Returns the PDF content of an arrow from the edge of the page to the position `end_mm`. The
+/// arrow is parallel to x if `side` is top, and to y otherwise. `away_mm` is its position on the
+/// other axis.
 std::string arrow_content(const Sheet& sheet, Side side, double away_mm, double end_mm) {
     const auto at = [&](double along_mm, double aside_mm) {
         return side == Side::top ? point(sheet, along_mm, away_mm + aside_mm)

@@ -14,10 +14,10 @@ struct PageNumber {
     int count = 1;
 };
 
-/// Returns the labels as PDF content, in points from the bottom left corner of the page. The
-/// content requires the font resource /Label, which is Helvetica. Lines with letters that Helvetica
-/// lacks are drawn by `script`, so its forms are also required. Labels that do not fit into the
-/// margins are omitted, beginning with the command, so no label touches a dot.
+/// Returns the labels as PDF content, in points from the bottom left corner of the page. The page
+/// must have the font resource /Label, which is Helvetica, and the forms of `script`, which draws
+/// the lines with letters that Helvetica lacks. Labels that do not fit into the margins are
+/// omitted, the command first, so no label touches a dot.
 std::string label_content(const Sheet& sheet, PageNumber page, const PrintOptions& options,
                           ScriptText& script);
 

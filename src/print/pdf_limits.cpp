@@ -44,7 +44,8 @@ class ShallowFile : public FileInputSource {
     std::ptrdiff_t start_;
 };
 
-/// Counts the bytes that pass through and discards them. Throws if there are more than `max` bytes.
+/// Counts the bytes that pass through and discards them. Throws std::runtime_error if there are
+/// more than `max` bytes.
 class ByteCount : public Pipeline {
   public:
     explicit ByteCount(std::uint64_t max) : Pipeline("byte count", nullptr), max_(max) {}
@@ -165,8 +166,8 @@ void UnpackedBytes::count(QPDFObjectHandle stream) {
     try {
         stream.pipeStreamData(&bytes, &attempted, 0, qpdf_dl_specialized, kSuppressWarnings);
     } catch (const std::runtime_error&) {
-        // The exception can be ignored: the code below tests the count against the limits, and a
-        // damaged stream is reported when it is read.
+        // The exception can be ignored. If there were too many bytes, the code below throws an
+        // Error. If the stream is damaged, this is reported when it is read.
     }
     page_ += bytes.bytes();
     document_ += bytes.bytes();

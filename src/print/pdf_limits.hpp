@@ -26,10 +26,11 @@ void require_shallow_page_tree(QPDF& pdf);
 /// Opens a PDF so that reading it cannot overflow the stack. qpdf reads recursively, because the
 /// length of a stream may be stored in another stream, whose length is in a third stream, and so
 /// on. If too much of the stack is in use, a read throws an exception, which qpdf turns into a
-/// warning (see `is_too_deep`). Throws Error for pipes and devices.
+/// warning (see `is_too_deep`). Throws Error for directories, pipes and devices.
 std::shared_ptr<InputSource> open_pdf(const std::filesystem::path& path);
 
-/// Returns true if qpdf gave this warning because a read would have used too much of the stack.
+/// Returns true if qpdf gave this warning because a read would have used too much of the stack, or
+/// because objects are nested too deeply.
 bool is_too_deep(const std::string& warning);
 
 /// Counts the bytes of streams after unpacking, before they are stored in memory. The limit is
@@ -40,12 +41,13 @@ class UnpackedBytes {
 
     void start_page() { page_ = 0; }
 
-    /// Counts the bytes of a stream. Throws Error if a limit is exceeded, or if the stream has too
-    /// many filters or needs too much memory for a row of a predictor.
+    /// Counts the bytes of a stream, and ignores objects that are not streams. Throws Error if a
+    /// limit is exceeded, or if the stream has too many filters or needs too much memory for a row
+    /// of a predictor.
     void count(QPDFObjectHandle stream);
 
-    /// Counts the bytes of the object streams, which are streams that contain other objects. The
-    /// limit for one page also applies to each object stream.
+    /// Counts the bytes of all object streams, which are streams that contain other objects. The
+    /// limit for one page applies to each of these streams, as if the stream were a page.
     void count_object_streams(QPDF& pdf);
 
   private:

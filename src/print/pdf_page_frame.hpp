@@ -9,7 +9,7 @@
 
 namespace dotpose::print {
 
-/// Crop box of a page as it is displayed.
+/// Size and position of the displayed part of a page. Viewers display the crop box.
 struct PageFrame {
     Paper paper;  ///< displayed size
     /// Crop box within the media box, in units of the content.

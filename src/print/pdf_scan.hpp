@@ -25,8 +25,8 @@ struct PageContent {
 };
 
 /// Scans the content of a page and of its forms, and counts their bytes in `unpacked`. Throws Error
-/// if the content cannot be read completely, because a viewer would not show dots after the damaged
-/// part.
+/// if the content cannot be read completely, because viewers stop at damaged content and would not
+/// show dots that follow it.
 PageContent scan_page(QPDFPageObjectHelper page, UnpackedBytes& unpacked);
 
 /// Returns true if dotpose printed the document, or has already added dots to the page.

@@ -17,7 +17,8 @@ namespace dotpose::print {
 /// object.
 class ScriptText {
   public:
-    /// This object must exist until `pdf` has been written, and `pdf` must outlive it.
+    /// `pdf` must outlive this object, and this object must not be destroyed before `pdf` has been
+    /// written.
     explicit ScriptText(QPDF& pdf) : pdf_(pdf) {}
 
     /// Returns false if dotpose was built without librsvg, which typesets the lines.

@@ -16,7 +16,7 @@ SymbolRows::SymbolRows(const Sheet& sheet)
 
 const std::vector<Symbol>& SymbolRows::row(int j) {
     // According to section II-A of the paper, column x contains the main sequence from top to
-    // bottom, and row y from left to right.
+    // bottom. Row y contains it from left to right.
     const Pattern& pattern = sheet_.pattern;
     const std::uint32_t y = sheet_.origin.y + static_cast<std::uint32_t>(j);
     const auto row_roll = static_cast<std::uint32_t>(roll(pattern.code, y) + pattern.section.v);

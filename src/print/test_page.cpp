@@ -42,9 +42,9 @@ Cell first_cell(int spacing, int dot) {
     return {at(spacing), at(dot)};
 }
 
-/// Returns the setting of the patch whose first cell is nearest to a coordinate, or 0 if there is
-/// none. The maps that `check_print` fits extend beyond the patch, so the coordinate may be
-/// slightly outside it.
+/// Returns the setting of the patch whose first cell is nearest to a coordinate, or 0 if no patch
+/// is near. The coordinate may be slightly outside the patch, because the maps that `check_print`
+/// fits extend beyond it.
 int setting_at(std::uint32_t coordinate) {
     constexpr std::uint32_t kHalf = kTestPatchCells / 2;
     if (coordinate < kTestPageCell + kHalf) return 0;
@@ -52,8 +52,8 @@ int setting_at(std::uint32_t coordinate) {
     return setting <= kMaxSetting ? setting : 0;
 }
 
-/// Rounds a length to whole printer pixels. With rounded lengths, the dots of all patches have the
-/// same position relative to the printer's pixels.
+/// Rounds a length to whole printer pixels at 300 dpi. With rounded lengths, the dots of all
+/// patches have the same position relative to the printer's pixels.
 double snapped_mm(double mm) {
     return std::round(mm / print::kPixelAt300Dpi_mm) * print::kPixelAt300Dpi_mm;
 }

@@ -18,8 +18,8 @@ DotErrors errors_of(const Page& page, Cell cell) {
     const Section section = page.pattern.section;
     const std::uint64_t sheet = page.seed * 4096 + section.u * std::uint64_t{64} + section.v;
     Rng rng(sheet, (std::uint64_t{cell.x} << 32) | cell.y);
-    // Draws all random numbers even if an imperfection is switched off, because the other
-    // imperfections must not change then.
+    // Draws all random numbers even if an imperfection is switched off. Otherwise, switching it off
+    // would change the other imperfections.
     DotErrors errors{};
     errors.presence = rng.uniform();
     errors.jitter.x = rng.normal();

@@ -19,8 +19,9 @@ namespace {
 // Number of pixels that are processed together with vector instructions.
 constexpr std::size_t kLanes = 4;
 
-// Computes the light in each pixel: the light of bare paper minus the light that ink absorbs. Only
-// a few percent of the sub-pixels have ink, so only these are spread over neighbouring pixels.
+// Computes the light in each pixel: the light of bare paper minus the light that ink absorbs. The
+// convolution with the kernel is computed separately for the sub-pixels with ink, which are only a
+// few percent of all.
 class Sensor {
   public:
     Sensor(const CameraModel& camera, const Kernel& kernel, const std::vector<float>& paper)
@@ -29,9 +30,9 @@ class Sensor {
           border_(static_cast<std::size_t>(kernel.border_px)),
           kernel_(kernel),
           paper_(paper),
-          // A range may begin at any pixel, and its length is rounded up to a multiple of kLanes.
-          // The row has kLanes additional elements, because a range may therefore extend beyond the
-          // last pixel.
+          // The length of a range is rounded up to a multiple of kLanes, and a range may begin at
+          // any pixel. It may therefore extend beyond the last pixel, so the row has kLanes
+          // additional elements.
           row_(whole_lanes(width_ + 2 * border_ + kernel.taps) + kLanes),
           levels_(row_.size() * static_cast<std::size_t>(camera.height_px)) {
         collect_paper();
@@ -74,8 +75,8 @@ class Sensor {
         return paper_.data() + (static_cast<std::size_t>(row) * (width_ + 2 * border_));
     }
 
-    // Converts the ink of a row to lost light, and computes the ranges of row_ that this light
-    // changes.
+    // Computes the light that the ink of a sub-row absorbs, and the ranges of row_ that change
+    // because of it.
     void gather(std::span<const Raster::Spot> spots, const float* paper) {
         losses_.assign(spots.begin(), spots.end());
         reaches_.clear();
@@ -155,9 +156,8 @@ class Sensor {
         }
     }
 
-    // Convolves the light of bare paper with the kernel. The light is constant over a pixel, so the
-    // weights of its sub-pixels can be summed first. In both passes, the sums of a part of a row
-    // are kept in registers.
+    // Convolves the light of bare paper with the kernel, first along rows and then along columns.
+    // The light is constant over a pixel, so the weights of its sub-pixels can be summed first.
     void collect_paper() {
         const auto height = static_cast<std::size_t>(height_);
         const std::size_t reach = 2 * border_ + 1;
@@ -258,8 +258,8 @@ class ImageRows {
     }
 
   private:
-    // Returns the image coordinate of the centre of a sub-pixel, in px. Sub-pixel 0 is at the edge
-    // of the border.
+    // Returns the image coordinate of the centre of a sub-pixel, in px. Sub-pixel 0 is the
+    // outermost sub-pixel of the border.
     double pixel_of(int sub_pixel) const {
         return (sub_pixel + 0.5) / kernel_.per_pixel - 0.5 - kernel_.border_px;
     }

@@ -9,8 +9,8 @@
 namespace dotpose::simulate {
 namespace {
 
-// Capital letters. Four digits (x y x y) are the ends of a stroke on a grid 2 units wide and 4
-// units high. y points up.
+// Strokes of capital letters. Each stroke consists of four digits (x y x y): the coordinates of its
+// two ends on a grid 2 units wide and 4 units high. y points up.
 constexpr std::array<std::string_view, 14> kLetters = {
     "001414200121",      // A
     "000404240020",      // C

@@ -34,8 +34,8 @@ struct View {
     CameraModel camera;
     CameraPose pose;
     Projection projection;
-    /// Maximum distance from which ink outside the image contributes to it, because of blur and
-    /// motion.
+    /// Maximum distance from the image, in px, at which ink outside the image affects it because of
+    /// blur and motion.
     double margin_px;
 
     View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperfections& blurred);
@@ -48,7 +48,8 @@ struct OffsetBox {
 };
 OffsetBox visible_offsets(const View& view);
 
-/// Adds the image of a disc if it is in view.
+/// Adds the image of a disc if it is in view. `offset_mm` is the offset of its centre from the pose
+/// point. `reflectance` is relative to bare paper.
 void add_disc(Ink& ink, const View& view, Vec2 offset_mm, double radius_mm, double reflectance);
 
 /// Function that returns the offset of the dot of a cell from its intersection, in units of the
@@ -85,7 +86,8 @@ void add_word(Ink& ink, const View& view, const Word& word, double reflectance, 
 /// Adds `imperfections.graphics` thick strokes or words at random places in view.
 void add_graphics(Ink& ink, const View& view, const Imperfections& imperfections, Rng& rng);
 
-/// Adds `imperfections.dirt_blobs` specks with a diameter of 0.6 to 3 dots.
+/// Adds `imperfections.dirt_blobs` elliptical specks. Their longer axis is 0.6 to 3 times the
+/// diameter of a dot.
 void add_dirt(Ink& ink, const View& view, double dot_mm, const Imperfections& imperfections,
               Rng& rng);
 

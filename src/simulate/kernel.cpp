@@ -18,11 +18,12 @@ double integral_of_edge(double x, double sigma) {
 
 // Returns the weights for a scene that is shifted by `shift_px`. The response of a pixel is a box
 // of 1 px convolved with the Gaussian blur of the lens. The weight of a sub-pixel is the integral
-// of this response over the sub-pixel.
+// of this response over the sub-pixel, scaled so that all weights together sum to `share`.
 Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, double share) {
     const auto pixels = static_cast<std::size_t>(2 * kernel.border_px + 1);
     const auto per_pixel = static_cast<std::size_t>(kernel.per_pixel);
-    // edges[i] is `integral_of_edge` at the border before sub-pixel i of the kernel.
+    // edges[i] is `integral_of_edge` half a pixel to the left of the border before sub-pixel i of
+    // the kernel.
     std::vector<double> edges;
     for (std::size_t i = 0; i <= (pixels + 1) * per_pixel; ++i) {
         edges.push_back(integral_of_edge(
@@ -40,8 +41,9 @@ Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, 
     }
     Kernel::Weights result(per_pixel, std::vector<float>(kernel.taps));
     for (std::size_t i = 0; i < exact.size(); ++i) {
-        // The order is reversed: the farther right a sub-pixel is relative to a pixel, the farther
-        // left is the pixel relative to the sub-pixel.
+        // The weights are stored by the position of the pixel relative to the sub-pixel. It is the
+        // negative of the position of the sub-pixel relative to the pixel, so the order is
+        // reversed.
         result[i % per_pixel][pixels - 1 - i / per_pixel] =
             static_cast<float>(exact[i] * share / sum);
     }

@@ -26,8 +26,8 @@ struct Kernel {
     std::vector<Moment> moments;
 };
 
-/// Computes the kernel. The sub-pixels are chosen according to `dot_px`, the diameter of a dot in
-/// the image.
+/// Computes the kernel. If `Imperfections::sub_pixels` is 0, the number of sub-pixels is chosen
+/// according to `dot_px`, the diameter of a dot in the image, in px.
 Kernel make_kernel(const Imperfections& imperfections, double dot_px);
 
 }  // namespace dotpose::simulate

@@ -18,6 +18,7 @@ namespace simulate {
 namespace {
 
 // Rounds down. This is faster than std::floor, which is a function call on the baseline processor.
+// Returns 0 for values outside the range of a 64-bit integer.
 std::int64_t floor_of(double x) {
     // Near the horizon of an extreme tilt, coordinates exceed the range of a 64-bit integer.
     if (!(std::abs(x) < 4e18)) return 0;
@@ -66,7 +67,7 @@ class Texture {
     }
 
     // Computes the values of the nodes in view in advance, because about 36 pixels use each node.
-    // If a strong tilt makes more nodes than pixels visible, no table is made.
+    // If the camera is tilted so much that more nodes than pixels are in view, makes no table.
     void tabulate(const View& view) {
         const OffsetBox box = visible_offsets(view);
         const double width = (box.high_mm.x - box.low_mm.x) * nodes_per_mm_ + 3;

@@ -82,7 +82,8 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     return area;
 }
 
-/// Draws a random rectangle that is inside the view and contains enough dots.
+/// Draws a random rectangle of pattern that contains enough dots. Its centre is far enough from the
+/// border of the image that the rectangle is mostly in view. The caller tests whether all of it is.
 PageArea draw_island(const Shot& shot, Rng& rng) {
     constexpr double kMinDots = PartialView::kMinIslandDots * 1.05;
     PageArea area;
@@ -100,8 +101,8 @@ PageArea draw_island(const Shot& shot, Rng& rng) {
     return area;
 }
 
-/// Returns true if two areas are at least about two spacings apart. Approximates the area `a` by a
-/// circle.
+/// Returns true if two areas are at least about two spacings apart. Treats the area `a` as a circle
+/// whose radius is 0.85 times half its diagonal.
 bool are_apart(const PageArea& a, const PageArea& b) {
     constexpr double kGap = 2;
     const double reach = std::hypot(a.half_width, a.half_height);
@@ -137,7 +138,8 @@ void cover_partly(Shot& shot, const PartialView& view) {
         }
         return;
     }
-    // Dots at the border are only partly visible, so 15 % more are needed.
+    // At the border of the sheet, some dots are only partly visible. The sheet therefore covers an
+    // area for at least 15 % more than `min_dots` dots.
     const double min_share = std::max(view.min_share, 1.15 * view.min_dots / intersections(shot));
     const double share = rng.uniform(min_share, std::max(min_share, view.max_share));
     const PageArea dots = edge_of_sheet(shot, share, rng);

@@ -60,13 +60,14 @@ struct Stroke {
     double lift_mm = 0;
     bool is_last = false;
 
-    /// Returns the height of the pen during the move after the stroke, for `part` from 0 to 1.
-    /// After the last stroke, the pen stays above the paper.
+    /// Returns the height of the pen during the move after the stroke. `part` is the elapsed
+    /// fraction of the move, from 0 to 1. After the last stroke, the pen stays above the paper.
     double height_mm(double part) const {
         return lift_mm * std::sin(std::numbers::pi * (is_last ? part / 2 : part));
     }
 
-    /// Returns the place of the tip on the stroke, for `part` from 0 to 1.
+    /// Returns the place of the tip on the stroke. `part` is the elapsed fraction of the duration
+    /// of the stroke, from 0 to 1.
     Vec2 at(double part) const {
         const double s = smooth_step(part);
         const double phase = kTurn_rad * loops * s;

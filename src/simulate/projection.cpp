@@ -83,8 +83,8 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
     const Vec2 undistorted{focal_px_ * camera_mm(0) / depth_mm,
                            focal_px_ * camera_mm(1) / depth_mm};
     // The scene moves while the rows are read, so the row that shows a point depends on the time,
-    // and the time on the row. Newton's method solves row = seen_at(row).y. Without motion and
-    // without distortion, the first step is exact.
+    // and the time depends on the row. Newton's method solves row = seen_at(row).y. If the scene
+    // does not rotate and the lens has no distortion, the first step is exact.
     const auto seen_at = [&](double row_px) {
         return distorted(moved(undistorted, row_px / height_px_), k_);
     };
@@ -97,8 +97,8 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
         constexpr double kStep_px = 1e-3;
         const double slope = (seen_at(row_px + kStep_px).y - seen.y) / kStep_px;
         row_px += (seen.y - row_px) / (1 - slope);
-        // If the scene turns, several rows or no row may show a point far beside the image. The row
-        // is clamped, because Newton's method may then diverge.
+        // If the scene rotates, a point far beside the image may be visible in several rows or in
+        // none. Newton's method may then diverge, so the row is clamped.
         if (is_turning) row_px = std::clamp(row_px, -height_px_, height_px_);
         seen = seen_at(row_px);
     }

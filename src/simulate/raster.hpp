@@ -35,6 +35,7 @@ class Raster {
     };
 
     /// Returns the pixels with ink in a row of the band, without duplicates, and clears the row.
+    /// The result is valid until the next call.
     std::span<const Spot> take_row(int row_in_band);
 
   private:
