@@ -30,9 +30,10 @@ std::string reason_with_advice(Record record, ImageView image, const DeviceOptio
 
 }  // namespace
 
-/// Counts the failed frames with each status, and keeps a copy of one of them for the report at the
-/// end of the run. The first, second, fourth, eighth (and so on) frame replaces the previous copy,
-/// so the last copy is from the second half of the frames with this status.
+/// Counts the frames that failed with each status, and keeps a copy of one frame of each status for
+/// the report at the end of the run. The copy is replaced by the first, second, fourth, eighth (and
+/// so on) frame of the status, so few frames are copied, but the copy is always from the second
+/// half of these frames.
 void FailureHint::remember(const Record& record, ImageView image, const DeviceOptions& options,
                            double bits_per_px) {
     ++frames_;

@@ -3,7 +3,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns true if a change from one condition to the other needs no alert.
+/// Returns true if a change from condition `a` to condition `b` needs no alert.
 bool are_alike(Condition a, Condition b) {
     return a == b || (is_fine(a) && is_fine(b));
 }

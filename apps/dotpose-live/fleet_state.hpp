@@ -67,7 +67,8 @@ struct LatencyHistogram {
     std::array<std::int64_t, kLimits_s.size() + 1> counts{};
     double sum_s = 0;
 
-    /// Negative latencies, which clocks with different times cause, count as 0.
+    /// Adds a latency. A negative latency, which occurs if the clocks of sender and receiver
+    /// differ, counts as 0.
     void add(double latency_s);
 };
 
@@ -91,10 +92,11 @@ class FleetState {
         Listener listener = [](std::string_view, const RobotState&) {}, ConditionLimits limits = {})
         : listener_(std::move(listener)), limits_(limits) {}
 
-    /// Takes a message. A state older than the newest state of its robot is only counted. If
-    /// several older states follow each other in ascending order of time, the clock of the sender
-    /// was set back, and the states are accepted. An empty message on the topic of the connection
-    /// removes the robot. Other invalid messages are counted as bad. Thread-safe.
+    /// Takes a message. A state older than the newest state of its robot is counted as late and
+    /// otherwise ignored. However, if several older states follow each other in ascending order of
+    /// time, the clock of the sender was set back, and the states are accepted. An empty message on
+    /// the topic of the connection removes the robot. Other invalid messages are counted as bad.
+    /// Thread-safe.
     void take(std::string_view topic, std::string_view payload, const Now& now);
 
     /// Returns the robots and their conditions, in natural order of their names.
@@ -116,7 +118,8 @@ class FleetState {
   private:
     static constexpr std::size_t kLatencies = 1 << 17;
     static constexpr std::size_t kPath = 2000;
-    /// Maximum total number of points of all paths. With more robots, each path is shorter.
+    /// Maximum total number of points of all paths. The maximum for one path is this number divided
+    /// by the number of robots.
     static constexpr std::size_t kAllPaths = 1 << 21;
 
     struct Robot {

@@ -36,7 +36,7 @@ class StoredStates {
 
   private:
     /// Maximum number of remembered names. Limits the memory, because any client of the broker can
-    /// invent names.
+    /// send states with arbitrary names.
     static constexpr std::size_t kMaxNames = 20'000;
 
     std::map<std::string, std::shared_ptr<const std::string>, std::less<>> robots_;
@@ -46,7 +46,7 @@ class StoredStates {
 class FleetStore {
   public:
     /// Throws Error if the database is a file that cannot be opened, or if the library for the
-    /// database is missing. `tell` may be called by another thread.
+    /// database is missing. `tell` receives messages for the user, possibly in another thread.
     FleetStore(const StoreArguments& arguments, std::function<void(const std::string&)> tell);
 
     void add(std::string_view robot, const RobotState& state, std::int64_t received_us) {

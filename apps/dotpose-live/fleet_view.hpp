@@ -19,7 +19,8 @@ FleetMap read_fleet_map(const std::string& sheets);
 
 class FleetView {
   public:
-    /// `drawing` is the path of the drawing, or empty. Throws Error.
+    /// `drawing` is the path of the drawing, or empty for no drawing. Throws Error if it cannot be
+    /// written.
     FleetView(FleetMap map, std::string drawing, Delivery delivery);
 
     /// Takes the pressed keys, and shows the table if a key was pressed. Returns false if the user
@@ -30,8 +31,8 @@ class FleetView {
     /// of the time on drawing.
     void refresh(const FleetState& fleet, const Now& now);
 
-    /// Shows the final table and draws the final map. The table is complete, unless it is shown on
-    /// a terminal. Throws Error if the map cannot be written.
+    /// Shows the final table and draws the final map. On a terminal, only the first page of the
+    /// table is shown. Throws Error if the map cannot be written.
     void finish(const FleetState& fleet, const Now& now);
 
     /// Reports a message to the user. If the table is shown on a terminal, the message appears

@@ -61,7 +61,8 @@ bool write_new(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
     errno = 0;
     const bool is_written =
         file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-    // fclose writes the buffered bytes. Writing fails if the disk is full.
+    // Also checks the result of fclose, which writes the buffered bytes and fails if the disk is
+    // full.
     const bool is_closed = file && std::fclose(file.release()) == 0;
     if (is_written && is_closed) return true;
     const int error_number = errno;

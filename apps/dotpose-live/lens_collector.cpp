@@ -23,8 +23,8 @@ constexpr double kSteady_px_s = 30;
 /// Time without a steady frame after which frames of a moving camera are accepted, for example if
 /// the robot does not stop.
 constexpr std::int64_t kPatience_us = 3'000'000;
-/// Minimum number of newly covered image blocks for which a frame is taken at a place that was
-/// already seen.
+/// A frame at a place that was already seen is taken only if its dots cover at least this number of
+/// image blocks that no taken frame covers.
 constexpr int kNewParts = 3;
 
 CalibrationView view_of(const calibrate::LocatedFrame& located, const Fix& fix) {
@@ -156,8 +156,9 @@ std::optional<Camera> LensCollector::lens() const {
 
 /// Returns true if another calibration is likely to improve on the newest one. Because each
 /// calibration takes longer than the previous one, the number of frames must double between two
-/// calibrations. Fewer frames suffice if only the accuracy of the lens is insufficient, because
-/// standard deviations are inversely proportional to the square root of the number of frames.
+/// calibrations. If only the accuracy of the lens is insufficient, a smaller growth may suffice:
+/// standard deviations are inversely proportional to the square root of the number of frames, so
+/// the growth is the square of the ratio of the present to the required standard deviation.
 bool LensCollector::is_worth_calibrating() const {
     if (taken_.size() < std::size_t{kWantedFrames} || taken_.size() == job_.frames()) return false;
     const std::vector<CalibrationNeed> missing = needs();

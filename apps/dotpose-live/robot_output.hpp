@@ -22,7 +22,7 @@ struct RobotOutputOptions {
     std::string robot;
     std::string frame_prefix;      ///< prefix of the names of the robot's frames of reference
     std::optional<Camera> camera;  ///< source of the mount and the exposure time
-    /// True if the camera has a pose in space. Its mount is then not sent.
+    /// True if the run fits poses of the camera in space. The mount of the camera is then not sent.
     bool has_space_pose = false;
 
     bool is_wanted() const { return !mcap.empty() || dds; }

@@ -48,8 +48,9 @@ class SheetEdits {
     /// such as "move". Returns the new entry.
     SheetEntry change(const Target& target, const std::string& what, const Change& change);
 
-    /// Removes a sheet. Throws Error if it is the only one, because a run needs a sheet. An undone
-    /// removal puts the sheet at the end of the file, without keys that dotpose does not know.
+    /// Removes a sheet. Throws Error if it is the only one, because a run needs a sheet. If the
+    /// removal is undone, the sheet is added at the end of the file, and keys that dotpose does not
+    /// know are lost.
     void remove(const Target& target);
 
     /// Replaces the places and print scales of several sheets in one edit. `targets` are the

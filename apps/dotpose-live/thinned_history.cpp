@@ -60,7 +60,7 @@ void ThinnedHistory::add(const store::State& state) {
         thin_out();
 }
 
-/// Doubles the spans of time.
+/// Doubles the length of the spans of time, and merges the points that are now in the same span.
 void ThinnedHistory::thin_out() {
     span_us_ *= 2;
     std::vector<Point> thinned;

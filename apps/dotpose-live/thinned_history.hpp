@@ -25,7 +25,8 @@ class ThinnedHistory {
     nlohmann::json value() const;
 
   private:
-    /// Maximum number of points. If there are more, two adjacent spans of time become one.
+    /// Maximum number of points. If there are more, each two adjacent spans of time are merged into
+    /// one.
     static constexpr std::size_t kMaxPoints = 2000;
     static constexpr std::size_t kMaxMaps = 100;
 

@@ -28,7 +28,7 @@ struct HistoryRequest {
     double last_s = 0;
     double from_s = 0;
     double to_s = 0;
-    double ask = 0;  ///< number that the page chooses to read the same span again
+    double ask = 0;  ///< number chosen by the page; a new number reads the same time span again
     bool operator==(const HistoryRequest&) const = default;
 };
 

@@ -138,7 +138,8 @@ void WebView::take(const capture::Frame& frame, const Reading& reading, const Wa
                       source.bits_per_px);
 }
 
-/// Returns the image that was located or, if it was reduced, the whole frame.
+/// If the located image is a reduced copy of the frame, returns the frame, otherwise the located
+/// image.
 ImageView WebView::image_for_calibration(const capture::Frame& frame) const {
     const ImageView located = follower_.image();
     return located.width_px == frame.image.width_px ? located : frame.image.view();

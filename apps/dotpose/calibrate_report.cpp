@@ -87,7 +87,8 @@ std::string lens_report(const LensCalibration& calibration, SpacingSource source
         calibration.px_per_spacing, 100 * calibration.dot_width, 100 * calibration.coverage);
     add(text, "residual    {:.4f} px before, {:.4f} px after (rms per axis)",
         calibration.residual_before_px, calibration.residual_px);
-    // Only the view of a mounted camera depends on the spacing.
+    // The spacing affects only the view of a mounted camera, so it is reported only for mounted
+    // cameras.
     const bool is_assumed = calibration.is_mounted && source == SpacingSource::assumed &&
                             calibration.verdict == CalibrationVerdict::good;
     if (calibration.is_mounted) {

@@ -71,7 +71,7 @@ bool is_plausible(const PrintScale& scale) {
            std::abs(scale.scale_y - 1) <= kMaxDeviation;
 }
 
-/// Throws Error if the scan yields no scale that can be written into a sheet file.
+/// Throws Error unless the check determined a print scale that can be written into a sheet file.
 void require_scan(const std::string& scan, const PrintCheck& check) {
     constexpr const char* kRemedy = "; nothing was written: --fit needs a scan from a flatbed";
     if (check.camera) {
@@ -100,8 +100,9 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
     }
 }
 
-/// Returns a remark for the user about the largest expected shift of the dots on the page. The
-/// shift cannot be fitted, because the edges of the paper are not visible in the scan.
+/// Returns a remark for the user about the largest shift of the dots on the page that scaling by
+/// the printer driver can cause. The shift cannot be measured, because the edges of the paper are
+/// not visible in the scan.
 std::string offset_remark(const SheetEntry& entry) {
     const Sheet& sheet = entry.sheet;
     // Returns the largest shift of the first dot along one axis, if the driver scales the page

@@ -147,7 +147,8 @@ std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line) 
         std::ranges::move(evaluate(run).front(), std::back_inserter(outcomes));
     }
     if (interrupted()) {
-        // Frames of a video that were not read are marked by a problem.
+        // The frames of a video that were not read before the interruption have a problem. Frames
+        // with a problem are therefore omitted.
         std::erase_if(outcomes, [](const Outcome& outcome) { return !outcome.problem.empty(); });
         tell(fmt::format("interrupted; the report covers the first {} of {} frames",
                          outcomes.size(), all.frames));
@@ -294,8 +295,8 @@ int evaluate_protocol(const EvaluateArguments& arguments) {
 int run(EvaluateArguments& arguments) {
     const bool writes = arguments.sweep || arguments.protocol;
     const bool has_sources = arguments.sources.is_given();
-    // Without --sweep and --protocol, --preset selects the frames to evaluate. Otherwise, it sets
-    // the conditions of the sweep or the protocol.
+    // --preset is a job of its own only without --sweep and --protocol, for which it sets the
+    // conditions.
     const int jobs = static_cast<int>(has_sources) + static_cast<int>(arguments.sweep.has_value()) +
                      static_cast<int>(arguments.protocol) +
                      static_cast<int>(arguments.preset && !writes);

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using capture::SourceKind;
 
-/// Returns true if the last components of `path` are those of `end`.
+/// Returns true if the last components of `path` are equal to the components of `end`.
 bool ends_with(const fs::path& path, const fs::path& end) {
     const std::vector<fs::path> all(path.begin(), path.end());
     const std::vector<fs::path> last(end.begin(), end.end());

@@ -92,8 +92,8 @@ class ImageLocator {
         return record;
     }
 
-    /// Returns the record of an image that was not read because the size in its header is too
-    /// large.
+    /// Returns the record of an image whose pixels were not read, because the size in its header is
+    /// too large.
     Record too_large(const std::string& name, const ImageTooLarge& image) const {
         Record record = empty_record(follower_);
         record.file = name;

@@ -15,7 +15,8 @@ std::string bare(std::string_view word) {
     return result;
 }
 
-/// Returns the name that begins with the word, or an empty string if there is not exactly one.
+/// Returns the only name that begins with the word. Returns an empty string if no name or more than
+/// one name does, or if the word has less than kMinCharacters characters.
 std::string only_continuation(const std::string& word, const std::vector<std::string>& names) {
     constexpr std::size_t kMinCharacters = 2;
     if (word.size() < kMinCharacters) return {};

@@ -62,8 +62,8 @@ class RunFiles {
     /// of inputs.
     void require_not_written(const std::string& path) const;
 
-    /// Checks an output like `writes`, but does not store its name. Meant for generated names,
-    /// because all of them are different.
+    /// Checks an output like `writes`, but does not store its name. Meant for generated names:
+    /// these differ from each other, so they need not be compared.
     void require_free(const std::string& option, const std::string& path) const;
 
   private:

@@ -9,8 +9,8 @@
 
 namespace dotpose::cli {
 
-/// Returns names one by one: first the names that are known immediately, from the command line and
-/// a list file, and then names from a pipe as they arrive.
+/// Returns names one by one. The names of the command line and of a list file are known immediately
+/// and come first. The names from a pipe follow as they arrive.
 class SourceNames {
   public:
     /// `list` is a file with one name per line. "-" means standard input, and an empty string means

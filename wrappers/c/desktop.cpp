@@ -48,7 +48,8 @@ dotpose_status read_evidence(const dotpose_code_evidence* given, CodeEvidence& e
     return DOTPOSE_OK;
 }
 
-// The core reads the regions in the caller's memory, so the layouts must be equal.
+// The core reads the regions in the caller's memory without conversion, so the layouts must be
+// equal.
 static_assert(sizeof(dotpose_region) == sizeof(KnownRegion));
 static_assert(offsetof(dotpose_region, code) == offsetof(KnownRegion, code));
 static_assert(offsetof(dotpose_region, section_u) == offsetof(KnownRegion, section.u));

@@ -76,8 +76,8 @@ void give(const SpacePose& pose, dotpose_space_pose& result) {
     copy(second.rotation, result.second_quaternion_xyzw);
 }
 
-/// Returns OK if the locator can give the dots of its last image. The shared library of dotpose_c
-/// hides its internal functions, so they cannot be used here.
+/// Returns OK if the locator can return the dots of its last image. Repeats the checks of
+/// dotpose_c, because its shared library does not export internal functions.
 dotpose_status check_locator(const dotpose_locator* locator) {
     if (locator == nullptr) return DOTPOSE_NULL_POINTER;
     if (locator->mark != c::kLocatorMark) return DOTPOSE_NOT_INITIALIZED;
