@@ -350,7 +350,8 @@ void CalibrationGuide::write() {
         update([&error](GuideState& state) { state.problem = error.what(); });
         return;
     }
-    // The written file contains the flip, but the source of this run already flips the frames.
+    // The file contains the flip for later runs. The source of this run already flips the frames,
+    // so the camera of this run must not contain it.
     camera.flip = false;
     update([&](GuideState& state) {
         state.phase = GuidePhase::saved;

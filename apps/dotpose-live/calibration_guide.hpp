@@ -90,7 +90,7 @@ class CalibrationGuide {
     CalibrationGuide(const CalibrationGuide&) = delete;
     CalibrationGuide& operator=(const CalibrationGuide&) = delete;
 
-    /// Starts a step. A running step is cancelled.
+    /// Cancels the running step, if there is one, and starts another step.
     void start(GuideStep step);
     /// Computes the result of the step from the frames taken so far. If these frames do not
     /// determine it, the step fails.
@@ -103,6 +103,7 @@ class CalibrationGuide {
     void set_sheets(std::vector<SheetEntry> sheets);
 
     /// Takes a frame if the current step needs it. `image` is the image that was located.
+    /// `bits_per_px` is the bit rate of the source (capture/frame_source.hpp).
     void take(const capture::Frame& frame, const Reading& reading, ImageView image,
               double bits_per_px);
 

@@ -39,7 +39,7 @@ std::vector<video::Gauge> gauges_of(const CalibrationStatus& status);
 /// Returns the number of frames that were taken, as text.
 std::string taken_text(const CalibrationStatus& status);
 
-/// Returns the most urgent advice.
+/// Returns the most urgent advice as text for the user.
 std::string next_text(const CalibrationStatus& status);
 
 }  // namespace dotpose::cli

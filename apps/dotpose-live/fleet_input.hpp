@@ -20,8 +20,8 @@ class WatchedClock {
   public:
     WatchedClock();
 
-    /// Must be called regularly. If there is no connection, excludes the time since the previous
-    /// call from Now::watched_us.
+    /// Must be called regularly. If there is no connection to the broker, the time since the
+    /// previous call does not count in Now::watched_us.
     void observe(bool is_connected);
 
     Now now() const;
@@ -48,7 +48,7 @@ class FleetInput {
     const FleetState& fleet() const { return fleet_; }
     Now now() const { return clock_.now(); }
 
-    /// Must be called regularly (WatchedClock::observe).
+    /// Must be called regularly, because it calls WatchedClock::observe.
     void observe() { clock_.observe(is_connected()); }
 
     bool is_connected() const { return subscriber_->is_connected(); }

@@ -24,8 +24,8 @@ struct FleetMap {
     std::vector<draw::MapSheet>
         outlines;  ///< outlines of the sheets that have a place in the world
 
-    /// Returns false if the robot is on a map or sheet that is not in the file. Without a file, all
-    /// places are known.
+    /// Returns false if the newest known place of the robot is on a map or sheet that is not in the
+    /// file. Returns true if there is no file, or if the place is not known.
     bool has_place_of(const FleetRobot& robot) const;
 };
 

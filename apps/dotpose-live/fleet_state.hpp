@@ -33,17 +33,19 @@ struct Now {
 };
 
 struct FleetRobot {
-    /// Number of the robot in this run of the program. A robot that was removed and appears again
-    /// has another number.
+    /// Number that identifies the robot in this run of the program. A robot that was removed and
+    /// then appears again gets a new number.
     std::uint32_t id = 0;
     /// Newest state. If the robot is lost, place and sheet are the last known ones.
     RobotState newest;
     bool has_place = false;  ///< true if `newest` contains a place, which may be an old one
     publish::Presence presence = publish::Presence::online;
-    /// Time at which the robot sent its newest message, on the clock Now::watched_us. Computed from
-    /// the time stamps of the robot, so a message that waited in a queue does not count as new.
+    /// Time at which the robot sent its newest message, on the clock of Now::watched_us. It is
+    /// computed from the time stamp of the message, because a message may have waited in a queue.
     std::int64_t alive_us = std::numeric_limits<std::int64_t>::min();
-    std::int64_t lost_since_us = 0;  ///< begin of the current loss of the pose, Now::watched_us
+    /// Time at which the pose was lost, on the clock of Now::watched_us; valid while the robot is
+    /// lost.
+    std::int64_t lost_since_us = 0;
     StateCounts counts;
     std::optional<CameraReport> camera;  ///< newest report
     // Set by FleetState::robots.
@@ -132,7 +134,7 @@ class FleetState {
 
     void take_state(std::string_view name, RobotState state, const Now& now);
     void take_connection(std::string_view name, const RobotConnection& connection, const Now& now);
-    /// Updates the newest sign of life and the presence of a robot. `state` must not be late.
+    /// Updates `alive_us` and the presence of a robot from a state that is not late.
     static void note_sign_of_life(Robot& robot, const RobotState& state, const Now& now);
     Robot& touch(std::string_view name);
     void remove(std::string_view name);

@@ -30,8 +30,8 @@ std::string stored_name(std::string_view name);
 /// Converts received states to stored states. Equal names share memory.
 class StoredStates {
   public:
-    /// Uses the time stamp of the robot. If the clock of the robot differs by more than half an
-    /// hour, uses the time of arrival.
+    /// Converts a state. The time of the stored state is the time stamp of the robot or, if this
+    /// differs by more than half an hour from the time of arrival, the time of arrival.
     store::State of(std::string_view robot, const RobotState& state, std::int64_t received_us);
 
   private:
@@ -54,7 +54,8 @@ class FleetStore {
     }
     store::QueueStatus status() const { return queue_.status(); }
 
-    /// Stores the waiting states and reports their number. Throws Error if states were not stored.
+    /// Stores the states in the queue, and reports their number. Throws Error if states were not
+    /// stored, for example because the database was not available for 10 s.
     void finish();
 
   private:

@@ -131,7 +131,8 @@ void ReadoutFrames::take(const GuidedFrame& frame) {
     if (seen_.size() > 1) advice_ = "go on at this speed";
 }
 
-/// Completes the calibration if there are enough consecutive frames, otherwise starts again.
+/// Ends the run of consecutive frames. Completes the step if the run is long enough, otherwise
+/// discards it.
 void ReadoutFrames::end_run() {
     is_complete_ = is_complete_ || images_.size() >= kMinRun;
     if (is_complete_) return;

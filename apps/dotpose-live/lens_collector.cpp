@@ -123,7 +123,8 @@ std::string LensCollector::refusal(const capture::Frame& frame,
 LensCollector::Outcome LensCollector::take(capture::Frame& frame) {
     start_with(frame.image);
     const auto located = reader_.read(frame.image.view());
-    // This view remains valid when the pixels are moved out of `frame`.
+    // The view of the image remains valid after the pixels are moved out of `frame`, because moving
+    // a vector does not move its elements.
     Outcome outcome{refusal(frame, located), frame.image.view(), located.has_value()};
     if (outcome.is_taken()) {
         coverage_->add(view_of(*located, reader_.trace().fix));

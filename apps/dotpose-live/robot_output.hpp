@@ -28,9 +28,9 @@ struct RobotOutputOptions {
     bool is_wanted() const { return !mcap.empty() || dds; }
 };
 
-/// Computes the time stamps of messages, in ns. A live frame is stamped with the end of its
+/// Computes the time stamps of messages, in ns. A live frame has the time of the end of its
 /// exposure on the monotonic clock. ROS expects the middle of the exposure on the system clock, so
-/// the time is converted. Times of recorded frames are not changed.
+/// this time is converted. The times of recorded frames are used unchanged.
 class Stamps {
   public:
     explicit Stamps(double exposure_us) : half_exposure_ns_(std::llround(exposure_us * 500)) {}

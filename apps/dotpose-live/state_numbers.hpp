@@ -14,8 +14,8 @@ struct StateCounts {
     std::int64_t messages = 0;
     std::int64_t missed = 0;  ///< number of missing states, computed from gaps between the numbers
     std::int64_t late = 0;    ///< number of states that arrived after newer states; not in `missed`
-    /// Number of repetitions of earlier states. With QoS 1, some states are sent again after a
-    /// broken connection.
+    /// Number of states that were received more than once. With QoS 1, some states are sent again
+    /// after a broken connection.
     std::int64_t repeated = 0;
 
     StateCounts& operator+=(const StateCounts& more);

@@ -13,8 +13,8 @@ namespace {
 /// Maximum memory for frames.
 constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
 
-/// Returns true if the frame may show dots beyond the edge of the sheet, or if its sheet is
-/// unknown.
+/// Returns true if the dots in the frame may belong to two sheets: the frame reaches beyond the
+/// edge of its sheet, or the sheet is not known.
 bool is_near_edge(const Record& record, ImageView image) {
     if (!record.place) return true;
     const Sheet& sheet = record.place->entry->sheet;

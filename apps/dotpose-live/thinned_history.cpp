@@ -17,7 +17,8 @@ double rounded_to(double value, double steps) {
     return std::round(value * steps) / steps;
 }
 
-/// Returns the motion that a page must not hide: `lost` before `moving` before `still`.
+/// Returns the motion to show for two states: `lost` if one of them is lost, otherwise `moving` if
+/// one of them is moving.
 Motion more_urgent(Motion a, Motion b) {
     const auto rank = [](Motion motion) {
         return motion == Motion::lost ? 2 : motion == Motion::moving ? 1 : 0;

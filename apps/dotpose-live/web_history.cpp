@@ -108,7 +108,8 @@ struct WebHistory::Queries {
     std::string read_states(const HistoryRequest& request);
 };
 
-/// Returns the value for a client. Called on the thread of the server, so it does not wait.
+/// Returns the value for a client. Must not wait for the database, because it is called in the
+/// thread of the server.
 std::string WebHistory::Queries::value_for(const serve::Command& command) {
     try {
         const std::optional<HistoryRequest> request = request_of(command);

@@ -79,8 +79,7 @@ WebView::WebView(WebOptions options, const Follower& follower)
     }
     server_.start();
     if (sheet_view_) sheet_view_->start();
-    // If the log is a pipe, the page cannot offer it, because the reader of the pipe receives the
-    // data.
+    // The page offers the log only if it is a regular file. The data of a pipe go to its reader.
     if (!std::filesystem::is_regular_file(options_.log)) options_.log.clear();
     if (!options_.log.empty()) {
         server_.set_route("/log.csv", [log = options_.log] {

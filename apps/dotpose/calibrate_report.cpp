@@ -21,8 +21,8 @@ void add(std::string& text, fmt::format_string<Values...> format, Values&&... va
     text += '\n';
 }
 
-/// Returns the displacement of the farthest image corner by lens distortion, in percent of the
-/// distance between the corner and the distortion centre.
+/// Returns the displacement of the farthest image corner by lens distortion, in percent of its
+/// distance from the distortion centre.
 double corner_displacement(const Camera& camera) {
     const PixelPoint corner = farthest_corner(camera);
     const PixelPoint straight = undistorted(camera, corner);

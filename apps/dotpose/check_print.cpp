@@ -63,8 +63,8 @@ void require_svg(const std::string& path) {
     throw BadArgument(fmt::format("'{}': the name of the map must end in .svg", path));
 }
 
-/// Returns true if the scale is close enough to 1 to be caused by a printer driver. Otherwise, the
-/// given resolution of the scan or the given spacing is probably wrong.
+/// Returns true if the scale deviates from 1 by at most 25 % along x and y, as it may after scaling
+/// by a printer driver. If not, the resolution of the scan or the spacing was probably given wrong.
 bool is_plausible(const PrintScale& scale) {
     constexpr double kMaxDeviation = 0.25;
     return std::abs(scale.scale_x - 1) <= kMaxDeviation &&
@@ -126,8 +126,8 @@ std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& s
     std::string done;
     std::set<std::size_t> fitted;
     for (const PrintField& field : check.fields) {
-        // If several parts of a sheet are visible, only the first part is used, because it is the
-        // largest.
+        // If several parts of a sheet are visible, each is a field. Only the first one is used,
+        // because it is the largest.
         if (!field.scale || !field.sheet || !fitted.insert(*field.sheet).second) continue;
         // The entry is read again, because another process may have changed it during the check.
         const std::string& name = sheets[*field.sheet].name;

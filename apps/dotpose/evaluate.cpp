@@ -90,7 +90,7 @@ Progress progress_on(ProgressLine& line) {
     };
 }
 
-/// Returns the score as JSON. Statistics without frames, which are NaN in `score`, become null.
+/// Returns the score as JSON. Statistics over no frames are NaN in `score` and null in JSON.
 nlohmann::ordered_json json_of(const Score& score) {
     nlohmann::ordered_json statuses = nlohmann::ordered_json::object();
     for (std::size_t i = 1; i < score.by_status.size(); ++i) {
@@ -173,8 +173,8 @@ int evaluate_run(const EvaluateArguments& arguments, const std::string& what, Fr
     return outcomes.size() < static_cast<std::size_t>(run.frames) ? kExitFailed : exit_code;
 }
 
-/// Makes `run` locate the frames with the camera file, as `locate --camera` does. A frame whose
-/// size differs from the size in the camera file gets a problem.
+/// Makes `run` locate the frames with the camera file, as `locate --camera` does. A frame of
+/// another size than the camera file gets a problem instead of a result.
 void locate_with(const Camera& camera, const std::vector<TruthRow>& rows, FrameRun& run) {
     run.frame_at = [camera, rows, read = run.frame_at](int index) {
         KnownFrame frame = read(index);

@@ -113,7 +113,7 @@ std::vector<Field> code_fields(const Record& record, Units units) {
     };
 }
 
-/// Returns `text` if the fix is valid and has a covariance. Otherwise, returns an empty string.
+/// Returns `text` if the fix is ok and has a covariance, otherwise an empty string.
 std::string if_judged(const Fix& fix, std::string text) {
     return fix.status == Status::ok && fix.has_covariance() ? std::move(text) : std::string();
 }

@@ -111,8 +111,9 @@ SpaceCovariance space_covariance_in(const LogCells& row, const SpaceColumns& col
     return covariance;
 }
 
-/// Returns the pose of the camera in space in `map`. Returns none if the row has no pose in space,
-/// or if it is ambiguous.
+/// Returns the pose of the camera in space, in the world or, if `is_in_world` is false, in the
+/// pattern frame with y up. Returns none if the row has no pose in space, or if this pose is
+/// ambiguous.
 std::optional<CameraInWorld> camera_in(const LogCells& row, bool is_in_world) {
     const SpaceColumns& columns = is_in_world ? kSpaceInWorld : kSpaceInPattern;
     if (row.text("camera_is_ambiguous") != "false") return std::nullopt;

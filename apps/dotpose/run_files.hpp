@@ -18,7 +18,7 @@
 
 namespace dotpose::cli {
 
-/// Kind of data in an output file. For `own`, the file extension determines the kind.
+/// Kind of data in an output file. With `own`, the file extension determines the kind.
 enum class Content { json, csv, yaml, svg, packets, mcap, text, own };
 
 Content content_of(RecordFormat format);

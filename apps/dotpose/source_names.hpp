@@ -22,8 +22,8 @@ class SourceNames {
     /// Returns true if a pipe may still deliver names.
     bool has_pipe() const { return is_pipe_; }
 
-    /// Returns the next name, or none after the last name or after an error. Throws Error like the
-    /// constructor.
+    /// Returns the next name. Returns none after the last name, and in all calls after an error.
+    /// Throws Error like the constructor.
     std::optional<std::string> next();
 
   private:

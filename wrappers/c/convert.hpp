@@ -47,8 +47,8 @@ dotpose_status write_sized(DeviceOptions defaults, std::size_t first_bytes, Devi
     return DOTPOSE_OK;
 }
 
-/// Returns true if the absolute value is at most 2^bits. The limits are chosen such that
-/// differences of times or coordinates do not overflow.
+/// Returns true if the absolute value is at most 2^bits. Callers choose `bits` such that
+/// differences of two times or two coordinates do not overflow.
 constexpr bool is_within_range(std::int64_t value, int bits) {
     return value >= -(std::int64_t{1} << bits) && value <= std::int64_t{1} << bits;
 }

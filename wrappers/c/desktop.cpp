@@ -14,9 +14,10 @@ namespace {
 
 using namespace dotpose;
 
-/// Layout of CodeEvidence in the core: for each code, the log odds from earlier places and the sum
-/// of the factors of the frames at the current place; then the cell of the first of these frames,
-/// and the number of these frames.
+/// Layout of CodeEvidence in the core. `log2_q8` contains the log2 odds of each code from the
+/// frames at earlier places. `factors` contains, for each code, the sum of the factors by which the
+/// frames at the current place reduce its odds. `x` and `y` are the cell of the first of these
+/// frames, and `frames` is their number.
 struct State {
     std::int32_t log2_q8[kCodeVariantCount];
     float factors[kCodeVariantCount];
