@@ -10,9 +10,9 @@
 
 namespace dotpose::cli {
 
-/// Tilt of the camera in one frame. Each component belongs to an image axis. It is the relative
-/// change of the image scale from the middle of the image over the distance to a corner, along this
-/// axis.
+/// Tilt of the camera in one frame, along the u and v axes of the image. Each value is the relative
+/// change of the image scale over a distance along the axis. This distance is that of a corner from
+/// the middle of the image.
 struct FrameTilt {
     double u = 0;
     double v = 0;

@@ -64,8 +64,8 @@ std::string FailureHint::after(const Reading& reading, ImageView image,
     const Record& record = reading.record;
     remember(record, image, options, bits_per_px);
     last_second_.push_back({reading.time_us, record.fix.status != Status::ok});
-    // A hint requires that the remembered frames span a full second. The oldest frame is therefore
-    // kept until the second-oldest frame is a second old.
+    // A hint requires frames of a full second. The oldest frame is therefore kept until the
+    // second-oldest frame is a second old.
     while (last_second_.size() > kMaxFrames ||
            (last_second_.size() > 1 && reading.time_us - last_second_[1].time_us >= kWindow_us)) {
         last_second_.pop_front();

@@ -41,8 +41,8 @@ struct FleetInputOptions {
 /// The subscriber calls `take` in its own thread.
 class FleetInput {
   public:
-    /// `store` may be null. Throws Error if the broker refuses the connection or the log cannot be
-    /// created.
+    /// `store` is null if the states are not stored, and must otherwise outlive this object. Throws
+    /// Error if the broker refuses the connection or the log cannot be created.
     FleetInput(const FleetInputOptions& options, FleetStore* store);
 
     const FleetState& fleet() const { return fleet_; }

@@ -14,7 +14,8 @@
 
 namespace dotpose::cli {
 
-/// Returns the sheets of a sheet file, or nothing if the path is empty. Throws Error.
+/// Reads a sheet file. Returns an empty map if the path is empty. Throws Error if the file cannot
+/// be read.
 FleetMap read_fleet_map(const std::string& sheets);
 
 class FleetView {
@@ -27,8 +28,8 @@ class FleetView {
     /// wants to end the program.
     bool take_keys(const FleetState& fleet, const Now& now);
 
-    /// Shows the table if standard output is a terminal. Draws the map, but spends at most a tenth
-    /// of the time on drawing.
+    /// Shows the table if standard output is a terminal. Draws the map, unless this would take more
+    /// than a tenth of the time: after a drawing that took t, the next one is not before 9 t later.
     void refresh(const FleetState& fleet, const Now& now);
 
     /// Shows the final table and draws the final map. On a terminal, only the first page of the

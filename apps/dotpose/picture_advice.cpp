@@ -288,8 +288,8 @@ std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeM
             *tilt_degrees);
     }
     // A video with fewer bits per pixel is reported as compressed too much. In videos of sharp
-    // frames, H.264 and HEVC begin to lose dots at 0.1 bits per pixel (docs/live.md). The limit is
-    // higher, because not all frames are sharp.
+    // frames, H.264 and HEVC begin to lose dots at 0.1 bits per pixel (docs/live.md), so the limit
+    // has a margin.
     constexpr double kTooFewBits_per_px = 0.15;
     if (facts.bits_per_px > 0 && facts.bits_per_px < kTooFewBits_per_px) {
         return fmt::format(

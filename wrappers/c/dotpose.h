@@ -297,9 +297,8 @@ typedef struct dotpose_prediction {
 } dotpose_prediction;
 
 /* Predicts that the next frame has the same pose as `fix`. A frame that confirms its prediction is
- * located in a fraction of the time. Any other frame is located as if it had no prediction, except
- * that a device locator to which it is pushed row by row returns NOT_TRACKED. Returns NO_FIX if the
- * fix is not ok. */
+ * located in a fraction of the time. Any other frame is located as if it had no prediction. For
+ * frames that are pushed row by row, see dotpose_begin. Returns NO_FIX if the fix is not ok. */
 dotpose_status dotpose_prediction_like(const dotpose_fix* fix, dotpose_prediction* prediction);
 
 /* Moves a prediction by `by_x_q16` and `by_y_q16` spacings in the pattern frame, and turns it by
@@ -483,9 +482,9 @@ typedef struct dotpose_dot {
 } dotpose_dot;
 
 /* Writes the dots of the last frame to `dots`, but at most `capacity` of them. Sets `count` to the
- * total number of dots, which may exceed `capacity`. `dots` may be null if `capacity` is 0. Without
- * the option show_stages, some attempts keep no dots or only a part of them. Returns WRONG_KIND for
- * device locators. */
+ * total number of dots, which may exceed `capacity`. `dots` may be null if `capacity` is 0. Every
+ * attempt keeps its dots only if the option show_stages is set, so there may otherwise be none.
+ * Returns WRONG_KIND for device locators. */
 dotpose_status dotpose_dots(const dotpose_locator* locator, dotpose_dot* dots, int32_t capacity,
                             int32_t* count);
 
