@@ -17,8 +17,8 @@ namespace {
 /// Maximum number of frames that are taken. More frames would take longer without improving the
 /// result.
 constexpr std::size_t kMaxFrames = 50;
-/// Maximum image speed of a steady camera, in px/s. At this speed, the image moves by less than a
-/// pixel during an exposure or the readout of a rolling shutter.
+/// Maximum image speed of a steady camera, in px/s. At this speed, the image moves by at most a
+/// pixel during an exposure or the readout of a rolling shutter, if these take up to 1/30 s.
 constexpr double kSteady_px_s = 30;
 /// Time without a steady frame after which frames of a moving camera are accepted, for example if
 /// the robot does not stop.

@@ -54,8 +54,8 @@ class SheetEdits {
     /// know are lost.
     void remove(const Target& target);
 
-    /// Replaces the places and print scales of several sheets in one edit. `targets` are the
-    /// revisions of the sheets at the start of the measurement.
+    /// Replaces the places and print scales of several sheets by those in `measured`, in one edit.
+    /// `targets` contains the sheets with their revisions at the start of the measurement.
     void change_all(const std::vector<Target>& targets, const std::vector<SheetEntry>& measured,
                     const std::string& what);
 

@@ -37,8 +37,8 @@ struct OutputOptions {
 /// Writes pose packets to a file or serial device.
 class PacketOutput {
   public:
-    /// Throws Error if the file or device cannot be opened. `write` throws Error on failure, and
-    /// ReaderLeft if the reader closed a pipe.
+    /// Opens the file or device. Throws Error on failure. `write` also throws Error on failure, but
+    /// ReaderLeft if the output is a pipe that its reader has closed.
     explicit PacketOutput(const std::string& path);
     ~PacketOutput();
     PacketOutput(const PacketOutput&) = delete;

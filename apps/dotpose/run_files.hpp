@@ -47,9 +47,9 @@ class RunFiles {
     void reads(const std::string& option, const std::vector<std::string>& paths);
 
     /// Registers an output. Rejects a file extension of an image or video that does not match
-    /// `content`. For example, if the name of the output is missing in `-o frames/*.png`, the first
-    /// frame would be overwritten. The path "-" is standard output for `-o`, and is rejected for
-    /// other options.
+    /// `content`. For example, in `-o frames/*.png` the name of the output was forgotten, and the
+    /// shell inserts the first frame as the output, which would be overwritten. The path "-" is
+    /// standard output for `-o`, and is rejected for other options.
     void writes(const std::string& option, const std::string& path, Content content);
 
     /// Registers the output of lines: the file given by `-o`, or standard output without `-o`.
