@@ -25,15 +25,16 @@ class AdviceWorker {
         Record record;
     };
 
-    /// The worker thread calls `take` with the reason and the advice for each frame (see `reason`
-    /// in locate_record.hpp).
+    /// `take` is called in the worker thread after each search, with the reason why the frame was
+    /// refused and the advice (see `reason` in locate_record.hpp).
     explicit AdviceWorker(std::function<void(const std::string&)> take);
     /// Waits for the end of the current search.
     ~AdviceWorker();
     AdviceWorker(const AdviceWorker&) = delete;
     AdviceWorker& operator=(const AdviceWorker&) = delete;
 
-    /// Queues a search. Replaces a queued job that has not started.
+    /// Queues a search. A queued search that has not started is discarded, so only the newest frame
+    /// waits.
     void ask(Job job);
 
   private:

@@ -113,7 +113,8 @@ void CalibrationDisplay::show_in_terminal(const CalibrationStatus& status) {
     const auto now = std::chrono::steady_clock::now();
     if (now < next_ && !status.is_taken) return;
     next_ = now + 100ms;
-    // Moves to the first line of the previous output and erases everything below it.
+    // The control sequence moves the cursor to the first line of the previous output, and erases
+    // everything from there on.
     const int shown_lines = shown_lines_;
     std::string text = shown_lines > 0 ? fmt::format("\033[{}A\r\033[J", shown_lines) : "";
     const std::size_t columns = terminal_columns();

@@ -16,9 +16,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Minimum time between two frames that are offered for the calibration of the lens.
+/// Minimum time between two frames that are copied for the thread that calibrates the lens.
 constexpr std::chrono::milliseconds kOfferPeriod = 50ms;
-/// Maximum number of waiting jobs. Further commands of a page are ignored.
+/// Maximum number of waiting jobs. If this number is reached, further commands of a page are
+/// ignored.
 constexpr std::size_t kMaxJobs = 8;
 
 constexpr std::array<const char*, 5> kSteps = {"lens", "spin", "drive", "readout", "pivot"};
@@ -229,7 +230,8 @@ void CalibrationGuide::take_guided(const GuidedFrame& frame) {
     changed_.notify_one();
 }
 
-/// Gives a copy of a frame to the thread if the thread is idle. `mutex_` must be locked.
+/// Queues a copy of a frame for the thread, unless the thread is busy or a frame was queued less
+/// than `kOfferPeriod` ago. `mutex_` must be locked.
 void CalibrationGuide::offer(const capture::Frame& frame, ImageView image, double bits_per_px) {
     const Clock::time_point now = Clock::now();
     if (is_busy_ || !jobs_.empty() || now < next_offer_) return;
@@ -304,7 +306,8 @@ GuideResult CalibrationGuide::lens_result() {
 /// Solves a step. Throws Error if its frames do not determine the result.
 GuideResult CalibrationGuide::result_of(GuideStep step) {
     if (step == GuideStep::lens) return lens_result();
-    // The main thread takes no more frames, because the phase is `solving`.
+    // `guided_` can be read without the mutex, because the main thread takes no frames while the
+    // phase is `solving`.
     const std::optional<Camera> camera = state().camera;
     const GuidedFrames::Images& images = guided_->images();
     const int count = static_cast<int>(images.size());
@@ -347,7 +350,8 @@ void CalibrationGuide::write() {
         update([&error](GuideState& state) { state.problem = error.what(); });
         return;
     }
-    // The written file contains the flip, but the source of this run already flips the frames.
+    // The file contains the flip for later runs. The source of this run already flips the frames,
+    // so the camera of this run must not contain it.
     camera.flip = false;
     update([&](GuideState& state) {
         state.phase = GuidePhase::saved;

@@ -72,7 +72,8 @@ struct GuideState {
     std::vector<video::Gauge> gauges;
     std::string advice;                     ///< what to do now
     std::optional<CalibrationStatus> lens;  ///< coverage; only for the step `lens`
-    /// For each direction of a turn or of a tilt, true if a frame was taken.
+    /// One element for each direction of the robot in a turn, or of the tilt of a pen. True if the
+    /// frames of this direction are sufficient.
     std::vector<bool> directions;
     std::vector<PenLean> leans;      ///< tilts of a pen
     std::vector<std::string> needs;  ///< unmet requirements of a step with a moving robot
@@ -89,18 +90,20 @@ class CalibrationGuide {
     CalibrationGuide(const CalibrationGuide&) = delete;
     CalibrationGuide& operator=(const CalibrationGuide&) = delete;
 
-    /// Starts a step. A running step is cancelled.
+    /// Cancels the running step, if there is one, and starts another step.
     void start(GuideStep step);
-    /// Computes the result of the step from the frames taken so far.
+    /// Computes the result of the step from the frames taken so far. If these frames do not
+    /// determine it, the step fails.
     void finish();
     void cancel();
-    /// Writes the result of the current step into the file.
+    /// Writes the result of the current step into the file. Does nothing if there is no result.
     void save();
 
-    /// Uses these sheets from the next calculation on.
+    /// Uses these sheets in all calculations that start from now on.
     void set_sheets(std::vector<SheetEntry> sheets);
 
     /// Takes a frame if the current step needs it. `image` is the image that was located.
+    /// `bits_per_px` is the bit rate of the source (capture/frame_source.hpp).
     void take(const capture::Frame& frame, const Reading& reading, ImageView image,
               double bits_per_px);
 
@@ -115,7 +118,7 @@ class CalibrationGuide {
   private:
     using Clock = std::chrono::steady_clock;
 
-    // Functions of the thread.
+    // These functions run in the thread.
     void run();
     void begin(GuideStep step);
     void reset();

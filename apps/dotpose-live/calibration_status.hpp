@@ -10,8 +10,9 @@
 
 namespace dotpose::cli {
 
-/// Tilt of the camera in one frame. Each component is the relative change of the image scale along
-/// an image axis, over the distance from the middle of the image to a corner.
+/// Tilt of the camera in one frame, along the u and v axes of the image. Each value is the relative
+/// change of the image scale over a distance along the axis. This distance is that of a corner from
+/// the middle of the image.
 struct FrameTilt {
     double u = 0;
     double v = 0;
@@ -22,7 +23,8 @@ struct CalibrationStatus {
 
     CalibrationCoverage coverage;
     std::vector<CalibrationNeed> needs;  ///< unmet requirements, most urgent first
-    /// Standard deviation of the newest calibration in the corners of the image.
+    /// Standard deviation of the undistorted position of the farthest image corner, from the newest
+    /// finished calibration. None if there is no calibration or if it failed.
     std::optional<double> corner_sigma_px;
     std::optional<double> theta_rad;  ///< direction of the newest frame, if it was located
     std::vector<FrameTilt> tilts;     ///< tilts of the frames that were taken
@@ -37,7 +39,7 @@ std::vector<video::Gauge> gauges_of(const CalibrationStatus& status);
 /// Returns the number of frames that were taken, as text.
 std::string taken_text(const CalibrationStatus& status);
 
-/// Returns the most urgent advice.
+/// Returns the most urgent advice as text for the user.
 std::string next_text(const CalibrationStatus& status);
 
 }  // namespace dotpose::cli

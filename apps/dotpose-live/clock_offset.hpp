@@ -23,7 +23,7 @@ class ClockOffset {
         current_us_ = std::min(current_us_, offset_us);
     }
 
-    /// Discards earlier messages. Called when the clock of the robot was set back.
+    /// Discards all messages so far. Must be called if the clock of the robot was set back.
     void reset() { *this = {}; }
 
     /// Returns the offset in us. Requires at least one message.
@@ -33,7 +33,7 @@ class ClockOffset {
     static constexpr std::int64_t kWindow_us = 10'000'000;
     static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
 
-    std::int64_t begun_us_ = 0;  ///< begin of the current window
+    std::int64_t begun_us_ = 0;  ///< start of the current window
     std::int64_t earlier_us_ = kNone;
     std::int64_t current_us_ = kNone;
 };

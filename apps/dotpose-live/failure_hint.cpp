@@ -30,9 +30,10 @@ std::string reason_with_advice(Record record, ImageView image, const DeviceOptio
 
 }  // namespace
 
-/// Counts the failed frames with each status, and keeps a copy of one of them for the report at the
-/// end of the run. The first, second, fourth, eighth (and so on) frame replaces the previous copy,
-/// so the last copy is from the second half of the frames with this status.
+/// Counts the frames that failed with each status, and keeps a copy of one frame of each status for
+/// the report at the end of the run. The copy is replaced by the first, second, fourth, eighth (and
+/// so on) frame of the status, so few frames are copied, but the copy is always from the second
+/// half of these frames.
 void FailureHint::remember(const Record& record, ImageView image, const DeviceOptions& options,
                            double bits_per_px) {
     ++frames_;
@@ -63,8 +64,8 @@ std::string FailureHint::after(const Reading& reading, ImageView image,
     const Record& record = reading.record;
     remember(record, image, options, bits_per_px);
     last_second_.push_back({reading.time_us, record.fix.status != Status::ok});
-    // A hint requires that the remembered frames span a full second. The oldest frame is therefore
-    // kept until the second-oldest frame is a second old.
+    // A hint requires frames of a full second. The oldest frame is therefore kept until the
+    // second-oldest frame is a second old.
     while (last_second_.size() > kMaxFrames ||
            (last_second_.size() > 1 && reading.time_us - last_second_[1].time_us >= kWindow_us)) {
         last_second_.pop_front();

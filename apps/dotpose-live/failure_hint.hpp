@@ -14,15 +14,16 @@ namespace dotpose::cli {
 
 class FailureHint {
   public:
-    /// Takes the result of a frame that was located with `options`. Returns a sentence if this
-    /// frame failed, most frames of the last second failed, and at least three frames failed.
-    /// Otherwise returns an empty string. Returns the sentence again only after at least half of
-    /// the frames of a second were located. `bits_per_px` is the bit rate of the source
-    /// (capture/frame_source.hpp).
+    /// Takes the result of the attempt to locate a frame with `options`. Returns a sentence for the
+    /// user if this frame failed, and more than half and at least three of the frames of the last
+    /// second failed. Otherwise returns an empty string. The sentence is returned again only after
+    /// the fraction of failed frames in a second has dropped to a half or less. `bits_per_px` is
+    /// the bit rate of the source (capture/frame_source.hpp).
     std::string after(const Reading& reading, ImageView image, const DeviceOptions& options,
                       double bits_per_px);
 
-    /// Returns a sentence if most frames of the whole run failed, otherwise an empty string.
+    /// Returns a sentence if more than half of the frames of the run failed, otherwise an empty
+    /// string.
     std::string at_end() const;
 
   private:

@@ -100,7 +100,8 @@ std::optional<store::QueueStatus> store_status(const std::optional<FleetStore>& 
     return store ? std::optional(store->status()) : std::nullopt;
 }
 
-/// Returns the options of the page, or none without --web. `now` and `services` are not set yet.
+/// Returns the options of the page, or none without --web. The caller must set `now` and
+/// `services`.
 std::optional<FleetWebOptions> web_options(const FleetArguments& arguments,
                                            const publish::MqttOptions& mqtt) {
     auto server = arguments.web.options();

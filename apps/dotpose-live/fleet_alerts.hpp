@@ -12,9 +12,10 @@ namespace dotpose::cli {
 
 class AlertWatch {
   public:
-    /// Returns an alert for each robot that, since the previous call, was lost for a second, became
-    /// silent or gone, is fine again, or was removed. A new robot causes an alert only if it is
-    /// lost or silent. Times and numbers of the alerts are not set.
+    /// Returns an alert for each robot whose condition has changed since the previous call: the
+    /// robot has been lost for a second, has become silent or gone, is fine again, or was removed.
+    /// A new robot causes an alert only if it is silent or has been lost for a second. The caller
+    /// must set the times and numbers of the alerts.
     std::vector<RobotAlert> changes(const FleetRobots& robots, const Now& now);
 
   private:

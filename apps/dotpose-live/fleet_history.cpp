@@ -44,8 +44,8 @@ struct HistoryArguments {
     LineArguments lines;
 };
 
-/// Parses a time such as "2026-11-28", "2026-11-28T08:00" or "2026-11-28T08:00:00.5Z", in UTC.
-/// Throws ValidationError.
+/// Parses a time in UTC, such as "2026-11-28", "2026-11-28T08:00" or "2026-11-28T08:00:00.5Z", into
+/// microseconds since 1970. Throws ValidationError for any other text.
 std::int64_t parse_time(const std::string& flag, std::string text) {
     const std::string given = text;
     if (text.size() == std::string_view("2026-11-28").size()) text += "T00:00";

@@ -20,8 +20,8 @@ class WatchedClock {
   public:
     WatchedClock();
 
-    /// Must be called regularly. If there is no connection, excludes the time since the previous
-    /// call from Now::watched_us.
+    /// Must be called regularly. If there is no connection to the broker, the time since the
+    /// previous call does not count in Now::watched_us.
     void observe(bool is_connected);
 
     Now now() const;
@@ -41,14 +41,14 @@ struct FleetInputOptions {
 /// The subscriber calls `take` in its own thread.
 class FleetInput {
   public:
-    /// `store` may be null. Throws Error if the broker refuses the connection or the log cannot be
-    /// created.
+    /// `store` is null if the states are not stored, and must otherwise outlive this object. Throws
+    /// Error if the broker refuses the connection or the log cannot be created.
     FleetInput(const FleetInputOptions& options, FleetStore* store);
 
     const FleetState& fleet() const { return fleet_; }
     Now now() const { return clock_.now(); }
 
-    /// Must be called regularly (WatchedClock::observe).
+    /// Must be called regularly, because it calls WatchedClock::observe.
     void observe() { clock_.observe(is_connected()); }
 
     bool is_connected() const { return subscriber_->is_connected(); }

@@ -18,7 +18,7 @@ class FleetLog {
     /// Adds a state to the buffer. May run concurrently with `flush`.
     void add(std::string_view robot, const RobotState& state, std::int64_t received_us);
 
-    /// Writes the buffer to the file. Throws Error if this or an earlier write failed.
+    /// Writes the buffer to the file. Throws Error if this write or an earlier one failed.
     void flush();
 
   private:

@@ -60,8 +60,8 @@ class Window {
             if (is_inside(entry.second)) visible_.push_back(&entry);
         }
         // Positions are sent in single precision, relative to an origin in the window. Relative to
-        // the origin of the pattern, which extends over 200 km, single precision would be too
-        // coarse.
+        // the origin of the pattern, which extends over 200 km, the resolution of single precision
+        // would be only about a centimetre.
         const draw::Point middle{(x_min_ + x_max_) / 2, (y_min_ + y_max_) / 2};
         const bool is_finite = std::isfinite(middle.x) && std::isfinite(middle.y);
         if (is_finite) {

@@ -17,7 +17,8 @@ struct FleetServices {
     std::optional<store::QueueStatus> store;  ///< none without a database
 };
 
-/// Returns the metrics. `robots` are the robots of `fleet`. Names of robots are escaped.
+/// Returns the metrics as text. `robots` is the result of `fleet.robots`. In the names of robots,
+/// characters that the format reserves are escaped.
 std::string metrics_text(const FleetState& fleet, const FleetRobots& robots, const FleetMap& map,
                          const FleetServices& services);
 

@@ -37,7 +37,8 @@ std::string check_level(const std::string& name) {
                   : std::string();
 }
 
-/// Returns the names of the robots of which the broker retains a connection message.
+/// Returns those of the given robots for which the broker retains a connection message. Waits up to
+/// kPatience. Throws Error if no connection to the broker was established.
 std::set<std::string, std::less<>> retained_robots(const publish::MqttOptions& options,
                                                    const std::vector<std::string>& robots) {
     constexpr auto kPatience = std::chrono::seconds(3);
@@ -54,7 +55,7 @@ std::set<std::string, std::less<>> retained_robots(const publish::MqttOptions& o
                                                found.emplace(sender->robot);
                                        });
     // The broker sends retained messages immediately after the subscription, but it does not report
-    // that there are none.
+    // that there are none. Therefore the search ends after kPatience.
     const auto end = std::chrono::steady_clock::now() + kPatience;
     const std::set<std::string> wanted(robots.begin(), robots.end());
     const auto has_all = [&] {

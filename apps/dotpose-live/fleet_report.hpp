@@ -13,8 +13,8 @@
 namespace dotpose::cli {
 
 /// Recipients of the states: this instance of `dotpose fleet` receives all states of its robots, or
-/// several instances share the states. If the states are shared, a gap in the sequence numbers does
-/// not mean a lost state, so missing states are not reported.
+/// several instances share the states. If the states are shared, another instance may have received
+/// the states that are missing in the sequence numbers, so missing states are not reported.
 enum class Delivery { all, shared };
 
 /// The sheet file of a fleet.
@@ -24,8 +24,8 @@ struct FleetMap {
     std::vector<draw::MapSheet>
         outlines;  ///< outlines of the sheets that have a place in the world
 
-    /// Returns false if the robot is on a map or sheet that is not in the file. Without a file, all
-    /// places are known.
+    /// Returns false if the newest known place of the robot is on a map or sheet that is not in the
+    /// file. Returns true if there is no file, or if the place is not known.
     bool has_place_of(const FleetRobot& robot) const;
 };
 
@@ -36,17 +36,18 @@ using FleetRobots = std::vector<FleetEntry>;
 /// the map of the first robot that has one. Returns an empty string if there is none.
 std::string shown_map(const FleetMap& map, const FleetRobots& robots);
 
-/// Returns the rank of a robot by the attention that it needs, most urgent first: silent, lost, on
-/// an unknown map or sheet, moving or still, gone.
+/// Returns the rank of a robot by the attention that it needs, from 0 to 4: silent, lost, moving or
+/// still on an unknown map or sheet, moving or still on a known one, gone.
 int attention_rank(const FleetRobot& robot, const FleetMap& map);
 
-/// Sorts the robots by attention. The order of robots that need equal attention is kept.
+/// Sorts the robots by `attention_rank`. Robots of equal rank keep their order.
 void sort_by_attention(FleetRobots& robots, const FleetMap& map);
 
 /// Columns of the table. `narrow` fits 80 characters and omits the counts of messages.
 enum class Layout { wide, narrow };
 
-/// The lines contain no line break and may have any width.
+/// Return the header and a row of the table, without a line break. The width is not limited,
+/// because the place and the reason of the condition are not cut off.
 std::string table_header(Layout layout);
 std::string table_row(const std::string& name, const FleetRobot& robot, const FleetMap& map,
                       Layout layout, Delivery delivery);

@@ -8,8 +8,8 @@ namespace dotpose::cli {
 namespace {
 
 std::uint64_t hash_of(std::string_view text) {
-    // FNV-1a with 64 bits. The upper half is folded into the lower half, because the lowest bits
-    // alone distribute similar names unevenly.
+    // The 64-bit hash FNV-1a. The lowest bits alone would distribute similar names unevenly among
+    // the instances, so the upper half is combined with the lower half.
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const char byte : text)
         hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;

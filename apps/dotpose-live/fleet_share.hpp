@@ -24,8 +24,8 @@ class ShareArguments {
     /// Adds --share and --shard.
     void add_to(Command& command);
 
-    /// Returns the topics to subscribe to: the states and the connections. The broker divides the
-    /// states among the members of a group.
+    /// Returns the topics to subscribe to: those of the states and of the connections. If the
+    /// instances form a group, the broker sends each state to only one of them.
     std::vector<std::string> topics() const;
     bool is_shared() const { return !group_.empty(); }
     const Shard& shard() const { return shard_; }

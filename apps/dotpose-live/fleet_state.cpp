@@ -36,7 +36,8 @@ void FleetState::take_connection(std::string_view name, const RobotConnection& c
                                  const Now& now) {
     FleetRobot& shown = touch(name).shown;
     shown.presence = connection.presence;
-    // A retained message may be days old.
+    // The retained message of a robot may be days old when it is received, so its age is computed
+    // from its time stamp.
     const std::int64_t age_us = std::max<std::int64_t>(now.system_us - connection.sent_us, 0);
     shown.alive_us = std::max(shown.alive_us, now.watched_us - age_us);
 }
@@ -126,9 +127,10 @@ void LatencyHistogram::add(double latency_s) {
     sum_s += positive_s;
 }
 
-/// Adds the difference between two consecutive reports of a robot. If there is no previous report,
-/// or if the numbers are smaller or implausible because the robot was restarted, nothing is added,
-/// and counting continues from the new report.
+/// Adds the frames between two consecutive reports of a robot to the totals. Adds nothing if there
+/// is no previous report, or if the number of frames has decreased or has increased by more than a
+/// million, because the robot was then restarted. Each call compares with the previous report, so
+/// counting continues after a restart.
 void FleetState::count_frames(const CameraReport& report,
                               const std::optional<CameraReport>& previous) {
     constexpr std::uint64_t kMaxFrames = 1'000'000;

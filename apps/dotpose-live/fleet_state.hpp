@@ -33,17 +33,19 @@ struct Now {
 };
 
 struct FleetRobot {
-    /// Number of the robot in this run of the program. A robot that was removed and appears again
-    /// has another number.
+    /// Number that identifies the robot in this run of the program. A robot that was removed and
+    /// then appears again gets a new number.
     std::uint32_t id = 0;
     /// Newest state. If the robot is lost, place and sheet are the last known ones.
     RobotState newest;
     bool has_place = false;  ///< true if `newest` contains a place, which may be an old one
     publish::Presence presence = publish::Presence::online;
-    /// Time at which the robot sent its newest message, on the clock Now::watched_us. Computed from
-    /// the time stamps of the robot, so a message that waited in a queue does not count as new.
+    /// Time at which the robot sent its newest message, on the clock of Now::watched_us. It is
+    /// computed from the time stamp of the message, because a message may have waited in a queue.
     std::int64_t alive_us = std::numeric_limits<std::int64_t>::min();
-    std::int64_t lost_since_us = 0;  ///< begin of the current loss of the pose, Now::watched_us
+    /// Time at which the pose was lost, on the clock of Now::watched_us; valid while the robot is
+    /// lost.
+    std::int64_t lost_since_us = 0;
     StateCounts counts;
     std::optional<CameraReport> camera;  ///< newest report
     // Set by FleetState::robots.
@@ -67,7 +69,8 @@ struct LatencyHistogram {
     std::array<std::int64_t, kLimits_s.size() + 1> counts{};
     double sum_s = 0;
 
-    /// Negative latencies, which clocks with different times cause, count as 0.
+    /// Adds a latency. A negative latency, which occurs if the clocks of sender and receiver
+    /// differ, counts as 0.
     void add(double latency_s);
 };
 
@@ -91,10 +94,11 @@ class FleetState {
         Listener listener = [](std::string_view, const RobotState&) {}, ConditionLimits limits = {})
         : listener_(std::move(listener)), limits_(limits) {}
 
-    /// Takes a message. A state older than the newest state of its robot is only counted. If
-    /// several older states follow each other in ascending order of time, the clock of the sender
-    /// was set back, and the states are accepted. An empty message on the topic of the connection
-    /// removes the robot. Other invalid messages are counted as bad. Thread-safe.
+    /// Takes a message. A state older than the newest state of its robot is counted as late and
+    /// otherwise ignored. However, if several older states follow each other in ascending order of
+    /// time, the clock of the sender was set back, and the states are accepted. An empty message on
+    /// the topic of the connection removes the robot. Other invalid messages are counted as bad.
+    /// Thread-safe.
     void take(std::string_view topic, std::string_view payload, const Now& now);
 
     /// Returns the robots and their conditions, in natural order of their names.
@@ -116,7 +120,8 @@ class FleetState {
   private:
     static constexpr std::size_t kLatencies = 1 << 17;
     static constexpr std::size_t kPath = 2000;
-    /// Maximum total number of points of all paths. With more robots, each path is shorter.
+    /// Maximum total number of points of all paths. The maximum for one path is this number divided
+    /// by the number of robots.
     static constexpr std::size_t kAllPaths = 1 << 21;
 
     struct Robot {
@@ -129,7 +134,7 @@ class FleetState {
 
     void take_state(std::string_view name, RobotState state, const Now& now);
     void take_connection(std::string_view name, const RobotConnection& connection, const Now& now);
-    /// Updates the newest sign of life and the presence of a robot. `state` must not be late.
+    /// Updates `alive_us` and the presence of a robot from a state that is not late.
     static void note_sign_of_life(Robot& robot, const RobotState& state, const Now& now);
     Robot& touch(std::string_view name);
     void remove(std::string_view name);

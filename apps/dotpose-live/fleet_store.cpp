@@ -15,7 +15,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the value times `factor`, rounded and limited to 32 bits.
+/// Returns the value times `factor`, rounded to an integer and clamped to the range of 32 bits.
 std::int32_t narrow(double value, double factor) {
     constexpr double kMax = std::numeric_limits<std::int32_t>::max();
     return static_cast<std::int32_t>(std::lround(std::clamp(value * factor, -kMax, kMax)));

@@ -30,13 +30,13 @@ std::string stored_name(std::string_view name);
 /// Converts received states to stored states. Equal names share memory.
 class StoredStates {
   public:
-    /// Uses the time stamp of the robot. If the clock of the robot differs by more than half an
-    /// hour, uses the time of arrival.
+    /// Converts a state. The time of the stored state is the time stamp of the robot or, if this
+    /// differs by more than half an hour from the time of arrival, the time of arrival.
     store::State of(std::string_view robot, const RobotState& state, std::int64_t received_us);
 
   private:
     /// Maximum number of remembered names. Limits the memory, because any client of the broker can
-    /// invent names.
+    /// send states with arbitrary names.
     static constexpr std::size_t kMaxNames = 20'000;
 
     std::map<std::string, std::shared_ptr<const std::string>, std::less<>> robots_;
@@ -46,7 +46,7 @@ class StoredStates {
 class FleetStore {
   public:
     /// Throws Error if the database is a file that cannot be opened, or if the library for the
-    /// database is missing. `tell` may be called by another thread.
+    /// database is missing. `tell` receives messages for the user, possibly in another thread.
     FleetStore(const StoreArguments& arguments, std::function<void(const std::string&)> tell);
 
     void add(std::string_view robot, const RobotState& state, std::int64_t received_us) {
@@ -54,7 +54,8 @@ class FleetStore {
     }
     store::QueueStatus status() const { return queue_.status(); }
 
-    /// Stores the waiting states and reports their number. Throws Error if states were not stored.
+    /// Stores the states in the queue, and reports their number. Throws Error if states were not
+    /// stored, for example because the database was not available for 10 s.
     void finish();
 
   private:

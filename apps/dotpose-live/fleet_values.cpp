@@ -26,8 +26,8 @@ std::string text_in(const serve::Command& request, std::string_view key) {
     return text == nullptr ? std::string() : *text;
 }
 
-/// Returns a numeric argument of a request, truncated to a whole number and clamped to [0, `max`].
-/// Returns 0 if there is no such argument.
+/// Returns a numeric argument of a request, truncated to a whole number. A number above `max`
+/// becomes `max`. Returns 0 if the argument is missing, negative or NaN.
 std::size_t count_in(const serve::Command& request, std::string_view key, std::size_t max) {
     const auto* number = request.argument<double>(key);
     if (number == nullptr || !(*number > 0)) return 0;
@@ -257,7 +257,8 @@ std::string table_value(const FleetSnapshot& snapshot, const FleetMap& map, Deli
                         const serve::Command& request) {
     const std::vector<const FleetEntry*> chosen = RowChoice(request, map).rows_of(snapshot.robots);
     const std::size_t count = count_in(request, "rows", kMaxTableRows);
-    // If the requested page is beyond the end, the last page is returned.
+    // If the first requested row is too close to the end, or beyond it, the last `count` rows are
+    // returned.
     const std::size_t last = chosen.size() - std::min(chosen.size(), count);
     const std::size_t first = count_in(request, "first", last);
     nlohmann::json rows = nlohmann::json::array();

@@ -14,24 +14,26 @@
 
 namespace dotpose::cli {
 
-/// Returns the sheets of a sheet file, or nothing if the path is empty. Throws Error.
+/// Reads a sheet file. Returns an empty map if the path is empty. Throws Error if the file cannot
+/// be read.
 FleetMap read_fleet_map(const std::string& sheets);
 
 class FleetView {
   public:
-    /// `drawing` is the path of the drawing, or empty. Throws Error.
+    /// `drawing` is the path of the drawing, or empty for no drawing. Throws Error if it cannot be
+    /// written.
     FleetView(FleetMap map, std::string drawing, Delivery delivery);
 
     /// Takes the pressed keys, and shows the table if a key was pressed. Returns false if the user
     /// wants to end the program.
     bool take_keys(const FleetState& fleet, const Now& now);
 
-    /// Shows the table if standard output is a terminal. Draws the map, but spends at most a tenth
-    /// of the time on drawing.
+    /// Shows the table if standard output is a terminal. Draws the map, unless this would take more
+    /// than a tenth of the time: after a drawing that took t, the next one is not before 9 t later.
     void refresh(const FleetState& fleet, const Now& now);
 
-    /// Shows the final table and draws the final map. The table is complete, unless it is shown on
-    /// a terminal. Throws Error if the map cannot be written.
+    /// Shows the final table and draws the final map. On a terminal, only the first page of the
+    /// table is shown. Throws Error if the map cannot be written.
     void finish(const FleetState& fleet, const Now& now);
 
     /// Reports a message to the user. If the table is shown on a terminal, the message appears

@@ -147,8 +147,9 @@ void FleetWeb::obey() {
     }
 }
 
-/// Removes a robot as `dotpose fleet remove` does. The number and the name must both match, because
-/// a restarted program assigns the numbers again.
+/// Removes a robot like `dotpose fleet remove`. The command contains the number and the name of the
+/// robot, and both must match: after a restart of the program, the number may belong to another
+/// robot.
 void FleetWeb::remove(const serve::Command& command) {
     const auto* id = command.argument<double>("robot");
     const auto* name = command.argument<std::string>("name");

@@ -52,10 +52,10 @@ class FleetWeb {
     };
 
     void run();
-    /// Returns true if a client is ready and the period has passed. In this case, the next period
-    /// begins.
+    /// Returns true if a client is ready to receive the topic and its period has passed. The next
+    /// period then begins.
     static bool is_due(TimedTopic& timed, Clock::time_point now);
-    /// Returns the robots now. All topics of one tick share the snapshot.
+    /// Returns the current robots. The snapshot is taken once per tick, and all topics share it.
     const Snapshot& snapshot();
     void note_alerts(Clock::time_point now);
     void publish_lists(Clock::time_point now);

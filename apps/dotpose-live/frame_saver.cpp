@@ -35,7 +35,8 @@ const char* ending_of(ImageEncoding format) {
     return ".png";
 }
 
-/// Returns the highest frame number in a folder plus one, or 0 if the folder contains no frames.
+/// Returns the number of the next frame in a folder: the highest number of its frames plus one, or
+/// 0 if it contains no frames.
 std::int64_t number_after(const fs::path& folder) {
     std::int64_t next = 0;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -61,7 +62,8 @@ bool write_new(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
     errno = 0;
     const bool is_written =
         file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-    // fclose writes the buffered bytes. Writing fails if the disk is full.
+    // Also checks the result of fclose, which writes the buffered bytes and fails if the disk is
+    // full.
     const bool is_closed = file && std::fclose(file.release()) == 0;
     if (is_written && is_closed) return true;
     const int error_number = errno;

@@ -14,7 +14,8 @@ namespace dotpose::cli {
 
 struct SaveOptions {
     std::string folder;  ///< folder of the saved frames, or empty to save none
-    /// Saves every n-th frame. If 0, saves the frames that show a new place.
+    /// If this number is n > 0, every n-th frame is saved. If it is 0, the frames that show a new
+    /// place (NewPlaces) are saved.
     std::int64_t every = 0;
     ImageEncoding format = ImageEncoding::png;
 };

@@ -12,27 +12,30 @@
 namespace dotpose::cli {
 namespace {
 
-/// Distance between two frames of a straight drive. A drive of kWantedLength_mm has 40 frames.
+/// Minimum distance between two frames of a straight drive, so kWantedLength_mm needs at most 40
+/// steps.
 constexpr double kStep_mm = 1.5;
-/// Length of a straight drive. With residuals of 0.01 mm, this length determines the direction to
-/// 0.01 degrees.
+/// Required length of a straight drive. At this length, a residual of 0.01 mm at one end changes
+/// the direction by 0.01 degrees.
 constexpr double kWantedLength_mm = 60;
-/// Number of consecutive frames of a fast drive.
+/// Number of consecutive frames at which a fast drive is complete.
 constexpr std::size_t kWantedRun = 40;
-/// Minimum number of consecutive frames if the run ends early.
+/// Number of consecutive frames that suffices if the next frame does not continue the drive.
 constexpr std::size_t kMinRun = 15;
 /// Minimum motion between two frames of a fast drive, in spacings.
 constexpr double kMinMotion = 0.5;
 
-/// Number of frames of a pivoting pen, and the number at which a step with unmet requirements ends.
+/// Frames of a pivoting pen: the number at which the step ends if all requirements are met, and the
+/// number at which it ends in any case.
 constexpr std::size_t kWantedPivots = 30;
 constexpr std::size_t kMaxPivots = 80;
-/// Minimum difference between the tilts of two frames, as a tangent.
+/// Minimum distance of the tilt of a frame from those of all frames taken before, as a tangent.
 constexpr double kMinLeanStep = 0.08;
-/// Minimum tilt of a frame that counts for a direction, and minimum number of these frames.
+/// A direction is covered if at least kMinLeans frames are tilted towards it by at least
+/// kMinLean_deg.
 constexpr double kMinLean_deg = 10;
 constexpr int kMinLeans = 2;
-/// Largest tilt that a pen must reach.
+/// Tilt that at least one of the frames must reach.
 constexpr double kWantedLean_deg = 20;
 constexpr std::array<const char*, PivotFrames::kDirections> kSides = {
     "right edge", "lower right corner", "bottom edge", "lower left corner",
@@ -42,7 +45,7 @@ double degrees_of(const PenLean& lean) {
     return std::atan(std::hypot(lean.x, lean.y)) * kDegrees;
 }
 
-/// Returns the index of the side to which a pen is tilted.
+/// Returns the index in kSides of the side to which a pen is tilted.
 std::size_t side_of(const PenLean& lean) {
     const double turns = std::atan2(lean.y, lean.x) / (2 * std::numbers::pi);
     const auto side = std::lround(turns * PivotFrames::kDirections);
@@ -128,7 +131,8 @@ void ReadoutFrames::take(const GuidedFrame& frame) {
     if (seen_.size() > 1) advice_ = "go on at this speed";
 }
 
-/// Completes the calibration if there are enough consecutive frames, otherwise starts again.
+/// Ends the run of consecutive frames. Completes the step if the run is long enough, otherwise
+/// discards it.
 void ReadoutFrames::end_run() {
     is_complete_ = is_complete_ || images_.size() >= kMinRun;
     if (is_complete_) return;
@@ -147,8 +151,9 @@ double ReadoutFrames::interval_ms() const {
     return static_cast<double>(seen_.back().time_us - seen_.front().time_us) / 1000 / steps;
 }
 
-/// Along the image, the scale changes with the tangent of the tilt divided by the focal length. The
-/// camera leans away from the part of the paper that is farther.
+/// Computes the tilt from the perspective of the dots: per pixel, the image scale changes by the
+/// tangent of the tilt divided by the focal length. The camera is tilted away from the part of the
+/// paper that is farther from it.
 PenLean lean_in(const Fix& fix, double focal_px) {
     const FixedVec& perspective_q30 = fix.pattern_from_image.perspective_q30;
     const double u = std::ldexp(focal_px * perspective_q30.x, -30);

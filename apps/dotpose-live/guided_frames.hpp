@@ -113,21 +113,22 @@ class ReadoutFrames : public GuidedFrames {
     std::string advice_ = "drive fast over the sheet";
 };
 
-/// Tilt of a pen: the tangent of the angle between its camera and the normal of the paper, towards
-/// the right (x) and the bottom (y) of the sheet.
+/// Tilt of a pen as a vector on the sheet, with x to the right and y to the bottom. Its length is
+/// the tangent of the angle between the optical axis of the camera and the normal of the paper.
 struct PenLean {
     double x = 0;
     double y = 0;
 };
 
-/// Returns the tilt of the camera in a frame. The perspective of the dots shows it.
+/// Returns the tilt of the camera in a frame, computed from the perspective of the dots. The fix
+/// must be ok.
 PenLean lean_in(const Fix& fix, double focal_px);
 
 /// A pen that pivots about its tip: frames with different tilts.
 class PivotFrames : public GuidedFrames {
   public:
-    /// Number of directions into which the tilts are divided. The first one is to the right, the
-    /// third one to the bottom of the sheet.
+    /// Number of directions into which the tilts are divided. Direction 0 is towards the right edge
+    /// of the sheet, and direction 2 towards the bottom edge.
     static constexpr int kDirections = 8;
 
     explicit PivotFrames(double focal_px) : focal_px_(focal_px) {}

@@ -40,8 +40,8 @@ void HistoryPath::add(const store::State& state) {
     if (++points_ > kMaxPoints) thin_out();
 }
 
-/// Removes every other point of each stroke, except its ends, and doubles the minimum distance
-/// between new points.
+/// Removes every other point of each stroke except its ends. Doubles the minimum distance between
+/// the points that are added later.
 void HistoryPath::thin_out() {
     points_ = 0;
     for (auto& stroke : strokes_mm_) {

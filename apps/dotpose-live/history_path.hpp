@@ -24,7 +24,7 @@ class HistoryPath {
     draw::Map drawing() const;
 
   private:
-    /// Maximum number of points. If there are more, every other point is removed.
+    /// Maximum number of points. If it is exceeded, `thin_out` is called.
     static constexpr std::size_t kMaxPoints = 20'000;
 
     void thin_out();

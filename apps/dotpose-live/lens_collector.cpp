@@ -17,14 +17,14 @@ namespace {
 /// Maximum number of frames that are taken. More frames would take longer without improving the
 /// result.
 constexpr std::size_t kMaxFrames = 50;
-/// Maximum image speed of a steady camera, in px/s. At this speed, the image moves by less than a
-/// pixel during an exposure or the readout of a rolling shutter.
+/// Maximum image speed of a steady camera, in px/s. At this speed, the image moves by at most a
+/// pixel during an exposure or the readout of a rolling shutter, if these take up to 1/30 s.
 constexpr double kSteady_px_s = 30;
 /// Time without a steady frame after which frames of a moving camera are accepted, for example if
 /// the robot does not stop.
 constexpr std::int64_t kPatience_us = 3'000'000;
-/// Minimum number of newly covered image blocks for which a frame is taken at a place that was
-/// already seen.
+/// A frame at a place that was already seen is taken only if its dots cover at least this number of
+/// image blocks that no taken frame covers.
 constexpr int kNewParts = 3;
 
 CalibrationView view_of(const calibrate::LocatedFrame& located, const Fix& fix) {
@@ -123,7 +123,8 @@ std::string LensCollector::refusal(const capture::Frame& frame,
 LensCollector::Outcome LensCollector::take(capture::Frame& frame) {
     start_with(frame.image);
     const auto located = reader_.read(frame.image.view());
-    // This view remains valid when the pixels are moved out of `frame`.
+    // The view of the image remains valid after the pixels are moved out of `frame`, because moving
+    // a vector does not move its elements.
     Outcome outcome{refusal(frame, located), frame.image.view(), located.has_value()};
     if (outcome.is_taken()) {
         coverage_->add(view_of(*located, reader_.trace().fix));
@@ -156,8 +157,9 @@ std::optional<Camera> LensCollector::lens() const {
 
 /// Returns true if another calibration is likely to improve on the newest one. Because each
 /// calibration takes longer than the previous one, the number of frames must double between two
-/// calibrations. Fewer frames suffice if only the accuracy of the lens is insufficient, because
-/// standard deviations are inversely proportional to the square root of the number of frames.
+/// calibrations. If only the accuracy of the lens is insufficient, a smaller growth may suffice:
+/// standard deviations are inversely proportional to the square root of the number of frames, so
+/// the growth is the square of the ratio of the present to the required standard deviation.
 bool LensCollector::is_worth_calibrating() const {
     if (taken_.size() < std::size_t{kWantedFrames} || taken_.size() == job_.frames()) return false;
     const std::vector<CalibrationNeed> missing = needs();

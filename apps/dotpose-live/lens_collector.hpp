@@ -30,7 +30,8 @@ namespace dotpose::cli {
 /// Measures the speed of the image between two located frames.
 class ImageMotion {
   public:
-    /// Returns the speed since the previous frame, in px/s, or infinity if the speed is unknown.
+    /// Returns the speed of the image since the previous located frame, in px/s, or infinity if it
+    /// is not known.
     double speed_px_s(const Fix& fix, std::int64_t time_us, double reach_px);
     void forget() { newest_.reset(); }
 
@@ -72,17 +73,18 @@ class LensCollector {
     /// Waits at most `patience` for the running calibration. Returns true if it has ended.
     bool wait(std::chrono::milliseconds patience);
 
-    /// Returns true if the frames are sufficient and the verdict is good.
+    /// Returns true if no requirement is unmet and the verdict of the newest calibration is good.
     bool is_enough() const;
     /// Returns true if the maximum number of frames was taken.
     bool is_full() const;
 
-    /// Calibrates with all frames if there are enough. Calls `goes_on` repeatedly while it waits.
-    /// Returns false if `goes_on` returned false.
+    /// If enough frames were taken, calibrates with all of them and waits for the result. Calls
+    /// `goes_on` repeatedly while it waits. Returns false if `goes_on` returned false, otherwise
+    /// true.
     bool finish(const std::function<bool()>& goes_on);
 
-    /// Returns the calibration after `finish`. Throws Error if the frames are not sufficient for
-    /// the verdict `good`. The message names the unmet requirements.
+    /// Returns the newest calibration. Must be called after `finish`. Throws Error if the frames
+    /// are not sufficient for the verdict `good`. The message names the unmet requirements.
     const LensCalibration& result() const;
 
     /// Returns the unmet requirements. At least one frame must have been read.

@@ -39,7 +39,7 @@ class LiveCalibration {
         } catch (const BadArgument&) {
             throw;
         } catch (const Error& error) {
-            // The frames taken before the failure may be enough.
+            // The failure is only reported, because the frames taken before it may be enough.
             say(error.what());
         }
     }

@@ -11,8 +11,8 @@ class MetricsFile {
     /// Throws Error if the file cannot be written.
     MetricsFile(std::string path, std::function<void(const std::string&)> tell);
 
-    /// Replaces the file in one step. A reader never sees an incomplete file. If writing fails,
-    /// reports the first failure and continues, because the next attempt may succeed.
+    /// Replaces the file in one step, so that a reader never reads an incomplete file. If writing
+    /// fails, reports this once and returns, because a later attempt may succeed.
     void write(const std::string& text);
 
   private:

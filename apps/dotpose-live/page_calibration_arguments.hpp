@@ -18,8 +18,8 @@ class PageCalibrationArguments {
     /// Adds --calibrate-to. `command` must outlive this object.
     void add_to(Command& command);
 
-    /// Without --camera, the run uses the file of --calibrate-to, if it exists, as its camera file.
-    /// Throws Error if it is not a camera file.
+    /// If --camera is not given and the file of --calibrate-to exists, uses this file as the camera
+    /// file of the run. Throws Error if it is not a camera file.
     void use_replaced_camera(FollowerArguments& follower) const;
 
     /// Throws BadArgument if --calibrate-to is given without --web.
@@ -28,7 +28,8 @@ class PageCalibrationArguments {
     /// Throws Error if the file cannot be written.
     void require_writable_file() const;
 
-    /// Registers the sheet file and the camera files. --calibrate-to may name the file of --camera.
+    /// Registers the sheet file and the camera files as inputs, and the file of --calibrate-to as
+    /// output. This file may be the file of --camera.
     void add_files(const FollowerArguments& follower, RunFiles& files) const;
 
     /// Returns the options of the calibration, or none without --calibrate-to.

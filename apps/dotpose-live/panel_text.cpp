@@ -20,7 +20,9 @@ struct Shown {
     double angle_rad = 0;
 };
 
-/// Returns the pose to show, or none if the robot is lost and not on a sheet.
+/// Returns the pose to show: the place on the sheet, if there is one and the track is not in the
+/// world, otherwise the pose of the track. Returns none if the pose of the track is needed and the
+/// robot is lost.
 std::optional<Shown> shown_pose(const Reading& reading) {
     const std::optional<SheetPlace>& place = reading.record.place;
     const TrackedPose& pose = reading.track.pose;

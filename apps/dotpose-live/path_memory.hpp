@@ -1,5 +1,5 @@
-/// Stores the path of a robot in bounded memory. As the path grows, only every second, fourth,
-/// eighth (and so on) point is kept.
+/// Stores the path of a robot in bounded memory. Each time the memory is full, every second point
+/// is removed, and the points that are added later are twice as far apart in time.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,8 @@ class RefusalHistory {
         std::map<Status, std::int64_t> frames;
     };
 
-    /// Counts a frame. Times should not decrease.
+    /// Counts a frame in the second of its time. A frame that is older than the newest second is
+    /// counted in this second.
     void add(std::int64_t time_us, Status status);
 
     /// Returns the seconds with frames, oldest first.

@@ -32,8 +32,8 @@ struct ConditionLimits {
     std::int64_t gone_after_us = 60'000'000;  ///< at least `silent_after_us`
 };
 
-/// Returns the condition of a robot. `newest` is its newest state, `presence` its connection, and
-/// `silence_us` the time since its last message.
+/// Returns the condition of a robot. `newest` is its newest state, `presence` the state of its
+/// connection, and `silence_us` the time since its newest message.
 Condition condition_of(const RobotState& newest, publish::Presence presence,
                        std::int64_t silence_us, const ConditionLimits& limits);
 

@@ -22,15 +22,15 @@ struct RobotOutputOptions {
     std::string robot;
     std::string frame_prefix;      ///< prefix of the names of the robot's frames of reference
     std::optional<Camera> camera;  ///< source of the mount and the exposure time
-    /// True if the camera has a pose in space. Its mount is then not sent.
+    /// True if the run fits poses of the camera in space. The mount of the camera is then not sent.
     bool has_space_pose = false;
 
     bool is_wanted() const { return !mcap.empty() || dds; }
 };
 
-/// Computes the time stamps of messages, in ns. A live frame is stamped with the end of its
+/// Computes the time stamps of messages, in ns. A live frame has the time of the end of its
 /// exposure on the monotonic clock. ROS expects the middle of the exposure on the system clock, so
-/// the time is converted. Times of recorded frames are not changed.
+/// this time is converted. The times of recorded frames are used unchanged.
 class Stamps {
   public:
     explicit Stamps(double exposure_us) : half_exposure_ns_(std::llround(exposure_us * 500)) {}

@@ -16,7 +16,8 @@ class RobotRemover {
     RobotRemover(const RobotRemover&) = delete;
     RobotRemover& operator=(const RobotRemover&) = delete;
 
-    /// Clears the retained message of a robot. Does not wait for the broker. Thread-safe.
+    /// Clears the message that the broker retains for a robot. Does not wait for the broker.
+    /// Thread-safe.
     void remove(const std::string& robot);
 
   private:

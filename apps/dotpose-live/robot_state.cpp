@@ -19,8 +19,8 @@ std::string lost_reason(const Record& record) {
     return record.has_sheets && !has_place ? std::string(kNoPlace) : std::string();
 }
 
-/// Turns the axes of a pose by half a turn about x: y up to y down, and z out of the paper to z
-/// into the paper.
+/// Rotates the axes of a pose by half a turn about x. The y axis then points down instead of up,
+/// and the z axis into the paper instead of out of it.
 CameraInWorld with_y_down(const CameraInWorld& camera) {
     const auto [w, x, y, z] = camera.rotation;
     const double sign = x > 0 ? -1 : 1;  // keeps the w component positive

@@ -1,7 +1,8 @@
-/// Edits of a sheet file with undo, while other programs may change the file too.
+/// Edits a sheet file, with undo. Other programs may change the file at the same time.
 ///
-/// Each edit locks the file and reads it again. An edit is refused if another program changed the
-/// sheet since the user saw it. If a function throws Error or BadArgument, the file is unchanged.
+/// Each edit locks the file and reads it again. An edit of a sheet is refused if another program
+/// has changed this sheet since the user saw it. If a function throws Error or BadArgument, the
+/// file is unchanged.
 #pragma once
 
 #include <array>
@@ -37,7 +38,7 @@ class SheetEdits {
     /// Returns a number that increases with each change of any sheet.
     std::int64_t version() const { return version_; }
 
-    /// The revision of a sheet that the user saw.
+    /// A sheet to edit, with the revision that the user saw.
     struct Target {
         std::string name;
         std::int64_t revision = 0;
@@ -48,25 +49,27 @@ class SheetEdits {
     /// such as "move". Returns the new entry.
     SheetEntry change(const Target& target, const std::string& what, const Change& change);
 
-    /// Removes a sheet. Throws Error if it is the only one, because a run needs a sheet. An undone
-    /// removal puts the sheet at the end of the file, without keys that dotpose does not know.
+    /// Removes a sheet. Throws Error if it is the only one, because a run needs a sheet. If the
+    /// removal is undone, the sheet is added at the end of the file, and keys that dotpose does not
+    /// know are lost.
     void remove(const Target& target);
 
-    /// Replaces the places and print scales of several sheets in one edit. `targets` are the
-    /// revisions of the sheets at the start of the measurement.
+    /// Replaces the places and print scales of several sheets by those in `measured`, in one edit.
+    /// `targets` contains the sheets with their revisions at the start of the measurement.
     void change_all(const std::vector<Target>& targets, const std::vector<SheetEntry>& measured,
                     const std::string& what);
 
     /// Marks a reserved sheet as made, because its page exists now. The change cannot be undone.
     void confirm(const std::string& name);
 
-    /// Return descriptions of the edits that `undo` and `redo` would make, such as "move 'table'",
-    /// or empty strings.
+    /// Returns the description of the edit that `undo` or `redo` would make, such as "move
+    /// 'table'", or an empty string if there is none.
     std::string undo_text() const { return undo_.empty() ? "" : undo_.back().text; }
     std::string redo_text() const { return redo_.empty() ? "" : redo_.back().text; }
 
-    /// Undoes or redoes an edit. Returns its description. If another program has since changed one
-    /// of the sheets of the edit, throws Error and discards the edit.
+    /// Undoes or redoes the newest edit. Returns its description, or throws Error if there is none.
+    /// If another program has since changed one of the sheets of the edit, throws Error and
+    /// discards the edit.
     std::string undo();
     std::string redo();
 

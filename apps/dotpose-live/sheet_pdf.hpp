@@ -8,7 +8,8 @@
 
 namespace dotpose::cli {
 
-/// Throws Error if the page has so many dots that its PDF would take minutes to write.
+/// Throws Error if the page has more than 8 million dots, because writing its PDF would take
+/// minutes.
 void require_printable(const Sheet& sheet);
 
 /// Returns the PDF of the page of a sheet, as `dotpose sheets reprint` writes it. Calls `goes_on`

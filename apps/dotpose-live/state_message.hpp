@@ -43,9 +43,9 @@ struct MessageTopic {
     Subject subject = Subject::visualization;
 };
 
-/// Parses a topic. The sender is taken from the topic and not from the message, because brokers
-/// grant access rights by topic. Returns none if the topic does not have the form of `topic_of`, or
-/// if the name is too long.
+/// Parses a topic. Returns none if the topic does not have the form of `topic_of`, or if the name
+/// is longer than kMaxNameBytes. The name of the sender is taken from the topic and not from the
+/// message, because brokers restrict the topics, but not the messages, that a client may send.
 std::optional<MessageTopic> parse_topic(std::string_view topic);
 
 /// Value of RobotState::reason if the frame was located, but its sheet has no place in the world.

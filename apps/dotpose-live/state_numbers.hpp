@@ -12,10 +12,10 @@ namespace dotpose::cli {
 
 struct StateCounts {
     std::int64_t messages = 0;
-    std::int64_t missed = 0;  ///< number of missing states, from gaps in the sequence
+    std::int64_t missed = 0;  ///< number of missing states, computed from gaps between the numbers
     std::int64_t late = 0;    ///< number of states that arrived after newer states; not in `missed`
-    /// Number of repetitions of earlier states. With QoS 1, some states are sent again after a
-    /// broken connection.
+    /// Number of states that were received more than once. With QoS 1, some states are sent again
+    /// after a broken connection.
     std::int64_t repeated = 0;
 
     StateCounts& operator+=(const StateCounts& more);
@@ -25,11 +25,12 @@ class StateNumbers {
   public:
     enum class Arrival { news, late, repeated };
 
-    /// Counts a state and returns its arrival. The arrival is `news` if the number of the state is
-    /// higher than all earlier numbers, regardless of its time, or if its number is lower but its
-    /// time is later, because the robot was restarted. A state with a lower number and an earlier
-    /// time is `late`. If several late states arrive in ascending order of time, the robot was
-    /// restarted with its clock set back, so these states become `news`.
+    /// Counts a state and classifies it. A state is `repeated` if it is among the last states that
+    /// were received. Otherwise, it is `late` if its time is earlier than that of the newest state
+    /// and its number is not higher. All other states are `news`; if the number of such a state is
+    /// lower, the robot was restarted. Several late states in ascending order of time show that the
+    /// robot was restarted with its clock set back. From the fifth of them on, these states are
+    /// `news`.
     Arrival take(const RobotState& state, StateCounts& counts);
 
   private:

@@ -30,9 +30,9 @@ class CameraCounter {
 /// Creates the numbered state messages of a robot from its readings.
 class StateSource {
   public:
-    /// `sheets` is the path of the sheet file, whose name is the map of poses in the world. Creates
-    /// at most `max_rate_hz` states per second, except after events. If `max_rate_hz` is 0, creates
-    /// a state for each reading.
+    /// `sheets` is the path of the sheet file. Its name without extension is the name of the map of
+    /// world poses. Creates at most `max_rate_hz` states per second, and additional ones for
+    /// events. If `max_rate_hz` is 0, creates a state for each reading.
     StateSource(std::string robot, const std::string& sheets, double max_rate_hz);
 
     /// Counts the reading. Returns its state, or none if the state is not due.

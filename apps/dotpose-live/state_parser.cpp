@@ -69,7 +69,8 @@ std::string optional_name_in(const object& values, std::string_view key) {
     return values[key].error() == simdjson::NO_SUCH_FIELD ? std::string() : name_in(values, key);
 }
 
-/// Returns the index of a status name in RefusedFrames.
+/// Returns the index of a status name in RefusedFrames. An unknown name has the index of
+/// Status::other.
 std::size_t refused_index(std::string_view text) {
     std::size_t i = 0;
     while (i < static_cast<std::size_t>(kStatusCount) && name(static_cast<Status>(i)) != text)

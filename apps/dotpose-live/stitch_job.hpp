@@ -40,8 +40,8 @@ class StitchJob {
     StitchJob(const StitchJob&) = delete;
     StitchJob& operator=(const StitchJob&) = delete;
 
-    /// Copies a frame if the job is ready for it and the frame is useful: it shows a new place near
-    /// the edge of a sheet, or it is not located. `image` is the located image.
+    /// Copies a frame if the job is idle and the frame may show two sheets: it shows a new place
+    /// near the edge of a sheet, or it is not located. `image` is the image that was located.
     void offer(const Reading& reading, ImageView image);
 
     const std::vector<SheetEntry>& sheets() const { return sheets_; }

@@ -21,8 +21,8 @@ constexpr std::string_view kTopLeft = "\033[H";
 constexpr std::string_view kEraseRight = "\033[K";
 constexpr std::string_view kEraseBelow = "\033[J";
 
-/// Bytes that terminals send for keys. A longer sequence precedes the sequences that are its
-/// prefixes.
+/// Bytes that terminals send for keys. They are compared in this order, so a sequence must precede
+/// the shorter sequences with which it begins.
 constexpr std::array<std::pair<std::string_view, Key>, 22> kKeys = {{
     {"\033[5~", Key::page_up},
     {"\033[6~", Key::page_down},
@@ -51,7 +51,7 @@ constexpr std::array<std::pair<std::string_view, Key>, 22> kKeys = {{
 }  // namespace
 
 bool TerminalScreen::is_available() {
-    // The system would stop a background program that changes the terminal.
+    // A program in the background must not change the terminal, because the system would stop it.
     return isatty(STDOUT_FILENO) == 1 && tcgetpgrp(STDOUT_FILENO) == getpgrp();
 }
 

@@ -119,7 +119,7 @@ class Pace {
     }
 
   private:
-    /// Clock time at which the source time is 0.
+    /// Steady time at which the time of the source is 0. None before the first recorded frame.
     std::optional<std::chrono::steady_clock::time_point> begun_;
 };
 
@@ -199,7 +199,8 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
     } catch (const BadArgument&) {
         throw;
     } catch (const Error& error) {
-        // Returns normally, so that the map and the report include the earlier frames.
+        // Returns an exit status instead of throwing, so that the map and the report still include
+        // the frames before the failure.
         tell(error.what());
         return kExitFailed;
     }

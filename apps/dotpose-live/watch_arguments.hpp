@@ -21,7 +21,8 @@ struct DdsArguments {
     std::optional<int> domain;
 
     void add_to(Command& command);
-    /// Returns none without --dds. Throws BadArgument if ROS_DOMAIN_ID is not a valid domain.
+    /// Returns the options of the DDS publisher, or none without --dds. Throws BadArgument if
+    /// ROS_DOMAIN_ID is needed and is not a valid domain.
     std::optional<dds::PublisherOptions> publisher() const;
 };
 

@@ -14,8 +14,8 @@ namespace dotpose::cli {
 /// Thread-safe.
 class WatchMetrics {
   public:
-    /// Counts a frame. `tally` contains the frame. `dropped` is the number of frames that were
-    /// dropped since the start.
+    /// Counts a frame with this status. `tally` already includes the frame. `dropped` is the number
+    /// of frames that were dropped since the start.
     void take(Status status, const WatchTally& tally, std::int64_t dropped, double rate_hz);
 
     /// Returns the metrics in the text format of Prometheus.

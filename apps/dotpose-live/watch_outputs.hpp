@@ -37,8 +37,8 @@ struct OutputOptions {
 /// Writes pose packets to a file or serial device.
 class PacketOutput {
   public:
-    /// Throws Error if the file or device cannot be opened. `write` throws Error on failure, and
-    /// ReaderLeft if the reader closed a pipe.
+    /// Opens the file or device. Throws Error on failure. `write` also throws Error on failure, but
+    /// ReaderLeft if the output is a pipe that its reader has closed.
     explicit PacketOutput(const std::string& path);
     ~PacketOutput();
     PacketOutput(const PacketOutput&) = delete;
@@ -68,8 +68,9 @@ class WatchOutputs {
     /// Returns the sheets if the page or another program changed them since the previous call.
     /// Returns none otherwise, and always without a page.
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
-    /// Uses the new sheets of the follower. `was_in_world` is true if the poses of the earlier
-    /// frames are in world coordinates.
+    /// Shows the new sheets of the follower. `was_in_world` is true if the poses of the earlier
+    /// frames are in world coordinates. If the poses of later frames are not in the same plane, the
+    /// path begins again.
     void use_sheets(bool was_in_world);
 
     const WatchTally& tally() const { return tally_; }

@@ -62,7 +62,8 @@ json json_of(const CalibrationStatus& status) {
             {"is_taken", status.is_taken}};
 }
 
-/// Returns the mean residuals of the image blocks, with u and v alternating.
+/// Returns the mean residuals of the image blocks as lists in which the u and v components
+/// alternate.
 json json_of(const ResidualField& field) {
     json before = json::array();
     json after = json::array();

@@ -14,8 +14,8 @@ namespace dotpose::cli {
 
 class WebCalibration {
   public:
-    /// Adds the topic to the server, which must not have started. Without options, the page shows
-    /// how to enable the calibration, and commands are refused.
+    /// Adds the topic to the server, which must not have started. If `options` is none, the page
+    /// explains how to enable the calibration, and commands are refused.
     WebCalibration(std::optional<GuideOptions> options, serve::Server& server);
 
     /// Obeys {"do": "calibrate", "action": "start", "step": NAME}, or the action "finish", "cancel"
@@ -26,8 +26,8 @@ class WebCalibration {
     /// Calibrates with these sheets from now on.
     void set_sheets(std::vector<SheetEntry> sheets);
 
-    /// Offers a frame, and sends the state if it has changed. `image` is the image that was
-    /// located; it may be empty.
+    /// Offers a frame to the running step, and sends the state if it has changed. `image` is the
+    /// image that was located, or empty.
     void take(const capture::Frame& frame, const Reading& reading, ImageView image,
               double bits_per_px);
 

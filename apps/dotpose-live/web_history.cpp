@@ -28,7 +28,7 @@ struct HistoryRequest {
     double last_s = 0;
     double from_s = 0;
     double to_s = 0;
-    double ask = 0;  ///< number that the page chooses to read the same span again
+    double ask = 0;  ///< number chosen by the page; a new number reads the same time span again
     bool operator==(const HistoryRequest&) const = default;
 };
 
@@ -108,7 +108,8 @@ struct WebHistory::Queries {
     std::string read_states(const HistoryRequest& request);
 };
 
-/// Returns the value for a client. Called on the thread of the server, so it does not wait.
+/// Returns the value for a client. Must not wait for the database, because it is called in the
+/// thread of the server.
 std::string WebHistory::Queries::value_for(const serve::Command& command) {
     try {
         const std::optional<HistoryRequest> request = request_of(command);

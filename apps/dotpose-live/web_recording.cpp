@@ -85,7 +85,8 @@ void WebRecordings::stop() {
     files_.push_back(name_ + kMessagesEnding);
 }
 
-/// Returns true if the disk is almost full. The free space is checked at most once a second.
+/// Measures the free space of the disk at most once a second. Returns true if it was measured in
+/// this call and is less than 256 MiB, otherwise false.
 bool WebRecordings::is_disk_full() {
     constexpr std::uintmax_t kReserve_bytes = 256 << 20;
     const auto now = std::chrono::steady_clock::now();

@@ -17,8 +17,8 @@ namespace dotpose::cli {
 
 class WebRecordings {
   public:
-    /// `messages` describes the robot; its MCAP file and its DDS publisher are not used. `empty` is
-    /// a record without a fix, with the fields of the run.
+    /// `messages` describes the robot; the MCAP file and the DDS publisher in it are ignored.
+    /// `empty` is a record without a fix that has the fields of the run.
     WebRecordings(std::filesystem::path folder, RobotOutputOptions messages, Record empty);
 
     /// Starts a recording, unless one is running. Creates new files, named after the robot and the

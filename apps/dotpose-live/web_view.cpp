@@ -79,8 +79,7 @@ WebView::WebView(WebOptions options, const Follower& follower)
     }
     server_.start();
     if (sheet_view_) sheet_view_->start();
-    // If the log is a pipe, the page cannot offer it, because the reader of the pipe receives the
-    // data.
+    // The page offers the log only if it is a regular file. The data of a pipe go to its reader.
     if (!std::filesystem::is_regular_file(options_.log)) options_.log.clear();
     if (!options_.log.empty()) {
         server_.set_route("/log.csv", [log = options_.log] {
@@ -138,7 +137,8 @@ void WebView::take(const capture::Frame& frame, const Reading& reading, const Wa
                       source.bits_per_px);
 }
 
-/// Returns the image that was located or, if it was reduced, the whole frame.
+/// If the located image is a reduced copy of the frame, returns the frame, otherwise the located
+/// image.
 ImageView WebView::image_for_calibration(const capture::Frame& frame) const {
     const ImageView located = follower_.image();
     return located.width_px == frame.image.width_px ? located : frame.image.view();

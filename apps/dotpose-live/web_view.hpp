@@ -51,7 +51,7 @@ class WebView {
     void take(const capture::Frame& frame, const Reading& reading, const WatchTally& tally,
               const PathMemory& path, const SourceState& source);
 
-    /// Returns the sheets if they changed since the previous call, otherwise none.
+    /// Returns the sheets if they changed since the previous call. Otherwise returns none.
     std::optional<std::vector<SheetEntry>> take_changed_sheets();
     /// Shows the new sheets of the follower.
     void use_sheets();

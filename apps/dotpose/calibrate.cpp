@@ -89,8 +89,8 @@ Series series_of(const CalibrateArguments& arguments) {
     return series;
 }
 
-/// Runs `work(number of frames, frame_at, options)` and shows the progress. If the camera has a
-/// flat field, the frames are corrected by it.
+/// Runs `work(number of frames, frame_at, options)` on the frames of the sources, and shows the
+/// progress. If the camera has a flat field, `frame_at` returns frames that are corrected by it.
 template <typename Work>
 auto with_progress(const CalibrateArguments& arguments, Sources& sources,
                    const std::optional<Camera>& camera, const std::string& what, Work work) {
@@ -230,8 +230,8 @@ std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
     return stitching_report(stitching);
 }
 
-/// If --camera is not given, uses the camera file that -o replaces, to keep values that this
-/// calibration does not determine, such as the mount.
+/// If --camera is not given, uses the camera file that -o replaces as the camera. Values that this
+/// calibration does not determine, such as the mount, are thus kept.
 void keep_camera_of(const std::string& out, CameraArgument& camera) {
     if (!camera.path.empty()) return;
     camera.camera = replaced_camera("-o", out);
@@ -262,7 +262,8 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
     } else {
         files.reads("--sheets", arguments.sheets);
     }
-    // -o and --camera may name the same file, because values that are not calibrated are kept.
+    // -o and --camera may name the same file. The file is then updated: values that are not
+    // calibrated are kept.
     const auto camera = identity_of(arguments.camera.path);
     if (camera && camera == identity_of(arguments.out) &&
         !is_camera_info(system::path_of(arguments.camera.path))) {
@@ -306,8 +307,8 @@ int run(CalibrateArguments& arguments) {
     require_apart(arguments, series);
     keep_camera_of(arguments.out, arguments.camera);
     use_sheets(arguments);
-    // An output that cannot be written is reported before the user spends minutes moving the
-    // camera.
+    // Checked here, so that an output that cannot be written is reported before the user spends
+    // minutes moving the camera.
     if (arguments.is_live && !arguments.out.empty())
         require_writable(system::path_of(arguments.out));
     catch_interrupts();

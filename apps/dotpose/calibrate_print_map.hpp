@@ -19,8 +19,8 @@ struct PrintMapArguments {
     std::string picture;  ///< path of the picture of the map (SVG), or empty
 };
 
-/// Reads all frames, and writes or updates the map. After Ctrl-C, the map is made of the frames
-/// read so far. Prints a report.
+/// Reads all frames, and writes or updates the map. After Ctrl-C, no more frames are read, and the
+/// map is made of those read so far. Prints a report.
 void make_print_map(const PrintMapArguments& arguments);
 
 }  // namespace dotpose::cli

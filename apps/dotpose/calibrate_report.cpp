@@ -21,8 +21,8 @@ void add(std::string& text, fmt::format_string<Values...> format, Values&&... va
     text += '\n';
 }
 
-/// Returns the displacement of the farthest image corner by lens distortion, in percent of the
-/// distance between the corner and the distortion centre.
+/// Returns the displacement of the farthest image corner by lens distortion, in percent of its
+/// distance from the distortion centre.
 double corner_displacement(const Camera& camera) {
     const PixelPoint corner = farthest_corner(camera);
     const PixelPoint straight = undistorted(camera, corner);
@@ -87,7 +87,8 @@ std::string lens_report(const LensCalibration& calibration, SpacingSource source
         calibration.px_per_spacing, 100 * calibration.dot_width, 100 * calibration.coverage);
     add(text, "residual    {:.4f} px before, {:.4f} px after (rms per axis)",
         calibration.residual_before_px, calibration.residual_px);
-    // Only the view of a mounted camera depends on the spacing.
+    // The spacing affects only the view of a mounted camera, so it is reported only for mounted
+    // cameras.
     const bool is_assumed = calibration.is_mounted && source == SpacingSource::assumed &&
                             calibration.verdict == CalibrationVerdict::good;
     if (calibration.is_mounted) {

@@ -13,8 +13,8 @@ namespace dotpose::cli {
 inline constexpr const char* kMirrored =
     "the frames show the pattern mirrored: use --flip, which is then written into the camera file";
 
-/// The frames of a calibration: all given images, and at most 50 frames of each video, camera or
-/// raw stream, which show different places. Images are read when they are needed. All other frames
+/// The frames of a calibration: all given images, and up to 50 frames that show different places
+/// from each video, camera or raw stream. Images are read when they are needed. All other frames
 /// are kept in memory.
 class CalibrationFrames {
   public:

@@ -75,7 +75,7 @@ void add_field(std::string& text, const CheckedScan& scan, const PrintField& fie
 }
 
 /// Returns a prefix that names a field: "sheet 'table': ", or "from cell X,Y on: " if the field is
-/// not on a known sheet. The prefix is empty if there is only one field.
+/// not on a known sheet. The prefix is empty if there is only one field, or if `index` is none.
 std::string about(const CheckedScan& scan, const PrintCheck& check,
                   std::optional<std::size_t> index) {
     if (!index || check.fields.size() == 1) return "";
@@ -161,8 +161,8 @@ ordered_json json_of(const Pattern& pattern) {
     return {{"spacing_mm", rounded(pattern.spacing_mm, 6)}, {"dot_mm", rounded(pattern.dot_mm, 6)}};
 }
 
-/// Returns a remark to append to the name of a detected code. The remark is empty if all other
-/// codes are improbable.
+/// Returns a remark to append to the name of a detected code. It is empty if the probability that
+/// another code was printed is below 1 %.
 std::string code_remark(const PrintCheck& check) {
     constexpr double kDoubtful = 0.01;
     if (check.code_p_wrong < kDoubtful) return "";

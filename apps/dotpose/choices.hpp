@@ -8,8 +8,8 @@
 
 namespace dotpose::cli {
 
-/// Returns a validator that accepts only `names`. Its error message lists the names and suggests
-/// the nearest one.
+/// Returns a validator that accepts only `names`. For any other value, the error message lists the
+/// names and suggests the most similar one.
 Validator one_of(const std::vector<std::string>& names);
 
 /// Joins the names as "a, b or c".

@@ -41,7 +41,8 @@ bool parse_number(const std::string& text, int& number);
 /// Returns the reason why a value is invalid, or an empty string if the value is valid.
 using Check = std::function<std::string(const std::string& value)>;
 
-/// Checks option values. If only a few values are valid, `choices` lists them.
+/// Checks option values. `choices` lists all valid values if there are only a few, and is otherwise
+/// empty.
 class Validator {
   public:
     explicit Validator(Check check, std::vector<std::string> choices = {})
@@ -89,7 +90,8 @@ class Option {
     std::vector<std::string> get_lnames() const;  ///< long names, without the hyphens
     bool get_positional() const;
     int get_items_expected_max() const;  ///< maximum number of values, or 0 for a flag
-    /// All values that the validators accept. Empty if the validators do not list them.
+    /// Returns all values that the validators accept, or an empty list if the validators do not
+    /// list them.
     const std::vector<std::string>& choices() const { return choices_; }
 
   private:
@@ -135,7 +137,7 @@ class Command {
     /// Parses the arguments of `main` and runs the callbacks of the given commands. Returns false
     /// after printing the help or the version. Throws UsageError.
     bool parse(int argc, const char* const* argv);
-    /// Like the first overload, for words in reverse order without the program name.
+    /// Like the first overload, but takes the words without the program name and in reverse order.
     bool parse(std::vector<std::string> words);
 
     std::string get_name() const;
@@ -153,7 +155,7 @@ class Command {
     Command* command_of(CLI::App* app) const;
 
     std::shared_ptr<CLI::App> app_;
-    // Wrappers of options and commands, created on first use.
+    // Wrappers of the options and commands of CLI11. Each is created when it is first used.
     mutable std::map<CLI::Option*, Option> options_;
     mutable std::map<CLI::App*, std::unique_ptr<Command>> commands_;
 };

@@ -52,9 +52,9 @@ std::string require_positive(const std::string& text) {
     return "'" + text + "' is not a length in mm above 0";
 }
 
-/// Rejects a spacing that was probably given in micrometres or metres. The minimum is about ten
-/// dots of a printer with 25,000 dpi. At the maximum, the smallest view that determines a position
-/// (8 x 8 dots) is 0.8 m wide.
+/// Rejects a spacing that was probably given in micrometres or metres instead of millimetres. The
+/// minimum is about ten dots of a printer with 25,000 dpi. At the maximum, a view of 8 x 8 dots,
+/// the smallest that determines a position, is 0.8 m wide.
 std::string require_spacing(const std::string& text) {
     constexpr double kMin_mm = 0.01;
     constexpr double kMax_mm = 100;

@@ -85,8 +85,8 @@ Option* add_named(Command& command, const std::string& flag, const Values& value
 /// The options --code, --section, --spacing, --displacement and --dot.
 class PatternArguments {
   public:
-    /// Whether the command makes the pattern or expects it in an image. An expected pattern has no
-    /// option --section, because the section is read from the image.
+    /// Use of the pattern: the command makes it, or expects it in an image. For an expected
+    /// pattern, there is no option --section, because the section is read from the image.
     enum class Use { made, expected };
     void add_to(Command& command, Use use = Use::made);
 

@@ -36,7 +36,7 @@ Command* command_named(const std::string& name, const Command& parent) {
 }  // namespace
 
 void print_completions(Command& app, std::vector<std::string> words) {
-    // Words "=" are removed, because bash splits --option=value at the "=".
+    // bash splits --option=value into three words, so the words "=" are removed.
     if (words.empty() || words.back() == "=") words.emplace_back();
     std::erase(words, "=");
     const std::string typed = words.back();

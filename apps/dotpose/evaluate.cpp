@@ -90,7 +90,7 @@ Progress progress_on(ProgressLine& line) {
     };
 }
 
-/// Returns the score as JSON. Statistics without frames, which are NaN in `score`, become null.
+/// Returns the score as JSON. Statistics over no frames are NaN in `score` and null in JSON.
 nlohmann::ordered_json json_of(const Score& score) {
     nlohmann::ordered_json statuses = nlohmann::ordered_json::object();
     for (std::size_t i = 1; i < score.by_status.size(); ++i) {
@@ -147,7 +147,8 @@ std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line) 
         std::ranges::move(evaluate(run).front(), std::back_inserter(outcomes));
     }
     if (interrupted()) {
-        // Frames of a video that were not read are marked by a problem.
+        // The frames of a video that were not read before the interruption have a problem. Frames
+        // with a problem are therefore omitted.
         std::erase_if(outcomes, [](const Outcome& outcome) { return !outcome.problem.empty(); });
         tell(fmt::format("interrupted; the report covers the first {} of {} frames",
                          outcomes.size(), all.frames));
@@ -172,8 +173,8 @@ int evaluate_run(const EvaluateArguments& arguments, const std::string& what, Fr
     return outcomes.size() < static_cast<std::size_t>(run.frames) ? kExitFailed : exit_code;
 }
 
-/// Makes `run` locate the frames with the camera file, as `locate --camera` does. A frame whose
-/// size differs from the size in the camera file gets a problem.
+/// Makes `run` locate the frames with the camera file, as `locate --camera` does. A frame of
+/// another size than the camera file gets a problem instead of a result.
 void locate_with(const Camera& camera, const std::vector<TruthRow>& rows, FrameRun& run) {
     run.frame_at = [camera, rows, read = run.frame_at](int index) {
         KnownFrame frame = read(index);
@@ -294,8 +295,8 @@ int evaluate_protocol(const EvaluateArguments& arguments) {
 int run(EvaluateArguments& arguments) {
     const bool writes = arguments.sweep || arguments.protocol;
     const bool has_sources = arguments.sources.is_given();
-    // Without --sweep and --protocol, --preset selects the frames to evaluate. Otherwise, it sets
-    // the conditions of the sweep or the protocol.
+    // --preset is a job of its own only without --sweep and --protocol, for which it sets the
+    // conditions.
     const int jobs = static_cast<int>(has_sources) + static_cast<int>(arguments.sweep.has_value()) +
                      static_cast<int>(arguments.protocol) +
                      static_cast<int>(arguments.preset && !writes);

@@ -17,8 +17,9 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the place of the reference point on its sheet or in the world, or none if this frame
-/// does not determine the place.
+/// Returns the place of the reference point in the world or, if `is_in_world` is false, on its
+/// sheet. Returns none if the frame shows no sheet of the file, or if the world is requested and
+/// the sheet has no pose in it.
 std::optional<FoundPlace> found_in(bool is_in_world, const std::optional<SheetPlace>& place) {
     if (!place) return std::nullopt;
     const std::string& sheet = place->entry->name;

@@ -31,14 +31,15 @@ struct Field {
 std::string decimal(double value, int decimals);
 
 /// Formats an element of a covariance with a fixed number of significant digits, because the
-/// elements differ by many powers of ten. Converts -0 to 0. Returns an empty string for NaN and
-/// infinity.
+/// elements of one matrix differ by many powers of ten. Converts -0 to 0. Returns an empty string
+/// for NaN and infinity.
 std::string significant(double value);
 
 /// Formats an angle in degrees. The result is in (-180, 180] even after rounding.
 std::string degrees(double angle_rad);
 
 /// Formats an upper bound of a probability with three digits, rounded up to remain an upper bound.
+/// A bound below 1e-30 is formatted as 1e-30.
 std::string p_wrong_text(double p_wrong);
 
 /// Formats fields as one line that ends with a line break. In JSON, fields without a value are null

@@ -19,7 +19,8 @@ struct FollowerArguments {
     FollowerOptions options;  ///< without the contents of the sheet file and camera file
 
     /// Adapts the camera file to the frames of `sources` (SourceArguments::fit_to). With a camera
-    /// file, --reference is a pixel of the whole frame, even if --roi selects a region.
+    /// file, --reference is given as a pixel of the whole frame, so it is also adapted if --roi
+    /// selects a region.
     void fit_to(SourceArguments& sources);
 
     /// Registers the input files.

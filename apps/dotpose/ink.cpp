@@ -47,8 +47,9 @@ std::string extension_of(const std::string& out) {
     return print::lower_case(system::path_of(out).extension().string());
 }
 
-/// Reads the tip of the pen from a row of the log. If the row has no tip, or if the tip is on none
-/// of the sheets, the sample has no standard deviations. `index` is the index of the row.
+/// Reads the tip of the pen from the row with this index in the log. If the row contains no tip, or
+/// if the tip is not on a sheet, the sample has no standard deviations, which marks it as a sample
+/// without a tip.
 InkSample sample_of(const LogCells& row, std::int64_t index, double fps) {
     if (row.number("tip_x_pattern_m")) throw Error("its lengths are in m; write it in --units mm");
     InkSample sample;
@@ -105,8 +106,8 @@ void set_sizes(const std::string& sheets, std::vector<InkPage>& pages) {
     }
 }
 
-/// Returns the path of the file of a page: the path of -o. If there are several pages, the name of
-/// the page is inserted before the extension.
+/// Returns the path of the file of a page. This is the path of -o if there is only one page.
+/// Otherwise, the name of the page is inserted before the extension.
 std::string path_of_page(const std::string& out, const std::string& page, bool is_only) {
     if (is_only) return out;
     std::string name = page;

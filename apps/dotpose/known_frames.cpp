@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using capture::SourceKind;
 
-/// Returns true if the last components of `path` are those of `end`.
+/// Returns true if the last components of `path` are equal to the components of `end`.
 bool ends_with(const fs::path& path, const fs::path& end) {
     const std::vector<fs::path> all(path.begin(), path.end());
     const std::vector<fs::path> last(end.begin(), end.end());
@@ -102,9 +102,9 @@ KnownFrames known_images(const std::vector<std::string>& names,
     return known;
 }
 
-/// Frames that can only be read in order. Several threads may request frames, each frame once. A
-/// request reads all frames up to its index and keeps the others in memory, so the requests should
-/// be roughly in order.
+/// Frames of sources that can only be read in order. Several threads may request frames, but each
+/// frame only once. A request reads all frames up to its index, and keeps the frames before it in
+/// memory until they are requested. The requests should therefore be roughly in order.
 class FramesInOrder {
   public:
     /// Opens the first source. Throws Error or BadArgument if the source cannot be opened.

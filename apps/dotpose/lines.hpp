@@ -42,8 +42,8 @@ class Lines {
     /// An empty path or "-" means standard output. Throws Error if the file cannot be created.
     explicit Lines(const std::string& path);
 
-    /// Writes a line. Throws Error if the line cannot be written. If the reason is that the reader
-    /// closed the output, and SIGPIPE is ignored, throws ReaderLeft.
+    /// Writes a line. Throws ReaderLeft if the reader closed the output and SIGPIPE is ignored.
+    /// Throws Error if the line cannot be written for any other reason.
     void write(const std::string& line);
 
   private:

@@ -201,8 +201,8 @@ void run(const ListenArguments& arguments) {
     files.reads("--web-token-file", arguments.page.token_file);
     files.writes_lines(arguments.lines.out, content_of(arguments.lines.format));
     files.writes("--log", arguments.log, Content::csv);
-    // The sinks are opened before all other outputs, because opening them may replace this process
-    // by dotpose-live.
+    // The sinks are opened before all other outputs, because `dotpose` may replace this process
+    // with dotpose-live to open them.
     Sinks sinks = open_sinks(arguments);
     catch_interrupts();
     ByteSource source(arguments);

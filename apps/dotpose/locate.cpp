@@ -92,8 +92,8 @@ class ImageLocator {
         return record;
     }
 
-    /// Returns the record of an image that was not read because the size in its header is too
-    /// large.
+    /// Returns the record of an image whose pixels were not read, because the size in its header is
+    /// too large.
     Record too_large(const std::string& name, const ImageTooLarge& image) const {
         Record record = empty_record(follower_);
         record.file = name;
@@ -170,8 +170,8 @@ class LocateRun {
           frames_(sources.open(options_of(arguments))),
           images_(sources.number_of_images()),
           progress_("locating", arguments.lines.out) {
-        // A signal must end the tool immediately while it waits for a name from a pipe. No line is
-        // lost, because each line is flushed.
+        // Signals are not caught if names come from a pipe: while the tool waits for a name, a
+        // signal must end it immediately. No line is lost, because each line is flushed.
         if (!sources.has_pipe()) catch_interrupts();
     }
 

@@ -40,7 +40,8 @@ struct Record {
     int max_p_wrong_log2 = 0;  ///< log2 of the maximum p_wrong of an accepted position
 };
 
-/// Returns the record of an image that was just located. File name, time and advice are not set.
+/// Returns the record of an image that was just located. The caller must set file name, time and
+/// advice.
 Record record_of(const Located& located, const Follower& follower);
 
 /// Number of warnings that `warnings` returns.

@@ -60,8 +60,8 @@ std::optional<ros::PlanarCovariance> covariance_in(const LogCells& row,
     return covariance;
 }
 
-/// Returns the pose and the velocities of a row. Both components of the velocity have the same
-/// standard deviation in the log.
+/// Returns the pose and the velocities of a row. The log contains one standard deviation for the
+/// velocity, which is used for both components.
 ros::PlanarMotion motion_in(const LogCells& row, const ros::PlanarPose& pose,
                             const PoseColumns& columns) {
     const auto value = [&row](const char* column) { return row.number(column).value_or(0); };
@@ -111,8 +111,9 @@ SpaceCovariance space_covariance_in(const LogCells& row, const SpaceColumns& col
     return covariance;
 }
 
-/// Returns the pose of the camera in space in `map`. Returns none if the row has no pose in space,
-/// or if it is ambiguous.
+/// Returns the pose of the camera in space, in the world or, if `is_in_world` is false, in the
+/// pattern frame with y up. Returns none if the row has no pose in space, or if this pose is
+/// ambiguous.
 std::optional<CameraInWorld> camera_in(const LogCells& row, bool is_in_world) {
     const SpaceColumns& columns = is_in_world ? kSpaceInWorld : kSpaceInPattern;
     if (row.text("camera_is_ambiguous") != "false") return std::nullopt;
@@ -151,7 +152,7 @@ ros::RobotUpdate update_of(const LogCells& row) {
     const std::string_view plane = row.text("plane");
     ros::RobotUpdate update;
     update.time_ns = time_ns_in(row);
-    // A row without a plane is from a lost robot. Its fix is in the world if the row contains x_m,
+    // A row without a plane is from a lost robot. If the row contains x_m, its fix is in the world,
     // because only logs of sheets with world poses have this column.
     const bool is_in_world = plane == "world" || (plane.empty() && row.number("x_m"));
     const PoseColumns& columns = is_in_world ? kInWorld : kInPattern;

@@ -20,7 +20,8 @@ struct MqttArguments {
 struct PublishArguments {
     MqttArguments mqtt;
     std::string robot = "robot";  ///< name of the robot on the broker and in ROS
-    /// Maximum number of messages per second, without events. 0 means one message per frame.
+    /// Maximum number of messages per second. Messages about events are sent in addition. If 0, a
+    /// message is sent for each frame.
     double max_rate_hz = 0;
 
     /// Adds the options of MqttArguments, --robot and --mqtt-rate. `robot_help` describes --robot.

@@ -15,7 +15,8 @@ std::string bare(std::string_view word) {
     return result;
 }
 
-/// Returns the name that begins with the word, or an empty string if there is not exactly one.
+/// Returns the only name that begins with the word. Returns an empty string if no name or more than
+/// one name does, or if the word has less than kMinCharacters characters.
 std::string only_continuation(const std::string& word, const std::vector<std::string>& names) {
     constexpr std::size_t kMinCharacters = 2;
     if (word.size() < kMinCharacters) return {};
@@ -54,8 +55,8 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
     const std::string asked = bare(word);
     std::string nearest;
-    // Longer words are not compared with the names, because the distance table would need too much
-    // memory. They cannot match a name anyway.
+    // A longer word is not compared with the names: the distance table would need too much memory,
+    // and no name is long enough to be similar to it.
     constexpr std::size_t kMaxCharacters = 64;
     if (asked.size() > kMaxCharacters) return nearest;
     int min_distance = static_cast<int>(kMaxCharacters);

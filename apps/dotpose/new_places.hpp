@@ -37,7 +37,8 @@ class NewPlaces {
     };
 
     std::vector<Place> places_;
-    double factor_ = 1;  ///< factor by which the minimum differences are multiplied
+    /// Product of the factors of all calls of `thin_out`; multiplies the minimum differences.
+    double factor_ = 1;
 };
 
 /// Removes the elements with odd indices.

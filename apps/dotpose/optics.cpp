@@ -56,7 +56,7 @@ int run(OpticsArguments& arguments) {
                r.block_fits_anywhere ? "fit at any angle and place"
                : r.block_fits        ? "fit at any angle"
                                      : "do not fit at every angle");
-    // Maximum speeds are rounded down.
+    // The speeds are maxima, so they are rounded down.
     fmt::print("exposure      1/{:.0f} s: blur under {:g} px up to {:.0f} mm/s, or {:.0f} rpm\n",
                1 / o.exposure_s, o.largest_blur_px, std::floor(r.fastest_mm_s),
                std::floor(r.fastest_turn_rpm));

@@ -21,8 +21,8 @@ namespace dotpose::cli {
 template <typename Result>
 class OrderedThreads {
   public:
-    /// Function that passes on a result. Blocks while kMaxResults results of the thread are
-    /// waiting. Returns false if no more results are needed. The thread must then return.
+    /// Function to which a thread passes a result. Blocks while kMaxResults results of the thread
+    /// are waiting. Returns false if no more results are needed. The thread must then return.
     using Emit = std::function<bool(Result)>;
     using Work = std::function<void(std::size_t thread, const Emit& emit)>;
 

@@ -45,8 +45,9 @@ void write_report(const ReportArguments& arguments, const std::string& report);
 /// Adds --draw FILE, which writes an additional picture.
 Option* add_draw_option(Command& command, std::string& path, const std::string& help);
 
-/// A document that the library can only write to a named file. If the document goes to standard
-/// output, the library writes a temporary file, and `finish` copies it.
+/// A document that the library can write only to a named file. If the document is for standard
+/// output, the library writes it to a temporary file, and `finish` copies this file to standard
+/// output.
 class DocumentOutput {
   public:
     /// `out` is the value of -o. `ending` is the file extension of the format, such as ".pdf".

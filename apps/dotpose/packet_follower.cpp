@@ -28,9 +28,9 @@ Fix fix_of(const PosePacket& packet) {
 /// Sets the covariance of a fix to a diagonal matrix that is computed from the deviation in the
 /// packet.
 void set_covariance(const PosePacket& packet, Fix& fix) {
-    // The smallest view of 8 x 8 dots is assumed, because more dots make the angle more accurate.
-    // For this view, the standard deviation of the angle in rad is sqrt(6) / 8 of the standard
-    // deviation of the position in spacings.
+    // The angle of a view of 8 x 8 dots, the smallest, has a standard deviation in rad of sqrt(6) /
+    // 8 times the standard deviation of the position in spacings. More dots make the angle more
+    // accurate, so this value is an upper bound.
     constexpr float kAngleFromPosition = 0.306F;
     constexpr float kThetaStep_rad = 9.6e-5F;  // one step of PosePacket::theta_bam16
     const float sigma = std::max<float>(packet.deviation_q12, 1) / 4096;
@@ -104,8 +104,8 @@ bool PacketFollower::advance(const PosePacket& packet) {
         const int step = packets_since(newest_->sequence, packet.sequence);
         if (is_late(step)) return false;
         const auto elapsed_us = static_cast<std::int32_t>(packet.time_us - newest_->time_us);
-        // If the clock of the device went back, the device was restarted, and the time between the
-        // packets is unknown.
+        // If the clock of the device went back, the device was restarted. The time between the
+        // packets is then unknown, and is assumed to be kRestart_us.
         time_us_ += elapsed_us > 0 ? elapsed_us : kRestart_us;
     }
     newest_ = packet;

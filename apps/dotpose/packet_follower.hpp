@@ -18,8 +18,9 @@ inline int packets_since(std::uint16_t earlier, std::uint16_t later) {
     return static_cast<std::int16_t>(later - earlier);
 }
 
-/// Returns true if a packet with this result of `packets_since` is repeated or late. If the result
-/// is more negative, the device was restarted.
+/// Returns true if a packet is repeated or late. `packets` is the result of `packets_since` for the
+/// newest packet and this packet. If it is below -16, the device was restarted, and the packet is
+/// not late.
 inline bool is_late(int packets) {
     constexpr int kMaxLate = 16;
     return packets <= 0 && packets >= -kMaxLate;

@@ -19,8 +19,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the grey level of the paper, if any paper is visible. It is the 90 % quantile of all
-/// grey levels.
+/// Returns the 90 % quantile of all grey levels. This is about the grey level of the paper if paper
+/// covers more than a tenth of the image and nothing else in the image is brighter.
 int paper_level(ImageView image) {
     std::array<std::int64_t, 256> counts{};
     for (int v = 0; v < image.height_px; ++v) {
@@ -204,12 +204,13 @@ GreyImage reduced_by(ImageView image, int by) {
     return small;
 }
 
-/// Returns the spacing of the dots in px if it is too large, and the dots of the reduced image form
-/// a grid. Otherwise, returns none.
+/// Reduces the image until its dots form a grid. Returns the spacing of these dots in px of the
+/// original image if it exceeds kMaxSpacing_px. Returns none if no reduced image has such a grid.
 std::optional<double> too_large_spacing_px(ImageView image, const DeviceOptions& options,
                                            LargeMemory& scratch) {
     constexpr double kMaxSpacing_px = 60;
-    // Minimum number of dots of the grid. A camera that is too near shows only few dots.
+    // Minimum number of dots of the grid. It is small, because a camera that is too near to the
+    // paper shows only few dots.
     constexpr int kMinDots = 16;
     DeviceOptions blobs;
     blobs.code = options.code;
@@ -243,8 +244,9 @@ bool is_inverted(ImageView image, const DeviceOptions& options, LargeMemory& scr
     return Locator(scratch, once).locate(inverted.view()).status == Status::ok;
 }
 
-/// Returns advice if a position would be certain with a given code. Without one, the position may
-/// be uncertain only because places in other codes are possible.
+/// Returns advice to name the code if the position is certain in one of the codes alone, otherwise
+/// an empty string. If the code is not named, places in all codes are possible, and this alone may
+/// be the reason why the position is not certain.
 std::string advice_on_code(ImageView image, const DeviceOptions& options, LargeMemory& scratch) {
     for (const CodeVariant code :
          {CodeVariant::anoto, CodeVariant::libdots, CodeVariant::microdots}) {
@@ -285,9 +287,9 @@ std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeM
             "the sheet is tilted too much, by about {:.0f} degrees: look straight down on it",
             *tilt_degrees);
     }
-    // Minimum bits per pixel of a video. Videos with fewer are reported as compressed too much. In
-    // videos of sharp frames, H.264 and HEVC begin to lose dots at 0.1 bits per pixel
-    // (docs/live.md).
+    // A video with fewer bits per pixel is reported as compressed too much. In videos of sharp
+    // frames, H.264 and HEVC begin to lose dots at 0.1 bits per pixel (docs/live.md), so the limit
+    // has a margin.
     constexpr double kTooFewBits_per_px = 0.15;
     if (facts.bits_per_px > 0 && facts.bits_per_px < kTooFewBits_per_px) {
         return fmt::format(
@@ -321,8 +323,8 @@ std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& s
     if (is_inverted(image, options, scratch)) {
         return "the dots are white on black: locate with --inverted";
     }
-    // Minimum grey level of the paper. Blur may reduce the contrast of dots to a quarter, and the
-    // remaining contrast must be at least min_contrast.
+    // Minimum grey level of the paper. The contrast of a dot is at most this grey level. Blur may
+    // reduce it to a quarter, which must be at least min_contrast.
     const int darkest_paper = 4 * options.threshold.min_contrast;
     if (const int level = paper_level(image); level < darkest_paper) {
         return fmt::format(

@@ -22,10 +22,11 @@ class PictureFolder {
     /// folder cannot be created.
     PictureFolder(std::filesystem::path path, const RunFiles& files);
 
-    /// Writes a picture. In a folder, the picture is STEM.svg, where STEM is the name of the image
-    /// without its file extension, or drive-17 for drive.mp4#17. If an earlier image had the same
-    /// stem, the picture is STEM-2.svg, and so on. The title in the options is replaced by the name
-    /// of the image. Throws Error if the picture cannot be written.
+    /// Writes a picture. In a folder, its name is STEM.svg, where STEM is the name of the image
+    /// without its file extension. For frame 17 of the video drive.mp4, which has the name
+    /// drive.mp4#17, STEM is drive-17. If an earlier image had the same stem, the name is
+    /// STEM-2.svg, and so on. The title in the options is replaced by the name of the image. Throws
+    /// Error if the picture cannot be written.
     void add(const std::string& image_name, ImageView image, const Trace& trace,
              DrawOptions options);
 

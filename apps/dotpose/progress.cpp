@@ -33,9 +33,9 @@ std::int64_t now_ns() {
     return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
-/// Stores the first signal. A second signal ends the program immediately, unless it arrives within
-/// 500 ms of the first. `timeout` causes such pairs, because it signals both the program and its
-/// process group.
+/// Stores the first signal. A second signal ends the program immediately, but only if it arrives
+/// more than 500 ms after the first. The program `timeout` sends two signals within this time, one
+/// to the program and one to its process group.
 void on_signal(int signal_number) {
     constexpr std::int64_t kTwice_ns = 500'000'000;
     if (signal_seen == 0) {

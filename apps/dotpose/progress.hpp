@@ -16,8 +16,8 @@ void ignore_broken_pipes();
 void catch_interrupts();
 bool interrupted();
 
-/// Returns true if Ctrl-C was pressed (SIGINT only), and resets `interrupted`. The next signal is
-/// then treated as the first.
+/// Returns true if the first signal was SIGINT, the signal of Ctrl-C. In this case, also resets
+/// `interrupted`, so that the next signal counts as the first.
 bool take_ctrl_c();
 
 /// Formats a duration with at most two units, such as "12 s", "3 min 05 s" or "2 h 10 min". Rounds
@@ -38,8 +38,8 @@ class ProgressLine {
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    /// Shows the number of finished items, and the percentage if `total` is not 0, which means
-    /// unknown.
+    /// Shows the number of finished items and, if `total` is known, the percentage. If `total` is
+    /// 0, it is not known.
     void update(std::int64_t done, std::int64_t total);
 
   private:

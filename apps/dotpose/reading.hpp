@@ -16,8 +16,9 @@ Plane plane_of(const Follower& follower);
 struct Reading {
     std::int64_t index = 0;
     std::int64_t time_us = 0;
-    /// Result of the frame. If the fix was accepted only because of the prior of the tracker,
-    /// `p_wrong` includes this prior.
+    /// Result of the frame. If the fix was accepted only with the prior of the tracker
+    /// (`with_prior` in dotpose/track.hpp), `p_wrong` is the bound that was computed with this
+    /// prior.
     Record record;
     Track track;
     Plane plane = Plane::pattern;

@@ -27,8 +27,9 @@ PlanePose plane_pose(const TrackedPose& pose) {
     return result;
 }
 
-/// Returns the fields of velocities and standard deviations. `is_flipped` is true if y points down
-/// in the track but up in the output.
+/// Returns the fields of the velocities and their standard deviations and, in mm and degrees, of
+/// the standard deviations of the pose. `is_flipped` is true if y points down in the track but up
+/// in the output, so that signs change.
 std::vector<Field> motion_fields(const TrackedPose& pose, Units units, bool is_flipped) {
     const double sign = is_flipped ? -1 : 1;
     const double vx_mm_s = static_cast<double>(pose.vx_mm_s);

@@ -11,8 +11,8 @@ class Command;
 /// Adds --robot NAME. The option rejects names that are not valid in topics.
 void add_robot_option(Command& command, std::string& robot, const std::string& help);
 
-/// Adds --frame-prefix PREFIX. The value is not checked here, because ros::with_prefix rejects
-/// prefixes that are not valid in ROS.
+/// Adds --frame-prefix PREFIX. The value is not checked here. ros::with_prefix rejects prefixes
+/// that are not valid in ROS.
 void add_frame_prefix_option(Command& command, std::string& prefix);
 
 }  // namespace dotpose::cli

@@ -18,7 +18,7 @@
 
 namespace dotpose::cli {
 
-/// Kind of data in an output file. For `own`, the file extension determines the kind.
+/// Kind of data in an output file. With `own`, the file extension determines the kind.
 enum class Content { json, csv, yaml, svg, packets, mcap, text, own };
 
 Content content_of(RecordFormat format);
@@ -47,9 +47,9 @@ class RunFiles {
     void reads(const std::string& option, const std::vector<std::string>& paths);
 
     /// Registers an output. Rejects a file extension of an image or video that does not match
-    /// `content`. For example, if the name of the output is missing in `-o frames/*.png`, the first
-    /// frame would be overwritten. The path "-" is standard output for `-o`, and is rejected for
-    /// other options.
+    /// `content`. For example, in `-o frames/*.png` the name of the output was forgotten, and the
+    /// shell inserts the first frame as the output, which would be overwritten. The path "-" is
+    /// standard output for `-o`, and is rejected for other options.
     void writes(const std::string& option, const std::string& path, Content content);
 
     /// Registers the output of lines: the file given by `-o`, or standard output without `-o`.
@@ -62,8 +62,8 @@ class RunFiles {
     /// of inputs.
     void require_not_written(const std::string& path) const;
 
-    /// Checks an output like `writes`, but does not store its name. Meant for generated names,
-    /// because all of them are different.
+    /// Checks an output like `writes`, but does not store its name. Meant for generated names:
+    /// these differ from each other, so they need not be compared.
     void require_free(const std::string& option, const std::string& path) const;
 
   private:

@@ -198,7 +198,7 @@ RunStatistics statistics_of(const std::vector<LogRow>& rows) {
         const double step_s = row.t_s - before.t_s;
         if (row.state == "stationary") {
             run.stationary_s += step_s;
-            continue;  // motion of a stationary robot is only noise
+            continue;  // the measured motion of a stationary robot is only noise
         }
         moving_s += step_s;
         run.distance_mm += std::hypot(*row.x_mm - *before.x_mm, *row.y_mm - *before.y_mm);

@@ -36,9 +36,10 @@ std::vector<Point> path_of(const std::vector<LogRow>& rows) {
     return path;
 }
 
-/// Returns the offset in mm to subtract from the coordinates of an axis. Coordinates in the pattern
-/// frame are so large that their labels would differ only in the last digits. In this case, the
-/// offset is the centre of the axis in whole mm, otherwise 0.
+/// Returns the number that is subtracted from the coordinates of an axis for its labels, in mm.
+/// This is the centre of the axis in whole mm if it exceeds 1000 times the reach of the axis, as in
+/// the pattern frame, because the labels would otherwise differ only in their last digits. If not,
+/// it is 0.
 double offset_mm(double middle_mm, double reach_mm) {
     constexpr double kMaxReaches = 1000;
     return std::abs(middle_mm) > kMaxReaches * reach_mm ? std::round(middle_mm) : 0;

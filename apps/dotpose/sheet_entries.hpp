@@ -43,8 +43,9 @@ class SheetEntryArguments {
     /// Appends --origin to `command`, so that the command prints the dots of one page.
     static std::string with_origin(const std::string& command, Cell origin);
 
-    /// Returns the options to omit from a command that reprints a page. The page already has a
-    /// region, and the sheet file would reject the name because it is in use.
+    /// Returns the options that must be omitted from a command that reprints a page. They concern
+    /// the entry in the sheet file, which already exists: with them, the command would try to add
+    /// the page again, under a name that is in use.
     static std::set<std::string> options_of_entering();
 
     /// Marks the reserved pages as written to `out`. Throws Error if the file cannot be changed.

@@ -22,7 +22,7 @@ std::optional<CodeVariant> common_code(const std::string& file,
 /// Returns the pose of the page in the world as text, in mm and degrees.
 std::string world_text(const SheetEntry& entry);
 
-/// Returns what the removal of a sheet means.
+/// Returns a text for the user about the consequences of removing a sheet.
 std::string removal_text(const std::string& name);
 
 /// Returns a table with one line for each sheet.

@@ -266,7 +266,8 @@ void run(SimulateArguments& arguments, const Command& command, int& exit_code) {
     int done = 0;
     {
         ProgressLine line("simulating " + arguments.out);
-        // Small batches keep the file of true poses up to date, and let Ctrl-C take effect quickly.
+        // The batches are small, so that the file of true poses is up to date after each of them,
+        // and Ctrl-C takes effect quickly.
         const int batch = 4 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
         while (done < arguments.frames && truth && !interrupted()) {
             const int end = std::min(arguments.frames, done + batch);

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kMm_per_m = 1000;
 constexpr double kExposure_s = 1e-4;
-constexpr int kSteps = 4096;  ///< number of steps into which the phase of the path is divided
+/// Number of steps into which a full turn of the phase of the path is divided.
+constexpr int kSteps = 4096;
 
 /// Converts a point of the world to page coordinates: mm from the top left corner, with y down.
 Vec2 on_page(const SheetEntry& entry, Vec2 world_mm) {
@@ -68,7 +69,8 @@ SimulatedDrive::SimulatedDrive(const std::vector<SheetEntry>& sheets, const Driv
         sheets_.push_back(sheets.front());
         sheets_.front().world = WorldPose{};
     }
-    // In the image, the scene moves against the direction of travel, which is the x axis.
+    // The direction of travel is the x axis of the image, so the scene moves in the direction of
+    // -x.
     imperfections_.motion_px = {-options.speed_mm_s * kExposure_s / camera.mm_per_px, 0};
     lay_path();
 }

@@ -26,7 +26,7 @@ struct SourceArguments {
 
     bool is_given() const { return !names.empty() || !list.empty(); }
 
-    /// Returns how often standard input is used, for the list or for raw frames.
+    /// Returns the number of uses of standard input, as the list or as raw frames.
     std::int64_t reads_of_standard_input() const;
 
     /// Adds the sources, --list, and the options for cameras, videos and raw frames.

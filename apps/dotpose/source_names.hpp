@@ -9,8 +9,8 @@
 
 namespace dotpose::cli {
 
-/// Returns names one by one: first the names that are known immediately, from the command line and
-/// a list file, and then names from a pipe as they arrive.
+/// Returns names one by one. The names of the command line and of a list file are known immediately
+/// and come first. The names from a pipe follow as they arrive.
 class SourceNames {
   public:
     /// `list` is a file with one name per line. "-" means standard input, and an empty string means
@@ -22,8 +22,8 @@ class SourceNames {
     /// Returns true if a pipe may still deliver names.
     bool has_pipe() const { return is_pipe_; }
 
-    /// Returns the next name, or none after the last name or after an error. Throws Error like the
-    /// constructor.
+    /// Returns the next name. Returns none after the last name, and in all calls after an error.
+    /// Throws Error like the constructor.
     std::optional<std::string> next();
 
   private:

@@ -32,8 +32,8 @@ struct OutputPose {
     SpaceCovariance covariance{};
 };
 
-/// Returns a pose in mm with unchanged axes, or in metres with y up and z out of the paper,
-/// depending on `units`.
+/// Returns a pose in the units and axes of the output: in mm with unchanged axes, or in metres with
+/// y up and z out of the paper.
 OutputPose in_units(Units units, const CameraInSpace& camera, const SpaceCovariance& covariance) {
     if (units == Units::mm)
         return {{camera.x_mm, camera.y_mm, camera.z_mm}, camera.rotation, covariance};

@@ -12,7 +12,7 @@
 
 namespace dotpose::cli {
 
-/// Returns the fields of a pose in space and of its second solution, whose names begin with
+/// Returns the fields of a pose in space and of its second solution. Their names begin with
 /// `camera_`. If `has_sheets` is true, also returns the fields of the pose on the sheet and in the
 /// world. The fields have no values if there is no pose.
 std::vector<Field> space_fields(const std::optional<SpacePose>& space,

@@ -36,7 +36,7 @@ std::vector<std::string> long_options(const Command& command) {
     return names;
 }
 
-/// Returns the unknown words of a command line, first those that look like options.
+/// Returns the unknown words of a command line. Those that look like options come first.
 std::vector<std::string> unknown_words(const Command& command) {
     std::vector<std::string> words = command.remaining();
     std::erase(words, "--");

@@ -12,8 +12,8 @@ using namespace dotpose;
 
 constexpr std::int32_t kMaxCells = 65535;
 
-/// Number of columns that are written together. The rolls of these columns are computed once and
-/// stored.
+/// Number of columns in a block. The rolls of the columns of a block are computed once and used for
+/// all rows.
 constexpr std::uint32_t kBlock_columns = 64;
 
 bool are_sides(std::int32_t columns, std::int32_t rows) {
@@ -21,7 +21,7 @@ bool are_sides(std::int32_t columns, std::int32_t rows) {
 }
 
 /// Writes the symbols of a block of columns. `width` is the number of columns of the whole
-/// rectangle.
+/// rectangle, which is the distance between the rows in `symbols`.
 void write_block(CodeVariant code, const dotpose_place& first, std::uint32_t columns,
                  std::uint32_t rows, std::uint8_t* symbols, std::size_t width) {
     std::array<std::uint32_t, kBlock_columns> column_bits;

@@ -23,8 +23,10 @@ inline bool is_code(std::int32_t code) {
     return is_one_of(code, CodeVariant::microdots);
 }
 
-/// Reads options: overwrites the defaults in `options` with the members that exist in the caller's
-/// version of the struct. `first_bytes` is the size of the first version of the struct.
+/// Reads options. `options` must contain the defaults. Those members that exist in the caller's
+/// version of the struct are overwritten with the values in `given`, or none if `given` is null.
+/// `first_bytes` is the size of the first version of the struct. Returns BAD_SIZE if the size of
+/// `given` matches no version.
 template <typename DeviceOptions>
 dotpose_status read_sized(const DeviceOptions* given, std::size_t first_bytes,
                           DeviceOptions& options) {
@@ -47,8 +49,8 @@ dotpose_status write_sized(DeviceOptions defaults, std::size_t first_bytes, Devi
     return DOTPOSE_OK;
 }
 
-/// Returns true if the absolute value is at most 2^bits. The limits are chosen such that
-/// differences of times or coordinates do not overflow.
+/// Returns true if the absolute value is at most 2^bits. Callers choose `bits` such that
+/// differences of two times or two coordinates do not overflow.
 constexpr bool is_within_range(std::int64_t value, int bits) {
     return value >= -(std::int64_t{1} << bits) && value <= std::int64_t{1} << bits;
 }

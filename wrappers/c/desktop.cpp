@@ -14,9 +14,10 @@ namespace {
 
 using namespace dotpose;
 
-/// Layout of CodeEvidence in the core: for each code, the log odds from earlier places and the sum
-/// of the factors of the frames at the current place; then the cell of the first of these frames,
-/// and the number of these frames.
+/// Layout of CodeEvidence in the core. `log2_q8` contains the log2 odds of each code from the
+/// frames at earlier places. `factors` contains, for each code, the sum of the factors by which the
+/// frames at the current place reduce its odds. `x` and `y` are the cell of the first of these
+/// frames, and `frames` is their number.
 struct State {
     std::int32_t log2_q8[kCodeVariantCount];
     float factors[kCodeVariantCount];
@@ -48,7 +49,8 @@ dotpose_status read_evidence(const dotpose_code_evidence* given, CodeEvidence& e
     return DOTPOSE_OK;
 }
 
-// The core reads the regions in the caller's memory, so the layouts must be equal.
+// The core reads the regions in the caller's memory without conversion, so the layouts must be
+// equal.
 static_assert(sizeof(dotpose_region) == sizeof(KnownRegion));
 static_assert(offsetof(dotpose_region, code) == offsetof(KnownRegion, code));
 static_assert(offsetof(dotpose_region, section_u) == offsetof(KnownRegion, section.u));

@@ -139,14 +139,16 @@ enum {
     DOTPOSE_SYMBOL_DOWN = 3
 };
 
-/* Returns a dot's displacement, in displacement lengths (usually a sixth of the spacing). `dx` is
- * to the right and `dy` is down. One of them is -1 or 1, and the other is 0. */
+/* Returns the direction in which the dot at `place` is displaced: `dx` to the right and `dy` down.
+ * One of them is -1 or 1, and the other is 0. The unit is the length of a displacement, usually a
+ * sixth of the spacing. Returns BAD_VALUE if the code or the place does not exist. */
 dotpose_status dotpose_displacement(int32_t code, const dotpose_place* place, int32_t* dx,
                                     int32_t* dy);
 
-/* Writes the symbols for columns x rows dots, row by row from `top_left`. Use this function to
- * print a sheet. `columns` and `rows` must be from 1 to 65535. The pattern wraps around at the end
- * of an axis, as in locators. */
+/* Writes the symbols (DOTPOSE_SYMBOL_) of columns x rows dots, row by row from `top_left`, for
+ * example to print a sheet. `bytes` is the size of `symbols`, and must be at least columns x rows,
+ * otherwise the function returns TOO_LITTLE_MEMORY. `columns` and `rows` must be from 1 to 65535.
+ * The pattern wraps around at the end of an axis, as in locators. */
 dotpose_status dotpose_symbols(int32_t code, const dotpose_place* top_left, int32_t columns,
                                int32_t rows, uint8_t* symbols, size_t bytes);
 
@@ -295,12 +297,14 @@ typedef struct dotpose_prediction {
 } dotpose_prediction;
 
 /* Predicts that the next frame has the same pose as `fix`. A frame that confirms its prediction is
- * located in a fraction of the time. Other frames are located without the prediction. */
+ * located in a fraction of the time. Any other frame is located as if it had no prediction. For
+ * frames that are pushed row by row, see dotpose_begin. Returns NO_FIX if the fix is not ok. */
 dotpose_status dotpose_prediction_like(const dotpose_fix* fix, dotpose_prediction* prediction);
 
 /* Moves a prediction by `by_x_q16` and `by_y_q16` spacings in the pattern frame, and turns it by
- * `turn_bam` about the image point (`pivot_u_q8`, `pivot_v_q8`). The limit is 4096 spacings along
- * each axis. */
+ * `turn_bam` about the image point (`pivot_u_q8`, `pivot_v_q8`). `code` is the code of the sheet.
+ * Returns BAD_VALUE, and does not change the prediction, if the movement along an axis exceeds 4096
+ * spacings or a coordinate of the image point exceeds 8192 px, in either direction. */
 dotpose_status dotpose_prediction_move(dotpose_prediction* prediction, int32_t code,
                                        int32_t by_x_q16, int32_t by_y_q16, int32_t turn_bam,
                                        int32_t pivot_u_q8, int32_t pivot_v_q8);
@@ -477,9 +481,10 @@ typedef struct dotpose_dot {
     int32_t area_px; /* 12 */
 } dotpose_dot;
 
-/* Returns up to `capacity` dots from the last frame. Sets `count` to the total number of dots. If
- * the option show_stages is set, every attempt keeps its dots. Returns WRONG_KIND for device
- * locators. */
+/* Writes the dots of the last frame to `dots`, but at most `capacity` of them. Sets `count` to the
+ * total number of dots, which may exceed `capacity`. `dots` may be null if `capacity` is 0. Every
+ * attempt keeps its dots only if the option show_stages is set, so there may otherwise be none.
+ * Returns WRONG_KIND for device locators. */
 dotpose_status dotpose_dots(const dotpose_locator* locator, dotpose_dot* dots, int32_t capacity,
                             int32_t* count);
 
@@ -516,8 +521,9 @@ dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* p
                                       int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
                                       dotpose_code_reading* reading, dotpose_fix* fix);
 
-/* Returns the likeliest code, and an upper bound on the probability that another code is
- * correct. */
+/* Returns the likeliest code, and in `p_wrong` the probability that the sheet is printed in another
+ * code. Without evidence, all codes are equally probable: the result is anoto, and `p_wrong` is
+ * 2/3. */
 dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int32_t* code,
                                       float* p_wrong);
 
@@ -624,24 +630,28 @@ dotpose_status dotpose_track_options_init(dotpose_track_options* options, size_t
 /* Sets up a tracker in the state `lost`. If `options` is null, uses the defaults. */
 dotpose_status dotpose_tracker_init(dotpose_tracker* tracker, const dotpose_track_options* options);
 
-/* Returns a fix as a sighting in the pattern frame. The spacing must be known and at most 20 mm. */
+/* Returns a fix as a sighting in the pattern frame. Returns NO_FIX if the fix is not ok, and
+ * BAD_VALUE if its spacing is not known or exceeds 20 mm. */
 dotpose_status dotpose_sighting_of(const dotpose_fix* fix, int64_t time_us,
                                    dotpose_sighting* sighting);
 
-/* Updates the tracker with the next frame, and returns the new state. `sighting` is null if the
- * frame has no fix. Frames that are not newer than the last frame are ignored. */
+/* Updates the tracker with the next frame, and returns the new state in `track`. `sighting` is null
+ * if the frame has no fix. A frame that is not newer than the last frame does not change the
+ * tracker. */
 dotpose_status dotpose_tracker_update(dotpose_tracker* tracker, int64_t time_us,
                                       const dotpose_sighting* sighting, dotpose_track* track);
 
-/* Like dotpose_tracker_update, with the motion since the previous update. `right_mm` of the motion
- * is along the sightings' direction theta. Without a sighting, the motion moves the pose. */
+/* Like dotpose_tracker_update, with the motion of the robot since the previous update. The motion's
+ * `right_mm` is along the direction theta of the sightings. If `sighting` is null, the pose is
+ * moved by the motion. */
 dotpose_status dotpose_tracker_update_moved(dotpose_tracker* tracker, int64_t time_us,
                                             const dotpose_sighting* sighting,
                                             const dotpose_measured_motion* motion,
                                             dotpose_track* track);
 
-/* Predicts where the pattern is in the frame at `time_us`, from the newest fix and its sighting.
- * `locator` will locate the frame. */
+/* Predicts where the pattern is in the frame at `time_us`, from the newest fix and the sighting of
+ * this fix. `locator` is the locator that will locate the frame; its code and reference point are
+ * used. Returns NO_FIX if the fix is not ok. */
 dotpose_status dotpose_tracker_predict(const dotpose_tracker* tracker, int64_t time_us,
                                        const dotpose_fix* newest, const dotpose_sighting* seen,
                                        const dotpose_locator* locator,
@@ -669,11 +679,13 @@ typedef struct dotpose_packet {
     uint32_t deviation_q12;  /* 48: larger sigma of x and y, spacings; 255: more or unknown */
 } dotpose_packet;
 
-/* Returns the packet for a fix with any status. */
+/* Returns the packet for a fix with any status. The packet contains the lower 16 bits of
+ * `sequence`. */
 dotpose_status dotpose_packet_of(const dotpose_fix* fix, int32_t code, uint32_t sequence,
                                  uint32_t time_us, dotpose_packet* packet);
 
-/* Encodes a packet. `bytes` must have room for DOTPOSE_PACKET_BYTES. */
+/* Writes the DOTPOSE_PACKET_BYTES bytes of a packet. `capacity` is the size of `bytes`. Returns
+ * TOO_LITTLE_MEMORY if it is less, and BAD_VALUE if a member of the packet is out of its range. */
 dotpose_status dotpose_packet_encode(const dotpose_packet* packet, uint8_t* bytes, size_t capacity);
 
 /* Extracts packets from a byte stream that may contain other data. The contents are private. */
@@ -682,7 +694,8 @@ typedef struct dotpose_packet_reader {
 } dotpose_packet_reader;
 
 dotpose_status dotpose_packet_reader_init(dotpose_packet_reader* reader);
-/* Processes the next byte. Returns OK if the byte completes a packet, and NO_PACKET otherwise. */
+/* Processes the next byte. Returns OK and writes `packet` if the byte completes a packet. Otherwise
+ * returns NO_PACKET and leaves `packet` unchanged. */
 dotpose_status dotpose_packet_reader_push(dotpose_packet_reader* reader, uint8_t byte,
                                           dotpose_packet* packet);
 /* Returns the number of byte sequences rejected as damaged packets. */
@@ -711,8 +724,9 @@ typedef struct dotpose_pacer_options {
 dotpose_status dotpose_pacer_options_init(dotpose_pacer_options* options, size_t bytes);
 /* Sets up a pacer. If `options` is null, uses the defaults. */
 dotpose_status dotpose_pacer_init(dotpose_pacer* pacer, const dotpose_pacer_options* options);
-/* Updates the pacer with a frame's fix, with any status, and its time. Returns the earliest time
- * for the next frame, and whether the device is moving (1 or 0). `is_moving` may be null. */
+/* Updates the pacer with the fix of a frame, which may have any status, and the time of the frame.
+ * Sets `next_us` to the earliest time for the next frame, and `is_moving` to 1 if the device is
+ * moving, else to 0. `is_moving` may be null. */
 dotpose_status dotpose_pacer_next_frame(dotpose_pacer* pacer, const dotpose_fix* fix,
                                         int64_t time_us, int64_t* next_us, int32_t* is_moving);
 

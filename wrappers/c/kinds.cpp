@@ -1,4 +1,4 @@
-// Locators of all kinds, in memory of the caller or in allocated memory.
+// Sets up locators of all kinds, in memory provided by the caller or in allocated memory.
 #include <array>
 #include <cstdlib>
 

@@ -19,7 +19,7 @@ struct Object {
     std::uint32_t mark = kMark;
     T value;
 
-    /// Creates the object in a struct. `place` must not be null.
+    /// Creates the object in the memory of a struct. `place` must not be null.
     template <typename Struct, typename... Arguments>
     static void make(Struct* place, const Arguments&... arguments) {
         static_assert(sizeof(Object) <= sizeof(Struct), "the struct in dotpose.h is too small");

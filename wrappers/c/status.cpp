@@ -14,7 +14,8 @@ struct Text {
 
 constexpr dotpose_status kFirst = DOTPOSE_NULL_POINTER;
 
-/// Statuses that exist only in the C interface, indexed by the status minus kFirst.
+/// Names and messages of the statuses that exist only in the C interface. The index is the status
+/// minus kFirst.
 constexpr std::array<Text, DOTPOSE_NO_PACKET - kFirst + 1> kTexts{{
     {"null_pointer", "a required pointer is null"},
     {"not_aligned", "the address of the memory is not a multiple of 8"},

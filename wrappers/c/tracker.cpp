@@ -62,7 +62,7 @@ TrackOptions options_of(const dotpose_track_options& o) {
             .spacing_mm = o.spacing_mm};
 }
 
-/// Returns true if a number is not negative and its square does not overflow.
+/// Returns true if a number is at least 0 and at most 1e9, so that its square does not overflow.
 bool is_size(float value) {
     return value >= 0 && value <= 1e9F;
 }

@@ -63,7 +63,8 @@ dotpose_status dotpose_space_use_camera(const dotpose_space_camera* camera,
 typedef struct dotpose_space_pose {
     uint32_t size; /*  0: set by dotpose_space_pose_init */
     int32_t dots;  /*  4: number of dots used */
-    /* 1 if the dots do not exclude the second pose, else 0. */
+    /* 1 if there is a second pose and its second_odds exceed 2^-30, so that it may be the true
+     * pose, else 0. */
     int32_t is_ambiguous; /* 8 */
     int32_t has_second;   /* 12: 1 if the members `second_` are valid, else 0 */
     /* Position of the projection centre in the pattern. */

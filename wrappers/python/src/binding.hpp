@@ -18,7 +18,8 @@ namespace dotpose::python {
 namespace py = pybind11;
 using namespace py::literals;
 
-/// Define the classes and functions of one subject in the module _dotpose, in this order.
+/// Each function defines the classes and functions of one subject in the module _dotpose. They are
+/// called in this order, because signatures refer to classes that were defined before.
 void define_errors(py::module_& module);
 void define_options(py::module_& module);
 void define_fix(py::module_& module);
@@ -28,7 +29,8 @@ void define_locator(py::module_& module);
 void define_tracker(py::module_& module);
 void define_simulate(py::module_& module);
 
-/// Define the classes and functions of one subject in the module _tools, in this order.
+/// Each function defines the classes and functions of one subject in the module _tools. They are
+/// called in this order, for the same reason.
 void define_sheets(py::module_& module);
 void define_space(py::module_& module);
 void define_print_map(py::module_& module);

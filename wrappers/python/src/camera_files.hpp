@@ -8,7 +8,8 @@
 
 namespace dotpose::python {
 
-/// Returns the fix of a camera that is mounted at a fixed height: see `with_camera`.
+/// Type of `with_camera` (dotpose/tools/mounted_pose.hpp), which returns the fix of a camera that
+/// is mounted at a fixed height.
 using WithCamera = Fix (*)(const Fix& fix, const Camera& camera, const Trace& trace);
 
 }  // namespace dotpose::python

@@ -9,7 +9,7 @@
 namespace dotpose::python {
 namespace {
 
-/// Raises the error as the Python exception class with the same name.
+/// Raises a C++ exception as the Python exception class with the same name.
 void translate(std::exception_ptr error) {
     const auto raise = [](const char* name, const std::exception& what) {
         const py::object type = py::module_::import("dotpose._dotpose").attr(name);

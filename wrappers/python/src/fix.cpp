@@ -87,7 +87,7 @@ class Bits {
         }
         put(plane.lens_q40);
     }
-    /// Appends a number as its bytes in C, to let tests compare the bits.
+    /// Appends the bytes of a number as they are in memory, because tests compare all bits.
     template <typename Value>
     void put_bits(Value value) {
         list_.append(py::bytes(reinterpret_cast<const char*>(&value), sizeof value));

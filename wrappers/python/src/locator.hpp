@@ -24,8 +24,8 @@ struct LocatorSetup {
     bool keep_stages = false;
 };
 
-/// Locates frames in sequence. Threads may share a locator. They wait for each other without
-/// holding the GIL.
+/// Locates frames in sequence. Several threads may share a locator. A thread that waits for the
+/// locator does not hold the GIL.
 class LocatorOfPython : public StageSource, public std::enable_shared_from_this<LocatorOfPython> {
   public:
     explicit LocatorOfPython(const LocatorSetup& setup);

@@ -15,7 +15,8 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// Adds sheets to a sheet file under a name, before their pages are written.
+/// Adds sheets to a sheet file under a name, before their pages are written. Without a file, does
+/// nothing.
 class Entering {
   public:
     Entering(const std::optional<Path>& file, const std::optional<std::string>& name)

@@ -12,8 +12,8 @@ inline bool was_interrupted() {
     return PyErr_CheckSignals() != 0;
 }
 
-/// Runs `work` with the GIL released. If a Python exception such as KeyboardInterrupt was set
-/// meanwhile, raises this exception instead of the exception thrown by `work`.
+/// Runs `work` with the GIL released. If `work` throws and a Python exception such as
+/// KeyboardInterrupt was set in the meantime, raises the Python exception instead.
 template <typename Work>
 auto without_lock(const Work& work) {
     try {

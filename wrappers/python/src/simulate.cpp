@@ -50,7 +50,8 @@ struct SimulatedFrame {
     py::array_t<std::uint8_t> image;
 };
 
-/// Splits a coordinate in spacings into cell and fraction.
+/// Splits a coordinate in spacings into cell and fraction. Throws BadArgument if it is not on an
+/// axis of the pattern.
 void set_grid(double x, std::uint32_t& cell, double& fraction) {
     if (!(x >= 0 && x < kPositionsPerAxis)) throw BadArgument("the place is not on the pattern");
     cell = static_cast<std::uint32_t>(x);

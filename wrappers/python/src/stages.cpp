@@ -8,7 +8,8 @@ namespace {
 template <typename T>
 std::vector<T> kept(std::span<const T>& shown) {
     std::vector<T> copy(shown.begin(), shown.end());
-    shown = copy;  // remains valid, because moving a vector does not move its elements
+    // Remains valid after `copy` is moved, because moving a vector does not move its elements.
+    shown = copy;
     return copy;
 }
 

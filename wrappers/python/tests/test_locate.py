@@ -29,7 +29,7 @@ def test_covariance_is_in_mm_and_rad(frames):
     covariance = fix.covariance
     assert covariance.shape == (3, 3) and covariance.dtype == np.float64
     assert (covariance == covariance.T).all() and (np.linalg.eigvalsh(covariance) > 0).all()
-    # About 1 µm and 0.02 degrees (docs/accuracy.md).
+    # The standard deviations are about 1 µm and 0.02 degrees (docs/accuracy.md).
     assert 0.0003 < math.sqrt(covariance[0, 0]) < 0.003
     assert 0.0001 < math.sqrt(covariance[2, 2]) < 0.001
     half = dotpose.Locator(spacing_mm=0.254).locate(frames[0].image)

@@ -41,7 +41,8 @@ def result(entry):
 def error_um(follower, shots):
     """Returns the rms error of the fixes, per axis, without the mean offset, turn and scale.
 
-    Those of the dots of a print are 0 in its map, and about 0.2 um on a page of this size.
+    A map sets the mean offset, turn and scale of the dots of a print to 0. On a page of this size,
+    they are about 0.2 um in truth.
     """
     rows, errors = [], []
     for shot in shots:

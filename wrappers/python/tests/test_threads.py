@@ -94,8 +94,8 @@ def cores_of_processes(images):
 @pytest.mark.skipif("DOTPOSE_TIMES" not in os.environ, reason="times only with DOTPOSE_TIMES=1")
 @pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="needs two cores")
 def test_two_threads_use_two_cores(images):
-    """CPU time increases faster than wall-clock time. On a busy machine, the test waits until cores
-    are free. Threads that hold the GIL never use two cores."""
+    """The CPU time of two threads increases faster than wall-clock time, which is impossible if they
+    hold the GIL. On a busy machine, the test waits until cores are free."""
     by_processes = 0.0
     for _ in range(20):
         cpu = time.process_time()
