@@ -135,8 +135,8 @@ TEST(DrawFrame, shows_every_dot_where_it_is) {
 }
 
 TEST(DrawFrame, connects_only_the_dots_that_were_connected) {
-    // Uses the device attempt, because only this attempt connects neighbouring dots to find the
-    // grid.
+    // Uses the device attempt, because the first attempt does not connect neighbouring dots to find
+    // the grid.
     DeviceOptions device;
     device.effort = Effort::device;
     const Located at_once(render(clean_shot()), device);

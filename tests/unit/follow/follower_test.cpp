@@ -139,8 +139,8 @@ TEST(Follower, AReferencePointReplacesThatOfTheCameraFile) {
     options.reference_px = PixelPoint{(model.width_px - 1) / 2.0, (model.height_px - 1) / 2.0};
     const Fix fix = Follower(options).locate(image).fix;
     ASSERT_EQ(fix.status, Status::ok);
-    // Without a camera file, the fix is at the image centre. Its distance from the robot's centre
-    // is that of the camera.
+    // The option reference_px, here the image centre, takes precedence over the camera file. The
+    // image centre is as far from the robot's centre as the camera.
     EXPECT_NEAR(std::hypot(fix.x_mm() - kPivot_x_mm, fix.y_mm() - kPivot_y_mm),
                 std::hypot(kCameraOnRobot_mm.x, kCameraOnRobot_mm.y), 0.01);
 }

@@ -120,7 +120,7 @@ TEST(LocateRefuses, AFrameWithoutAnyDotIsRefusedEvenIfNoDotIsAskedFor) {
 }
 
 TEST(LocateRefuses, EveryStageCanRefuse) {
-    // The options and frames below make each stage refuse a frame, in the order of the stages.
+    // Each of these combinations of options and frame makes another stage refuse the frame.
     SmallMemory memory;
     Shot shot = shot_of({.preset = Preset::clean}, kSeed, 0);
     const GreyImage frame = render(shot);

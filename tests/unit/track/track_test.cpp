@@ -189,7 +189,7 @@ TEST(Tracker, BelievesWeakSightingsThatThePriorSupports) {
     EXPECT_EQ(track.verdict, Verdict::with_prior);
     // The gate extends to each side by at least 0.125 mm, which is half of the permitted
     // acceleration times the squared time, but is narrower than a cell. It therefore contains 2 to
-    // 4 of the 2^36 cells of all hypotheses.
+    // 4 of the 2^36 hypotheses.
     EXPECT_GE(track.p_wrong_log2, -12 + 1 - 36);
     EXPECT_LE(track.p_wrong_log2, -12 + 2 - 36);
 }
