@@ -121,8 +121,7 @@ TEST_F(Fleet, ASenderWhoseClockWasSetBackIsFollowed) {
         sender.publish(state_topic(robot), message.json());
         EXPECT_TRUE(sender.flush(20s));
     };
-    // The sender's clock was set back. The message numbers continue, so the fleet must not report a
-    // restart.
+    // The clock was set back. The message numbers continue, so the sender was not restarted.
     send("anna", 7, "2026-11-24T16:00:00Z");
     send("anna", 8, "2026-11-24T15:00:00Z");
     // The sender was restarted and its clock set back, so its message numbers begin again at 0.

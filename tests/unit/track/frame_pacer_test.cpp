@@ -54,8 +54,8 @@ class Device {
 
 TEST(FramePacer, TakesEveryFrameOfAMovingDevice) {
     Device device;
-    // In one frame, a motion at this speed is below the threshold, but in 5 s it exceeds the
-    // threshold.
+    // The device moves at 0.2 mm per second. Its motion between two frames is below the threshold,
+    // but its motion in 5 s exceeds the threshold.
     device.run_until(60 * kSecond_us,
                      [](std::int64_t t) { return at(100 + 0.4e-6 * static_cast<double>(t)); });
     EXPECT_EQ(device.frames_us.size(), 60U * 50);
