@@ -28,9 +28,9 @@ TEST_P(AdversarialClass, FramesGiveNoWrongFix) {
     }
 }
 
-// Each of these frames shows two patterns with the same orientation, about a fifth of the spacing
-// apart. Regression: the columns of one pattern and the rows of the other pattern were decoded as a
-// position.
+// Each of these frames shows two patterns with the same orientation, whose grids are shifted by
+// about a fifth of the spacing. Regression: `locate` read the columns of one pattern and the rows
+// of the other pattern, and reported the position that both together encode.
 TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
     const auto memory = std::make_unique<LargeMemory>();
     struct Overlay {
@@ -47,8 +47,9 @@ TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
     }
 }
 
-// The digits that are read across the seam of two sections belong to neither section, but occur
-// elsewhere in the code. Regression: `locate` reported that other place for each of these frames.
+// Each of these frames shows a seam between two sections. The digits between lines on different
+// sides of the seam belong to neither section, but occur elsewhere in the code. Regression:
+// `locate` reported the position at which they occur.
 TEST(Adversarial, WhatASeamExplainsBetterIsNoFix) {
     const auto memory = std::make_unique<LargeMemory>();
     struct Seam {

@@ -98,7 +98,7 @@ TEST_F(Afternoon, OfATeacherWithAPhone) {
     EXPECT_EQ(read_file(directory_ / "again.pdf"), read_file(directory_ / "sheet.pdf"));
 }
 
-// A device maker checks the optics, and reads the packets of the device.
+// A device maker checks the optics, and reads the packets that the device sends.
 TEST_F(Afternoon, OfAMakerOfDevices) {
     expect_ok("optics --device paper");
     for (int i = 0; i < 3; ++i) {

@@ -46,7 +46,7 @@ TEST_P(DotsAlike, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     EXPECT_EQ(score.wrong, 0);
     EXPECT_GE(score.located, kFramesOfCase * 9 / 10);
     // If the reported variances are correct, the mean of kFramesOfCase squared errors, each divided
-    // by its variance, exceeds 1.85 with a probability of 1/20,000.
+    // by its variance, exceeds 1.85 with a probability of only 1/20,000.
     for (const double normalised : score.normalised)
         EXPECT_LT(normalised, 1.85);
     const double px = kDefaultSpacing_mm / GetParam().dots.spacing_px;
@@ -62,8 +62,8 @@ INSTANTIATE_TEST_SUITE_P(
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.7, .angle_deg = 0}, 0.006},
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.7, .angle_deg = 90}, 0.006}));
 
-// Dots with edges that are sharper than a pixel. Without correction of the pixel bias, the error is
-// 0.0100 px at 12 px per spacing.
+// The edges of these dots are sharper than a pixel. Without the correction of the pixel bias, the
+// median error at 12 px per spacing is 0.0100 px.
 INSTANTIATE_TEST_SUITE_P(
     HardlyBlurred, DotsAlike,
     testing::Values(AlikeCase{{.spacing_px = 8, .blur_px = 0.3, .angle_deg = 0}, 0.004},
@@ -71,9 +71,9 @@ INSTANTIATE_TEST_SUITE_P(
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.3, .angle_deg = 0}, 0.0035},
                     AlikeCase{{.spacing_px = 12, .blur_px = 0.3, .angle_deg = 90}, 0.0035}));
 
-// Pale dots, in which only one or two pixels are darker than the threshold. If centres are measured
-// only near these pixels, the error is 0.030 px, and the mean squared error is more than twice the
-// variance.
+// Only one or two pixels of each dot are darker than the threshold. If the centroid is computed
+// from these pixels only, the error is 0.030 px, and the mean squared error is more than twice the
+// reported variance.
 INSTANTIATE_TEST_SUITE_P(
     Pale, DotsAlike,
     testing::Values(AlikeCase{{.spacing_px = 8, .dot = 0.1, .blur_px = 1, .angle_deg = 0}, 0.024},

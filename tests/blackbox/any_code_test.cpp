@@ -1,5 +1,5 @@
-// Tests `dotpose locate` on sheets whose code is not given: detection of the code, or a report
-// of the alternatives.
+// Tests `dotpose locate` on sheets whose code is not given. The tool must detect the code, or
+// report that several codes are possible.
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -20,10 +20,10 @@ using testing::AnyOf;
 using testing::HasSubstr;
 
 /// Positions modulo 241, the period of the sequence a4. From position 222 to position 238, the
-/// digits of a4 in one of the codes anoto and libdots are those of the other code, shifted by one
-/// position (docs/position-code.md). A view at kShifted therefore occurs in both codes, at
-/// different places, and a view at kCommon at the same place. A view at kBorder occurs in only one
-/// code.
+/// digits of a4 in the code anoto are those in the code libdots, shifted by one position
+/// (docs/position-code.md). A view centred on kShifted therefore occurs in both codes, but at
+/// different places. A view centred on kCommon occurs in both codes at the same place. A view
+/// centred on kBorder occurs in only one code.
 constexpr std::uint32_t kPeriod = 241;
 constexpr std::uint32_t kShifted = 231;
 constexpr std::uint32_t kBorder = 221;
@@ -124,7 +124,8 @@ TEST_F(AnyCode, given_decides_and_another_that_explains_the_frame_is_a_warning) 
     EXPECT_EQ(wrong["other_code"], "libdots");
     EXPECT_TRUE(is_at(wrong, "other_x_mm", "other_y_mm", truth)) << wrong;
 
-    // If a frame has no position in the given code, the warning names a code in which it has one.
+    // If a frame has no position in the given code, the warning names a code in which the frame has
+    // a position.
     run("--code microdots a.pgm");
     const json none = records().at(0);
     EXPECT_NE(none["status"], "ok");

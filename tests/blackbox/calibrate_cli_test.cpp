@@ -39,8 +39,8 @@ TEST_F(CalibrateCommand, WritesACameraFileThatLocateReads) {
     EXPECT_EQ(json::parse(output_)["wrong"], 0);
 }
 
-// Locates frames with lens distortion, but without a camera file. The distortion moves the image
-// corner by up to 5 % of its distance from the centre, inwards or outwards.
+// Locates frames with an unknown lens. Its distortion moves the image corner by up to 5 % of its
+// distance from the centre, inwards or outwards.
 TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
     const auto corner_px = [](int width, int height) {
         return std::hypot((width - 1) / 2.0, (height - 1) / 2.0);
@@ -73,7 +73,7 @@ TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
 
 TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
     simulate("turn", 1);
-    // The camera is at the robot's centre. The robot turns on the spot, so the frames show one
+    // The robot turns on the spot. Because the camera is at the robot's centre, the frames show one
     // place at four angles.
     std::string turn;
     for (const int angle : {0, 90, 180, 270}) {
@@ -116,9 +116,9 @@ TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
 }
 
 TEST_F(CalibrateCommand, FindsTheReadoutTimeAndLocateThenReportsTheVelocity) {
-    // Between frames, the camera moves by one spacing, which is 11.04 px, along its x axis. The
-    // scene moves by 5 px to the left during the readout, so the readout takes 0.453 of the time
-    // between frames.
+    // Between frames, the camera moves by one spacing, which is 11.04 px, along its x axis. During
+    // the readout of one frame, the scene moves by 5 px in the opposite direction, so the readout
+    // takes 5 / 11.04 = 0.453 of the time between frames.
     constexpr double kReadout_px = -5;
     constexpr double kSpacing_px = 0.508 / 0.046;
     std::string drive;
@@ -176,7 +176,7 @@ constexpr const char* kMountedCamera =
     "centre_px: [93.5, 59.5], mm_per_px: [0.046, 0.046], reference_px: [500, 59.5], "
     "theta_offset_rad: 0.25, gain: 3}";
 
-// The simulated sheet has a spacing of 0.508 mm, and the scale in the camera file agrees with it.
+// The frame shows a spacing of 0.508 mm at the scale in the camera file.
 TEST_F(CalibrateCommand, ASpacingThatTheCameraFileContradictsIsReported) {
     simulate("frames", 1);
     std::ofstream(directory_ / "camera.yaml") << kMountedCamera;

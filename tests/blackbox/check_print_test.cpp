@@ -150,8 +150,8 @@ TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json --dpi 600"), 0) << errors_;
 }
 
-// A photo taken straight from above looks like a scan, and the phone writes an arbitrary resolution
-// into the file. Only the EXIF data show that it is a photo.
+// The photo was taken straight from above, so it looks like a scan, and the phone wrote an
+// arbitrary resolution into the file. Only the EXIF data show that it is a photo.
 TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
     ASSERT_EQ(run("print --paper 60x50 -o a.svg --sheets sheets.json --name a"), 0);
     const std::string before = file("sheets.json");
@@ -176,9 +176,9 @@ TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
     EXPECT_EQ(run("check-print photo.jpg --format json"), 0);
     EXPECT_EQ(json::parse(output_)["exif_of_camera"], true);
 
-    // The EXIF data of a scanner contain no exposure, so the check uses the resolution of the file.
-    // The image has 330 dpi and the file contains 300 dpi, so the page seems to be scaled to 110 %.
-    // For a photo, the scale is checked only if --dpi is given.
+    // The EXIF data of a scanner contain no exposure, so the check uses the resolution in the file.
+    // The image was scanned at 330 dpi, but the file contains 300 dpi, so the page seems to be
+    // scaled to 110 %. In a photo, the scale is checked only if --dpi is given.
     write("scan.jpg", {test::date_taken, test::file_source});
     EXPECT_EQ(run("check-print scan.jpg"), 3);
     EXPECT_THAT(output_, HasSubstr("FAULT: the driver scaled the page to 110.0 %"));
@@ -221,7 +221,7 @@ TEST_F(CheckPrintCommand, judges_every_sheet_on_the_scan_by_what_the_sheet_file_
     EXPECT_NEAR(fitted[1].print_scale_y, 0.96, 2e-4);
     EXPECT_EQ(fitted[2].print_scale_x, 1);
 
-    // Without the sheet file, the check expects one pattern on the whole scan.
+    // Without the sheet file, the check expects the scan to show a single pattern.
     run("check-print scan.jpg");
     EXPECT_THAT(output_, HasSubstr("FAULT: from cell "));
 }

@@ -1,5 +1,5 @@
-// Tests conventions that all commands share: `-o -` for standard output, and the options --format
-// and --draw.
+// Tests the options that have the same meaning in all commands: `-o -` for standard output,
+// --format and --draw.
 #include <string>
 
 #include <gmock/gmock.h>

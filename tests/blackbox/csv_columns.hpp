@@ -1,4 +1,4 @@
-/// Maps columns of CSV lines to the values of JSON lines.
+/// Finds the value in a JSON line that corresponds to a column of a CSV line.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,12 @@
 
 namespace dotpose::test {
 
-/// Returns the value in a JSON line that corresponds to a CSV column, or null if there is none.
+/// Returns null if the JSON line has no value for the column.
 inline nlohmann::json value_in(const nlohmann::json& line, const std::string& column) {
     if (line.contains(column)) return line[column];
     if (column == "section_u" && line.contains("section")) return line["section"][0];
     if (column == "section_v" && line.contains("section")) return line["section"][1];
-    // covariance_mm_deg_12 is row 1, column 2 of a 3 x 3 matrix.
+    // For example, covariance_mm_deg_12 is row 1, column 2 of a 3 x 3 matrix.
     const std::size_t at = column.rfind('_');
     const std::string name = column.substr(0, at);
     if (at == std::string::npos || column.size() != at + 3 || !line.contains(name)) return {};

@@ -26,7 +26,8 @@ class EvaluateCommand : public ToolCommand {
   protected:
     json result() const { return json::parse(output_); }
 
-    /// Replaces cells (column, text) of the first frame's row in truth.csv.
+    /// Replaces columns in the first row of truth.csv. Each element is the index of a column and
+    /// its new text.
     void tamper(const std::vector<std::pair<std::size_t, std::string>>& cells) const {
         std::istringstream truth(file("frames/truth.csv"));
         std::ofstream out(directory_ / "frames/truth.csv");
@@ -78,8 +79,8 @@ TEST_F(EvaluateCommand, AFolderGivesTheNumbersOfTheSameFramesInMemory) {
     ASSERT_EQ(run("evaluate --preset nominal --frames 10 --seed 7 --format json"), 0) << errors_;
     const json memory = result();
     EXPECT_EQ(memory["located"], folder["located"]);
-    // The results differ slightly, because truth.csv contains positions rounded to 8 decimals of a
-    // grid spacing.
+    // The two results differ slightly, because the positions in truth.csv are rounded to 8 decimals
+    // of a grid spacing.
     EXPECT_NEAR(memory["position_um"]["median"], folder["position_um"]["median"], 1e-4);
     EXPECT_NEAR(memory["angle_deg"]["max"], folder["angle_deg"]["max"], 1e-6);
 }
@@ -127,8 +128,8 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     const json image = result();
     EXPECT_EQ(image["located"], 5);
     EXPECT_LT(image["position_um"]["max"], 5);
-    // The scale and tilt in the camera file are also used, so the fit has five parameters instead
-    // of eight. The angle therefore differs from that of the fit with only the lens.
+    // With the scale and tilt from the camera file, the fit has five parameters. With only the
+    // lens, it has eight, so the angles of the two fits differ.
     EXPECT_NE(image["angle_deg"]["max"], lens_alone["angle_deg"]["max"]);
     ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --format json"), 0) << errors_;
     EXPECT_EQ(result()["wrong"], 5);  // truth.csv contains the pose of the image centre
@@ -143,9 +144,9 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     truth.close();
     ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --format json"), 0) << errors_;
     EXPECT_EQ(result()["located"], 5);
-    // The limit is larger than above for two reasons. The centre is 5 mm from the camera, so an
-    // angle error of 0.03 degrees moves it by 3 µm. The coordinates in truth.csv have only 6
-    // significant digits, so each may be wrong by up to 3 µm.
+    // This limit is larger than the limit above for two reasons. The centre is 5 mm from the
+    // camera, so an angle error of 0.03 degrees moves it by 3 µm. The coordinates in truth.csv have
+    // only 6 significant digits, so each may be wrong by up to 3 µm.
     EXPECT_LT(result()["position_um"]["max"], 15);
     EXPECT_LT(result()["angle_deg"]["max"], 0.15);
 }
@@ -182,8 +183,8 @@ TEST_F(EvaluateCommand, TheProtocolWritesItsTableAndFigures) {
     }
 }
 
-/// Frames of a sheet with poses that were measured in two ways: by a ruler, in the coordinates of
-/// the sheet, and by a motion stage, whose coordinates have another origin, direction and unit.
+/// Frames of a sheet whose poses were measured twice. A ruler measured them in the coordinates of
+/// the sheet. A motion stage measured them in coordinates with another origin, direction and unit.
 class EvaluateMeasured : public EvaluateCommand {
   protected:
     void SetUp() override {
@@ -201,8 +202,9 @@ class EvaluateMeasured : public EvaluateCommand {
                       frame_of(sheet, x_mm, y_mm, 0.4 * i, static_cast<std::uint64_t>(i)).view());
             by_ruler << name << ",table," << x_mm << ',' << y_mm << ',' << 0.4 * i * kDegrees
                      << '\n';
-            // The x axis of the stage is the y axis of the sheet, and its y axis is the x axis of
-            // the sheet. It measures in metres, and its lengths are 0.3 % too large.
+            // The x axis of the stage is the y axis of the sheet, and the y axis of the stage is
+            // the x axis of the sheet. The stage measures in metres, and its lengths are 0.3 % too
+            // large.
             by_stage << name << ',' << 1.003 * y_mm / 1000 << ',' << 1.003 * x_mm / 1000 << ','
                      << 90 - 0.4 * i * kDegrees << '\n';
         }

@@ -60,8 +60,8 @@ TEST_F(Examples, FollowGoesWithTheRobot) {
         ASSERT_EQ(std::sscanf(lines[i].c_str(), "x %*f mm, y %*f mm, %lf and %lf mm/s", &vx, &vy),
                   2)
             << lines[i];
-        // The second frame gives the first estimate of the velocity, so frames are tracked from the
-        // third frame on. Without the velocity, the prediction is too far from the true pose.
+        // The tracker knows the velocity after the second frame. Without the velocity, the
+        // prediction is too far from the true pose, so only the third and later frames are tracked.
         EXPECT_EQ(lines[i].ends_with("tracked"), i >= 2) << lines[i];
         const DriveState truth = drive.at(first + static_cast<int>(i));
         if (i >= 4) {
@@ -144,7 +144,7 @@ TEST_F(Examples, OpencvVideoLocatesEachFrame) {
         write_pgm(directory_ / ("f" + std::to_string(i) + ".pgm"),
                   render(shot(static_cast<std::uint64_t>(i))).view());
     }
-    // OpenCV reads numbered images as a video.
+    // OpenCV opens a series of numbered images as a video.
     ASSERT_EQ(run_example("opencv_video f%d.pgm"), 0) << errors_;
     const auto lines = lines_of(output_);
     ASSERT_EQ(lines.size(), 3U) << output_;

@@ -1,5 +1,5 @@
 // Tests the output of long operations on a terminal: progress with the remaining time, colour, and
-// partial results after Ctrl-C. The program `script` provides the terminal.
+// partial results after Ctrl-C. The program `script` runs the tool on a pseudo-terminal.
 #include <cstdint>
 #include <fstream>
 #include <string>

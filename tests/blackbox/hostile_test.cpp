@@ -69,7 +69,7 @@ TEST_F(Hostile, OptionsRefuseWhatIsNoFiniteNumber) {
         EXPECT_EQ(run(command), 2) << command;
         EXPECT_THAT(errors_, HasSubstr("finite number")) << command;
     }
-    // A file may have the name `nan`.
+    // The name of this file can also be parsed as a number.
     put("nan", "P5 1 1 255\nx");
     run("locate nan");
     EXPECT_THAT(output_, HasSubstr("\"file\":\"nan\""));
@@ -104,7 +104,7 @@ TEST_F(Hostile, NestingAndSizeOfTextFilesAreBounded) {
     EXPECT_THAT(errors_, HasSubstr("/dev/zero has more than 1 MB"));
 }
 
-/// Returns a PNG of 16,000 x 16,000 px that is cut off at the beginning of the pixel data.
+/// Returns the beginning of a PNG file of 16,000 x 16,000 px, without the pixel data.
 std::string png_header() {
     using namespace std::string_literals;
     return "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x3e\x80\0\0\x3e\x80\x08\0\0\0\0\x64\x15\x80\x02"
@@ -208,7 +208,7 @@ TEST_F(Hostile, AReaderThatLeavesEndsNeitherMapNorLog) {
     EXPECT_EQ(std::ranges::count(output_, '\n'), 1);
     EXPECT_EQ(std::ranges::count(file("log.csv"), '\n'), 41);
     EXPECT_THAT(file("map.svg"), HasSubstr("40 frames"));
-    // The frames arrive after the reader has closed the pipe.
+    // The frames arrive only after the reader of the packets has closed the pipe.
     EXPECT_EQ(shell("mkfifo packets; (exec 3< packets; exec 3<&-; : > left) & "
                     "(until [ -e left ]; do sleep 0.01; done; tail -q -c 22560 frames/*.pgm) |"
                     "\"$T\" watch - --size 188x120 --packets packets -o lines; wait"),
@@ -220,7 +220,7 @@ TEST_F(Hostile, AReaderThatLeavesEndsNeitherMapNorLog) {
 TEST_F(Hostile, AFullDiskIsToldByTheRecording) {
     simulate(40);
     // `ulimit` limits the size of files to 8 blocks of 512 bytes. `trap` ignores the signal that
-    // would otherwise end the program at this limit.
+    // would otherwise end the program when a file reaches this limit.
     EXPECT_EQ(shell("trap '' XFSZ; ulimit -f 8; \"$T\" watch frames --fps 50 --record a.mp4 | cat"
                     " > /dev/null; \"$T\" watch frames --fps 50 --record a.mp4 > /dev/null"),
               1);

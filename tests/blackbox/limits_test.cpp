@@ -16,8 +16,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 70;
 
-/// Returns the number of test frames for a camera. Large images take longer, so there are fewer of
-/// them.
+/// Returns the number of test frames. It is smaller for large images, which take longer.
 std::uint64_t frames_of(const CameraModel& camera) {
     constexpr int kSmall_px = 200 * 200;
     constexpr int kMedium_px = 1280 * 960;

@@ -112,8 +112,8 @@ TEST_F(Listen, ReadsASerialDeviceUntilItGoes) {
     for (std::uint16_t i = 0; i < 50; ++i)  // the packets contain bytes that a terminal interprets
         stream += on_the_line(packet_at(i, 0x0D0A0304U));
     std::thread sender([&] {
-        // Nothing reads the device before the tool has opened it, so the sender waits until the
-        // tool has created its output file.
+        // Nothing reads the device before the tool has opened it, so the test waits until the
+        // output file of the tool exists.
         while (!fs::exists(directory_ / "poses.jsonl"))
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         EXPECT_EQ(write(device, stream.data(), stream.size()), static_cast<ssize_t>(stream.size()));

@@ -1,4 +1,4 @@
-// Tests `dotpose calibrate --live` without a display. The tool must take frames that add
+// Tests `dotpose calibrate --live` without a display. The tool must accept only frames that add
 // information, report the missing requirements, and end automatically.
 #include <fstream>
 #include <iterator>
@@ -50,7 +50,6 @@ class LiveCalibration : public ToolCommand {
         EXPECT_LT(camera.sigma.at("k_per_px2"), 1e-7);
     }
 
-    /// Returns the number of frames used, according to the report.
     int used() const {
         std::smatch match;
         const std::regex pattern("frames +([0-9]+) of ([0-9]+) located");
@@ -70,8 +69,8 @@ TEST_F(LiveCalibration, EndsByItselfOnceNothingIsMissing) {
     EXPECT_GE(used(), 5);
     EXPECT_LT(used(), 45);
     EXPECT_EQ(std::distance(fs::directory_iterator(directory_ / "kept"), {}), used());
-    // In the video, each image is repeated three times. The calibration must use it only once, so
-    // the results are equal.
+    // The video shows each image three times. The calibration must use each image only once, so
+    // that the result is the same as that of the images.
     const std::string report = output_;
     const std::string file_of_images = file("camera.yaml");
     put_raw("resting.raw");
@@ -132,12 +131,12 @@ TEST_F(LiveCalibration, TakesFramesOfARobotThatDoesNotStop) {
                   static_cast<std::streamsize>(image.pixels.size()));
     }
     raw.close();
-    // At 10 frames per second, the drive takes 6 s. After 3 s without a frame at rest, the program
-    // accepts frames in motion.
+    // At 10 frames per second, the drive takes 6 s. If the program finds no frame at rest for 3 s,
+    // it also accepts frames in motion.
     EXPECT_EQ(calibrate("--size 188x120 --fps 10 - <drive.raw"), 0) << errors_;
     EXPECT_TRUE(has_file());
     EXPECT_GE(used(), 10);
-    // At 30 frames per second, the drive takes 2 s, so the program accepts no frame in motion.
+    // At 30 frames per second, the drive takes only 2 s, so the program accepts no frame.
     fs::remove(directory_ / "camera.yaml");
     EXPECT_EQ(calibrate("--size 188x120 --fps 30 - <drive.raw"), 1);
     EXPECT_FALSE(has_file());
@@ -179,7 +178,7 @@ TEST_F(LiveCalibration, AnInterruptWritesNothingIfThatIsTooLittle) {
 
 TEST_F(LiveCalibration, ShowsTheImageOnATerminal) {
     simulate("--frames 12");
-    // `script` runs the tool on a terminal and copies its output.
+    // `script` runs the tool on a pseudo-terminal.
     ASSERT_EQ(shell("script -qec \"$T calibrate --live --no-window frames -o camera.yaml\" "
                     "/dev/null </dev/null"),
               0)
@@ -201,7 +200,7 @@ TEST_F(LiveCalibration, RefusesWhatItCannotDo) {
         EXPECT_THAT(errors_, HasSubstr("cannot be given together")) << other;
     }
     EXPECT_EQ(run("calibrate --no-window frames"), 2);
-    // The output path is checked first, so the user does not move the camera in vain.
+    // The output path is checked before the first frame is taken.
     EXPECT_EQ(run("calibrate --live --no-window frames -o nowhere/camera.yaml"), 1);
     EXPECT_THAT(errors_, HasSubstr("nowhere/camera.yaml"));
     EXPECT_THAT(errors_, Not(HasSubstr("taken")));

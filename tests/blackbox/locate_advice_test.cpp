@@ -1,5 +1,5 @@
-// Tests the advice of `dotpose locate` on pictures that cannot be read, or that can be read only
-// after a change.
+// Tests the advice of `dotpose locate` on images that cannot be located, or only after a change of
+// the image or the options.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -26,8 +26,8 @@ TEST_F(LocateCommand, a_position_that_is_not_certain_says_what_was_missing) {
     EXPECT_THAT(records().at(0)["message"], HasSubstr("show more of the sheet"));
 }
 
-// Bits are read in all cells, including cells without a dot. The number of bits is therefore not
-// twice the number of dots.
+// Bits are read in all cells, also in cells without a dot, so the number of bits is not twice the
+// number of dots.
 TEST_F(LocateCommand, bits_that_contradict_a_position_are_not_counted_by_dots) {
     dotpose::Setup setup;
     setup.seed = 3;
@@ -101,7 +101,6 @@ TEST_F(LocateCommand, a_picture_that_is_tilted_out_of_focus_or_shaken_says_so) {
     run("blurred.pgm");
     EXPECT_NE(records().at(0)["status"], "ok") << output_;
     EXPECT_THAT(records().at(0)["message"], HasSubstr("the picture is out of focus, shaken"));
-    // A sharp picture of text gets neither the advice on focus nor the advice on tilt.
     write_pgm(directory_ / "text.pgm", render_scene(Scene::text, clean_shot(14)).view());
     run("text.pgm");
     EXPECT_NE(records().at(0)["status"], "ok") << output_;
@@ -118,8 +117,8 @@ Shot wide_shot() {
     return draw_shot(setup, 0);
 }
 
-// The width and the height are odd. Halving the image omits the last column and row, which moves
-// the image centre.
+// The width and the height are odd. When the image is reduced to half its size, its last column and
+// row are omitted, which moves the image centre.
 TEST_F(LocateCommand, an_image_beyond_the_limit_is_reduced_and_that_is_told) {
     const Shot wide = wide_shot();
     write_pgm(directory_ / "wide.pgm", render(wide).view());
@@ -160,7 +159,7 @@ TEST_F(LocateCommand, a_mirrored_view_says_how_to_go_on_and_is_located_flipped) 
           "centre_px: [93.5, 59.5], flip: true}");
     run("straight.pgm");
     const json straight = records().at(0);
-    // Mirroring can be set by the option, by the camera file, or by both.
+    // Mirroring can be set by the option --flip, by the camera file, or by both.
     for (const char* how : {"--flip ", "--camera camera.yaml ", "--flip --camera camera.yaml "}) {
         run(how + std::string("mirrored.pgm"));
         const json record = records().at(0);
@@ -199,8 +198,8 @@ TEST_F(LocateCommand, a_picture_from_too_near_says_so) {
     }
 }
 
-// The view contains enough dots for a certain position if the code is known, but too few if all
-// three codes are possible.
+// The view contains enough dots to make the position certain if the code is known, but too few if
+// the code can be any of the three.
 TEST_F(LocateCommand, a_position_that_only_its_code_makes_certain_names_the_option) {
     int found = 0;
     for (int seed = 1; seed <= 12 && found == 0; ++seed) {

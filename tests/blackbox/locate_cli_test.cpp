@@ -279,7 +279,6 @@ TEST_F(LocateCommand, draws_one_image_into_a_file) {
     EXPECT_THAT(file("picture.svg"), HasSubstr("</svg>"));
     run("--draw picture.svg flat.pgm");
     EXPECT_THAT(file("picture.svg"), HasSubstr("no fix: no_contrast"));
-    // The picture contains the advice from the output line.
     const std::string message = records().at(0)["message"];
     EXPECT_THAT(file("picture.svg"), HasSubstr(message.substr(0, 40)));
     run("--draw picture.svg a.pgm flat.pgm");
@@ -331,8 +330,8 @@ TEST_F(LocateCommand, the_lens_is_used) {
     EXPECT_LT(with_lens["residual_px"], 0.5);
     run("a.pgm");
     const json without = records().at(0);
-    // Without --k, the pose fit estimates the lens distortion. It uses fewer dots, and the fix is
-    // less accurate.
+    // Without --k, the pose fit must also estimate the lens distortion. It then uses fewer dots,
+    // and the fix is less accurate.
     if (without["status"] == "ok") {
         EXPECT_LT(without["dots_used"], 0.95 * with_lens["dots_used"].get<double>()) << without;
         EXPECT_GT(without["sigma_x_mm"], 1.2 * with_lens["sigma_x_mm"].get<double>()) << without;
@@ -357,7 +356,7 @@ TEST_F(LocateCommand, white_dots_on_black_are_read_if_told) {
     EXPECT_NEAR(found["y_grid"], y_grid(truth.pose), 0.03);
     EXPECT_NE(records().at(1)["status"], "ok");
 
-    // The picture shows the image after the inversion, with dark dots.
+    // The picture shows the inverted image, in which the dots are dark.
     run("--draw . usual.pgm");
     const auto pixels_in = [this](const std::string& picture) {
         const std::string svg = file(picture);
@@ -436,8 +435,8 @@ TEST_F(LocateCommand, output_can_go_to_a_file) {
 
 TEST_F(LocateCommand, lines_leave_at_once) {
     write_frame("a.pgm", 0);
-    // Writes a script that prints one name and keeps the list open until the tool has printed the
-    // first line, for at most 10 seconds.
+    // The script prints one name and then waits, for at most 10 seconds, until the tool has printed
+    // its first line. The list ends only when the script ends.
     write("names.sh",
           "echo a.pgm\n"
           "for i in $(seq 100); do [ -s out ] && echo yes > came && break; sleep 0.1; done\n");

@@ -81,8 +81,8 @@ class LocateCommand : public ToolCommand {
         image.pixels.assign(static_cast<std::size_t>(width_px * height_px), 200);
         write_pgm(directory_ / name, image.view());
     }
-    /// Writes an image with libpng's simplified interface. libpng requires that samples of two
-    /// bytes are proportional to the light (linear).
+    /// Writes an image with libpng's simplified interface, which requires that 16-bit samples are
+    /// linear in the light intensity.
     void write_as_png(const std::string& name, const GreyImage& image, png_uint_32 format,
                       const void* samples) const {
         png_image png{};

@@ -48,8 +48,9 @@ class LocateSpace : public LocateCommand {
 TEST_F(LocateSpace, WritesPositionAndAngles) {
     ASSERT_EQ(run("--camera camera.yaml --pose space frame.pgm"), 0) << errors_;
     const json line = json::parse(output_);
-    // The pose is that of the point at which the optical axis intersects the paper. The camera is
-    // kDistance_mm away from this point, in a direction tilted by kTilt_deg.
+    // The reported pose is that of the point at which the optical axis intersects the paper. The
+    // camera is kDistance_mm from this point, along a line that is tilted by kTilt_deg from the
+    // vertical.
     const double aside_mm = kDistance_mm * std::sin(kTilt_deg * kDegree_rad);
     EXPECT_NEAR(line["camera_x_mm"], line["x_mm"].get<double>() + aside_mm, 0.05);
     EXPECT_NEAR(line["camera_y_mm"], line["y_mm"].get<double>(), 0.05);
@@ -97,7 +98,7 @@ TEST_F(LocateSpace, IsRefusedWithoutAFocalLength) {
 }
 
 TEST_F(LocateSpace, WarnsIfTheMirroredTiltIsPossible) {
-    // At a focal length of 20,000 px, the perspective is too weak to show the direction of the
+    // At a focal length of 20,000 px, the perspective is too weak to determine the direction of the
     // tilt.
     dotpose::Setup setup;
     setup.camera.working_distance_mm = 20'000 * setup.camera.mm_per_px;

@@ -28,7 +28,7 @@ class ShellFiles : public ToolCommand {
   protected:
     const std::string folder_ = source_dir() + "/apps/shell";
 
-    /// Returns the completions that bash offers for the last of these words.
+    /// Returns the completions that bash offers for the last element of `words`.
     Words bash_offers(const std::string& words) {
         EXPECT_EQ(
             shell("T=\"$T\" bash -c 'set -u; . " + folder_ + "/dotpose.bash; COMP_WORDS=(" + words +
@@ -74,7 +74,7 @@ TEST_F(Completions, OfBashOfferValues) {
     EXPECT_EQ(bash_offers("dotpose locate --format = c"), Words{"csv"});
     EXPECT_EQ(bash_offers("dotpose locate --format ="), (Words{"json", "csv", "text"}));
     EXPECT_EQ(bash_offers("dotpose watch 0 --code micro"), Words{"microdots"});
-    // Bash itself completes file names if there is no other completion.
+    // If the completion function offers nothing, bash itself completes file names.
     for (const char* words : {"dotpose locate --sheets \"\"", "dotpose locate a.png \"\"",
                               "dotpose watch \"\"", "dotpose banana \"\""})
         EXPECT_THAT(bash_offers(words), IsEmpty()) << words;
@@ -101,8 +101,8 @@ TEST_F(Completions, OfFish) {
 
 TEST_F(Completions, OfZsh) {
     if (!has("zsh")) GTEST_SKIP() << "no zsh; scripts/setup packaging installs it";
-    // For each pair of arguments, types the first one and a tab into a terminal, and waits until
-    // the second one appears.
+    // The arguments of the script are pairs. For each pair, it types the first argument and a tab
+    // into a terminal, and waits until the second argument appears.
     std::ofstream(directory_ / "try.zsh") << R"(
         zmodload zsh/zpty
         zpty -b typed zsh -f -i

@@ -1,5 +1,5 @@
-// Tests plausible mistakes of new users. The exit status must report the error, and one message
-// must name the cause and the next step.
+// Tests plausible mistakes of new users. The exit status must be non-zero, and a single message
+// must contain the cause and the next step.
 #include <ostream>
 #include <string>
 

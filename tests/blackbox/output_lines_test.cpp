@@ -46,7 +46,7 @@ Matrix propagated(const Matrix& j, const Matrix& c) {
     return result;
 }
 
-/// Compares two matrices. The tolerance allows for their seven printed digits.
+/// Compares two covariance matrices that were printed with seven digits.
 void expect_equal(const Matrix& actual, const Matrix& expected) {
     for (std::size_t i = 0; i < 9; ++i) {
         const double scale = std::sqrt(expected[i / 3][i / 3] * expected[i % 3][i % 3]);
@@ -197,8 +197,8 @@ TEST_F(OutputLines, HaveTheCovarianceOfEachPose) {
     EXPECT_NEAR(std::sqrt(pattern[0][0]), line["sigma_x_mm"].get<double>(), 1e-6);
     EXPECT_NEAR(std::sqrt(pattern[1][1]), line["sigma_y_mm"].get<double>(), 1e-6);
     EXPECT_NEAR(std::sqrt(pattern[2][2]), line["sigma_theta_deg"].get<double>(), 1e-6);
-    // The sheet is printed at its nominal scale, so the covariance on the sheet is that in the
-    // pattern.
+    // The sheet is printed at its nominal scale, so the covariance on the sheet equals the
+    // covariance in the pattern.
     expect_equal(matrix_of(line["covariance_sheet_mm_deg"]), pattern);
     EXPECT_EQ(line["theta_sheet_deg"], line["theta_deg"]);
     // docs/sheet-files.md defines the pose in the world, for example x_m = world.x_m + (x cos(yaw)

@@ -25,8 +25,8 @@ class PdfCommands : public ToolCommand {
 TEST_F(PdfCommands, print_makes_pages_with_text_that_can_be_selected) {
     run("$T print -o 'my sheet.pdf' --pages 3 --paper A6 --section 1,2 --origin 9,8");
     EXPECT_EQ(exit_code_, 0);
-    // Margins of 10 mm leave 85 x 128 mm. n cells of 0.508 mm need (n - 0.5) * 0.508 mm, so there
-    // are 167 x 252 cells.
+    // Margins of 10 mm leave 85 x 128 mm for the dots. n cells of 0.508 mm need (n - 0.5) * 0.508
+    // mm, so 167 x 252 cells fit.
     EXPECT_THAT(output_, HasSubstr("my sheet.pdf: 1/3, page 105 x 148 mm, cells 9,8 to 175,259 "));
     EXPECT_THAT(output_, HasSubstr("3/3, page 105 x 148 mm, cells 343,8 to 509,259 "));
     run("qpdf --check 'my sheet.pdf' && pdftotext -f 2 -l 2 'my sheet.pdf' -");
@@ -39,7 +39,7 @@ TEST_F(PdfCommands, print_makes_pages_with_text_that_can_be_selected) {
 }
 
 TEST_F(PdfCommands, paper_sizes_and_landscape_are_true) {
-    // pdfinfo prints rounded sizes in points. There are 72 points in 25.4 mm.
+    // pdfinfo prints the page sizes in points (1/72 inch), rounded.
     const std::array<std::array<const char*, 2>, 4> sizes = {
         {{"A0", "2383.94 x 3370.39"},
          {"A4 --landscape", "841.89 x 595.276"},

@@ -1,5 +1,5 @@
-// Tests maps of the print as users make and use them: calibrate --print-map, and the option
-// --print-map of locate and watch.
+// Tests print maps: `calibrate --print-map` creates them, and the option --print-map of `locate`
+// and `watch` uses them.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -26,7 +26,6 @@ class PrintMaps : public ToolCommand {
         sheets.save();
     }
 
-    /// Writes frames of a print: NAME-000.pgm, NAME-001.pgm, ...
     void put_frames(const std::string& name, const MappedPrint& print, std::uint64_t series,
                     int count) const {
         for (int i = 0; i < count; ++i) {
@@ -36,7 +35,7 @@ class PrintMaps : public ToolCommand {
         }
     }
 
-    /// Makes desk.map of the print.
+    /// Calibrates the map desk.map from frames of the print.
     void make_map() {
         put_frames("map", print_, 100, 60);
         ASSERT_EQ(run("calibrate --print-map map-*.pgm --sheets sheets.json -o desk.map"), 0)
@@ -52,8 +51,9 @@ class PrintMaps : public ToolCommand {
         return records;
     }
 
-    /// Returns the rms error of the places of `print_`, without the mean error. The mean offset of
-    /// the dots of a print is 0 in its map, and 0.2 µm on a page of this size.
+    /// Returns the rms of the position errors after subtraction of the mean error. The mean error
+    /// is subtracted because a map does not contain the mean offset of the dots, which is 0.2 µm on
+    /// a page of this size.
     double error_um(const std::vector<json>& records, std::uint64_t series) const {
         const Sheet& sheet = print_.entry().sheet;
         const auto count = static_cast<double>(records.size());

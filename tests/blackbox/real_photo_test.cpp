@@ -55,8 +55,8 @@ TEST_P(RealPhoto, is_located_whatever_way_it_is_turned) {
     const double theta_deg = fix.theta_rad() * 180 / std::numbers::pi;
     const double expected_deg = kTheta_deg - 90 * GetParam();
     EXPECT_NEAR(std::remainder(theta_deg - expected_deg, 360), 0, 0.5);
-    // The expected section follows from the definition in code.hpp. The bits agree with no other
-    // section.
+    // The expected section follows from the definition in code.hpp. No other section agrees with
+    // the bits.
     EXPECT_EQ(fix.section, (Section{24, 32}));
     EXPECT_EQ(fix.bit_errors, 0);
 }

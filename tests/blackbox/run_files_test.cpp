@@ -12,7 +12,6 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Provides files of all kinds that the commands read, and checks that none of them changes.
 class RunFiles : public ToolCommand {
   protected:
     void SetUp() override {
@@ -33,7 +32,7 @@ class RunFiles : public ToolCommand {
         std::ofstream(directory_ / name, std::ios::binary) << text;
     }
 
-    /// Returns names, kinds, inodes and checksums of all files.
+    /// Returns the names, types, inodes and checksums of all files in the directory.
     std::string state() {
         shell("find . -printf '%p %y %i\\n' | sort; find . -type f -exec cksum {} + | sort");
         return output_;
@@ -44,7 +43,7 @@ class RunFiles : public ToolCommand {
         std::string reason;
     };
 
-    /// Runs commands that must be refused. Expects that they report the reason and change nothing.
+    /// Expects that each command is refused with its reason and changes no file.
     void expect_refused(const std::vector<Refusal>& refusals) {
         const std::string before = state();
         for (const auto& [command, reason] : refusals) {
@@ -127,8 +126,8 @@ TEST_F(RunFiles, a_camera_file_may_be_completed_but_not_turned_into_another_form
         "1, cols: 5, data: [0, 0, 0, 0, 0]}}");
     expect_refused({"calibrate --camera ros.yaml --drive g/frame_000000.pgm -o ros.yaml"},
                    " would overwrite the input ");
-    // The check of the file names accepts this command. It fails later, because three frames at
-    // random places are not a drive.
+    // The output replaces one of the inputs, which is allowed here. The command fails later,
+    // because three frames at random places are not a drive.
     EXPECT_EQ(run("calibrate --camera c.yaml --drive g/*.pgm -o c.yaml"), 1);
 }
 
@@ -149,7 +148,7 @@ TEST_F(RunFiles, pictures_of_frames_are_outputs_too) {
     EXPECT_THAT(errors_, HasSubstr("would overwrite the input --list p/frame_000000.svg"));
     EXPECT_EQ(file("p/frame_000000.svg"), list);
     EXPECT_TRUE(fs::exists(directory_ / "p/frame_000001.svg"));
-    // The pictures of images whose names differ only in case do not overwrite each other.
+    // Names that differ only in case are different names, so neither picture overwrites the other.
     ASSERT_EQ(shell("cp g/frame_000000.pgm a.pgm && cp g/frame_000001.pgm A.pgm"), 0);
     EXPECT_EQ(run("locate a.pgm A.pgm --draw p"), 0) << errors_;
 }

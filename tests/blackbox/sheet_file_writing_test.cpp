@@ -1,5 +1,5 @@
-// Checks that sheet files and their pages are written together or not at all, even with concurrent
-// writers.
+// Tests that a sheet file and its pages are either both written or both left unchanged, even if
+// several tools write at the same time.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -77,7 +77,8 @@ TEST_F(SheetFileWriting, no_page_is_written_where_its_entry_cannot_be) {
     } wrong[] = {
         {"$T print -o new.svg --paper 40x40 --sheets folder.json --name a", "Is a directory"},
         {"$T overlay in.pdf -o new.svg --sheets folder.json --name a", "Is a directory"},
-        // Simulates a full disk: files are limited to 512 bytes, and an entry is larger.
+        // Simulates a full disk. Files are limited to 512 bytes, and the entry of one sheet is
+        // larger.
         {"(trap '' XFSZ; ulimit -f 1; $T print -o new.svg --paper 30x20 --sheets s.json --name a)",
          "cannot write s.json: File too large"},
         {"$T print -o new.svg --paper 40x40 --sheets /proc/s.json --name a",

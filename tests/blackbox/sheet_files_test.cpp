@@ -59,8 +59,9 @@ TEST_F(SheetFiles, tell_sheet_place_and_world_pose) {
         EXPECT_EQ(record.contains("x_m"), i % 2 == 1);
         EXPECT_EQ(record.contains("yaw_rad"), i % 2 == 1);
         if (i % 2 == 0) continue;
-        // The page's y axis points down, and the world's y axis points up. The position in the
-        // world is therefore the complex conjugate, rotated and translated.
+        // The y axis of the page points down, and the y axis of the world points up. As complex
+        // numbers, the position in the world is therefore the conjugate of the position on the
+        // page, rotated and translated.
         const std::complex<double> turn = std::polar(1.0, kYaw_rad);
         const std::complex<double> at =
             std::complex(1.25, -0.5) + turn * std::conj(std::complex(x_mm, y_mm)) / 1000.0;
@@ -86,8 +87,8 @@ TEST_F(SheetFiles, only_sheets_excludes_others_and_reads_small_views) {
     ASSERT_EQ(print("-o table.svg --paper 80x60 --sheets sheets.json --name table"), 0) << errors_;
     json sheet = sheets().at(0);
     const GreyImage frame = frame_of(sheet, 40, 30, 0.3, 1);
-    // Cuts out the middle of the frame. It is 6.5 cells wide, which is too small for a position
-    // unless the sheets are known.
+    // Cuts out the middle of the frame. It is 6.5 cells wide, so it determines a position only if
+    // the sheets are known.
     constexpr int kSide_px = 72;
     const ImageView whole = frame.view();
     const std::uint8_t* first =
@@ -106,9 +107,9 @@ TEST_F(SheetFiles, only_sheets_excludes_others_and_reads_small_views) {
     EXPECT_NE(records().at(0)["status"], "ok") << records().at(0);
 }
 
-/// Returns the image of a camera above the printed page, cropped from the image of the page. Each
-/// camera pixel covers 2 x 2 printer pixels, and the image centre is at the upper left corner of
-/// the printer pixel (u, v). The surroundings of the page are white.
+/// Returns the image of a camera above the printed page. Each camera pixel is the mean of 2 x 2
+/// printer pixels, and the image centre is at the upper left corner of the printer pixel (u, v).
+/// The surroundings of the page are white.
 GreyImage cut_out(const GreyImage& page, int u, int v, int width_px = 188, int height_px = 120) {
     const auto level_at = [&page](int column, int row) {
         const bool is_inside =
@@ -178,7 +179,7 @@ TEST_F(SheetFiles, a_frame_under_the_ruler_s_50_mm_lies_at_50_mm) {
         << output_;
     const GreyImage page = read_image((directory_ / "page.pgm").string());
     const auto px = [](double pt) { return static_cast<int>(pt * 1200 / 72); };
-    // The tick is between the number and the dots, and is 1.8 mm long.
+    // The tick is between the number and the dots. It is 1.8 mm long.
     const int v = px(bottom_pt);
     const int u =
         darkest_column(page, px(left_pt), px(right_pt), v, v + static_cast<int>(1.8 * kPxPerMm));
@@ -322,8 +323,8 @@ TEST_F(SheetFiles, a_frame_of_two_sheets_is_never_on_the_wrong_one) {
         const double x_mm = (is_b ? u - a.width_px : u) * 25.4 / 1200;
         EXPECT_NEAR(record["x_sheet_mm"], x_mm, kTolerance_mm) << u;
     }
-    // A frame extends 280 printer pixels from its centre, but the dots of b begin 430 pixels from
-    // its edge. A frame centred near the edge of b therefore shows only dots of a.
+    // A frame extends 280 printer pixels from its centre. The dots of b begin 430 pixels from the
+    // edge of b, so a frame centred near this edge shows only dots of a.
     EXPECT_GE(on_a, 8);
     EXPECT_GE(on_b, 12);
 }
@@ -404,8 +405,8 @@ TEST_F(SheetFiles, pictures_show_the_profile_that_was_found) {
     ASSERT_EQ(print("-o b.svg --paper 40x40 --sheets sheets.json --name b --code microdots "
                     "--spacing 0.6"),
               0);
-    // Because this position is not on any sheet, the tool also tries the code of the second sheet.
-    // The picture must still show the fix in the code of the first sheet.
+    // This position is not on any sheet, so the tool also tries the code of the second sheet. The
+    // picture must still show the fix in the code of the first sheet.
     write_frame("elsewhere.pgm", 0);
     run("--sheets sheets.json --draw pictures elsewhere.pgm");
     EXPECT_EQ(records().at(0)["status"], "ok");

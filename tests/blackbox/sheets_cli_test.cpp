@@ -69,8 +69,8 @@ TEST_F(SheetsTool, a_new_name_keeps_all_else) {
     expected[0]["name"] = "desk";
     ASSERT_EQ(sheets_tool("rename table desk"), 0) << errors_;
     EXPECT_EQ(sheets(), expected);
-    // A sheet that is renamed to a name used before does not inherit the properties of the earlier
-    // sheet.
+    // The sheet `table` was renamed before. A sheet that now gets the name `table` must not inherit
+    // the properties of the earlier one.
     ASSERT_EQ(sheets_tool("rename shelf table"), 0) << errors_;
     EXPECT_FALSE(sheets().at(1).contains("room"));
     ASSERT_EQ(sheets_tool("remove desk"), 0) << errors_;
@@ -96,7 +96,7 @@ TEST_F(SheetsTool, reprint_makes_the_very_same_page) {
         EXPECT_THAT(errors_, IsEmpty());
         EXPECT_EQ(file("again-" + name), file(name)) << name;
     }
-    // Reprints one of several pages, with the same text and the same picture.
+    // The reprint of one page must have the same text and picture as the original page.
     ASSERT_EQ(sheets_tool("reprint tiles-2 -o again.pdf"), 0) << errors_;
     ASSERT_EQ(shell("pdftotext -f 2 -l 2 tiles.pdf before.txt && pdftotext again.pdf after.txt && "
                     "pdftoppm -r 300 -gray -f 2 -l 2 -singlefile tiles.pdf before && "

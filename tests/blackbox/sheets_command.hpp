@@ -1,4 +1,4 @@
-// Prints pages into a sheet file, and locates frames with the sheet file.
+// Prints pages with a sheet file, and locates frames with the same file.
 #pragma once
 
 #include <cmath>

@@ -159,8 +159,8 @@ TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
     }
     EXPECT_LE(between_sheets, 2);
     EXPECT_THAT(sheets, testing::ElementsAre("a", "b"));
-    // Consecutive frames are 20 mm apart along the path, so in curves the distance between them is
-    // shorter.
+    // Consecutive frames are 20 mm apart along the path. In curves, the straight distance between
+    // them is shorter.
     for (const double step_mm : steps_mm) {
         EXPECT_LT(step_mm, 20.1);
         EXPECT_GT(step_mm, 12);

@@ -24,7 +24,8 @@ Shot nominal_shot(std::uint64_t index) {
     return draw_shot(setup, index);
 }
 
-/// Returns the maximum error of x, y and theta in units of their standard deviations.
+/// Returns the maximum of the errors of x, y and theta, each divided by its reported standard
+/// deviation.
 double sigmas_off(const Fix& fix, const Truth& truth) {
     const Deviation off = deviation_of(fix, truth);
     const double errors[] = {off.x_grid, off.y_grid, off.theta_rad};
@@ -38,8 +39,8 @@ double sigmas_off(const Fix& fix, const Shot& shot) {
     return sigmas_off(fix, truth_of(shot));
 }
 
-// Regression: small steps in the middle of the view were not detected, and only 97.6 % of the
-// errors were within 4 sigmas. Now 99.8 % are.
+// Regression: small steps in the middle of the view were not detected, so that only 97.6 % of the
+// errors were within 4 reported standard deviations. Now 99.8 % are.
 TEST(SeamedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     constexpr int kFrames = 400;
     constexpr double kAnywhere_px = std::numeric_limits<double>::infinity();
@@ -79,11 +80,11 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         divided += outcome.fix.surface == Surface::divided ? 1 : 0;
     }
     EXPECT_GE(fixes, kFrames * 9 / 10);
-    // The limit allows for the small number of frames: if the true fraction is 1 %, a fraction of
-    // more than 3 % occurs by chance once in 70 runs.
+    // The limit of 3 % allows for the small number of frames. If the true fraction is 1 %, more
+    // than 3 % of the frames are counted by chance in one of 70 runs.
     EXPECT_LE(claim_too_much, fixes * 3 / 100);
-    // Many steps are not detected, because they affect only a corner or are smaller than the
-    // scatter of the dots.
+    // Only half of the steps must be detected, because the others affect only a corner of the view
+    // or are smaller than the scatter of the dots.
     EXPECT_GE(divided, fixes / 2);
 }
 
@@ -111,9 +112,9 @@ struct Claims {
     }
 };
 
-// Wrinkles with wavelengths of 8 mm and more cannot be detected in a view of 9 x 6 mm, so the
+// A view of 9 x 6 mm is too small to show wrinkles with wavelengths of 8 mm and more, so the
 // covariance must allow for them. Regression: only 62 % (slight wrinkles) and 72 % (stronger
-// wrinkles) of the errors were within 4 sigmas.
+// wrinkles) of the errors were within 4 reported standard deviations.
 TEST(WrinkledSheet, MostErrorsAreAsLargeAsTheyAreSaidToBe) {
     const Claims slightly(0.02);
     EXPECT_EQ(slightly.fixes, 150);

@@ -24,7 +24,8 @@ class Sources : public ToolCommand {
   protected:
     static constexpr int kFrames = 6;
 
-    /// Writes simulated frames to the folder frames, and losslessly to drive.mkv and drive.raw.
+    /// Writes simulated frames to the folder frames, and the same frames without loss to drive.mkv
+    /// and drive.raw.
     void SetUp() override {
         ASSERT_EQ(run("simulate -o frames --seed 91 --frames " + std::to_string(kFrames)), 0);
         ASSERT_EQ(encode("-c:v ffv1 drive.mkv"), 0) << errors_;
@@ -50,7 +51,7 @@ class Sources : public ToolCommand {
         return all;
     }
 
-    /// Returns the lines of the last run, without fields that differ between runs and sources.
+    /// Returns the lines of the last run, without the fields that depend on the source or the time.
     std::vector<json> poses() const {
         std::vector<json> all = records();
         for (json& record : all) {
@@ -160,7 +161,7 @@ TEST_F(Sources, EvaluateSaysWhichPosesAreMissing) {
     fs::copy_file(directory_ / image(0), directory_ / "frames/other.pgm");
     EXPECT_EQ(run("evaluate frames/other.pgm"), 1);
     EXPECT_EQ(errors_, "dotpose: frames/truth.csv has no pose of frames/other.pgm\n");
-    // The file more.csv has more rows than the video has frames, and less.csv has fewer.
+    // The file more.csv has more rows than the video has frames, and less.csv has fewer rows.
     const std::string truth = file("frames/truth.csv");
     std::ofstream(directory_ / "more.csv") << truth << truth.substr(truth.find('\n') + 1);
     EXPECT_EQ(run("evaluate drive.mkv --format json --poses more.csv"), 1);
@@ -206,8 +207,8 @@ TEST_F(Sources, WrongOnesAreNamed) {
     EXPECT_THAT(errors_, HasSubstr("leaves the frame of 188x120 px"));
 }
 
-// Locates a part of each frame (--roi). The camera file describes whole frames, and the pose still
-// refers to the reference point of the whole frame.
+// With --roi, `locate` uses a part of each frame. The camera file still describes the whole frame,
+// and the pose is still that of the reference point of the whole frame.
 TEST_F(Sources, APartOfAFrameIsLocatedWithTheCameraFileOfTheWhole) {
     std::ofstream(directory_ / "camera.yaml")
         << "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, k_per_px2: 0, "
@@ -230,7 +231,7 @@ TEST_F(Sources, APartOfAFrameIsLocatedWithTheCameraFileOfTheWhole) {
     const json other_part = pose("--reference 93.5,59.5 --roi 20,10,150x100 ");
     EXPECT_NEAR(other_part["x_mm"], other["x_mm"], 0.01);
     EXPECT_NEAR(other_part["y_mm"], other["y_mm"], 0.01);
-    // The frames must have the size in the camera file, and the part must be inside of them.
+    // The frames must have the size in the camera file, and must contain the part.
     ASSERT_EQ(run("simulate -o large --size 200x120 --frames 1"), 0);
     EXPECT_EQ(run("locate --camera camera.yaml --roi 20,10,150x100 large"), 1);
     EXPECT_THAT(errors_, HasSubstr("frame_000000.pgm: the camera file is for images of 188 x 120 "

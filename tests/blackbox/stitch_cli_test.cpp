@@ -35,7 +35,7 @@ SheetEntry sheet(const std::string& name, std::uint32_t origin_x) {
     return entry;
 }
 
-/// Returns a frame centred on a position of one sheet, in mm from the corner of the sheet.
+/// Returns a frame centred on (x_mm, y_mm) of one sheet, measured from the corner of the sheet.
 GreyImage sheet_frame(const Shot& like, const SheetEntry& entry, double x_mm, double y_mm,
                       double theta_rad) {
     Shot shot = like;
@@ -88,8 +88,7 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     ASSERT_EQ(run("calibrate --stitch --sheets sheets.json seam*.pgm"), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("frames      12 of 12 show two sheets"));
     EXPECT_THAT(output_, HasSubstr("sheet       left: stays where it is"));
-    // Without a camera file, the mm per px of the image are unknown, and so are the scales of the
-    // prints.
+    // Without a camera file, the size of a pixel in mm is unknown, and so are the print scales.
     EXPECT_THAT(output_, HasSubstr("(UNKNOWN) along x"));
     EXPECT_THAT(output_, HasSubstr("UNKNOWN:    these frames do not determine the scales"));
     const auto sheets = read_sheets(directory_ / "sheets.json");
@@ -98,8 +97,8 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     EXPECT_NEAR(sheets[1].world->y_m, 1 - kDown_mm / 1000, 3e-5);
     EXPECT_NEAR(sheets[1].world->yaw_rad, -kTurn_rad, 0.02 * std::numbers::pi / 180);
 
-    // A frame on the right sheet gives the world position that follows from the pose of the left
-    // sheet.
+    // Locates a frame on the right sheet. Its expected world position follows from the world pose
+    // of the left sheet.
     write_pgm(directory_ / "right.pgm", table_frame(20, 45, 12, 0.3).view());
     ASSERT_EQ(run("locate --sheets sheets.json right.pgm"), 0) << errors_;
     const json record = json::parse(output_);
@@ -108,7 +107,7 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     EXPECT_NEAR(record["y_m"].get<double>(), 1 - 0.012, 3e-5);
     EXPECT_NEAR(record["yaw_rad"].get<double>(), -0.3, 0.001);
 
-    // With a camera file that contains mm per px, the scales of the prints are also determined.
+    // If the camera file contains mm_per_px, the print scales are determined, too.
     std::ofstream(directory_ / "camera.yaml")
         << "{format: dotpose-camera, version: 1, width_px: 376, height_px: 240, k_per_px2: 0, "
            "centre_px: [187.5, 119.5], mm_per_px: [0.046, 0.046]}";

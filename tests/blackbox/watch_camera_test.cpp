@@ -77,8 +77,8 @@ TEST_F(WatchCamera, ThePoseIsThatOfTheRobot) {
             30, 0.05);
         tracked += watched[i]["attempt"] == "tracked" ? 1 : 0;
     }
-    // The track contains the pose of the robot. Most frames are tracked, so the view of the camera
-    // is predicted correctly from this pose.
+    // The track contains the pose of the robot, but the tracker must predict the view of the
+    // camera. Most frames are tracked, so this prediction is correct.
     EXPECT_GE(tracked, kFrames - 3);
     EXPECT_NEAR(watched.back()["track_x_mm"].get<double>(),
                 watched.back()["x_m"].get<double>() * 1000, 0.1);

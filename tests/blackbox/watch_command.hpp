@@ -38,7 +38,7 @@ class WatchCommand : public ToolCommand {
         save_drive_sheets(directory_ / "sheets.json");
     }
 
-    /// Returns a frame of the drive, which is rendered once for all tests of the process.
+    /// Returns a frame of the drive. Each frame is rendered only once per process.
     static const GreyImage& frame(int index) {
         static const Drive drive;
         static const DriveCamera camera(kWidth, kHeight);

@@ -1,5 +1,4 @@
-// Tests the frames that `dotpose watch` saves for calibration, and its report of the reason why
-// most frames fail.
+// Tests that `dotpose watch` saves frames for calibration, and reports why most frames fail.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -22,8 +21,8 @@ class WatchSave : public ToolCommand {
   protected:
     static constexpr int kPlaces = 5;
 
-    /// Writes simulated frames of different places to the folder frames, and to slow.raw with each
-    /// frame repeated three times.
+    /// Writes simulated frames of different places to the folder frames. The file slow.raw contains
+    /// each of these frames three times.
     void SetUp() override {
         ASSERT_EQ(run("simulate -o frames --seed 91 --frames " + std::to_string(kPlaces)), 0);
         ASSERT_EQ(shell("ffmpeg -v error -framerate 10 -i frames/frame_%06d.pgm -vf fps=30 "
@@ -57,7 +56,6 @@ TEST_F(WatchSave, OneFramePerNewPlaceAndNothingIsOverwritten) {
         const std::string number = "frame_00000" + std::to_string(i);
         EXPECT_EQ(pixels("saved/" + number + ".png"), pixels("frames/" + number + ".pgm"));
     }
-    // Calibration accepts the saved frames.
     EXPECT_EQ(run("calibrate saved"), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("5 of 5 located"));
 

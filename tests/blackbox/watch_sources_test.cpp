@@ -70,7 +70,7 @@ TEST_F(WatchSources, LooksAtAPartOfTheFrame) {
     put_video(2, "drive.avi");
     ASSERT_EQ(run(std::string("watch drive.avi --frames 1 --roi 60,60,200x120 ") + kTrack), 0);
     const json part = parsed(output_).at(0);
-    // The part and the whole frame have the same centre, (159.5, 119.5).
+    // The part of the frame and the whole frame have the same centre, (159.5, 119.5).
     const DriveState truth = drive_.at(0);
     EXPECT_NEAR(part["x_m"].get<double>() * 1000, truth.x_mm, 0.02);
     EXPECT_LT(part["dots_seen"], 300);
@@ -81,7 +81,7 @@ TEST_F(WatchSources, LooksAtAPartOfTheFrame) {
 
 TEST_F(WatchSources, StopsCleanlyOnAnInterrupt) {
     put_raw(60);
-    // The pipe stays open, and only the signal ends the run.
+    // The pipe stays open, so only the signal can end the run.
     shell(
         "mkfifo pipe && bash -c '(cat drive.raw; exec sleep 30) > pipe & writer=$!; "
         "\"" +

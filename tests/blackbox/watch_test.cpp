@@ -55,8 +55,8 @@ int frame_at(double seconds) {
     return static_cast<int>(std::lround(seconds * kDriveFps));
 }
 
-/// Returns the first frame after `from` at which x or y differs by more than 0.1 mm from the
-/// position at frame `place`. With step -1, searches backwards.
+/// Returns the first frame after `from` (before `from` if step is -1) at which x or y differs by
+/// more than 0.1 mm from the position at frame `place`.
 int first_away(const Drive& drive, int from, int step, int place) {
     const DriveState rest = drive.at(place);
     int frame = from;
@@ -81,11 +81,11 @@ void expect_events(const std::vector<json>& lines, const Drive& drive) {
     EXPECT_EQ(events[0].first, 0);
     EXPECT_EQ(events[1].first, frame_at(0.5));
     EXPECT_NEAR(events[2].first, first_away(drive, frame_at(plan.start), 1, 0), 1);
-    // The tracker reports the loss 70 ms, or 14 frames, after the last frame in which the robot was
-    // on a sheet.
+    // The tracker reports `lost` 70 ms, which is 14 frames, after the last frame in which the robot
+    // was on a sheet.
     EXPECT_EQ(events[3].first, frame_at(plan.lift) - 1 + 14);
-    // The event `kidnapped` is reported in the third frame in which the robot is too far away to
-    // have driven there at 400 mm/s.
+    // From `put_down` on, the robot is too far away to have driven there at 400 mm/s. The tracker
+    // reports `kidnapped` in the third such frame.
     EXPECT_EQ(events[4].first, frame_at(plan.put_down) + 2);
     EXPECT_EQ(events[5].first, frame_at(plan.second_lift) - 1 + 14);
     EXPECT_EQ(events[6].first, frame_at(plan.second_put_down));
@@ -98,7 +98,7 @@ void expect_accurate(const std::vector<json>& lines, const Drive& drive) {
     const int lifted = frame_at(0.3) + frame_at(0.15);
     EXPECT_EQ(errors.wrong(), 0);
     EXPECT_GE(errors.fixes(), drive.frames() - lifted - 2);
-    // Nearly all errors are printing errors. The filter cannot remove them, but it must not add
+    // Nearly all errors are errors of the print. The filter cannot remove them, but it must not add
     // errors.
     EXPECT_LT(errors.filtered_um(), 1.01 * errors.raw_um());
     EXPECT_LT(errors.velocity_mm_s(), 0.3);
@@ -209,8 +209,8 @@ void cover_all_but(GreyImage& image, int side) {
 }
 
 TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
-    // In whole frames, p_wrong is below 1e-13. In frames with about 45 dots, p_wrong is larger,
-    // even on a known sheet.
+    // In whole frames, p_wrong is below 1e-13. In frames with about 45 dots, p_wrong is above
+    // 1e-13, even if the sheet is known.
     constexpr int kSide_px = 76;
     const DriveCamera camera(188, 120);
     std::ofstream raw(directory_ / "weak.raw", std::ios::binary);
@@ -240,8 +240,8 @@ TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
         EXPECT_EQ(lines[i]["verdict"], "accepted") << i;
     }
     EXPECT_GE(with_prior, 3);
-    // If every frame shows only this window, no frame is certain, so there is no track that could
-    // provide a prior.
+    // If every frame shows only this window, no frame is certain. The tracker then has no track,
+    // and therefore no prior for the next frames.
     ASSERT_EQ(run(std::string("watch - --size 188x120 --fps 200 --max-p-wrong 1e-13 --roi "
                               "56,22,76x76 ") +
                       kTrack,
@@ -251,8 +251,8 @@ TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
         EXPECT_NE(line["verdict"], "with_prior");
 }
 
-// At 250 mm/s, the position would be wrong by more than 1 mm if a frame had the time of its
-// neighbour.
+// The robot drives at 250 mm/s. If a frame had the time of its neighbour, its position would be
+// wrong by more than 1 mm.
 TEST_F(Watch, KeepsTimesWhateverTheContainer) {
     constexpr int kFirst = 200;
     constexpr int kLength = 60;
@@ -294,7 +294,7 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
                                                  : " has gaps, from damage or from its ")));
         EXPECT_THAT(errors_, HasSubstr(" of 60 frames were read\n"));
     }
-    // Removes bytes from an AVI file, so the positions in its index are wrong.
+    // Removes bytes from an AVI file, so the offsets in its index are wrong.
     std::string video = file("whole.avi");
     video.erase(video.size() / 2, video.size() / 50);
     std::ofstream(directory_ / "lacking.avi", std::ios::binary) << video;

@@ -1,4 +1,4 @@
-// Tests the calibration of the page with commands and sheets that arrive during a calculation.
+// Tests CalibrationGuide with commands and sheet files that arrive while it computes a result.
 #include "calibration_guide.hpp"
 
 #include <chrono>
@@ -30,7 +30,6 @@ testing::AssertionResult reaches(const CalibrationGuide& guide,
     return testing::AssertionFailure() << name(guide.state().phase) << guide.state().problem;
 }
 
-/// Returns a condition for `reaches`.
 std::function<bool(const GuideState&)> is_in(GuidePhase phase) {
     return [phase](const GuideState& state) { return state.phase == phase; };
 }
@@ -54,15 +53,15 @@ std::vector<capture::Frame> frames_of_sheet() {
         frame.image =
             render(page_of(sheet), CameraModel{}, pose, test::DriveCamera::nominal(), 1 + i);
         frame.index = i;
-        frame.file = std::to_string(i);  // frames of files are of a camera at rest
+        frame.file = std::to_string(i);  // frames of files count as frames of a camera at rest
     }
     return frames;
 }
 
-/// Starts the step `lens`, and offers each frame until it is taken.
+/// Starts the step `lens`, and offers each frame to the guide until the guide takes it.
 void collect(CalibrationGuide& guide, const std::vector<capture::Frame>& frames) {
-    // Waits until the earlier commands were obeyed, because the guide ignores commands while eight
-    // others wait.
+    // The guide ignores a command while eight others wait, so this first waits until the earlier
+    // commands have been executed.
     ASSERT_TRUE(reaches(guide, [&](const GuideState& state) {
         guide.cancel();
         return state.phase == GuidePhase::idle;
@@ -89,7 +88,7 @@ TEST(CalibrationGuide, TakesNewSheetsWhileCommandsWait) {
     ASSERT_NO_FATAL_FAILURE(collect(guide, frames));
     guide.finish();
     ASSERT_TRUE(reaches(guide, is_in(GuidePhase::solving)));
-    // The guide accepts eight waiting commands of the page, and ignores further commands.
+    // Eight commands can wait. The guide ignores further commands.
     for (int i = 0; i < 8; ++i)
         guide.save();
     guide.set_sheets(sheets_with_scale(1.02));

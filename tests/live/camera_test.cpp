@@ -27,9 +27,9 @@ using testing::HasSubstr;
 constexpr const char* kWaiting =
     "has() { until [ $(grep -c \"$2\" $1) -ge $3 ]; do kill -0 $watch; sleep 0.05; done; }\n"
     "set -e; touch lines told; trap 'kill $camera $watch 2>/dev/null || true' EXIT\n";
-/// Shell commands of a run: wait for 30 fixes, disconnect the camera until the robot is lost,
-/// connect it again, wait for 30 more fixes, and end the tool. The test defines the commands
-/// `unplug` and `plug_in`.
+/// Shell commands of a run. They wait for 30 fixes, disconnect the camera until the robot is lost,
+/// connect the camera again, wait for 30 more fixes, and end the tool. Each test defines the
+/// commands `unplug` and `plug_in`.
 constexpr const char* kRun =
     "has lines '\"ok\"' 30; unplug\n"
     "has told 'does not answer; waiting for it' 1; has lines '\"lost\"' 2\n"
@@ -59,8 +59,8 @@ class Cameras : public ToolCommand {
         return lines;
     }
 
-    /// Expects that the robot was located, was lost while the camera was disconnected, and was
-    /// located again. All its poses must be correct.
+    /// Expects that the robot was located, then lost while the camera was disconnected, then
+    /// located again. All reported poses must be correct.
     void expect_seen_lost_and_seen() {
         std::string events;
         std::int64_t last_frame = -1;
@@ -113,16 +113,16 @@ TEST_F(Cameras, AtThisComputer) {
         EXPECT_EQ(settings.count(setting), 2U) << setting;
     for (const json& line : lines()) {
         const auto time_us = std::llround(line["t_s"].get<double>() * 1e6);
-        // The tool gets the times of the driver in milliseconds as doubles, so rounding may change
-        // them by 1 µs.
+        // The tool converts the times of the driver to milliseconds as doubles, so rounding may
+        // change them by 1 µs.
         const auto at = times_us.lower_bound(time_us - 1);
         const bool is_of_driver = at != times_us.end() && *at <= time_us + 1;
         EXPECT_EQ(is_of_driver, line["status"] == "ok") << line;
     }
 }
 
-/// `plug_in` waits until the camera listens. In /proc/net/tcp, its socket is then in state 0A
-/// (listening), or in state 01 if a client has already connected.
+/// `plug_in` waits until the camera accepts connections. The state of its socket in /proc/net/tcp
+/// is then 0A (listening), or 01 if a client has already connected.
 TEST_F(Cameras, InTheNetwork) {
     ASSERT_EQ(
         shell(fmt::format("port={}\n", free_port()) + kWaiting +

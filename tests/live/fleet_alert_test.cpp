@@ -146,7 +146,8 @@ class Driving {
 
 class FleetAlert : public Mqtt {
   protected:
-    /// Starts a process that connects with the last will of a robot. Returns its process ID.
+    /// Starts a process that connects to the broker as a robot and registers its last will. Returns
+    /// the process ID.
     pid_t connect_with_will(const Broker& broker, const std::string& robot) {
         const pid_t process = fork();
         if (process == 0) {
@@ -202,7 +203,7 @@ TEST_F(FleetAlert, KilledSilentLostAndRemovedRobotsAreShownWithinTwoSeconds) {
     EXPECT_EQ(output_, "removed killed\n");
     wait_until([&] { return alerts.has("killed removed (); "); }, kLimit);
     wait_until([&] { return !shows("killed"); }, kLimit);
-    // The messages of the robot must also have been removed from the broker.
+    // The retained messages of the robot must also have been removed from the broker.
     EXPECT_EQ(run("fleet remove killed --mqtt " + broker.url()), 1);
     EXPECT_THAT(errors_, HasSubstr("knows no robot killed"));
     EXPECT_EQ(fleet.finish("q"), 0);

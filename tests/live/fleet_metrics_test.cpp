@@ -32,7 +32,7 @@ std::string metrics_of(const Receiver& r, const cli::FleetMap& map = {},
     return cli::metrics_text(r.fleet, r.fleet.robots(r.now()), map, services);
 }
 
-/// Checks a text with promtool. Returns the reported problems.
+/// Checks metrics with promtool. Returns the reported problems.
 std::string findings_in(const std::string& metrics) {
     const TemporaryDirectory directory;
     std::ofstream(directory.path() / "metrics") << metrics;
@@ -169,8 +169,8 @@ TEST_F(FleetMetricsFile, ContainsTheCameraOfAWatchedRobot) {
     const DriveCamera camera(188, 120);
     const Drive drive;
     // The robot processes 10 frames per second and reports after 1, 2 and 3 s. The fleet counts
-    // from the first report. There are 20 frames between the first and the last report, of which 5
-    // are blank.
+    // frames from the first report. From the first to the last report, the robot processes 20
+    // frames, and 5 of them are blank.
     for (int i = 0; i < 35; ++i) {
         GreyImage image = camera.frame(drive, 240 + i);
         if (i >= 14 && i < 19) std::ranges::fill(image.pixels, std::uint8_t{200});

@@ -15,8 +15,8 @@ inline constexpr std::int64_t kEpoch_us = 1'795'000'000 * kSecond;  // 2026-11-1
 
 class Receiver {
   public:
-    /// Receives a state at the current time. The robot sent it `delay_us` ago, with a clock that is
-    /// `skew_us` ahead.
+    /// Receives a state at the current time. The robot sent the state `delay_us` ago, and its clock
+    /// is `skew_us` ahead.
     void receive(Message message, std::int64_t delay_us = 0, std::int64_t skew_us = 0) {
         message.header_id = number_++;
         message.time = timestamp(now().system_us - delay_us + skew_us);
@@ -27,7 +27,7 @@ class Receiver {
                    connection_json(state, timestamp(now().system_us - sent_ago_us)), now());
     }
     void pass(double seconds) { elapsed_us_ += static_cast<std::int64_t>(seconds * 1e6); }
-    /// Advances the time, but not `Now::watched_us`, as if the broker was not available.
+    /// Advances the time without the broker. `Now::watched_us` does not advance.
     void pass_blind(double seconds) {
         pass(seconds);
         blind_us_ += static_cast<std::int64_t>(seconds * 1e6);

@@ -102,8 +102,8 @@ TEST_F(FleetScale, AGroupSharesTheStates) {
     const std::string arguments = "--qos 1 --share group --log log.csv --mqtt " + broker.url();
     WatchedFleet a(folders[0], arguments);
     WatchedFleet b(folders[1], arguments);
-    // The broker sends states to both members in turn. Because the number of robots is odd, each
-    // member receives every other state of each robot.
+    // The broker sends each state to one of the two members, in turn. Because the number of robots
+    // is odd, each member receives every second state of each robot.
     publish(broker, 51, 40);
     wait_for_states(folders, 51 * 40);
     for (WatchedFleet* fleet : {&a, &b}) {

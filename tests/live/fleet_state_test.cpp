@@ -60,8 +60,7 @@ TEST(FleetConditions, FollowTheConnection) {
     r.connect("anna", "OFFLINE");
     EXPECT_EQ(r.condition("anna"), Condition::gone);
     EXPECT_EQ(r.robot("anna").reason, "disconnected");
-    // The broker delivers retained messages of robots that have sent no state since the fleet was
-    // started.
+    // The fleet receives retained messages of robots that have sent no state since it was started.
     r.connect("bert", "ONLINE");
     EXPECT_EQ(r.condition("bert"), Condition::lost);
     EXPECT_EQ(r.robot("bert").reason, "no state yet");
@@ -97,7 +96,7 @@ TEST(FleetConditions, AClockThatIsSetBackOrDriftsDoesNotSilenceARobot) {
     r.pass(0.1);
     r.receive({.robot = "anna"}, 0, -3600 * kSecond);
     EXPECT_EQ(r.condition("anna"), Condition::moving);
-    // A clock that is slow by 1 % loses 18 s in half an hour.
+    // The clock is slow by 1 %, so it falls behind by 18 s in half an hour.
     Receiver slow;
     for (int i = 0; i < 1800; ++i) {
         slow.receive({.robot = "anna"}, 0, -i * kSecond / 100);
@@ -185,7 +184,6 @@ TEST(NaturalOrder, ComparesNumbersByValue) {
     EXPECT_NE(less("a01", "a1"), less("a1", "a01"));  // different names never compare equal
 }
 
-/// Returns the lines of the page on a terminal of 24 rows and 80 columns.
 std::vector<std::string> page_of(cli::FleetPage& page, const Receiver& r,
                                  const cli::FleetMap& map = {}) {
     return page.lines(r.fleet, r.fleet.robots(r.now()), map, cli::Delivery::all, {80, 24});

@@ -69,7 +69,8 @@ TEST_F(FleetStore, HistoryOfAFile) {
                             .is_localized = false,
                             .reason = "no_grid"});
         messages.push_back({.robot = "'; DROP TABLE states; --", .time = time_now()});
-        // The clock of this robot is a year behind, but the database stores the time of arrival.
+        // The clock of this robot is a year behind. The database must contain the time of arrival
+        // instead.
         messages.push_back({.robot = "old", .time = "2025-11-24T16:00:00Z"});
         publish_messages(broker, messages);
         fleet.table();

@@ -68,7 +68,7 @@ TEST_F(Fleet, TwoHundredRobots) {
     }
     for (const auto& robot : robots)
         EXPECT_TRUE(robot->flush(20s));
-    // The last state of each robot has the condition `lost`.
+    // The map marks every robot as lost.
     const auto are_all_lost = [&] {
         const std::string map = file("fleet.svg");
         int lost = 0;
@@ -121,10 +121,10 @@ TEST_F(Fleet, ASenderWhoseClockWasSetBackIsFollowed) {
         sender.publish(state_topic(robot), message.json());
         EXPECT_TRUE(sender.flush(20s));
     };
-    // The clock was set back, but the message numbers continue, so the sender was not restarted.
+    // The clock was set back. The message numbers continue, so the sender was not restarted.
     send("anna", 7, "2026-11-24T16:00:00Z");
     send("anna", 8, "2026-11-24T15:00:00Z");
-    // The sender was restarted with its clock set back, so its message numbers begin again.
+    // The sender was restarted and its clock set back, so its message numbers begin again at 0.
     send("bert", 700, "2026-11-24T16:00:00Z");
     for (int i = 0; i < 6; ++i)
         send("bert", i, fmt::format("2026-11-24T15:00:0{}Z", i).c_str());
@@ -157,7 +157,7 @@ TEST_F(Fleet, SubscribesWithTls) {
         sender.publish(state_topic("anna"), Message{"anna", i, time_now()}.json());
     EXPECT_TRUE(sender.flush(20s));
     std::this_thread::sleep_for(500ms);
-    // Some states arrive late, because the newest states in the queue are sent first.
+    // The publisher sends the newest states in its queue first, so some older states arrive late.
     EXPECT_THAT(fleet.table(), HasSubstr("1 robots, 200 states, 0 bad, 0 missed, "));
 }
 

@@ -47,7 +47,8 @@ json table_of(const Receiver& r, Command request) {
     return json::parse(table_value(snapshot_of(r), hall(), Delivery::all, request));
 }
 
-/// Receives the states of four robots. One is silent, one is lost, and one is on an unknown sheet.
+/// Receives the states of four robots, of which one is silent, one is lost, and one is on an
+/// unknown sheet.
 void receive_four(Receiver& r) {
     r.receive({.robot = "silent1", .x_m = 0.5, .map = "hall"});
     r.pass(6);
@@ -102,7 +103,7 @@ TEST(FleetValues, PagesOfTheTable) {
     };
     EXPECT_THAT(names_in(page(8, 3)["rows"]), ElementsAre("r8", "r9", "r10"));
     EXPECT_EQ(page(8, 3)["matching"], 30);
-    // A page beyond the last page is replaced by the last page.
+    // If the requested page is beyond the last page, the last page is returned.
     EXPECT_THAT(names_in(page(1e300, 3)["rows"]), ElementsAre("r27", "r28", "r29"));
     EXPECT_EQ(page(1e300, 3)["first"], 27);
     EXPECT_EQ(page(-5, 1e300)["rows"].size(), 30U);
@@ -157,7 +158,7 @@ TEST(FleetValues, OneRobotWithItsPathAndAlerts) {
     EXPECT_EQ(value(77), nullptr);
 }
 
-/// A message of the map: its head in JSON, and its records as bytes.
+/// A map message of the fleet: a header in JSON, then binary records.
 struct MapMessage {
     explicit MapMessage(const std::string& bytes) {
         std::uint32_t size = 0;

@@ -1,5 +1,5 @@
-// Tests that `dotpose listen` writes the log and publishes the states of a device as `dotpose
-// watch` does.
+// Tests that `dotpose listen` writes the same log and publishes the same states for a device as
+// `dotpose watch` for frames.
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -158,7 +158,7 @@ TEST_F(ListenFleet, AStatusOfANewerVersionIsReportedAsOther) {
     WatchedFleet fleet(directory_, "--qos 1 --metrics fleet.prom --mqtt " + broker.url());
     ASSERT_EQ(run("listen packets.bin --robot m0 --qos 1 --mqtt " + broker.url()), 0) << errors_;
     // The fleet counts from the first report of the camera. The second report contains one more
-    // refused frame, so the count is 1.
+    // refused frame than the first, so the count is 1.
     wait_until([&] {
         return file("fleet.prom").find("refused_frames_total{reason=\"other\"} 1\n") !=
                std::string::npos;

@@ -30,7 +30,7 @@ TEST_F(LiveCalibration, OfACameraEndsByItself) {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "the sanitizer must be loaded first";
 #endif
-    // After the last frame, the fake camera begins again with the first frame.
+    // After the last frame, the fake camera repeats the file from the first frame.
     ASSERT_EQ(shell("export FAKE_CAMERA=$PWD/camera.raw FAKE_CAMERA_SIZE=188x120 "
                     "FAKE_CAMERA_LOG=$PWD/log\n"
                     "LD_PRELOAD='" +
@@ -50,7 +50,8 @@ TEST_F(LiveCalibration, HasAWindowAndEndsWithAKey) {
     GTEST_SKIP() << "the libraries of the window keep memory to the end";
 #endif
     if (shell("command -v Xvfb && command -v xdotool") != 0) GTEST_SKIP() << "no Xvfb, no xdotool";
-    // The camera shows only 2 places, so the program would run forever without the key press.
+    // The camera shows only 2 places, which are too few for a calibration. Without the key press,
+    // the program would run forever.
     ASSERT_EQ(
         shell("mkfifo display frames.raw; Xvfb -displayfd 1 > display 2>/dev/null & server=$!\n"
               "trap 'kill $server' EXIT; head -c $((188 * 120 * 6)) camera.raw > two.raw\n"

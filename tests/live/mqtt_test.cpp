@@ -1,5 +1,5 @@
-// Tests publishing to a mosquitto broker: which messages arrive and which are dropped, even if the
-// broker disconnects.
+// Tests which messages the publisher sends to a mosquitto broker and which it drops, also if the
+// broker stops and restarts.
 #include "publish/mqtt.hpp"
 
 #include <algorithm>
@@ -87,8 +87,7 @@ TEST_F(Mqtt, BrokerThatIsStoppedInMidRun) {
     EXPECT_EQ(numbers, expected);
 }
 
-/// Returns the message numbers of the states that a broker kept for a session, in the order of
-/// arrival.
+/// Returns the message numbers of the states, in the order in which the broker received them.
 std::vector<int> header_ids(const std::string& lines) {
     std::istringstream stream(lines);
     std::vector<int> ids;
@@ -113,7 +112,7 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
     shell("mkfifo frames");
     std::thread camera([&] {
         const GreyImage image = DriveCamera(188, 120).frame(Drive(), 0);
-        // The pipe is closed on exec, because otherwise the broker that starts in the meantime
+        // "e" closes the pipe on exec. Otherwise the broker, which is restarted in the meantime,
         // would keep it open.
         std::FILE* pipe = std::fopen((directory_ / "frames").c_str(), "wbe");
         const auto begun = std::chrono::steady_clock::now();
@@ -148,8 +147,8 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
         << errors_;
     std::printf("%d states sent, %d dropped\n", sent, dropped);
     EXPECT_EQ(sent + dropped, kFrames);
-    // The limit allows for the 50 states in the queue, and for states that are published before the
-    // publisher notices that the broker has stopped.
+    // The limit of 100 allows for the 50 states in the queue, and for states that are published
+    // before the publisher notices that the broker has stopped.
     EXPECT_GT(dropped, kBack - kGone - 100);
 
     // A state that is in transit when the broker stops may arrive twice.
@@ -196,8 +195,7 @@ TEST_F(Mqtt, FindsItsBrokerAgainAsFastWithTls) {
     wait_until([&] { return !publisher.is_connected(); });
     std::this_thread::sleep_for(1500ms);  // some failing attempts
     broker.start();
-    // The publisher retries every half second, whereas the library alone would wait for ten
-    // seconds.
+    // The publisher retries every half second. The library alone would wait for ten seconds.
     wait_until([&] { return publisher.is_connected(); }, 4s);
 }
 
@@ -223,7 +221,7 @@ TEST_F(Mqtt, TellsThatTheUserIsRefused) {
     EXPECT_THAT(errors_, HasSubstr("refuses the connection"));
 }
 
-/// Returns options of a publisher that publishes its presence as a word, on the topic `presence`.
+/// Makes a publisher publish its presence as a word on the topic `presence`.
 MqttOptions with_presence(MqttOptions options) {
     options.presence_topic = "presence";
     options.presence = [](publish::Presence presence) -> std::string {

@@ -14,8 +14,8 @@
 
 namespace dotpose::test {
 
-/// A PostgreSQL cluster. If the test runs as root, the cluster belongs to the user `postgres` of
-/// Debian's package, because PostgreSQL does not run as root.
+/// A PostgreSQL cluster. PostgreSQL does not run as root. If the test runs as root, the cluster
+/// therefore belongs to the user `postgres`, which Debian's package creates.
 class Postgres {
   public:
     Postgres() : port_(free_port()) {

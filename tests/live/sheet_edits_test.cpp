@@ -101,7 +101,7 @@ TEST_F(SheetEditing, AnEditOfAnOldStateIsRefused) {
                 HasSubstr("was changed by someone else"));
     EXPECT_EQ(x_of(0), 7);
     EXPECT_EQ(edits.undo_text(), "");
-    // Edits of the other sheet are not affected.
+    // The change by another program does not prevent edits of the other sheet.
     edits.change(seen(edits, "right"), "place", at(2));
     edits.change(seen(edits, "left"), "place", at(1));
     EXPECT_EQ(x_of(0), 1);
@@ -148,7 +148,7 @@ TEST_F(SheetEditing, ChangesByOtherProgramsAreRead) {
     EXPECT_TRUE(edits.refresh());
     EXPECT_EQ(edits.sheets().at(1).world->x_m, 4);
     EXPECT_GT(edits.version(), version);
-    // As long as the file is invalid, the earlier sheets are kept.
+    // While the file is invalid, the sheets of the last valid file are kept.
     const std::int64_t valid = edits.version();
     std::ofstream(path_) << "{";
     EXPECT_TRUE(edits.refresh());
@@ -225,7 +225,7 @@ TEST_F(SheetEditing, MeasuredPlacesAreOneEdit) {
     EXPECT_EQ(read_sheets(path_).at(1).print_scale_y, 0.99);
     edits.undo();
     EXPECT_TRUE(std::isnan(x_of(0)) && std::isnan(x_of(1)));
-    // A sheet is changed between the measurement and the edit.
+    // Another program changes a sheet between the measurement and the edit.
     const std::vector<SheetEdits::Target> later = {seen(edits, "left"), seen(edits, "right")};
     change_outside("right", 5);
     EXPECT_THAT(failure([&] { edits.change_all(later, measured, "measured places"); }),

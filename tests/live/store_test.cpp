@@ -224,7 +224,7 @@ TEST_P(Databases, RemoveOldDays) {
     EXPECT_THAT(numbers(*database, {"anna"}), ElementsAre(3, 4));
     EXPECT_THAT(numbers(*database, {"old"}), ElementsAre());
     EXPECT_EQ(database->robots().size(), 1U);
-    database->write(states);  // states of removed days can be written again
+    database->write(states);  // after `remove_days_before`, the same states can be written again
     EXPECT_EQ(numbers(*database, {"anna"}).size(), 5U);
 }
 
@@ -241,7 +241,7 @@ TEST_P(Databases, TwoProgramsWriteAtTheSameTime) {
                 try {
                     database->write(states);
                 } catch (const Error& error) {
-                    // PostgreSQL may abort one of two transactions that wait for each other.
+                    // If two transactions wait for each other, PostgreSQL aborts one of them.
                     ++failures;
                     database->write(states);
                 }
@@ -367,7 +367,7 @@ TEST(StoreQueue, DropsTheOldestStatesBeyondItsBuffer) {
 TEST(StoreQueue, MessagesMayUseTheQueue) {
     FakeDatabase::Contents contents;
     contents.is_away = true;
-    // A null pointer until the queue is constructed, because the constructor may report a failure.
+    // Null until the queue is constructed. The constructor may already report a failure.
     const store::Queue* used = nullptr;
     std::int64_t dropped = 0;
     store::Queue queue(std::make_unique<FakeDatabase>(contents), true,

@@ -77,7 +77,8 @@ class Vda5050 : public Mqtt {
 
 TEST_F(Vda5050, MessagesAreValid) {
     const Broker broker(directory_);
-    // Creates a persistent session, in which the broker queues the messages until the next call.
+    // Creates a persistent session. The broker queues all messages for it until the reader connects
+    // again.
     const std::string reader = fmt::format(
         "mosquitto_sub -h 127.0.0.1 -p {} -c -i reader -q 1 -v -t 'uagv/v2/#' ", broker.port());
     shell(reader + "-E");

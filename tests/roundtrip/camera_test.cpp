@@ -1,5 +1,6 @@
-// Tests pages of `dotpose overlay` as a camera sees them: a renderer replaces the printer, the
-// simulated camera takes frames, and `dotpose locate` locates them.
+// Tests pages of `dotpose overlay` as a camera sees them. A PDF renderer takes the place of the
+// printer, the simulated camera takes frames of the rendered pages, and `dotpose locate` locates
+// the frames.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -28,12 +29,12 @@ using nlohmann::json;
 constexpr int kPages = 5;
 constexpr double kPageWidth_mm = 60;
 constexpr double kPageHeight_mm = 80;
-// Minimum distance of the centre of a frame from the edge of the page. A frame extends up to 5.2 mm
-// from its centre.
+// Minimum distance of the centre of a frame from the edge of the page. It is larger than the extent
+// of a frame from its centre, which is up to 5.2 mm.
 constexpr double kEdge_mm = 8;
 constexpr int kPrinter_dpi = 1200;
-// A renderer may shift all dots by one of its pixels, which is 0.021 mm. The error of a fix is
-// about 0.002 mm.
+// Tolerance of a position. A renderer may shift all dots by one of its pixels, which is 0.021 mm,
+// and the error of a fix is about 0.002 mm.
 constexpr double kTolerance_mm = 0.03;
 
 struct TakenFrame {
@@ -77,7 +78,8 @@ class OverlaidBook : public testing::TestWithParam<Camera> {
                      GetParam().overlay_options);
     }
 
-    /// Writes frames of random places, and lists their names, in order, in list.txt.
+    /// Writes frames of random places. Their names are listed in list.txt in the order of the
+    /// result.
     std::vector<TakenFrame> take_frames() const {
         constexpr std::uint64_t kSeed = 41;
         fmt::print("seed {}\n", kSeed);

@@ -12,8 +12,9 @@ struct Point {
     double y = 0;
 };
 
-/// Returns the centroid of the ink around an intersection. The ink of a dot ends 0.25 spacings from
-/// its intersection, and the ink of its neighbours begins at 0.75.
+/// Returns the centroid of the ink around an intersection. At this window size, the ink of the dot
+/// is included and that of its neighbours is not, because a dot ends 0.25 spacings from its
+/// intersection and its neighbours begin at 0.75 spacings.
 std::optional<Point> centroid_px(const GreyPage& page, Point centre, double half_px) {
     double ink = 0;
     Point sum;
@@ -53,7 +54,7 @@ DotErrors measure_dots(const GreyPage& page, const Sheet& sheet, double dpi) {
     const double um_per_px = 25'400 / dpi;
     DotErrors result;
     Point offset;
-    // The second pass searches around the dots found in the first pass.
+    // The second pass repeats the measurement with the mean offset found in the first pass.
     for (int pass = 0; pass < 2; ++pass) {
         std::vector<Point> errors;
         result = DotErrors{};

@@ -22,7 +22,7 @@ using testing::HasSubstr;
 constexpr const char* kCatalogue = "<< /Type /Catalog /Pages 2 0 R >>";
 constexpr int kDeep = 9000;
 
-/// Returns data compressed `times` times for the filter FlateDecode.
+/// Compresses data `times` times for the filter FlateDecode.
 std::string packed(std::string data, int times = 1) {
     for (int i = 0; i < times; ++i) {
         uLongf size = compressBound(data.size());
@@ -102,7 +102,7 @@ TEST_F(HostileDocument, depth_is_bounded_and_named) {
     const char* const kDraws = "/Resources << /XObject << /A 5 0 R >> >>";
     expect_refused(page_with(kDraws, stream("/A Do"), forms("/A Do")),
                    "in.pdf, page 1: its forms are nested deeper than 100 levels");
-    // If colours are changed, forms that are not drawn are also converted.
+    // With this option, forms that are not drawn are also converted.
     expect_refused(page_with(kDraws, stream(""), forms("")),
                    "in.pdf, page 1: its resources are nested deeper than 100 levels",
                    change_colours_);
@@ -214,7 +214,7 @@ TEST_F(HostileDocument, lists_of_objects_are_bounded) {
     }
     write(with_cross_reference_stream("/Filter /FlateDecode", packed(std::string(12, '\0'))));
     expect("in.pdf");
-    // These cross-reference tables and streams are incomplete.
+    // In these documents, the cross-reference table or stream is cut off.
     for (const char* cut : {"xref\n0 1\n", "2 0 obj\n", "2 0 obj\n<< /Type (", "trailer <<"}) {
         write(std::string("%PDF-1.5\n") + cut + "\nstartxref\n9\n%%EOF\n");
         expect("in.pdf: damaged PDF");

@@ -14,25 +14,25 @@
 namespace dotpose::roundtrip {
 namespace {
 
-/// Limits of the distance of a dot's centroid from its nominal place, after subtracting one
-/// constant offset.
+/// Limits of the distances between the centroids of dots and their nominal places, after
+/// subtracting one constant offset from all centroids.
 struct Limits {
     double mean_um;
     double largest_um;
 };
-// Usual limits. The maximum is a seventh of the displacement of a symbol, which is 85 µm at a
-// spacing of 0.508 mm.
+// Usual limits in µm. The maximum of 12 µm is a seventh of the displacement of a symbol, which is
+// 85 µm at a spacing of 0.508 mm.
 constexpr Limits kUsual = {4, 12};
-// Limits for a spacing of 0.3 mm at 300 dpi, which is 3.5 pixels. Neighbouring dots may ink the
-// same pixel, so no rendering can be more accurate. The displacement of a symbol is 50 µm.
+// Limits for a spacing of 0.3 mm at 300 dpi, which is 3.5 pixels. They are larger, because
+// neighbouring dots may ink the same pixel. The displacement of a symbol is 50 µm.
 constexpr Limits kFineOnCoarse = {6, 30};
 
-// Minimum diameter of a dot whose place can be measured exactly. The rendering of a smaller dot
-// does not show where it is within a pixel. For example, the error is up to 17 µm for a dot of 0.05
-// mm at 300 dpi. A dot that consists of whole pixels at its exact place has no error at any size.
+// Minimum diameter of a dot whose place can be measured exactly. A smaller dot looks the same
+// wherever it is within a pixel. For example, the error is up to 17 µm for a dot of 0.05 mm at 300
+// dpi. A dot that consists of whole pixels has no such error.
 constexpr double kExactDot_px = 2.3;
-// Maximum diameter with which a white pixel remains between any two dots, at a spacing of 0.3 mm
-// and 300 dpi.
+// Maximum diameter at which there is a white pixel between any two dots, for a spacing of 0.3 mm at
+// 300 dpi.
 constexpr double kFineDot_px = 1.63;
 
 struct Dots {
@@ -105,8 +105,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 class OddResolution : public testing::TestWithParam<const char*> {};
 
-// Glyphs are used only for dots of whole pixels, because a renderer moves each glyph to whole
-// pixels or to certain fractions of a pixel. It draws strokes at their exact places.
+// A renderer may move a glyph to whole pixels or to certain fractions of a pixel, so glyphs are
+// used only for dots of whole pixels. Strokes are drawn at their exact places.
 TEST_P(OddResolution, moves_letters_and_leaves_strokes) {
     constexpr int kOdd_dpi = 310;  // a spacing of 6.2 pixels
     SheetOptions options;

@@ -42,8 +42,7 @@ GreyPage read_pgm(const fs::path& path) {
     return page;
 }
 
-/// Reads the black channel of an 8-bit PAM file with cyan, magenta, yellow and black. In the file,
-/// 255 is ink.
+/// Reads the black channel of an 8-bit CMYK file in PAM format, in which 255 is full ink.
 GreyPage read_black_of_pam(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     GreyPage page;

@@ -27,12 +27,12 @@ inline constexpr const char* kRenderers[] = {"pdftoppm", "gs", "mutool"};
 GreyPage render(const std::string& renderer, const std::filesystem::path& pdf, int dpi,
                 int page = 1);
 
-/// Renders only the black ink of a page with Ghostscript. This is the image in infrared light,
-/// which passes through cyan, magenta and yellow.
+/// Renders only the black ink of a page with Ghostscript. An infrared camera sees this image,
+/// because cyan, magenta and yellow are transparent to infrared light.
 GreyPage render_black(const std::filesystem::path& pdf, int dpi, int page);
 
-/// Runs a shell command, and returns its output. Throws std::runtime_error with the output unless
-/// the exit status is 0.
+/// Runs a shell command, and returns its output. If the exit status is not 0, throws
+/// std::runtime_error with the output.
 std::string run(const std::string& command);
 
 }  // namespace dotpose::roundtrip

@@ -89,8 +89,8 @@ TEST(CheckPrint, says_when_a_scan_is_too_coarse) {
 
 TEST(CheckPrint, finds_dots_that_run_together) {
     // The dots have a diameter of 0.31 mm. If two neighbours are displaced towards each other,
-    // their centres are 0.339 mm apart. The gap between them is smaller than a pixel of the scan
-    // (0.042 mm), so they run together.
+    // their centres are 0.339 mm apart, which leaves a gap of 0.03 mm. The gap is smaller than a
+    // pixel of the scan (0.042 mm), so the two dots appear as one.
     ScanSettings settings;
     settings.dot_growth = 3.7;
     const PrintCheck result = check(scan_page(small_sheet(), settings), 600);
@@ -124,17 +124,17 @@ TEST(CheckPrint, tells_other_print_from_faults) {
     EXPECT_LT(field.missing_share(), 0.002);
     EXPECT_LT(field.merged_share(), 0.002);
     EXPECT_LT(field.wrong_share(), 0.002);
-    // A bar covers the cells whose intersections are at most half a cell from the bar. These cells
-    // form a stripe with a width of 1 mm plus one cell. There is a bar every 5 mm, and a bar is 30
-    // mm long on a page of 60 mm. Along the edge of the grey area, cells in up to one tile of 24
-    // cells (12 mm) differ from the paper.
+    // A bar covers all cells whose intersections are at most half a cell from the bar. These cells
+    // form a stripe whose width is 1 mm plus one cell (0.508 mm). There is a bar every 5 mm, and
+    // each bar is 30 mm long on a page of 60 mm. Along the edge of the grey area, the cells of up
+    // to one tile (24 cells, or 12 mm) may also be reported as covered.
     const double bars = (1 + 0.508) / 5 * 30 / 60;
     const double edge = 12.0 * (25 + 30 + 25) / (60 * 80);
     EXPECT_GT(field.covered_share(), 0.9 * bars);
     EXPECT_LT(field.covered_share(), bars + edge);
 }
 
-// Each tile of this scan contains mostly the blank paper around the card.
+// Most of each tile of this scan is blank paper around the card.
 TEST(CheckPrint, dots_of_a_small_card_on_a_noisy_scan_are_not_covered) {
     SheetOptions options;
     options.paper = {20, 20};
@@ -162,7 +162,7 @@ TEST(CheckPrint, maps_distortion) {
     settings.wave_mm = 0.3;
     const PrintCheck result = check(scan_page(make_sheet(options), settings), 300);
     ASSERT_EQ(result.fields.size(), 1U);
-    // The tolerance is large, because the fitted scale removes a part of the sine wave.
+    // The tolerance is large, because the fitted scale absorbs a part of the sine wave.
     EXPECT_NEAR(result.fields[0].largest_distortion_mm, settings.wave_mm, 0.1);
     EXPECT_LT(result.fields[0].scatter_mm, 0.01);
     EXPECT_THAT(remarks(result), Contains("distorted"));
@@ -170,7 +170,7 @@ TEST(CheckPrint, maps_distortion) {
     for (const DistortionBin& bin : result.fields[0].distortion) {
         EXPECT_NEAR(bin.du_mm, 0, 0.005);
         const double along_mm = bin.v_px * 25.4 / settings.dpi - height_mm / 2;
-        // The fitted scale removes a straight line through the middle.
+        // The fit of the scale subtracts a straight line through the middle of the sheet.
         const double line_mm = (result.fields[0].scale->scale_y - 1) * along_mm;
         const double wave_mm = settings.wave_mm * std::sin(2 * std::numbers::pi * along_mm / 100);
         EXPECT_NEAR(bin.dv_mm, wave_mm - line_mm, 0.03);
@@ -178,7 +178,7 @@ TEST(CheckPrint, maps_distortion) {
 }
 
 TEST(CheckPrint, bits_of_another_place_are_wrong) {
-    // The lower 12 rows continue at another cell, as if a driver printed the page in tiles.
+    // The lower 12 rows show another part of the pattern, as if a driver printed the page in tiles.
     Sheet upper = small_sheet();
     Sheet lower = upper;
     upper.rows -= 12;
@@ -209,7 +209,7 @@ TEST(CheckPrint, sees_a_photo_without_scale) {
     imperfections.noise_sigma = 3;
     imperfections.missing = 0.03;
     const GreyImage photo = render(page_of(sheet), camera, pose, imperfections, 1);
-    const PrintCheck result = check(photo, 72);  // the resolution that phones write into files
+    const PrintCheck result = check(photo, 72);  // many phones write 72 dpi into every file
     ASSERT_EQ(result.fields.size(), 1U);
     EXPECT_FALSE(result.fields[0].scale);
     EXPECT_FALSE(result.resolution);
@@ -324,8 +324,9 @@ TEST(CheckPrint, test_page_tells_the_best_settings) {
         EXPECT_EQ(field->bits_wrong, 0);
         EXPECT_NEAR(field->gain(), 0.5, 0.1);
     }
-    // The optimal printed diameters are a sixth of the spacings: 4 and 6 units. With a growth of
-    // 1.5, nominal diameters of 2 and 4 are printed as 3 and 6, the values nearest to the optimum.
+    // The optimal printed diameter is a sixth of the spacing, which is 4 or 6 units here. Printed
+    // diameters are 1.5 times as large as nominal, so nominal diameters of 2 and 4 units are
+    // printed as 3 and 6 units, the values nearest to the optimum.
     ASSERT_EQ(result.best_per_spacing.size(), 2U);
     const auto dot_of = [&](std::size_t i) {
         return std::lround(result.fields[result.best_per_spacing[i]].pattern.dot_mm / kTestUnit_mm);
@@ -338,8 +339,8 @@ TEST(CheckPrint, test_page_tells_the_best_settings) {
 }
 
 TEST(CheckPrint, patches_whose_dots_reach_all_around_are_not_good) {
-    // The dots have a diameter of 0.27 mm. The spacing is 0.38 mm, so the minimum distance between
-    // two centres is 0.25 mm, and dots run together.
+    // The dots have a diameter of 0.27 mm. At a spacing of 0.38 mm, the centres of two neighbours
+    // may be only 0.25 mm apart, so their dots overlap.
     TestPageOptions options;
     options.paper = {60, 60};
     options.margin_mm = 5;

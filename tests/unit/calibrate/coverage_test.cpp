@@ -1,5 +1,5 @@
-// Tests the coverage of a calibration: the requirements that are not met yet, and the uncertainty
-// of a lens in the corner.
+// Tests the coverage of a calibration: which requirements are not met yet, and how uncertain the
+// lens is in the corner of the image.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -34,8 +34,8 @@ std::vector<Kind> kinds(const std::vector<CalibrationNeed>& needs) {
     return all;
 }
 
-/// Returns a frame at the place (`x_grid`, `y_grid`), in spacings. A spacing is 10 px. Each part of
-/// the image that is not in `empty` has a dot in its middle.
+/// Returns a frame at the place (`x_grid`, `y_grid`), in spacings of 10 px. The frame has a dot in
+/// the middle of each part of the image that is not in `empty`.
 CalibrationView view_at(double x_grid, double y_grid, double theta_deg,
                         const std::vector<std::pair<int, int>>& empty = {}) {
     CalibrationView view;
@@ -86,8 +86,9 @@ TEST(CalibrationCoverage, CountsPlacesDirectionsAndNewParts) {
     EXPECT_EQ(coverage.parts_added_by(view_at(0, 0, 0, {{3, 4}})), 95);
     coverage.add(view_at(0, 0, 0, {{3, 4}}));
     EXPECT_EQ(coverage.parts_added_by(view_at(0, 0, 0)), 1);
-    // A frame shows a new place if it is at least a quarter of the shorter side of the image away
-    // from the others. The shorter side is 8 spacings long, so the limit is 2 spacings.
+    // A frame shows a new place if its distance from the earlier frames is at least a quarter of
+    // the shorter side of the image. This side is 8 spacings long, so the minimum distance is 2
+    // spacings.
     coverage.add(view_at(1.9, 0, 44));
     EXPECT_EQ(coverage.places(), 1);
     EXPECT_EQ(coverage.directions(), 1);
@@ -131,7 +132,7 @@ TEST(CalibrationCoverage, NamesThePartOfTheImageThatIsMissing) {
                                                      {2, 6}, {0, 7}, {1, 7}, {2, 7}};
     CalibrationCoverage coverage(kWidth_px, kHeight_px);
     coverage.add(view_at(0, 0, 0, corner));
-    // The dots cover more than the fraction that a calibration needs, but not every corner.
+    // The dots cover more than the required fraction of the image, but one corner has no dots.
     ASSERT_GT(coverage.image().share(), kMinCoverage);
     const auto needs = coverage.missing(std::nullopt);
     ASSERT_EQ(needs[0].kind, Kind::image);
@@ -143,13 +144,13 @@ TEST(CornerSigma, IsThatOfTheDivisionModel) {
     camera.width_px = 188;
     camera.height_px = 120;
     camera.k_per_px2 = -8.7e-6;
-    camera.centre_px = {94, 59};  // the corner at (0, 119) is the farthest
+    camera.centre_px = {94, 59};  // the corner at (0, 119) is the farthest from this centre
     const double x = -94;
     const double y = 60;
     const double d = 1 + camera.k_per_px2 * (x * x + y * y);
     camera.sigma = {{"k_per_px2", 2e-8}, {"centre_u_px", 0}, {"centre_v_px", 0}};
-    // Eq. 2 of the paper is p = r / (1 + k r^2), so dp/dk = -r r^2 / (1 + k r^2)^2. The result is
-    // relative to the middle of the image, where the derivative is zero to eight digits.
+    // Eq. 2 of the paper is p = r / (1 + k r^2), so dp/dk = -r r^2 / (1 + k r^2)^2. The derivative
+    // at the middle of the image is subtracted. It is zero to eight digits.
     const double by_k = std::pow(std::hypot(x, y), 3) / (d * d) * 2e-8;
     EXPECT_NEAR(corner_sigma_px(camera), by_k, 1e-5 * by_k);
 

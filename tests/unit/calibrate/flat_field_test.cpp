@@ -12,7 +12,6 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Size of the images, in px.
 constexpr int kColumns = 40;
 constexpr int kRows = 30;
 constexpr std::uint32_t kDotSeed = 5;
@@ -63,9 +62,9 @@ TEST(CalibrateFlatField, FindsTheLight) {
             EXPECT_NEAR(field[j][i], light_at(u, v) / brightest, 0.03) << i << ", " << j;
         }
     }
-    // A tenth of the pixels are dots, with 23 % of the level of the paper. The standard deviation
-    // of a pixel is therefore 25 % of its mean in one frame, and a 20th of this value, 1.26 %, in
-    // the mean of 400 frames.
+    // A tenth of the pixels are dots, whose level is 23 % of that of the paper. The standard
+    // deviation of a pixel is therefore 25 % of its mean in one frame. In the mean of 400 frames it
+    // is a 20th of this value, 1.26 %.
     EXPECT_NEAR(found.residual, 0.0127, 0.004);
     validate(found.camera);
 }

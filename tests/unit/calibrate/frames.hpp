@@ -1,4 +1,4 @@
-/// Simulated frames for calibrations, with poses chosen by a test.
+/// Simulated frames for the calibration tests. Each test chooses the poses.
 #pragma once
 
 #include <algorithm>
@@ -78,12 +78,12 @@ inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int 
                            x_mm + c * x - s * y, y_mm + s * x + c * y, theta_rad));
 }
 
-/// Place where the robot turns on the spot.
+/// The robot turns on the spot at this place.
 inline constexpr double kPivot_x_mm = 60'000;
 inline constexpr double kPivot_y_mm = 45'000;
 
-/// Mean error of the position of a robot, along the axes of the robot, and mean error of its
-/// heading. Averaged over many directions, the errors of single fixes cancel, and the error of the
+/// Mean error of the position along the axes of the robot, and mean error of the heading. The mean
+/// is taken over many directions, so that the errors of single fixes cancel and the error of the
 /// calibration remains.
 struct RobotError {
     Vec2 place_mm;
@@ -164,7 +164,7 @@ inline CameraModel wide_camera() {
     return camera;
 }
 
-/// Returns the camera's frame at a place of the table. Renders each sheet alone, and takes the
+/// Returns the camera's frame at a place of the table. It renders each sheet alone and takes the
 /// darkest value of each pixel.
 inline GreyImage table_frame(const Table& table, const CameraModel& camera, std::uint64_t seed,
                              int index, double x_mm, double y_mm, double theta_rad) {
@@ -179,8 +179,8 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         const double dy = y_mm - lying.y_mm;
         const double c = std::cos(lying.turn_rad);
         const double s = std::sin(lying.turn_rad);
-        // If the camera is farther than this from the middle of the sheet along an axis, no dot of
-        // the sheet is in view.
+        // If the camera is farther from the middle of a sheet along one axis, it sees no dot of
+        // this sheet.
         constexpr double kTooFar_mm = kPage_mm / 2 + 12;
         if (std::abs(dx - kPage_mm / 2) > kTooFar_mm) continue;
         if (std::abs(dy - kPage_mm / 2) > kTooFar_mm) continue;
@@ -193,7 +193,8 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         shot.page = page_of(sheet, seed + i + 1);
         shot.page.print_scale = lying.print;
         const GreyImage image = render(shot);
-        // All sheets are rendered with equal light and noise, so the darkest pixel shows a dot.
+        // The light and the noise of all sheets are equal, so the darkest value of a pixel is that
+        // of a dot if any sheet has a dot there.
         if (result.pixels.empty()) result = image;
         for (std::size_t k = 0; k < image.pixels.size(); ++k)
             result.pixels[k] = std::min(result.pixels[k], image.pixels[k]);

@@ -19,12 +19,12 @@ using namespace dotpose::calibrate_test;
 using testing::HasSubstr;
 
 constexpr int kFrames = 20;
-/// Residual of nominal frames, in px: the root of the sum of squares of the printing errors (0.010
-/// mm, which is 0.217 px) and of the measurement noise (about 0.05 px).
+/// Expected residual of nominal frames, in px. It is the root of the sum of the squares of the
+/// printing error (0.010 mm, which is 0.217 px) and of the measurement noise (about 0.05 px).
 constexpr double kNominalResidual_px = 0.222;
 
-/// Limit of errors, in reported standard deviations. By chance, one error in 16,000 exceeds the
-/// limit.
+/// Maximum error, in reported standard deviations. A normally distributed error exceeds it with a
+/// probability of 1/16,000.
 constexpr double kMaxSigmas = 4;
 
 void expect_near_truth(const Camera& camera, const char* sigma, double value, double truth) {
@@ -51,8 +51,8 @@ TEST(CalibrateLens, FindsThePapersLens) {
     expect_lens(result, truth);
     ASSERT_TRUE(result.is_mounted);
     const PaperScale& paper = result.camera.paper.value();
-    // The scale is a mean over the field of 188 x 120 px. This mean is more accurate than the scale
-    // at the centre of the field.
+    // The mean scale over the field of 188 x 120 px is determined more accurately than the scale at
+    // the centre of the field.
     EXPECT_NEAR(paper.mm_per_px_x, truth.mm_per_px, 5e-4 * truth.mm_per_px);
     EXPECT_NEAR(paper.mm_per_px_y, truth.mm_per_px, 5e-4 * truth.mm_per_px);
     expect_near_truth(result.camera, "mm_per_px_x", paper.mm_per_px_x, truth.mm_per_px);
@@ -60,8 +60,7 @@ TEST(CalibrateLens, FindsThePapersLens) {
     expect_near_truth(result.camera, "skew", paper.skew, 0);
     // Frames of a camera that looks straight down do not determine the focal length.
     EXPECT_FALSE(result.camera.focal_px.has_value());
-    // Without correction of the lens distortion, noise contributes only a small part of the
-    // residual.
+    // Without a correction of the lens distortion, noise is only a small part of the residual.
     EXPECT_GT(result.residual_before_px, 3 * result.residual_px);
     EXPECT_EQ(result.coverage, 1);
 }
@@ -81,7 +80,7 @@ TEST(CalibrateLens, FindsTheTiltOfAMountedCamera) {
 }
 
 // Regression: with only the dots that `locate` reads, the focal length of a slightly tilted camera
-// was biased by three standard deviations.
+// was wrong by three standard deviations.
 TEST(CalibrateLens, ASlightTiltTellsAnUnbiasedFocalLength) {
     const CameraModel truth = paper_camera();
     const double focal_px = truth.working_distance_mm / truth.mm_per_px;
@@ -98,7 +97,7 @@ TEST(CalibrateLens, ASlightTiltTellsAnUnbiasedFocalLength) {
     EXPECT_LT(std::abs(normalised) / std::sqrt(kSeries), kMaxSigmas);
 }
 
-// In the farthest corner, the spacing in px is half the spacing in the middle.
+// In the farthest corner, the spacing in pixels is half of that in the middle.
 TEST(CalibrateLensAtLength, AStrongTiltIsCoveredToTheCorners) {
     CameraModel truth;
     truth.width_px = 640;

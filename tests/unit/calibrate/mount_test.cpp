@@ -79,8 +79,8 @@ TEST(CalibrateSpin, TheReferenceStaysPutAfterwards) {
         ASSERT_EQ(fix.status, Status::ok);
         EXPECT_NEAR(fix.x_mm(), kPivot_x_mm, 0.03);
         EXPECT_NEAR(fix.y_mm(), kPivot_y_mm, 0.03);
-        // At 16 mm from the camera, the angle contributes most of the error, so the variance must
-        // include it.
+        // At a distance of 16 mm from the camera, most of the error is due to the error of the
+        // angle, so the variance must include the variance of the angle.
         const auto variance = static_cast<double>(fix.covariance[0][0]);
         EXPECT_LT(std::abs(fix.x_mm() - kPivot_x_mm), 5 * kDefaultSpacing_mm * std::sqrt(variance));
     }
@@ -91,10 +91,10 @@ double off_mm(const RobotError& error) {
     return std::hypot(error.place_mm.x, error.place_mm.y);
 }
 
-// The variance of the reference is the sum of the variances of the turn, of the image centre and of
-// the image axis. The camera file gives a standard deviation of 4 µm per axis for the centre and of
-// 3e-4 rad for the axis. At a distance of 15.8 mm from the camera, these two values contribute 5.2
-// µm per axis.
+// The variance of the reference is the sum of the variances that are due to the turn, to the image
+// centre and to the image axis. In the camera file, the standard deviation of the centre is 4 µm
+// per axis and that of the direction of the axis is 3e-4 rad. At a distance of 15.8 mm from the
+// camera, these two together contribute sqrt(4^2 + (15.8e3 * 3e-4)^2 / 2) = 5.2 µm per axis.
 TEST(CalibrateSpin, AddsWhatTheLensDoesNotTell) {
     const CameraModel model = paper_camera();
     const auto frame_at = [&](int i) {
@@ -108,9 +108,9 @@ TEST(CalibrateSpin, AddsWhatTheLensDoesNotTell) {
                 std::hypot(of_turn_mm, 0.004, 3e-4 * away_mm / std::sqrt(2)), 1e-5);
 }
 
-// The reference point is outside the image, where undistorted pixels of an estimated lens have
-// larger errors than inside. However, the reference and all fixes use the same lens, so the error
-// has no effect on positions on the paper.
+// The reference point is outside the image, where an estimated lens is less accurate than inside.
+// However, the reference and all fixes use the same lens, so this error has no effect on positions
+// on the paper.
 TEST(CalibrateSpin, IsExactWithAnEstimatedLens) {
     const CameraModel model = paper_camera();
     for (const std::uint64_t seed : {61, 62, 63}) {
@@ -198,8 +198,8 @@ std::string refusal(const std::function<void()>& calibrate) {
     return "not refused";
 }
 
-/// Returns frame `i` of 12 frames of a robot that turns by `step_deg` and moves by `drift_mm` along
-/// x per frame.
+/// Returns 12 frames of a robot that turns by `step_deg` and moves by `drift_mm` along x from each
+/// frame to the next.
 FrameAt turning(const CameraModel& model, double step_deg, double drift_mm) {
     return [=](int i) {
         return robot_frame(model, 65, i, kPivot_x_mm + drift_mm * i, kPivot_y_mm,
@@ -207,8 +207,8 @@ FrameAt turning(const CameraModel& model, double step_deg, double drift_mm) {
     };
 }
 
-// Frames of a robot that drives and turns slowly are not a turn on the spot, even if an arc about a
-// distant point fits them well.
+// A robot that drives and turns slowly does not turn on the spot, even if an arc about a distant
+// point fits its frames well.
 TEST(CalibrateSpin, RefusesADrive) {
     const CameraModel model;
     EXPECT_THAT(
@@ -216,13 +216,13 @@ TEST(CalibrateSpin, RefusesADrive) {
         HasSubstr("the frames do not show a turn on the spot: the centre of rotation moved by"));
     EXPECT_THAT(refusal([&] { calibrate_spin(12, turning(model, 30, 4), {}, {}); }),
                 HasSubstr("do not show a turn on the spot"));
-    // The robot moves by half a millimetre in total over 40 degrees. The residual is small, but the
-    // estimated point is far from the true one.
+    // The robot moves by half a millimetre in total while it turns by 40 degrees. The residual is
+    // small, but the estimated point is far from the true point.
     EXPECT_THAT(refusal([&] { calibrate_spin(12, turning(model, 3.6, 0.05), {}, {}); }),
                 HasSubstr("the robot moved on while it turned"));
 }
 
-// In 12 frames over a full turn, the robot moves by 0.02 mm per frame.
+// The robot moves by 0.02 mm from each frame to the next, during one full turn of 12 frames.
 TEST(CalibrateSpin, CountsADriftInItsDeviation) {
     const CameraModel model;
     const SpinCalibration still = calibrate_spin(12, turning(model, 30, 0), {}, {});

@@ -28,9 +28,9 @@ TEST(Optics, GivesThePapersNumbers) {
         EXPECT_FALSE(advice.is_fault) << advice.text;
 }
 
-/// Returns the side of the smallest square field of view that contains a block of dots with this
-/// diagonal, if the grid is rotated by 45 degrees. (`x_mm`, `y_mm`) is the offset of the image
-/// centre from the centre of a block, along the axes of the grid.
+/// Returns the side of the smallest square field of view that contains a block of dots whose
+/// diagonal is `diagonal_mm`, if the grid is rotated by 45 degrees. (`x_mm`, `y_mm`) is the offset
+/// of the image centre from the centre of a block, along the axes of the grid.
 double field_for_block(double diagonal_mm, double spacing_mm, double x_mm, double y_mm) {
     double smallest_mm = HUGE_VAL;
     for (int i = -1; i <= 1; ++i) {
@@ -79,8 +79,8 @@ TEST(Optics, IsThatOfAThinLens) {
     EXPECT_NEAR(report.blur_px, 0.5, 1e-9);
     EXPECT_NEAR(report.longest_exposure_s, 0.002, 1e-9);
     EXPECT_NEAR(report.fastest_mm_s, 12, 1e-9);
-    // A point at either end of the depth of field is imaged in front of or behind the sensor. At
-    // the sensor, its cone of light is one pixel (6 µm) wide.
+    // A point at either end of the depth of field is imaged in front of or behind the sensor. Its
+    // blur on the sensor is one pixel (6 µm) wide.
     for (const double end_mm : {report.near_mm, report.far_mm}) {
         const double image_mm = 1 / (1 / optics.focal_mm - 1 / end_mm);
         const double aperture_mm = optics.focal_mm / optics.f_number;

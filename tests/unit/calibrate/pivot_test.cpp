@@ -1,4 +1,4 @@
-// Tests the calibration of the tip of a pen. The frames are simulated with a known tip.
+// Tests the calibration of the tip of a pen with simulated frames of a known tip.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -24,8 +24,8 @@ constexpr double kMaxTilt_rad = 40 * kDegree_rad;
 constexpr double kX_mm = 3000;
 constexpr double kY_mm = 2000;
 
-/// Returns frames of a pen whose tip rests at one point. `place_of(i, pose)` can change the pose of
-/// frame i.
+/// Returns frames of a pen whose tip rests at one point. `place_of(i, pose)` may change the pose of
+/// frame i before it is rendered.
 template <typename PlaceOf>
 std::vector<GreyImage> frames_of(int count, std::uint64_t seed, double max_tilt_rad,
                                  PlaceOf place_of) {
@@ -83,8 +83,8 @@ TEST(CalibratePivot, FindsTheTip) {
 }
 
 TEST(CalibratePivot, HasTrueDeviationsThoughAllFramesShowTheSamePrint) {
-    // If the covariance treated the frames as independent, the mean of the squares would be 3.3
-    // instead of 1.
+    // If the covariance treated the frames as independent, the mean of the normalised squares would
+    // be 3.3 instead of 1.
     constexpr int kPens = 10;
     double squares = 0;
     for (std::uint64_t pen = 0; pen < kPens; ++pen) {
@@ -100,8 +100,8 @@ TEST(CalibratePivot, HasTrueDeviationsThoughAllFramesShowTheSamePrint) {
         squares += std::pow((camera.tip->x_mm - kTip.x_mm) / camera.sigma.at("tip_x_mm"), 2) +
                    std::pow((camera.tip->y_mm - kTip.y_mm) / camera.sigma.at("tip_y_mm"), 2);
     }
-    // The mean of 20 squared standard normal variables has a standard deviation of 0.32. The limit
-    // is three standard deviations.
+    // The mean of 20 squared standard normal variables has a standard deviation of 0.32. The
+    // tolerance is three times as large.
     EXPECT_NEAR(squares / (2 * kPens), 1, 0.95);
 }
 

@@ -1,4 +1,4 @@
-// Tests prints that contradict their description: places that are not unique, pages that are on
+// Tests prints that contradict their description: places that occur twice, pages that belong to
 // none of the given sheets, and impossible resolutions. Also tests scans with few large dots.
 #include <vector>
 
@@ -56,7 +56,7 @@ TEST(PrintContradictions, a_page_that_is_on_no_given_sheet_is_a_fault) {
 TEST(PrintContradictions, a_resolution_that_contradicts_the_spacing_is_a_fault) {
     ScanSettings settings;
     settings.dpi = 600;
-    // At 100 dpi, the spacing of 12 px would be 3.048 mm.
+    // At 100 dpi, the spacing of 12 px corresponds to 3.048 mm.
     const PrintCheck result = check(scan_page(small_sheet(), settings), 100);
     EXPECT_THAT(faults(result), ElementsAre("contradiction"));
     EXPECT_THAT(result.findings[0].text, HasSubstr("at 100 dpi the dots are 3.048 mm apart instead "

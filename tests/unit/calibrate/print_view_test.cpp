@@ -1,5 +1,5 @@
-// Tests how photos are distinguished from scans by the geometry of the page. The test computes this
-// geometry independently of the code under test.
+// Tests how photos and scans are distinguished by the geometry of the page. The geometry is
+// computed independently of the code under test.
 #include "calibrate/print_view.hpp"
 
 #include <cmath>
@@ -39,7 +39,8 @@ TEST(PrintView, tells_cameras_from_scanners) {
     for (const double tilt : {0.5, 1.0, 10.0, 25.0}) {
         const auto signs = signs_of_camera(photo(tilt * kDegree, 0, 0), kMiddle_px);
         ASSERT_TRUE(signs) << tilt;
-        // The far end is farther away than the near end by 180 mm * sin(tilt), relative to 260 mm.
+        // The far end of the page is farther from the camera than the near end. The difference of
+        // their distances, relative to 260 mm, is 180 mm * sin(tilt) / 260 mm.
         EXPECT_NEAR(signs->perspective, 180 * std::sin(tilt * kDegree) / 260, 1e-6);
         EXPECT_NEAR(signs->lens, 0, 1e-6);
     }
@@ -70,8 +71,8 @@ TEST(PrintView, tells_the_ratio_of_the_scales_as_far_as_it_is_known) {
             EXPECT_LT(ratio->uncertainty, 0.006) << tilt;
         }
     }
-    // For a tilt about an axis of the paper, foreshortening cannot be distinguished from a ratio of
-    // scales.
+    // If the tilt is about an axis of the paper, its foreshortening looks like different scales
+    // along x and y.
     const PlaneFit fit = fit_plane(photo(20 * kDegree, 0, 0), ViewModel::camera, kMiddle_px);
     EXPECT_FALSE(scale_ratio_of(fit, kLongerSide_px));
 }

@@ -1,5 +1,5 @@
-// Tests poses and velocities from single frames of a camera with a rolling shutter, and the
-// calibration of its readout time.
+// Tests poses and velocities that are computed from single frames of a camera with a rolling
+// shutter, and the calibration of the readout time.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kReadout_ms = 20;
 
-/// A frame of a scene that moves during the readout, and the velocity of the camera.
 struct RollingFrame {
     Shot shot;
     Vec2 velocity_mm_s;  ///< velocity of the camera, along the axes of the pattern
@@ -74,8 +73,8 @@ TEST(ReadoutVelocity, IsWithinItsStandardDeviation) {
     }
 }
 
-/// Adds a rotation of the camera during the readout to a frame. The velocity refers to the point
-/// under the image centre and does not change.
+/// Adds a rotation of the camera during the readout. The velocity is that of the point under the
+/// image centre, so it does not change.
 RollingFrame draw_turning(const CameraModel& camera, double motion, double turn_deg, int index) {
     RollingFrame frame = draw_rolling(camera, motion, index);
     // If theta increases, the scene turns anticlockwise in the image.

@@ -1,5 +1,5 @@
-// Tests poses in space. All expected pixels come from the projection in this file: a pinhole and
-// the division model of eq. 2 of the paper.
+// Tests poses in space. The expected pixels come from a projection in this file: a pinhole camera
+// with the division model of eq. 2 of the paper.
 #include "dotpose/tools/space_pose.hpp"
 
 #include <array>
@@ -103,8 +103,8 @@ struct View {
                     Vector3{x_mm - position_mm[0], y_mm - position_mm[1], -position_mm[2]});
         return {focal_px * seen[0] / seen[2], focal_px * seen[1] / seen[2]};
     }
-    /// Returns the pixel of a point on the paper with the distortion k, relative to the optical
-    /// axis.
+    /// Returns the pixel at which a lens with the distortion k shows a point on the paper, relative
+    /// to the optical axis.
     std::array<double, 2> distorted(double x_mm, double y_mm, double k) const {
         const auto [a, b] = straight(x_mm, y_mm);
         // Solves eq. 2, r_u = r_d / (1 + k r_d^2), by bisection.
@@ -200,8 +200,8 @@ TEST(SpaceFit, HasTrueCovariancesForErrorsOfPrintAndImage) {
             const auto fit = calibrate::fit_space(
                 dots_of(view, 30, 0.5, noise.print_mm, noise.centre_px, rng), {600, 600});
             ASSERT_TRUE(fit);
-            // Because the angle of the error is small, the antisymmetric part of the rotation is
-            // its rotation vector, in the camera frame.
+            // The error is a small rotation, so the antisymmetric part of its matrix gives its
+            // rotation vector, in the camera frame.
             const Matrix3 turn = product(transposed(rotation_of(fit->state)), view.rotation);
             const std::array error = {view.position_mm[0] - fit->state.position_mm.x(),
                                       view.position_mm[1] - fit->state.position_mm.y(),
@@ -221,8 +221,8 @@ TEST(SpaceFit, HasTrueCovariancesForErrorsOfPrintAndImage) {
 }
 
 TEST(SpaceFit, ReportsTheMirroredTiltOfANarrowView) {
-    // The view contains 15 x 15 dots and covers an angle of 1 degree. The effect of perspective
-    // within this view is smaller than the noise.
+    // The view contains 15 x 15 dots and is only 1 degree wide, so the effect of perspective is
+    // smaller than the noise.
     const CameraLean lean{10 * kDegree_rad, 0.5, 1};
     const CameraLean mirrored{10 * kDegree_rad, 0.5 - pi, 1};
     int ambiguous = 0;
@@ -234,7 +234,8 @@ TEST(SpaceFit, ReportsTheMirroredTiltOfANarrowView) {
         ASSERT_TRUE(fit && fit->second) << n;
         ambiguous += fit->second_odds_log2 > SpacePose::kMaxOdds_log2;
         EXPECT_LE(fit->second_odds_log2, 0);
-        // One of the two poses must be the true pose, and the other one the mirrored pose.
+        // One of the two reported poses must be the true pose, and the other one must be its mirror
+        // image.
         const double first = angle_between(view.rotation, rotation_of(fit->state));
         const double second = angle_between(view.rotation, rotation_of(*fit->second));
         EXPECT_LT(std::min(first, second), 5 * kDegree_rad) << n;
@@ -383,7 +384,7 @@ TEST(SpacePose, OfAStraightCameraIsItsPlaneAndDistance) {
 }
 
 TEST(SpacePose, LeansToTheSideOnWhichThePaperIsNear) {
-    // The paper is nearest at the top of the image, and the image x axis is the x axis of the
+    // The nearest paper is at the top of the image, and the image x axis is the x axis of the
     // paper. The camera therefore leans towards -y, and its optical axis points towards +y.
     Shot shot = tilted_shot(21, 20, 0);
     shot.pose.theta_rad = 0;
@@ -428,8 +429,8 @@ TEST(SpacePose, IsMovedToTheSheetAndTheWorld) {
     EXPECT_NEAR(on_page.y_mm, 20 + 50 * 0.508, 1e-6);
     EXPECT_EQ(on_page.z_mm, -30);
 
-    // The page is turned to the left by a quarter turn. Its x axis points up in the world, and its
-    // y axis (down on the page) points to the right.
+    // The page is turned to the left by a quarter turn, so its x axis points up in the world. Its y
+    // axis, which is down on the page, points to the right.
     SpaceCovariance covariance{};
     covariance[0][0] = 4;
     covariance[3][3] = 1e-6;

@@ -30,8 +30,8 @@ GreyImage plain_frame(const CameraModel& camera, int index) {
     return table_frame(kTable, camera, 62, index, 30, 30, 0.1 * index);
 }
 
-/// Returns a table of sheets whose print scales have usual errors of up to 0.3 %, different along x
-/// and y. The mean scale of the first sheet is 1.
+/// Returns a table whose sheets have typical print scales, with errors of up to 0.3 % that differ
+/// between x and y. The mean scale of the first sheet is 1.
 Table printed_table() {
     Table table = kTable;
     table[0].print = {1.0012, 1 / 1.0012};
@@ -72,11 +72,11 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
     for (const Seam& seam : stitching.seams)
         EXPECT_LT(seam.residual_mm, 0.02) << seam.first << seam.second;
 
-    // Positions on all sheets refer to the same world, both across a seam and far away from the
-    // seams.
+    // World positions must be correct on different sheets, also far away from the seams.
     Locator locator{DeviceOptions{}};
     Camera camera = true_camera(model);
-    // The reference is 20 mm to the right of the image, to make a wrong scale visible.
+    // The reference point is 20 mm to the right of the image, so that a wrong scale causes a
+    // visible error.
     camera.reference_px =
         PixelPoint{(model.width_px - 1) / 2.0 + 20 / model.mm_per_px, (model.height_px - 1) / 2.0};
     for (const auto& [x_mm, y_mm] : {std::pair(20.0, 40.0), std::pair(90.0, 110.0)}) {
@@ -98,7 +98,8 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
     }
 }
 
-// A fix of the whole image is on only one of the two sheets. The other sheet must also be found.
+// A fix of the whole image belongs to only one of the two sheets, but `stitch_sheets` must also
+// find the other sheet.
 TEST(StitchSheets, FindsBothSheetsOfAPhotoWithWideMargins) {
     CameraModel model = wide_camera();
     model.width_px = 1000;
@@ -132,8 +133,8 @@ TEST(StitchSheets, OnlyAReferenceMakesPrintScalesTrue) {
         EXPECT_NEAR(stitching.sheets[i].print_scale_x, x, 5 * sheet.sigma_scale_x) << i;
         EXPECT_NEAR(stitching.sheets[i].print_scale_y, y, 5 * sheet.sigma_scale_y) << i;
     };
-    // The mean scale of the first sheet remains 1, as in the file. All other scales follow from
-    // this scale.
+    // The mean scale of the first sheet in the file is 1 and is kept. The other scales are computed
+    // relative to the first sheet.
     const auto relative = stitch_sheets(25, frame_at, sheets_of_table(), true_camera(model), {});
     expect_scale(relative, 0, 1.001, 0.999);
     expect_scale(relative, 1, 1.001 / 1.003, 1.003 / 1.003);
@@ -155,7 +156,7 @@ TEST(StitchSheets, OnlyAReferenceMakesPrintScalesTrue) {
     EXPECT_LT(off_mm(*by_width.sheets[1].world, table[1]), 0.02);
 }
 
-// All frames show the same dots, with the same printing errors. Repeated frames therefore add no
+// The additional frames show the same dots with the same printing errors, so they add no
 // information.
 TEST(StitchSheets, FramesThatRepeatDotsDoNotMakeItMoreCertain) {
     const CameraModel model = wide_camera();
@@ -190,8 +191,8 @@ TEST(DrawStitching, ShowsSheetsBeforeAndAfter) {
         return text.str();
     };
     EXPECT_THAT(picture(), HasSubstr("not all of these sheets had a world pose"));
-    // In the sheet file, the sheet is 1 mm to the right of its true place, which is an error of
-    // 0.71 mm rms per axis.
+    // In the sheet file, the sheet is 1 mm to the right of its true place. The error is 1 mm along
+    // x and 0 along y, which is 0.71 mm rms per axis.
     before[1].world =
         WorldPose{(kTable[1].x_mm + 1) / 1000, -kTable[1].y_mm / 1000, -kTable[1].turn_rad};
     EXPECT_THAT(picture(), testing::AllOf(HasSubstr(">Before<"), HasSubstr(">After<"),
@@ -215,8 +216,8 @@ TEST(StitchSheets, SaysWhichScalesTheFramesDoNotTell) {
     }
     EXPECT_NEAR(stitching.sheets[0].print_scale_x, 1, 1e-5);
     EXPECT_NEAR(stitching.sheets[0].print_scale_y, 1, 1e-5);
-    // The frames determine the scale of the second sheet relative to the first more accurately
-    // along the seam than across it.
+    // Along the seam, the frames determine the scale of the second sheet relative to the first more
+    // accurately than across the seam.
     EXPECT_NEAR(stitching.sheets[1].print_scale_y, 1, 5e-4);
     EXPECT_NEAR(stitching.sheets[1].print_scale_x, 1, 2e-3);
     EXPECT_LT(off_mm(*stitching.sheets[1].world, kTable[1]), 0.05);
@@ -250,8 +251,8 @@ TEST(StitchSheets, KeepsTheSheetThatLiesInTheWorldAndNamesThoseNotSeen) {
     EXPECT_EQ(b.x_m, 1.25);
     EXPECT_EQ(b.y_m, -0.5);
     EXPECT_EQ(b.yaw_rad, 0.3);
-    // Expected pose of sheet a: its corner relative to b's corner, rotated back by b's rotation,
-    // and then rotated into the world by b's yaw.
+    // Expected pose of sheet a. The corner of a relative to the corner of b is rotated back by the
+    // rotation of b, and then by the yaw of b in the world.
     const WorldPose& a = stitching.sheets[0].world.value();
     const double yaw = 0.3 + kTable[1].turn_rad;
     EXPECT_NEAR(a.yaw_rad, yaw, 0.02 * kDegree_rad);

@@ -97,7 +97,7 @@ class BitWriter {
     int count_ = 0;
 };
 
-/// Returns a scan in which all quantizers are 8, so the DC coefficient of a flat block is its level
+/// Returns a scan whose quantizers are all 8. The DC coefficient of a flat block is then its level
 /// minus 128.
 Bytes jpeg_scan(const Raster& raster) {
     BitWriter scan;
@@ -234,7 +234,7 @@ Bytes encode_bmp(const Raster& raster, const Bytes& palette) {
 Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette) {
     constexpr std::uint64_t kDirectoryAt = 8;
     constexpr std::uint64_t kEntries = 10;
-    // The directory is followed by the number of bits of each channel, the palette and the pixels.
+    // After the directory come the number of bits of each channel, the palette, and the pixels.
     constexpr std::uint64_t kBitsAt = kDirectoryAt + 2 + kEntries * 12 + 4;
     constexpr std::uint64_t kPaletteAt = kBitsAt + 8;
     const Bytes colours = tiff_palette(palette, big_endian);
@@ -244,7 +244,7 @@ Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette) {
     const auto channels = number(raster.channels);
     const auto bits = number(raster.bits);
     const std::uint64_t colour_space = !palette.empty() ? 3 : channels >= 3 ? 2 : 1;
-    TiffEntry last{296, 1, 2};  // unit of the resolution, which has no effect
+    TiffEntry last{296, 1, 2};  // resolution unit, which has no effect here
     if (channels % 2 == 0) last = {338, 1, 2};
     if (!palette.empty()) last = {320, 768, kPaletteAt};
 
@@ -253,7 +253,7 @@ Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette) {
     tiff.integers(2, {kEntries});
     append_entry(tiff, {256, 1, number(raster.width_px), true});
     append_entry(tiff, {257, 1, number(raster.height_px), true});
-    // Two shorts fit into the entry itself. The first short precedes the second.
+    // Two shorts fit into the entry itself, with the first one at the lower address.
     const std::uint64_t two_bits = big_endian ? bits << 16 | bits : bits | bits << 16;
     append_entry(tiff, {258, channels, channels == 1 ? bits : channels == 2 ? two_bits : kBitsAt});
     append_entry(tiff, {259, 1, 1});

@@ -1,5 +1,5 @@
-/// Encoders of image files. They are written for the tests, so that the tests of the reader do not
-/// depend on the libraries that the reader uses.
+/// Encoders of image files. They use no image library, because the tests of the reader must be
+/// independent of the libraries that the reader uses.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace dotpose::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Appends bytes, and integers in either byte order.
+/// A sequence of bytes under construction. Integers are appended in the chosen byte order.
 class Writer {
   public:
     explicit Writer(bool big_endian = true) : big_endian_(big_endian) {}
@@ -29,7 +29,7 @@ class Writer {
 };
 
 /// Samples row by row, with `channels` channels per pixel and `bits` bits per sample. `bits` is 8
-/// or 16. In PNG, fewer bits are also possible.
+/// or 16, or also less than 8 for PNG.
 struct Raster {
     int width_px = 0;
     int height_px = 0;
@@ -41,20 +41,21 @@ struct Raster {
 /// Encodes 1 channel as P2 or P5, and 3 channels as P3 or P6.
 Bytes encode_pnm(const Raster& raster, bool as_text, int max_value);
 
-/// Encodes 1 to 4 channels: grey, grey and opacity, RGB, RGBA. An image with a palette (RGB
-/// triples) has 1 channel.
+/// Encodes 1 to 4 channels: grey, grey and opacity, RGB, or RGBA. If there is a palette of RGB
+/// triples, the only channel contains indices into it.
 Bytes encode_png(const Raster& raster, const Bytes& palette = {}, const Bytes& exif = {});
 
-/// Encodes 8-bit samples. One channel requires a palette (RGB triples). Three channels are RGB.
+/// Encodes 8-bit samples. One channel contains indices into the palette of RGB triples. Three
+/// channels are RGB.
 Bytes encode_bmp(const Raster& raster, const Bytes& palette = {});
 
-/// Encodes an uncompressed file with one strip and the directory before the pixels. Channels and
-/// palette are as in PNG.
+/// Encodes an uncompressed file of one strip, with the directory before the pixels. Channels and
+/// palette are as in encode_png.
 Bytes encode_tiff(const Raster& raster, bool big_endian, const Bytes& palette = {});
 
 /// Encodes a baseline file. Each 8-bit sample becomes a flat block of 8 x 8 px, which JPEG
 /// reproduces exactly. One channel is grey. Three channels are Y, Cb and Cr. Four channels are
-/// CMYK, and are stored inverted, as by Adobe's programs.
+/// CMYK, stored inverted as Adobe's programs do.
 Bytes encode_jpeg(const Raster& raster);
 
 }  // namespace dotpose::test

@@ -34,8 +34,8 @@ class ImageFileTest : public testing::Test {
 
     std::filesystem::path write(const Bytes& bytes) const {
         auto path = directory / "image";  // no extension, because the reader must not depend on it
-        // Removes the file instead of truncating it, because some file systems flush a truncated
-        // file. The test would then be 10 times slower.
+        // Removes the file before writing it again. Truncating it instead would make the test 10
+        // times slower, because some file systems flush truncated files.
         std::filesystem::remove(path);
         std::ofstream(path, std::ios::binary)
             .write(reinterpret_cast<const char*>(bytes.data()),
@@ -71,8 +71,8 @@ const Raster kRgb16{2, 1, 3, 16, {65535, 0, 0, 1000, 1000, 1000}};
 const Raster kIndexed{3, 1, 1, 8, {2, 0, 1}};
 const Bytes kPalette{255, 0, 0, 9, 9, 9, 255, 255, 255};
 
-// Expected grey levels. The weights of luma are 0.299, 0.587 and 0.114. Samples of 16 bits are
-// divided by 257. Transparent pixels show white paper.
+// Expected grey levels. Luma is 0.299 R + 0.587 G + 0.114 B. Samples of 16 bits are divided by 257.
+// Transparent pixels are blended with white.
 const Bytes kGreyLevels{0, 1, 2, 127, 128, 200, 254, 255};
 const Bytes kGrey16Levels{0, 0, 1, 255};
 const Bytes kRgbLevels{76, 150, 29, 77, 226};
@@ -151,7 +151,7 @@ TEST_F(ImageFileTest, reads_the_pages_of_tiff) {
     EXPECT_EQ(read_origin(path, 2).resolution->x_dpi, 300);
     EXPECT_THROW(read_image(path, kDefaultImagePixels, 3), Error);
     EXPECT_EQ(count_pages(write(encode_png(kGrey))), 1);
-    // The directory of the second page names the first page as the next page.
+    // The second page refers to the first page as its next page.
     std::string loop = test::tiff_of_pages({dark, light}, 300);
     const std::size_t second = loop.size() - 10 - 8 - 4 - 12 * 11 - 2;
     loop[second + 2 + 12 * 11] = 8;
@@ -294,8 +294,8 @@ std::vector<Sample> samples() {
 TEST_F(ImageFileTest, refuses_files_cut_short) {
     for (const Sample& sample : samples()) {
         const std::size_t size = sample.bytes.size();
-        // Removes three bytes of a JPEG image, because the image can be read without its end marker
-        // of two bytes.
+        // Without its end marker of two bytes, a JPEG image can still be read, so three bytes are
+        // removed.
         const std::size_t last = sample.format == std::string("JPEG") ? size - 3 : size - 1;
         for (const std::size_t kept : {size / 2, size * 95 / 100, last}) {
             Bytes cut = sample.bytes;
@@ -358,8 +358,8 @@ TEST_F(ImageFileTest, refuses_tiff_with_the_directory_cut) {
 }
 
 TEST_F(ImageFileTest, reads_headers_with_line_breaks_of_two_characters) {
-    // The first pixel has the value 10, which is also the code of a line feed. Only the size of the
-    // file distinguishes the pixel from a line feed.
+    // The first pixel has the value 10, which is also the code of a line feed. Only the file size
+    // shows whether this byte is a pixel or a part of the header.
     const auto first_pixel = [this](const std::string& file) {
         std::ofstream(directory / "a.pgm", std::ios::binary) << file;
         return int{read_image(directory / "a.pgm").pixels.front()};

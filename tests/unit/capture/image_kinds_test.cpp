@@ -47,15 +47,15 @@ Bytes bmp_with_masks(std::uint64_t bits, std::uint64_t compression,
 }
 
 TEST(BmpKinds, HaveFieldsOfBits) {
-    // These pixels have transparency, as written by GIMP and ImageMagick: opaque red, and
-    // half-transparent black.
+    // Pixels with opacity as written by GIMP and ImageMagick: opaque red and half-transparent
+    // black.
     EXPECT_THAT(pixels_of(bmp_with_masks(32, 3, {0xFF0000, 0xFF00, 0xFF, 0xFF000000},
                                          {0xFFFF0000, 0x80000000})),
                 ElementsAre(76, 127));
     // These pixels consist of five, six and five bits: white, and pure green.
     EXPECT_THAT(pixels_of(bmp_with_masks(16, 3, {0xF800, 0x07E0, 0x001F, 0}, {0xFFFF, 0x07E0})),
                 ElementsAre(255, 150));
-    // Without masks, the fourth byte has no meaning.
+    // The file has no masks, so the fourth byte of a pixel is ignored.
     EXPECT_THAT(pixels_of(bmp_with_masks(32, 0, {0, 0, 0, 0}, {0x00FFFFFF, 0x000000FF})),
                 ElementsAre(255, 29));
 }
@@ -210,8 +210,8 @@ TEST(JpegKinds, AreProgressive) {
     EXPECT_EQ(pixels_of(file).size(), 64U * 64U);
 }
 
-// Every cut must be refused, also between two scans, where the file contains no trace of the
-// missing scans.
+// A file that is cut anywhere must be refused. If it is cut between two scans, nothing in it refers
+// to the missing scans.
 TEST(JpegKinds, AreRefusedWhereAScanIsMissing) {
     const Bytes file = progressive_jpeg();
     int refused = 0;

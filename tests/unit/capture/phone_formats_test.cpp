@@ -34,7 +34,7 @@ constexpr int kHeight_px = 48;
 
 struct PhoneFormat {
     const char* name;
-    /// Command for lossless encoding. `converted` appends the name of the image, `-o`, and the name
+    /// Command for lossless encoding. `converted` appends the name of the image, `-o` and the name
     /// of the new file.
     const char* lossless;
     const char* photo;  ///< command for encoding that keeps EXIF data
@@ -56,8 +56,8 @@ class PhoneFormatTest : public testing::TestWithParam<PhoneFormat> {
             GTEST_SKIP() << "built without the library of this format";
     }
 
-    /// Converts an image to the format, and returns the path of the new file. If the command fails,
-    /// there is no such file.
+    /// Converts an image to the format, and returns the path of the new file. The file does not
+    /// exist if the command failed.
     fs::path converted(const std::string& command, const Bytes& image,
                        const std::string& kind = ".png") const {
         const fs::path from = folder_.path() / ("image" + kind);
@@ -110,7 +110,8 @@ TEST_P(PhoneFormatTest, IsLaidOnWhitePaper) {
     for (int i = 0; i < 16 * 16; ++i)
         blue.samples.insert(blue.samples.end(), {0, 0, 255, 204});
     const GreyImage image = read_image(converted(GetParam().lossless, encode_png(blue)));
-    // The luma of blue is 0.114 x 255. At an opacity of 0.8, the result is 0.8 x luma + 0.2 x 255.
+    // The luma of blue is 0.114 x 255. With an opacity of 0.8 on white, the level is 0.8 x luma +
+    // 0.2 x 255.
     EXPECT_THAT(image.pixels, testing::Each(AnyOf(73, 74, 75)));
 }
 

@@ -10,7 +10,6 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// An application with an option that has choices, an option with another check, and a flag.
 struct Options {
     Options() {
         app.add_option("--code", code)->check(one_of({"anoto", "libdots"}));

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t kSeed = 7998798;
 
-/// Value of `place` before decoding. If a window is refused, this value must not change.
+/// Initial value of the output `place`. If a window is refused, `place` must not change.
 constexpr Place kUntouched{{1, 2}, {3, 4}};
 
 /// Indices (modulo 241) in the sequence a4 of libdots. The 5 digits from each of these indices also
@@ -61,8 +61,9 @@ TEST(Decode, RollsFromRealPaperAreOneStraightRun) {
 }
 
 TEST(Decode, RollsFromRealPaperShowTheMisprint) {
-    // The window at position 1117 + 17 = 1134 is at index 170 of a4 (1134 = 4 * 241 + 170). Because
-    // of the misprint, the digits at this index also occur elsewhere, so this window is ambiguous.
+    // Position 1117 + 17 = 1134 is at index 170 of a4, because 1134 = 4 * 241 + 170. Because of the
+    // misprint in a4, the 5 digits from this index also occur elsewhere, so this window is
+    // ambiguous.
     expect_run(CodeVariant::libdots, kPaperRollsFrom1117, 1117);
     expect_run(CodeVariant::libdots, kPaperRollsFrom1097, 1097);
 }
@@ -158,7 +159,7 @@ TEST(Decode, FindsWindowsThatAreNotSquare) {
 }
 
 /// Returns the indices of the a4 of libdots at which a window is refused as ambiguous. Expects that
-/// windows at all other indices are found.
+/// the windows at all other indices are decoded.
 std::set<std::uint32_t> ambiguous_places(int columns, int rows, bool along_x) {
     std::set<std::uint32_t> result;
     for (std::uint32_t p = 0; p < 241; ++p) {
@@ -212,8 +213,8 @@ TEST(Decode, RefusesEveryChangedSymbolIn8x8) {
 }
 
 TEST(Decode, NeverGuessesFromAChanged6x6) {
-    // 6 x 6 windows have no redundancy. Most windows with a changed bit occur elsewhere in the
-    // code. The decoder must find these windows where they occur, and refuse the others.
+    // 6 x 6 windows have no redundancy, so most windows with a changed bit occur elsewhere in the
+    // code. The decoder must return the place at which such a window occurs, and refuse all others.
     std::mt19937 rng(kSeed);
     int elsewhere = 0;
     constexpr int kDraws = 20'000;
@@ -303,9 +304,9 @@ Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int 
 }
 
 TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
-    // Of the ten differences, the one across the border is wrong. At least five differences are on
-    // the same side of the border. They determine a position, which the wrong difference
-    // contradicts.
+    // Of the ten differences, only the one across the border is wrong. At least five of the others
+    // are on the same side of the border. They determine a position, and the wrong difference
+    // contradicts this position.
     std::mt19937 rng(kSeed);
     int found_in_8 = 0;
     constexpr int kDraws = 20'000;

@@ -188,7 +188,7 @@ inline Grid turned(const Grid& grid) {
     return result;
 }
 
-/// Returns true if `place` is valid, and the pattern contains the window `grid` at this place.
+/// Returns true if `place` is valid and the pattern at `place` is `grid`.
 inline bool shows(CodeVariant code, const Place& place, const Grid& grid) {
     return place.cell.x < kL && place.cell.y < kL && place.section.u < 63 && place.section.v < 63 &&
            reference_window(code, place, grid.columns, grid.rows) == grid;

@@ -149,9 +149,9 @@ TEST(MainSequence, LongerStringsDifferInMorePlaces) {
     EXPECT_EQ(smallest_distance_to_turned(17), 2);
 }
 
-// Flips each bit of each 8-bit string of the main sequence, and chooses the nearest 8-bit string,
-// with ties broken at random. The paper (II-B.7) states that 36 % of these choices are right.
-// Enumeration gives 8/21.
+// Flips each bit of each 8-bit string of the main sequence, and then chooses the nearest 8-bit
+// string of the sequence, with ties broken at random. The paper (II-B.7) states that 36 % of these
+// choices are correct. Enumeration gives 8/21, which is 38 %.
 TEST(MainSequence, TheNearestStringIsTheRightOneIn38Percent) {
     const auto all = main_strings(8);
     double right = 0;
@@ -195,7 +195,7 @@ TEST(A4, TheMicrodotsOneIsSound) {
     EXPECT_EQ(absent(a4).size(), 2U);
 }
 
-// The patent prints 240 digits. Open implementations append a 241st digit, a 1.
+// The patent prints only 240 of the 241 digits. Open implementations append a 1 as the last digit.
 TEST(A4, OnlyOneInsertedDigitRestoresThePatents) {
     const std::string printed = a4_of(CodeVariant::libdots).substr(0, 240);
     std::set<std::string> sound;

@@ -1,6 +1,6 @@
-// Tests the table of the minimum number of lines that a place in another code variant does not
-// share with a place. Two places share a line at shift s if their rolls of this line differ by s.
-// The expected numbers are counted with the rolls of the reference implementation.
+// Tests the table of the minimum number of lines that two places in different code variants do not
+// share. Two places share a line at shift s if their rolls of this line differ by s. The expected
+// numbers are counted with the rolls of the reference implementation.
 #include "code/unshared_codes.hpp"
 
 #include <algorithm>

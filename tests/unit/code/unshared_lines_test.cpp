@@ -1,6 +1,6 @@
-// Tests the tables of the minimum number of lines that another place does not share with a place.
-// Two places share a line at shift s if their rolls of this line differ by s. The expected numbers
-// are obtained by counting lines.
+// Tests the tables of the minimum number of lines that two places in a sequence do not share. Two
+// places share a line at shift s if their rolls of this line differ by s. The expected numbers are
+// obtained by counting lines.
 #include "code/unshared_lines.hpp"
 
 #include <algorithm>
@@ -19,8 +19,8 @@ constexpr std::size_t kMaxLines = 16;
 using Lines = std::array<std::size_t, kMaxLines + 1>;
 using Unshared = std::pair<std::size_t, std::size_t>;
 
-/// Element n of the result is the maximum number of lines with equal offsets among n lines. These
-/// are the first n lines, or the last n lines if `from_last` is set.
+/// Element n of the result is the maximum number of equal offsets among n lines. These are the
+/// first n lines, or the last n lines if `from_last` is set.
 Lines max_equal(const std::array<int, kMaxLines>& offsets, std::size_t lines, bool from_last) {
     std::array<std::size_t, kSections> counts{};
     Lines most{};
@@ -31,9 +31,9 @@ Lines max_equal(const std::array<int, kMaxLines>& offsets, std::size_t lines, bo
     return most;
 }
 
-/// Returns the minimum number of lines that any other place of the sequence does not share with
-/// `place`. For the first number, all lines have the same shift. For the second number, the lines
-/// on the two sides of a border may have different shifts.
+/// Returns the minimum number of lines that `place` does not share with any one other place of the
+/// sequence. The first number is for a single shift of all lines. The second number is for two
+/// shifts, one on each side of a border between lines.
 Unshared counted(const Secondary& a, std::uint32_t place, std::size_t lines) {
     std::size_t max_at_one = 0;
     std::size_t max_on_both = 0;
@@ -68,9 +68,9 @@ TEST(UnsharedLines, AreAsCounted) {
 
 using Counts = std::array<int, kMaxCounted>;
 
-/// Counts pairs of another place of the sequence and a shift at which this place shares some lines
-/// with `place`. Element n - 1 of the result is the number of pairs for which exactly n lines are
-/// not shared.
+/// Counts the pairs of another place of the sequence and a shift for which at least one line is
+/// shared with `place`. Element n - 1 of the result is the number of pairs for which exactly n
+/// lines are not shared.
 Counts counted_by_unshared(const Secondary& a, std::uint32_t place, std::size_t lines) {
     Counts counts{};
     for (std::uint32_t other = 0; other < a.length; ++other) {

@@ -1,5 +1,5 @@
-// Tests that a Locator allocates nothing after its construction, and uses only the memory passed to
-// it. scripts/check-core-symbols checks the same in the object code, including malloc.
+// Tests that a Locator allocates no memory after its construction. scripts/check-core-symbols
+// checks the object code for allocations, including malloc.
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -26,8 +26,8 @@ void* counted(std::size_t size, std::size_t alignment) {
 }
 }  // namespace
 
-// The array forms and the non-throwing forms call the two operators below. The operators are not
-// inlined, because GCC warns about `new` and `free` if it inlines only one of them.
+// The other forms of `new` call one of these two. The operators are not inlined, because GCC warns
+// about `new` and `free` if it inlines only one of them.
 [[gnu::noinline]] void* operator new(std::size_t size) {
     return counted(size, alignof(std::max_align_t));
 }
@@ -68,8 +68,8 @@ std::vector<GreyImage> frames_of(int width_px, int height_px) {
     return frames;
 }
 
-/// Locates all frames with all combinations of options. Returns the number of allocations, and adds
-/// the number of fixes to `fixes`.
+/// Locates all frames with all combinations of options. Returns the number of allocations, and
+/// increases `fixes` by the number of fixes.
 int allocations_of(const std::vector<GreyImage>& frames, Locator& locator, int& fixes) {
     int counted = 0;
     for (const GreyImage& frame : frames) {

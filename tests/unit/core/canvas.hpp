@@ -32,8 +32,8 @@ inline void fill(GreyImage& image, int u0, int v0, int u1, int v1, int level) {
     }
 }
 
-/// Returns the integral of a Gaussian over the pixel at `u`. The Gaussian has mean `centre`,
-/// standard deviation `sigma` and integral 1.
+/// Returns the integral over the pixel at `u` of a Gaussian with mean `centre`, standard deviation
+/// `sigma` and total integral 1.
 inline double gaussian_share(int u, double centre, double sigma) {
     const double scale = sigma * std::numbers::sqrt2;
     return 0.5 * (std::erf((u + 0.5 - centre) / scale) - std::erf((u - 0.5 - centre) / scale));
@@ -58,7 +58,7 @@ inline void darken(GreyImage& image, Vec2 centre, double sigma, double depth) {
     }
 }
 
-/// The low and the high threshold in a column of the last measured band.
+/// The low and the high threshold at one column of the band that was measured last.
 struct Levels {
     int low = 0;
     int high = 0;

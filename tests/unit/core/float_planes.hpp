@@ -1,4 +1,4 @@
-// Random planes of tilted cameras, and their formula in double precision.
+// Random planes of tilted cameras, and the formula of such a plane in double precision.
 #pragma once
 
 #include "core/math/float_plane.hpp"

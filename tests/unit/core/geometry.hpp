@@ -1,5 +1,5 @@
-// Ideal grids and dots, computed in double precision from plane geometry alone. The stages must
-// find these grids and dots.
+// Ideal grids and their dots, computed in double precision from plane geometry. The tests expect
+// the stages to find these grids and dots.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,6 @@
 
 namespace dotpose::core_test {
 
-// The tests of the core use the names of its stages without qualification.
 using namespace core;
 
 inline constexpr std::array kCodeVariants{CodeVariant::anoto, CodeVariant::libdots,
@@ -130,8 +129,8 @@ struct View {
     Vec2 image_px{188, 120};
 
     Vec2 centre_px() const { return {(image_px.x - 1) / 2, (image_px.y - 1) / 2}; }
-    /// Movement on the pattern per px of movement in the image, in spacings: the columns of
-    /// R(theta) / spacing_px.
+    /// Steps on the pattern, in spacings, for a step of one px along u or v of the image. These are
+    /// the columns of R(theta) / spacing_px.
     Vec2 du() const { return {std::cos(theta_rad) / spacing_px, std::sin(theta_rad) / spacing_px}; }
     Vec2 dv() const { return {-du().y, du().x}; }
     Vec2 pattern(Vec2 p_px) const {
@@ -139,13 +138,14 @@ struct View {
         return at_centre + r.x * du() + r.y * dv();
     }
     Mesh mesh() const {
-        // The inverse rotation: a step along the pattern's x is the image vector (cos, -sin).
+        // The inverse rotation, because a step along the x axis of the pattern is the image vector
+        // (cos, -sin).
         Mesh m = square_mesh(spacing_px, -theta_rad, {});
         m.origin = centre_px() - at_centre.x * m.u - at_centre.y * m.v;
         return m;
     }
-    /// Returns the same grid in another orientation, as a stage may find it. `turn` maps steps of
-    /// the returned grid to steps of the pattern. Cell (0, 0) of the returned grid is the
+    /// Returns the grid of `mesh` in another orientation, as a stage may find it. `turn` maps steps
+    /// of the returned grid to steps of the pattern. Cell (0, 0) of the returned grid is the
     /// intersection `zero` of the pattern.
     Mesh mesh_turned(QuarterTurn turn, FixedVec zero) const {
         const Mesh m = mesh();

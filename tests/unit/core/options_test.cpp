@@ -1,5 +1,5 @@
-// Tests the ranges of options. No stage may overflow within the ranges, and values out of range
-// must be refused.
+// Tests the ranges of options. Values in a range must not cause an overflow in any stage, and
+// values outside must be refused.
 #include <climits>
 #include <cstdint>
 #include <functional>
@@ -55,7 +55,8 @@ const Range kRanges[] = {
 
 #undef FIELD
 
-/// Fails to compile if DeviceOptions has a new field, which must then be added to the tests below.
+/// Does not compile if DeviceOptions has a new field. The field must then be added here and to the
+/// tests below.
 [[maybe_unused]] void has_all_fields(const DeviceOptions& o) {
     [[maybe_unused]] const auto& [code, effort, decoder, lens, threshold, blobs, lattice, integrity,
                                   contrast, max_dots, spacing, show_stages, dx, dy] = o;
@@ -66,8 +67,8 @@ const Range kRanges[] = {
     [[maybe_unused]] const auto& [max_p_wrong, max_bit_error] = integrity;
 }
 
-/// Expects that all ways to locate refuse the options if `is_refused` is set, and accept the
-/// options otherwise.
+/// Expects that every function that locates refuses the options if `is_refused` is true, and
+/// accepts them otherwise.
 void expect_refusal(const DeviceOptions& options, bool is_refused, const char* field, int value) {
     static const auto kMemory = std::make_unique<LargeMemory>();
     static const GreyImage kFrame = a_frame();

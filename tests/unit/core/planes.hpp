@@ -16,8 +16,8 @@ inline Vec2 formula(const PlaneFromImage& plane, Vec2 p) {
            1 / divisor * (r.x * real(plane.du_q24, 24) + r.y * real(plane.dv_q24, 24));
 }
 
-/// Returns a plane without perspective or lens distortion, in a square image. `dv` is 0.8 to
-/// `longest` times as long as `du`, and approximately perpendicular to `du`.
+/// Returns a plane without perspective or lens distortion, for a square image. The length of `dv`
+/// is 0.8 to `longest` times that of `du`, and the two are approximately perpendicular.
 inline PlaneFromImage affine_plane(double side_px, double spacing_px, double longest, Rng& rng) {
     const double angle = rng.uniform(0, 6.3);
     const Vec2 du{std::cos(angle) / spacing_px, std::sin(angle) / spacing_px};

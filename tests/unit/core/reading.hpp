@@ -10,8 +10,8 @@
 
 namespace dotpose::core_test {
 
-/// The matrices P of a view. The grid is rotated by the quarter turn `turn`. Cell (0, 0) of the
-/// grid is near the image centre.
+/// The matrices P of a view. The grid is rotated by the quarter turn `turn`, and its cell (0, 0) is
+/// near the image centre.
 struct Reading {
     Reading(const View& view_, QuarterTurn turn_, std::vector<DetectedDot> dots_, int side = 64)
         : view(view_), turn(turn_), dots(std::move(dots_)), owned(side) {

@@ -75,8 +75,8 @@ TEST(AffineFitInt32, IsTheLeastSquaresSolution) {
     Rng rng(kSeed);
     for (int i = 0; i < 300; ++i) {
         SCOPED_TRACE(testing::Message() << "fit " << i << ", seed " << kSeed);
-        // The number of dots varies from six to the maximum, and the size of the view varies from a
-        // small window to the largest image.
+        // The number of dots varies from six to the maximum of 2^14. The size of the view varies
+        // from a small window to the largest image.
         const int count = i % 10 == 9 ? 1 << 14 : 6 + static_cast<int>(rng.below(400));
         const double reach = i % 3 == 0 ? 2048 : rng.uniform(40, 300);
         const auto pairs = random_pairs(rng, reach, i % 3 == 0 ? 6 : rng.uniform(6, 30), count);
@@ -87,14 +87,14 @@ TEST(AffineFitInt32, IsTheLeastSquaresSolution) {
         ASSERT_TRUE(fit.solve(0, plane));
         const Solution x = least_squares(pairs, &FixedVec::x);
         const Solution y = least_squares(pairs, &FixedVec::y);
-        // Moments have about 28 bits, so slopes are accurate to 3 * 2^-24, and values at the ends
-        // of the reach to 1/1000 spacing.
+        // The moments have about 28 bits. Slopes are therefore accurate to 3 * 2^-24, and values at
+        // the ends of the reach to 1/1000 spacing.
         constexpr double kSlope = 3.0 / (1 << 24);
         EXPECT_NEAR(std::ldexp(plane.du_q24.x, -24), static_cast<double>(x.du), kSlope);
         EXPECT_NEAR(std::ldexp(plane.dv_q24.x, -24), static_cast<double>(x.dv), kSlope);
         EXPECT_NEAR(std::ldexp(plane.du_q24.y, -24), static_cast<double>(y.du), kSlope);
         EXPECT_NEAR(std::ldexp(plane.dv_q24.y, -24), static_cast<double>(y.dv), kSlope);
-        // The value at the centre follows from the value at the mean point, so its error contains
+        // The value at the centre is computed from the value at the mean point, so it also contains
         // the error of the slopes.
         const double tolerance = 2.0 / 65536 + kSlope * 0.3 * reach;
         EXPECT_NEAR(real(plane.at_centre_q16, 16).x, static_cast<double>(x.at_centre), tolerance);
@@ -189,9 +189,9 @@ TEST(AffineFitInt32, TargetsMayBePartsOfCells) {
         }
         PlaneFromImage plane;
         ASSERT_TRUE(fit_of(pairs).solve(bits, plane));
-        // Rounding displaces targets by 0.29 of the last bit (rms). It displaces the mean of 400
-        // targets by 1/20 of this value, and the ends of the shorter side by up to 3/20. The
-        // tolerance is five standard deviations.
+        // Rounding a target to `bits` bits displaces it by 0.29 of the last bit (rms). The mean of
+        // 400 targets is displaced by 1/20 of this value, and the plane at the ends of the shorter
+        // side by up to 3/20. The tolerance is five standard deviations of the mean.
         const double tolerance = std::ldexp(5 * 0.29 / 20, -bits) + 1e-4;
         const Vec2 zero = mesh.inverse({0, 0});
         EXPECT_NEAR(real(plane.at_centre_q16, 16).x, zero.x, tolerance);

@@ -1,4 +1,4 @@
-// Draws the bits of a rectangle of the code plane as a grid, in any orientation.
+// Draws a rectangle of the code plane as a grid, in any orientation.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Tests `grow_grid`, which starts from a rough estimate in the middle and finds a grid without
-// perspective over the whole image.
+// Tests `grow_grid`, which extends a rough estimate in the middle to a grid without perspective
+// over the whole image.
 #include "device/grow.hpp"
 
 #include <gtest/gtest.h>
@@ -40,8 +40,9 @@ TEST(GrowGrid, ReachesOverTheLargestImage) {
     }
 }
 
-/// If there are more dots than `grow_grid` remembers between fits, each fit sums up all dots, not
-/// only the dots whose cell has changed. The result must be the same.
+/// `grow_grid` remembers the cells of a limited number of dots between fits. If there are more
+/// dots, each fit sums up all dots instead of only those whose cell has changed. The result must be
+/// the same.
 TEST(GrowGrid, IsTheSameWithManyMoreDotsFarOff) {
     Rng rng(kSeed);
     for (int i = 0; i < 50; ++i) {
@@ -52,8 +53,8 @@ TEST(GrowGrid, IsTheSameWithManyMoreDotsFarOff) {
         const Lattice first = lattice_of(spoilt(mesh, rng));
         PlaneFromImage plane;
         ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), first, plane), Status::ok);
-        // Dots beyond 500 cells are ignored. The first estimate may be 3 % too wide, so the
-        // additional dots are at 530 cells.
+        // Dots more than 500 cells away are ignored. The additional dots are at 530 cells, because
+        // the first estimate may be 3 % too wide.
         const Vec2 far = mesh.at(530, 0);
         dots.resize(dots.size() + 5000, dot_at(far));
         PlaneFromImage same;
@@ -84,8 +85,8 @@ TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
         PlaneFromImage plane;
         ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), lattice_of(spoilt(mesh, rng)), plane),
                   Status::ok);
-        // The remaining dots must suffice to find the correct cells. The tolerance is large because
-        // spurious dots increase the errors.
+        // The correct cells must be found in spite of these changes. The tolerance is large,
+        // because spurious dots increase the errors.
         expect_grid(plane, placed, intersections(mesh, placed), 0.25);
         if (testing::Test::HasFatalFailure()) return;
     }

@@ -51,7 +51,7 @@ class DeviceOnSheets : public testing::Test {
             locator_.push_row(image.view().row(v));
         return locator_.finish();
     }
-    /// Returns a prediction that is off by up to half a spacing and 4 degrees.
+    /// Returns a prediction with errors of up to half a spacing and 4 degrees.
     Prediction disturbed(const Fix& fix, int side_px) {
         const double shift_q16 = 32768 * std::sqrt(rng_.uniform());
         const double direction = rng_.uniform(-std::numbers::pi, std::numbers::pi);

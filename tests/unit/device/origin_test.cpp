@@ -1,5 +1,5 @@
-// Tests the origin of the grid that is computed from the phases of the dots. Dots are displaced,
-// missing or spurious.
+// Tests the origin of the grid, which is computed from the phases of the dots, if dots are
+// displaced, missing or spurious.
 #include "device/origin.hpp"
 
 #include <numeric>
@@ -26,14 +26,15 @@ Vec2 origin_of(const std::vector<DetectedDot>& dots, const Mesh& mesh, Vec2 near
     return real(lattice.origin_q16, 16);
 }
 
-/// Returns the distance, in spacings, between a point and the nearest intersection: the larger of
-/// its components along the axes of the grid.
+/// Returns the distance, in spacings, from a point to the nearest intersection. The distance is the
+/// larger of its components along the axes of the grid.
 double off_intersection(const Mesh& mesh, Vec2 p) {
     const Vec2 g = mesh.inverse(p);
     return std::max(std::abs(g.x - std::round(g.x)), std::abs(g.y - std::round(g.y)));
 }
 
-/// Expects the origin at the intersection closest to a point, within a tolerance in spacings.
+/// Expects that the origin is the intersection nearest to `near_px`, within a tolerance in
+/// spacings.
 void expect_origin(const std::vector<DetectedDot>& dots, const Mesh& mesh, Vec2 near_px,
                    double tolerance) {
     const Vec2 origin = origin_of(dots, mesh, near_px);
@@ -67,10 +68,9 @@ TEST(Origin, IsThatOfAPlainGrid) {
 }
 
 TEST(Origin, IsTheMeanOfDisplacedDots) {
-    // Each of the 9 x 9 dots is displaced by 1/6 spacing along one random axis, which is 0.12
-    // spacings rms per axis. Their mean is displaced by 0.013 spacings, or by 0.035 spacings if
-    // only a dozen dots are in view. If the grid were found half a cell off, the error would be 0.5
-    // spacings.
+    // Each dot is displaced by 1/6 spacing along one random axis, which is 0.12 spacings rms per
+    // axis. The mean of 9 x 9 dots is displaced by 0.013 spacings, and that of a dozen dots by
+    // 0.035 spacings. If the grid were found half a cell off, the error would be 0.5 spacings.
     for_many_grids([](const Mesh& mesh, Rng& rng) {
         const auto dots = dots_of(
             placed_dots(mesh, 20, kImage_px, [&](int, int) { return random_displacement(rng); }));
@@ -95,8 +95,8 @@ TEST(Origin, BearsDotsThatAreMissingOrFalse) {
 }
 
 TEST(Origin, OnlyDotsAFewCellsAwayHaveASay) {
-    // If more distant dots were used, an axis that is slightly too long would cause errors of up to
-    // half a cell.
+    // The origin must not depend on distant dots. If an axis is slightly too long, the expected
+    // places of distant dots are wrong by up to half a cell.
     for_many_grids([](const Mesh& mesh, Rng&) {
         const auto displaced_far_away = [](int i, int j) {
             return std::max(std::abs(i), std::abs(j)) <= 6 ? Vec2{} : Vec2{0.3, -0.3};

@@ -16,8 +16,8 @@ namespace {
 using core::Axis;
 
 constexpr std::uint64_t kSeed = 4219;
-/// A sheet with more than 63 columns and rows, so that places at a distance of 63 cells have equal
-/// bits on one axis.
+/// A sheet with more than 63 columns and rows. Two places at a distance of 63 cells along one axis
+/// have equal bits on the other axis.
 constexpr KnownRegion kSheet{CodeVariant::anoto, {3, 5}, {1000, 2000}, 140, 130};
 
 const core::KnownSheets kOnly{{&kSheet, 1}, OtherSheets::impossible};
@@ -38,8 +38,8 @@ int wrong_bits(const core::HardBlock& block, int quarters, const Place& corner) 
     return wrong;
 }
 
-/// Returns the sum of the odds of all places, relative to the upright place at `corner`. Excludes
-/// the place at `corner`.
+/// Returns the sum of the odds of all places except the upright place at `corner`, relative to the
+/// odds of this place.
 double odds_of_others(const core::HardBlock& block, const Place& corner) {
     const int wrong = wrong_bits(block, 0, corner);
     const double per_bit =
@@ -75,7 +75,8 @@ TEST(SheetOdds, BoundIsAboveTheSumOverAllPlaces) {
         const double sum_log2 = std::log2(odds_of_others(block, corner));
         EXPECT_GE(fix.p_wrong_log2, sum_log2) << trial;
         // `chance` is the probability that random bits have at most `fix.bit_errors` errors at one
-        // place. The corner has 145 * 135 possible places in each of 4 orientations.
+        // given place. The corner of the block has 145 * 135 possible places, each in 4
+        // orientations.
         double chance = 0;
         double term = std::exp2(-2 * block.dots());
         for (int k = 0; k <= fix.bit_errors; ++k) {
@@ -99,8 +100,8 @@ TEST(SheetOdds, MoreDotsAreNeededIfOtherSheetsArePossible) {
     const int only_log2 = fix.p_wrong_log2;
     const core::KnownSheets possible{{&kSheet, 1}, OtherSheets::possible};
     is_certain(block, corner, possible, fix);
-    // An unknown sheet may have the same columns. Its rows can then be at 3 positions, each of
-    // which agrees by chance with a probability of 2^-36.
+    // An unknown sheet may have the same columns. The rows of the view can then be at 3 positions,
+    // and the bits agree by chance with a probability of 2^-36 at each of them.
     EXPECT_GE(fix.p_wrong_log2, -36);
     EXPECT_GT(fix.p_wrong_log2, only_log2);
 }
@@ -125,8 +126,8 @@ TEST(SheetOdds, TooManyWrongBitsAreRefused) {
 }
 
 TEST(SheetOdds, MaximumOfWrongBitsFollowsFromChance) {
-    // 4 * 145 * 135 places are 2^16.3 hypotheses. With 48 bits without an error, the probability is
-    // 2^-31.7. With one wrong bit of 48, it is 2^-26.
+    // 4 * 145 * 135 places are 2^16.3 hypotheses. If 48 bits agree without an error, the
+    // probability of chance is 2^-31.7. If one of the 48 bits is wrong, the probability is 2^-26.
     EXPECT_EQ(core::max_wrong_bits(kOnly, kSheet.code, 24, 6, {}), 0);
     EXPECT_EQ(core::max_wrong_bits(kOnly, kSheet.code, 22, 6, {}), -1);
     EXPECT_EQ(core::max_wrong_bits(kOnly, kSheet.code, 200, 16, {}), 400);

@@ -1,4 +1,5 @@
-// Tests the fit of a tracked frame against the affine map that displaced its dots.
+// Tests the pose that is fitted to a tracked frame. The true pose is the affine map that displaced
+// the dots.
 #include "device/tracked_pose.hpp"
 
 #include <array>
@@ -14,8 +15,8 @@ namespace {
 
 using namespace core;
 
-/// Cells 11 px apart, rotated about the centre of an image of 188 x 120 px. `add` sets the offsets
-/// of the dots from the cells.
+/// Cells 11 px apart, rotated about the centre of an image of 188 x 120 px. `add` defines the
+/// offset of a dot from its cell.
 struct Frame {
     explicit Frame(double angle_rad) {
         const double along = 11 * 65536 * std::cos(angle_rad);
@@ -70,8 +71,8 @@ TEST(TrackedPose, GoesThroughTheDots) {
         const double y0 = rng.uniform(-0.5, 0.5);
         const double yi = rng.uniform(-0.03, 0.03);
         const double yj = rng.uniform(-0.03, 0.03);
-        // Uneven light makes the dots on one side up to twice as dark, which must not change the
-        // fit.
+        // Uneven light makes the dots on one side up to twice as dark as those on the other side.
+        // It must not change the fit.
         const std::int32_t mass = round % 2 == 0 ? 1000 : 60;
         for (int j = 10; j <= 21; ++j) {
             for (int i = 9; i <= 24; ++i) {

@@ -125,8 +125,8 @@ TEST_F(DeviceTracked, LocatesAfreshWhatItRefuses) {
     EXPECT_EQ(fix.cell, before.cell);
 }
 
-/// Returns the wrong place whose 20 columns share the maximum number of rolls with the 20 columns
-/// that begin at `place`. The wrong place differs in one secondary sequence and in the section.
+/// Returns the wrong place that is hardest to distinguish from `place` by its first 20 columns. It
+/// differs in one secondary sequence and in the section, and shares the maximum number of rolls.
 Place worst_alternative(Place place) {
     constexpr std::size_t kLines = 20;
     const code::Basis& basis = code::basis(CodeVariant::anoto);
@@ -223,8 +223,8 @@ TEST_F(DeviceTracked, TakesPredictionsOfAnyBits) {
         Prediction prediction = Prediction::like(before);
         std::array<std::uint32_t, sizeof prediction / 4> words;
         std::memcpy(words.data(), &prediction, sizeof words);
-        // In every fourth trial, nearly all words of the prediction are random. In all other
-        // trials, two to four words are changed.
+        // In every fourth trial, nearly all words of the prediction are replaced by random words.
+        // In the other trials, two to four words are replaced.
         const int changes = i % 4 == 0 ? static_cast<int>(4 * words.size()) : 1 + i % 4;
         for (int n = 0; n < changes; ++n) {
             const auto word = static_cast<std::size_t>(rng_.below(words.size()));
@@ -249,8 +249,8 @@ TEST_F(DeviceTracked, RefusesFramesThatEndTooSoonOrHaveNoRoom) {
     EXPECT_EQ(locator_.finish().status, Status::not_tracked);
     EXPECT_EQ(locator_.begin(63, 64, prediction), Status::image_too_small);
     EXPECT_EQ(locator_.begin(188, 4096, prediction), Status::not_tracked);
-    // If a frame begins without a prediction, it is located without tracking, even if the last
-    // prediction was wrong.
+    // A frame that begins without a prediction is located without tracking, whatever the last
+    // prediction was.
     const Prediction wrong = moved(prediction, CodeVariant::anoto, {50 << 16, 0}, 0, {});
     EXPECT_EQ(tracked(image, wrong).status, Status::not_tracked);
     ASSERT_EQ(locator_.begin(188, 120), Status::ok);

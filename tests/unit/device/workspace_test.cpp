@@ -1,5 +1,5 @@
-// Tests device workspaces for several frame sizes. They must locate and track frames of these
-// sizes, and refuse larger frames.
+// Tests that device workspaces for several frame sizes locate and track frames of these sizes, and
+// refuse larger frames.
 #include "device/workspace.hpp"
 
 #include <cmath>
@@ -21,10 +21,10 @@ template <int Width, int Height, int MinDots, int Limit_log2 = -30>
 struct Size {
     static constexpr int kWidth_px = Width;
     static constexpr int kHeight_px = Height;
-    /// Every fix uses more than this number of dots. The dots are 11 px apart.
+    /// A fix must use more than this number of dots, which are 11 px apart.
     static constexpr int kMinDots = MinDots;
-    /// log2 of the maximum probability of a wrong position. The smallest frames have too few dots
-    /// for the usual limit.
+    /// log2 of the maximum probability of a wrong position. It is larger for the smallest frames,
+    /// because they have too few dots for the default maximum.
     static constexpr int kLimit_log2 = Limit_log2;
     using Memory = DeviceMemoryFor<Width, Height>;
 };
@@ -49,7 +49,6 @@ double distance(const Fix& fix, const Shot& shot) {
 template <typename Frame>
 class DeviceWorkspace : public testing::Test {
   protected:
-    /// Locates with the tracked attempt only.
     Fix tracked(const GreyImage& image, const Prediction& prediction) {
         static_cast<void>(locator_.begin(image.width_px, image.height_px, prediction));
         for (int v = 0; v < image.height_px; ++v)
@@ -135,7 +134,7 @@ TYPED_TEST(DeviceWorkspace, RefusesLargerFrames) {
     constexpr int kWidth_px = TypeParam::kWidth_px;
     EXPECT_EQ(this->locator_.begin(kWidth_px + 1, 120), Status::image_too_large);
     EXPECT_EQ(this->locator_.begin(kWidth_px, 4097), Status::image_too_large);
-    // Frames that are both wide and tall have more bands of tiles than the workspace can hold.
+    // If a frame is both wide and tall, it has more bands of tiles than the workspace can hold.
     const int max_px = kWidth_px == 320 ? 240 : 4096;
     EXPECT_EQ(this->locator_.begin(kWidth_px, max_px), Status::ok);
     EXPECT_EQ(this->locator_.begin(kWidth_px, max_px + 1), Status::image_too_large);

@@ -135,12 +135,14 @@ TEST(DrawFrame, shows_every_dot_where_it_is) {
 }
 
 TEST(DrawFrame, connects_only_the_dots_that_were_connected) {
-    // Uses the device attempt, because the first attempt finds the grid without connecting dots.
+    // Uses the device attempt, because the first attempt does not connect neighbouring dots to find
+    // the grid.
     DeviceOptions device;
     device.effort = Effort::device;
     const Located at_once(render(clean_shot()), device);
     EXPECT_GT(count(group(at_once.drawn(), "connections"), "<line "), 100u);
-    // The second attempt measures all dots again, in another order, so no connections are drawn.
+    // The second attempt measures the dots again, in another order. The connections between the
+    // earlier dots are then invalid and are not drawn.
     dotpose::Setup setup;
     setup.preset = Preset::hard;
     for (std::uint64_t i = 0;; ++i) {
@@ -281,9 +283,8 @@ TEST(DrawFrame, head_and_note_of_a_panel_do_not_overlap) {
         const std::regex note(R"re(font-size="([0-9.]+)" text-anchor="end" [^>]*>([^<]*)<)re");
         int notes = 0;
         for (std::sregex_iterator found(svg.begin(), svg.end(), note), end; found != end; ++found) {
-            // DejaVu Sans is the widest of the fonts. In DejaVu Sans, the longer heading is 562 of
-            // the 1200 units wide. A letter of a note is at most 0.634 times as wide as the font
-            // size.
+            // DejaVu Sans is the widest of the fonts. In this font, the longer heading takes 562 of
+            // the 1200 units, and a letter of a note is at most 0.634 font sizes wide.
             const double size = std::stod((*found)[1]);
             EXPECT_LT(562 + 0.634 * size * static_cast<double>((*found)[2].length()), 1200)
                 << (*found)[2];

@@ -74,15 +74,16 @@ TEST(sheet_map, shows_every_sheet_where_it_lies_with_y_up) {
     expect_step(straight[0], straight[1], 0.1 * per_m, 0);
     expect_step(straight[1], straight[2], 0, 0.05 * per_m);
     expect_step(straight[2], straight[3], -0.1 * per_m, 0);
-    // This page is rotated by 90 degrees counter-clockwise, so its upper edge points up, and the
-    // page is to the right of this edge.
+    // This page is rotated by 90 degrees counter-clockwise. Its upper edge points up, so the page
+    // is to the right of this edge.
     expect_step(straight[0], turned[0], 0.2 * per_m, -0.1 * per_m);
     expect_step(turned[0], turned[1], 0, -0.1 * per_m);
     expect_step(turned[1], turned[2], 0.05 * per_m, 0);
     EXPECT_THAT(svg, HasSubstr(">straight</text>"));
     EXPECT_THAT(svg, HasSubstr(">turned</text>"));
     EXPECT_THAT(svg, Not(HasSubstr("Without a pose")));
-    // The box is 0.25 m wide, so 0.1 m is the longest round length below two fifths of its width.
+    // The scale bar is the longest round length that is less than two fifths of the width of the
+    // box. The box is 0.25 m wide, so the bar is 0.1 m long.
     EXPECT_THAT(svg, HasSubstr(">100 mm</text>"));
     EXPECT_THAT(svg, HasSubstr(R"(class="axis")"));
 }
@@ -106,8 +107,8 @@ TEST(sheet_map, shows_sheets_without_a_pose_beside_the_world) {
         for (std::size_t j = 1; j < i; ++j)
             EXPECT_NE(found[i][0], found[j][0]) << "one over the other";
     }
-    // The map does not contain the origin, which is two metres away, because a page of 0.1 m would
-    // then be too small to be visible.
+    // The origin is two metres away. If the map contained it, the page of 0.1 m would be too small
+    // to be visible.
     EXPECT_THAT(svg, Not(HasSubstr(R"(class="axis")")));
 }
 

@@ -19,7 +19,7 @@ TEST(plot_axes, number_a_y_axis_that_runs_down) {
     const Axes axes(svg, {50, 50, 100, 100}, {0, 10}, {30, 20});
     axes.draw_y("y [mm]");
     const std::string drawing = std::move(svg).finish();
-    // The value 20 is at the top of the axis, and 30 is at its bottom. The baselines of the numbers
+    // The axis is reversed, with 20 at the top and 30 at the bottom. The baselines of the numbers
     // are 5 units below the ticks.
     EXPECT_THAT(drawing,
                 HasSubstr(R"(y="55.00" font-size="15.00" text-anchor="end" fill="#6b7885">20<)"));

@@ -67,7 +67,7 @@ TEST(PrintModelTest, ReachesItsAmplitudesAndIsSmooth) {
         const Vec2 at{20.0 * step.x, 20.0 * step.y};
         const Vec2 shift = print.shift_mm(at);
         largest = {std::max(largest.x, std::abs(shift.x)), std::max(largest.y, std::abs(shift.y))};
-        // Between two points that are 1.4 mm apart, the shift changes by at most 1 % of the
+        // The two points are 1.4 mm apart. The shift of the ink may change by at most 1 % of this
         // distance.
         const Vec2 beside = print.shift_mm({at.x + 1, at.y + 1});
         EXPECT_LT(std::hypot(beside.x - shift.x, beside.y - shift.y), 0.015);

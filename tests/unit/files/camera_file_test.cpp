@@ -258,8 +258,8 @@ TEST_F(CameraFile, ALensOfRosIsConvertedNotRelabelled) {
     EXPECT_NEAR(camera.focal_px.value(), 600, 1e-9);
     EXPECT_NEAR(camera.centre_px.u, 330, 2);
     EXPECT_NEAR(camera.centre_px.v, 236, 2);
-    // Undistorted lines must be straight in the whole image, except for the error of a lens model
-    // with a single coefficient.
+    // Undistorted lines must be straight in the whole image. The tolerance allows for the error of
+    // a lens model with a single coefficient.
     for (const double offset : {-0.3, -0.1, 0.2, 0.3}) {
         for (const bool is_row : {true, false}) {
             const auto point = [&](double along) {
@@ -337,8 +337,8 @@ TEST_F(CameraFile, AMissingFileIsToldWithTheReason) {
     EXPECT_EQ(error, "cannot read nothere.yaml: No such file or directory");
 }
 
-// Some drivers state the model rational_polynomial for every camera. If its additional terms are
-// zero, it equals plumb_bob.
+// Some drivers write rational_polynomial for every camera. If the terms that only this model has
+// are zero, it equals plumb_bob.
 TEST_F(CameraFile, ARationalPolynomialWithoutItsOwnTermsIsPlumbBob) {
     const auto rational = [](const std::string& coefficients) {
         std::string text = kRos;
@@ -387,8 +387,8 @@ TEST(UseCamera, SetsLensAndReferenceForItsOwnSizeOnly) {
     EXPECT_THROW(use_camera(camera, 189, 120, options), BadArgument);
 }
 
-// A point of the paper, the reference point and the heading do not depend on the part of the image
-// that is read.
+// If a part of the image is read, the point of the paper at a pixel, the reference point and the
+// heading remain the same.
 TEST(PartOf, SeesTheSamePaper) {
     Camera camera;
     camera.width_px = 640;

@@ -81,8 +81,7 @@ TEST(SheetFile, allocates_regions_that_keep_their_distance) {
     std::mt19937 random(4);
     std::printf("seed 4\n");
     SheetFile file(directory / "s.json");
-    // Some regions were chosen by other programs, including regions in other sections and code
-    // variants.
+    // Some regions are entered by other programs, also in other sections and code variants.
     for (int i = 0; i < 10; ++i) {
         SheetEntry other = entry("old " + std::to_string(i), {});
         other.sheet.origin = {static_cast<std::uint32_t>(random() % 6000),
@@ -107,7 +106,8 @@ TEST(SheetFile, allocates_regions_that_keep_their_distance) {
 }
 
 TEST(SheetFile, the_gap_is_wider_than_the_largest_frame) {
-    // The largest frame is 4096 x 4096 px, and the minimum spacing 6 px.
+    // The gap must be longer than the diagonal of the largest frame, which has 4096 x 4096 px with
+    // the minimum spacing of 6 px.
     EXPECT_GT(kSheetGap_cells, std::sqrt(2.0) * 4096 / 6);
 }
 
@@ -144,7 +144,7 @@ TEST(SheetFile, allocates_from_the_top_left_and_fills_holes) {
         EXPECT_EQ(pages[i].page, static_cast<int>(i) + 1);
         EXPECT_EQ(pages[i].sheet.origin, (Cell{1024 + i * (columns + 1024), 1024}));
     }
-    // There is room for exactly one page in the first row of pages.
+    // The first row of pages has a hole for exactly one page.
     file.add(entry("later", {1024 + 4 * (columns + 1024), 1024}));
     EXPECT_EQ(file.allocate("hole", sheet)[0].sheet.origin,
               (Cell{1024 + 3 * (columns + 1024), 1024}));

@@ -14,7 +14,7 @@ inline Sheet page(double width_mm = 30, double height_mm = 20) {
     return make_sheet(options);
 }
 
-/// Returns a file as a user might write it.
+/// Returns a sheet file as a user might write it.
 inline nlohmann::json hand_written() {
     return nlohmann::json::parse(R"({
         "format": "dotpose-sheets", "version": 1,

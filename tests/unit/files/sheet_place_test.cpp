@@ -16,7 +16,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 /// Returns a sheet of 20 x 10 cells with a spacing of 0.5 mm. The first cell is at (4, 3) mm from
-/// the corner of the page, so the last cell is at (13.5, 7.5) mm. Margins of 6.5 and 2.5 mm follow.
+/// the corner of the page, so the last cell is at (13.5, 7.5) mm. The margins to the right and
+/// below are 6.5 and 2.5 mm wide.
 SheetEntry small_entry(Cell origin) {
     SheetEntry entry;
     entry.name = "small";
@@ -61,8 +62,8 @@ TEST(find_sheet, tells_the_place_on_the_page) {
 
 TEST(find_sheet, margins_belong_to_the_page_and_nothing_beyond_its_edges) {
     const std::vector<SheetEntry> sheets = {small_entry({1000, 2000})};
-    // The page extends 8 cells to the left, 6 above, 32 to the right and 14 below the first
-    // intersection.
+    // Relative to the first intersection, the page extends 8 cells to the left, 6 up, 32 to the
+    // right and 14 down.
     const auto is_found = [&](Cell cell, double fraction_x = 0, double fraction_y = 0) {
         return find_sheet(sheets, CodeVariant::anoto, fix_at(cell, fraction_x, fraction_y))
             .has_value();
@@ -129,7 +130,7 @@ TEST(find_sheet, applies_the_print_scale_about_the_first_intersection) {
     ASSERT_TRUE(place);
     EXPECT_NEAR(place->x_mm, 4 + 5.1, 1e-12);
     EXPECT_NEAR(place->y_mm, 3 + 3.96, 1e-12);
-    // On the paper, a nominal square is a rectangle of 1.02 x 0.99, which changes the angle of its
+    // On the paper, a nominal square is 1.02 wide and 0.99 high, which changes the angle of its
     // diagonal.
     EXPECT_NEAR(std::tan(place->theta_rad), 0.99 / 1.02, 1e-8);
 }
@@ -194,9 +195,9 @@ Fix uncertain_fix() {
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-/// Returns J C J^T. Column k of J is the change of the pose for a movement of the fix along
-/// coordinate k, in spacings and radians. The changes are computed from central differences,
-/// without formulas for the derivatives.
+/// Returns J C J^T. Column k of J is the change of the pose if the fix moves along coordinate k,
+/// per spacing or radian. J is computed from central differences, so the test does not depend on
+/// formulas for the derivatives.
 template <typename PoseOf>
 Matrix expected_covariance(const Fix& fix, const PoseOf& pose_of) {
     const auto moved_by = [&fix](std::size_t coordinate, double sign) {
@@ -267,7 +268,7 @@ TEST(covariance_in_the_world, is_what_small_movements_say) {
         };
         const auto expected = expected_covariance(fix, [&](const Fix& moved) {
             const WorldPlace place = place_of(moved);
-            // Angles are relative to the angle of the fix, to avoid a jump at half a turn.
+            // Angles are relative to that of the fix, so that they do not jump at half a turn.
             const double yaw =
                 std::remainder(place.yaw_rad - place_of(fix).yaw_rad, 2 * std::numbers::pi);
             return std::array{place.x_m, place.y_m, yaw};
@@ -277,8 +278,8 @@ TEST(covariance_in_the_world, is_what_small_movements_say) {
 }
 
 TEST(covariance_in_the_world, of_a_page_turned_by_a_quarter) {
-    // Right on the page is the world's y axis, down is the world's x axis, and angles change their
-    // sign.
+    // On this page, x points along the world's y axis and y along the world's x axis. Angles change
+    // their sign.
     const PoseCovariance on_sheet = {{{1, 2, 3}, {2, 5, 6}, {3, 6, 9}}};
     const PoseCovariance in_world = world_covariance(on_sheet, kPi / 2);
     const Matrix expected = {{{5, 2, -6}, {2, 1, -3}, {-6, -3, 9}}};

@@ -75,7 +75,7 @@ TEST(read_sheets, reads_the_example_of_the_documentation) {
     write_file(directory / "s.json", page.substr(first, page.find("```", first) - first));
     const auto sheets = read_sheets(directory / "s.json");
     ASSERT_EQ(sheets.size(), 1U);
-    // The example describes the page that the command above the example prints.
+    // The documented example must be the entry that the command above it writes.
     SheetFile file(directory / "other.json");
     const SheetEntry table = file.allocate("table", make_sheet({}))[0];
     EXPECT_EQ(sheets[0].sheet.origin, table.sheet.origin);
@@ -83,7 +83,6 @@ TEST(read_sheets, reads_the_example_of_the_documentation) {
     EXPECT_EQ(sheets[0].sheet.rows, table.sheet.rows);
     EXPECT_NEAR(sheets[0].sheet.origin_x_mm, table.sheet.origin_x_mm, 1e-9);
     EXPECT_TRUE(sheets[0].world);
-    // Saving the file again leaves its text unchanged.
     const std::string text = read_file(directory / "s.json");
     SheetFile same(directory / "s.json");
     same.save();

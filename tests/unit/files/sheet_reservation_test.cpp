@@ -58,7 +58,8 @@ TEST_F(SheetReservations, that_are_given_up_leave_the_file_as_it_was) {
     write_file(path_, by_hand);
     { const SheetReservation reservation(path_, enter_a); }
     EXPECT_EQ(read_file(path_), by_hand);
-    // A reservation that is not confirmed is removed, but the changes by other programs are kept.
+    // If a reservation is not confirmed, its destructor removes it. The changes by other programs
+    // are kept.
     {
         const SheetReservation reservation(path_, enter_a);
         SheetFile file(path_);
@@ -144,8 +145,8 @@ TEST_F(SheetReservations, wait_for_a_lock_say_so_and_end) {
     EXPECT_THAT([&] { SheetFile(path_, wait); }, ThrowsMessage<Error>(HasSubstr("stopped")));
 }
 
-/// Prints sheet number `n` in a child process. After `after_us`, a timer signal without a handler
-/// ends the child process, as kill -9 would.
+/// Prints sheet number `n` in a child process. After `after_us`, a timer signal kills the child
+/// process, as kill -9 would.
 void print_and_die(const fs::path& folder, int n, int after_us) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);
@@ -173,7 +174,7 @@ TEST_F(SheetReservations, no_page_is_without_its_entry_whenever_its_printer_is_k
     constexpr int kStep_us = 100;
     for (int n = 0; n < kPrints; ++n)
         print_and_die(path_.parent_path(), n, (n + 1) * kStep_us);
-    // Reading would fail if two sheets had common cells.
+    // read_sheets would throw if two sheets had common cells.
     const auto sheets = fs::exists(path_) ? read_sheets(path_) : std::vector<SheetEntry>();
     for (int n = 0; n < kPrints; ++n) {
         const std::string name = "n" + std::to_string(n);

@@ -1,4 +1,4 @@
-// Tests the program that all devices share, with a host that reads and writes strings.
+// Tests the program that all devices share. In this test, its host reads and writes strings.
 #include "locate_frames.hpp"
 
 #include <cstring>

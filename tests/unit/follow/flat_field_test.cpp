@@ -21,10 +21,11 @@ Camera camera_with(std::vector<std::vector<double>> flat_field, int width_px, in
 }
 
 TEST(FlatField, IsInterpolatedBetweenItsValues) {
-    // The brightness decreases by half from the first to the last column, and by half from the
-    // first to the last row.
+    // The brightness decreases linearly to a half from the first to the last column, and to a half
+    // from the first to the last row.
     const FlatFieldCorrection correction(camera_with({{1, 0.5}, {0.5, 0.25}}, 3, 3));
-    // Under this light, paper of level 200 has the levels 200 * (1 - u / 4) * (1 - v / 4).
+    // Levels of paper in this light, if the level is 200 in full light: 200 * (1 - u / 4) * (1 - v
+    // / 4).
     const GreyImage paper{{200, 150, 100, 150, 113, 75, 100, 75, 50}, 3, 3};
     for (const int level : correction.corrected(paper.view()).pixels)
         EXPECT_NEAR(level, 200, 1);
@@ -46,7 +47,7 @@ TEST(FlatField, BelongsToOneSizeOfImages) {
     EXPECT_THROW(correction.corrected(image.view()), BadArgument);
 }
 
-/// Returns how many frames of the sensor of an optical mouse are located on a known sheet.
+/// Returns the number of frames of an optical mouse sensor that are located on a known sheet.
 int located_frames(const FollowerOptions& options) {
     Setup setup;
     setup.preset = Preset::mouse;

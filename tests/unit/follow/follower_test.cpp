@@ -1,5 +1,5 @@
-// Tests a Follower on simulated robots. The camera is mounted beside the robot's centre and sees
-// the bare pattern or a sheet.
+// Tests a Follower on simulated robots. The camera is mounted beside the robot's centre, and sees
+// the pattern with or without known sheets.
 #include "dotpose/tools/follower.hpp"
 
 #include <cmath>
@@ -68,7 +68,7 @@ TEST(Follower, TellsWhereTheRobotIsByItsCameraFile) {
         EXPECT_LT(turn_between(now.track.pose.theta_rad(), theta_rad + 30 * kDegree_rad), 0.01);
         tracked += fix.attempt == Attempt::tracked ? 1 : 0;
     }
-    // The predictions take the mount into account, so most frames are tracked.
+    // Most frames are tracked, because the predictions take the mount of the camera into account.
     EXPECT_GE(tracked, kFrames - 3);
     EXPECT_FALSE(follower.is_in_world());
 }
@@ -89,7 +89,7 @@ TEST(Follower, SinglyAndInASequenceImagesGiveThePlaceOnTheSheet) {
         EXPECT_EQ(alone.place->entry->name, "floor");
         EXPECT_TRUE(alone.code_is_given);
         EXPECT_DOUBLE_EQ(alone.spacing_mm, kDefaultSpacing_mm);
-        // This is the position of the camera relative to the first intersection of the sheet.
+        // Expected position of the camera, relative to the first intersection of the sheet.
         const double x_mm = kPivot_x_mm + std::cos(1.0) * kCameraOnRobot_mm.x -
                             std::sin(1.0) * kCameraOnRobot_mm.y -
                             options.sheets[0].sheet.origin.x * kDefaultSpacing_mm;
@@ -120,8 +120,8 @@ TEST(Follower, TracksInTheWorldOfReplacedSheets) {
     EXPECT_FALSE(placed.track.is_lost);
     EXPECT_NEAR(placed.track.pose.x_mm(), 1000 + placed.located.place->x_mm, 0.05);
     EXPECT_NEAR(placed.track.pose.y_mm(), 2000 - placed.located.place->y_mm, 0.05);
-    // The sheet is moved in the world. The track must move with it, although no robot can drive
-    // this far between two frames.
+    // The sheet gets another pose in the world. The track must move with the sheet, although a
+    // robot cannot drive this far between two frames.
     sheets[0].world = WorldPose{-4, 2, 0};
     follower.set_sheets(sheets);
     const Followed moved = follow(6);
@@ -139,8 +139,8 @@ TEST(Follower, AReferencePointReplacesThatOfTheCameraFile) {
     options.reference_px = PixelPoint{(model.width_px - 1) / 2.0, (model.height_px - 1) / 2.0};
     const Fix fix = Follower(options).locate(image).fix;
     ASSERT_EQ(fix.status, Status::ok);
-    // The fix refers to the image centre. Its distance from the robot's centre is the distance at
-    // which the camera is mounted.
+    // The option reference_px, here the image centre, takes precedence over the camera file. The
+    // image centre is as far from the robot's centre as the camera.
     EXPECT_NEAR(std::hypot(fix.x_mm() - kPivot_x_mm, fix.y_mm() - kPivot_y_mm),
                 std::hypot(kCameraOnRobot_mm.x, kCameraOnRobot_mm.y), 0.01);
 }

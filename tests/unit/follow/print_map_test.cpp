@@ -7,11 +7,11 @@
 namespace dotpose::test {
 namespace {
 
-/// Side of the page. It is so small that kFrames frames show each dot several times.
+/// Side of the page. The page is so small that each dot is in several of the kFrames frames.
 constexpr double kSide_mm = 30;
 constexpr int kFrames = 100;
 
-/// The map of a print with jitter and a feed wave, which is computed once for all tests.
+/// The map of a print with jitter and a feed wave. It is computed once for all tests.
 class PrintMapping : public ::testing::Test {
   protected:
     static void SetUpTestSuite() {
@@ -118,11 +118,13 @@ TEST_F(PrintMapping, UsesTheViewOfACameraFile) {
 
 TEST_F(PrintMapping, ConvergesInFewIterations) {
     const MappedPrint large({.side_mm = 60});
-    // Without a preconditioner for deformations of the whole page, the first rounds need hundreds.
+    // The first rounds would need hundreds of iterations without a preconditioner for deformations
+    // of the whole page.
     EXPECT_LT(map_of(large, 200).pages[0].iterations, 120);
 }
 
-/// The map of such a print hardly changes the residuals of a frame, but moves its fix by microns.
+/// The map of such a print reduces the residuals of a frame only slightly, but moves its fix by
+/// microns.
 TEST(PrintMapOfAPrintWithoutJitter, IsUsed) {
     const MappedPrint print({.side_mm = kSide_mm, .jitter_mm = 0});
     const MapTest test = test_map(print, map_of(print, kFrames).map, 20);
@@ -130,7 +132,7 @@ TEST(PrintMapOfAPrintWithoutJitter, IsUsed) {
     EXPECT_LE(test.with.absolute_um(), test.without.absolute_um() / 5);
 }
 
-/// Without a feed wave, the map keeps the place of the page to 0.2 µm.
+/// If the print has no feed wave, the mean offset of the map is correct to 0.2 µm.
 TEST(PrintMapOfAPrintWithoutWave, CorrectsPosesInSpace) {
     const MappedPrint print({.side_mm = kSide_mm, .wave_mm = 0});
     const CameraModel model;
@@ -167,7 +169,7 @@ TEST(PrintMapOfAPrintWithoutWave, CorrectsPosesInSpace) {
         with += error2(after);
         variance += after.space->covariance[0][0] + after.space->covariance[1][1];
     }
-    // The camera is 16 mm above the page, so an error of its tilt moves it.
+    // The camera is 16 mm above the page, so an error of its tilt also displaces its position.
     EXPECT_LT(with, without / 9);
     EXPECT_LT(with, 4 * variance);
 }

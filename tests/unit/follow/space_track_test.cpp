@@ -66,8 +66,8 @@ Matrix6 matrix_of(const SpaceCovariance& covariance) {
     return matrix;
 }
 
-/// Creates sightings with errors as in views of a plane: an error of the tilt is also an error of
-/// the position.
+/// Makes sightings whose errors are correlated as in views of a plane, in which an error of the
+/// tilt also causes an error of the position.
 class Eye {
   public:
     explicit Eye(double scale = 1) {
@@ -175,11 +175,13 @@ TEST(SpaceTrack, HasTheVelocityOfTheCamera) {
     EXPECT_FALSE(tracker.predict(2'000'000));
 }
 
-/// Returns the pose with the tilt mirrored at the line of sight: half a turn of the normal.
+/// Returns the other pose that a view of a plane with weak perspective may have: its tilt has the
+/// opposite direction.
 CameraInSpace mirrored(const CameraInSpace& camera) {
     const Quaterniond half(0, 0, 0, 1);
     const Quaterniond q = rotation_of(camera);
-    // q = turn * lean. The second pose leans to the opposite side.
+    // q is the product of a turn about the vertical and a lean. The mirrored pose leans to the
+    // opposite side.
     const double turn = 2 * std::atan2(q.z(), q.w());
     const Quaterniond about_z(AngleAxisd(turn, Vector3d::UnitZ()));
     const Quaterniond lean = about_z.conjugate() * q;

@@ -69,8 +69,8 @@ std::vector<PosePacket> received(const Bytes& stream) {
     return packets;
 }
 
-/// Encodes with COBS as defined by its authors. Appends a zero, and splits the bytes after every
-/// zero. Then writes each piece as its length and its bytes without the zero.
+/// Encodes with COBS as its authors define it: appends a zero, splits the bytes after every zero,
+/// and writes each piece as its length and its bytes without the zero.
 Bytes cobs(Bytes plain) {
     plain.push_back(0);
     Bytes coded;
@@ -107,9 +107,9 @@ TEST(PosePacket, CrcIsThatOfTheCatalogue) {
 }
 
 TEST(PosePacket, NoFourBitsCancelInTheCrc) {
-    // The CRC is linear, so an error of several bits changes the CRC by the XOR of the changes by
-    // each bit. If the XORs of all pairs of changes are different, no error of up to four bits
-    // leaves the CRC unchanged.
+    // The CRC is linear, so the change by an error of several bits is the XOR of the changes by
+    // each bit. If no two pairs of bits have the same XOR, an error of up to four bits always
+    // changes the CRC.
     Bytes coded(link::kCodedBytes, 0);
     const unsigned none = link::crc16(coded);
     std::vector<unsigned> changes;
@@ -145,7 +145,7 @@ TEST(PosePacket, ComesBackAsItWasSent) {
     EXPECT_EQ(received(stream), sent);
 }
 
-/// Tests the packets that are received if some bits in the first two of three packets are changed.
+/// Tests which of three packets are received if some bits in the first two packets are changed.
 class DamagedStream : public testing::TestWithParam<int> {
   protected:
     void SetUp() override {
@@ -163,7 +163,7 @@ class DamagedStream : public testing::TestWithParam<int> {
         std::vector<PosePacket> undamaged;
         for (const std::size_t i : {0U, 1U, 2U}) {
             const bool is_hit = a / 256 == i || b / 256 == i;
-            // A packet cannot be separated from a predecessor that lost its end mark.
+            // If the end mark of a packet is damaged, the next packet cannot be separated from it.
             const bool is_joined = i > 0 && (is_mark(a, i - 1) || is_mark(b, i - 1));
             if (!is_hit && !is_joined) undamaged.push_back(sent_[i]);
         }
@@ -246,7 +246,7 @@ TEST(PosePacket, RefusesValuesThatNoPoseHas) {
     EXPECT_TRUE(is_refused([](PosePacket& p) { p.code = static_cast<CodeVariant>(3); }));
 }
 
-// A receiver may be older than its senders.
+// A sender may be newer than its receiver, and send statuses that the receiver does not know.
 TEST(PosePacket, StatusesOfNewerVersionsAreOther) {
     for (const int number : {kStatusCount, 100, 254, 255}) {
         PosePacket packet = typical();

@@ -1,5 +1,5 @@
-// Tests fixes without a given code variant against fixes of the same frames with a given code
-// variant.
+// Tests fixes without a given code variant. They must equal the fixes of the same frames with the
+// code variant given.
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -70,7 +70,7 @@ TEST_F(AnyCodeTest, FramesThatBothProfilesExplainSayNothing) {
     CodeEvidence evidence;
     for (std::uint32_t i = 0; i < 40; ++i) {
         Shot shot = draw_shot(setup_of(Preset::nominal), i);
-        // The place is in the middle of a region in which anoto and libdots agree.
+        // The place is in the middle of a region in which anoto and libdots have the same bits.
         shot.pose.cell = {241 * (1000 + i) + 100, 241 * 2000 + 100};
         const CodeReading reading =
             Locator(*memory_, DeviceOptions{}).locate_in_any_code(render(shot).view(), evidence);

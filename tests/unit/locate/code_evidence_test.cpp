@@ -11,7 +11,8 @@ namespace dotpose {
 namespace {
 
 constexpr Cell kPlace{1000, 2000};
-/// Maximum amount by which the evidence of a place is rounded down, as log2 with 8 fractional bits.
+/// Maximum rounding error of the evidence of a place, as log2 with 8 fractional bits. Evidence is
+/// rounded down.
 constexpr int kRounding = 24;
 /// Returns the log odds of a frame that makes `code` less likely by `log2` bits.
 CodeEvidence::LogOdds against(CodeVariant code, int log2) {
@@ -59,8 +60,8 @@ TEST(CodeEvidence, CountsAPlaceAtMost32BitsHoweverManyFramesSayMore) {
     for (int frame = 0; frame < 3; ++frame)
         evidence.add(kPlace, against(CodeVariant::anoto, 60));
     EXPECT_EQ(evidence.log2_q8(CodeVariant::anoto), -32 * 256);
-    // Now 255 of 256 frames are neutral. The factor of each of the remaining frames is limited to
-    // 2^40, so the mean factor is 2^40 / 256 = 2^32.
+    // Now 255 of 256 frames are neutral, and the factor of each of the other frames is limited to
+    // 2^40. The mean factor is therefore 2^40 / 256 = 2^32.
     for (int frame = 0; frame < 3 * 255; ++frame)
         evidence.add(kPlace, against(CodeVariant::anoto, 0));
     EXPECT_NEAR(evidence.log2_q8(CodeVariant::anoto), -32 * 256, kRounding);
@@ -78,9 +79,9 @@ TEST(CodeEvidence, FramesAgainstEachOtherCancelOut) {
     EXPECT_EQ(evidence.log2_q8(CodeVariant::anoto), evidence.log2_q8(CodeVariant::libdots));
 }
 
-// Simulates overlapping views of the same bits. Each bit is 1 with a probability of 1/2 in the true
-// code variant, and of 3/4 in the other code variants. Each bit in view therefore multiplies the
-// odds of the other code variants by 1.5 or by 0.5.
+// Simulates overlapping views of the same bits. The probability that a bit is 1 is 1/2 in the true
+// code variant and 3/4 in the other code variants. Each bit in view therefore multiplies the odds
+// of the other code variants by 1.5 (if it is 1) or by 0.5 (if it is 0).
 TEST(CodeEvidence, IsSeldomMuchAgainstTheTruth) {
     constexpr std::size_t kBits = 40;
     constexpr std::size_t kSeen = 25;

@@ -1,4 +1,4 @@
-// Tests the first attempt on frames of all sizes, and its results in the workspace.
+// Tests the first attempt on frames of all sizes, and the results that it stores in the workspace.
 #include "locate/first.hpp"
 
 #include <gtest/gtest.h>
@@ -167,8 +167,8 @@ TEST(LocateFirst, ShowsItsDotsAndCellsWhenAsked) {
                 // Dots near the border are not tested, because the border cuts off blobs.
                 const bool is_inside = at.x > 6 && at.y > 6 && at.x < 181 && at.y < 113;
                 const double off_px = nearest_px(others, at);
-                // A dot that touches another dot may have no blob nearby, because the two dots are
-                // one blob or none.
+                // If a dot touches another dot, the two are one blob or none, so there may be no
+                // blob near its centre.
                 if (is_inside && off_px > 5) ++alone;
                 EXPECT_TRUE(!is_inside || off_px < 0.3 || off_px > 5) << off_px;
                 const Place place = moved(options.code, w.decoding.place, k, j);

@@ -75,8 +75,8 @@ TEST(LocateRefuses, AFrameWithoutDotsIsNotNamedByTheDotsOfTheFrameBefore) {
     EXPECT_EQ(Locator(*memory, DeviceOptions{}).locate(black.view()).status, Status::no_contrast);
 }
 
-// After an attempt has found the mirrored code, later attempts may fail for other reasons. The
-// status is `mirrored` nevertheless.
+// If an attempt has found the mirrored code, the status is `mirrored`, even if later attempts fail
+// for other reasons.
 TEST(LocateRefuses, AMirrorImageIsNamedWhateverTheDisplacement) {
     const auto memory = std::make_unique<LargeMemory>();
     for (const double displacement : {0.12, 1.0 / 6, 0.25, 0.30}) {
@@ -114,13 +114,13 @@ TEST(LocateRefuses, AFrameWithoutAnyDotIsRefusedEvenIfNoDotIsAskedFor) {
         options.effort = effort;
         EXPECT_EQ(Locator(memory, options).locate(image.view()).status, Status::too_few_dots);
     }
-    // The first attempt accepts any dark minimum as a dot.
+    // This attempt accepts any dark minimum as a dot, so it fails only at the grid.
     options.effort = Effort::once;
     EXPECT_EQ(Locator(memory, options).locate(image.view()).status, Status::no_grid);
 }
 
 TEST(LocateRefuses, EveryStageCanRefuse) {
-    // Options and frames are chosen so that each stage refuses a frame.
+    // Each of these combinations of options and frame makes another stage refuse the frame.
     SmallMemory memory;
     Shot shot = shot_of({.preset = Preset::clean}, kSeed, 0);
     const GreyImage frame = render(shot);

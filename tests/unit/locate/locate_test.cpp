@@ -1,5 +1,5 @@
-// Tests the whole pipeline on simulated frames. A fix must not depend on whether the frame is
-// passed as an image or as rows, on the memory, or on earlier frames.
+// Tests the whole pipeline on simulated frames. A fix must not depend on the memory, on earlier
+// frames, or on whether the frame is passed as an image or row by row.
 #include "dotpose/locate.hpp"
 
 #include <cmath>
@@ -30,8 +30,9 @@ std::vector<GreyImage> mixed_frames() {
     return frames;
 }
 
-/// Expects the status and the number of dots of two fixes to be equal and, if the status is ok,
-/// also the pose, counts, residual and covariance. Compares the covariances bit by bit.
+/// Expects that the status and the number of dots of two fixes are equal. If the status is ok, also
+/// expects equal poses, counts, residuals and covariances. The covariances must be equal bit by
+/// bit.
 void expect_same(const Fix& a, const Fix& b) {
     EXPECT_EQ(a.status, b.status);
     EXPECT_EQ(a.dots_seen, b.dots_seen);
@@ -144,7 +145,7 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
         errors_um.push_back(
             std::hypot(fix.x_grid() - x_grid(shot.pose), fix.y_grid() - y_grid(shot.pose)) *
             spacing_um);
-        // A larger error would mean that the fix is at a wrong place.
+        // If the error were larger, the fix would be at a wrong place.
         EXPECT_LT(errors_um.back(), 0.1 * spacing_um);
         EXPECT_EQ(fix.section, shot.page.pattern.section);
         EXPECT_LT(
@@ -175,7 +176,7 @@ TEST(Locate, LittleMemoryIsEnoughForADevice) {
         const Fix fix = pushed(frame, Locator(small, device));
         expect_same(pushed(frame, DeviceLocator(little)), fix);
         found += fix.status == Status::ok;
-        // Noise and graphics fill the memory. Afterwards, the locator must work as before.
+        // Frames with noise and graphics fill the memory. They must have no effect on later frames.
         const Shot hard = shot_of({.preset = Preset::hard}, kSeed, i);
         const Fix full = pushed(render(hard), DeviceLocator(little));
         if (full.status == Status::ok) {
@@ -325,8 +326,8 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
             const double tolerance = 0.01 + length(offset) * 1e-4;
             EXPECT_NEAR(x, from_pose.x, tolerance);
             EXPECT_NEAR(y, from_pose.y, tolerance);
-            // The fit may interpret noise as a slight tilt. The direction of the axes then varies
-            // across the image, and more outside of the image.
+            // The fit may interpret noise as a slight tilt, so the direction of the axes varies
+            // across the image, and even more outside.
             const double apart_rad =
                 std::remainder(fix.theta_rad() - at_centre.theta_rad(), 2 * std::numbers::pi);
             EXPECT_NEAR(apart_rad, 0, 1e-4 * std::max(1.0, length(offset) / 100));
@@ -351,8 +352,8 @@ TEST(Locate, ALensIsUndone) {
     }
 }
 
-// The second attempt measures dots at the places given by the code, including dots that are not
-// blobs. These dots must also be counted as seen.
+// The second attempt also measures dots that were not found as blobs, at the places given by the
+// code. These dots must count as seen, too.
 TEST(Locate, UsesNoMoreDotsThanItSaw) {
     SmallMemory memory;
     int by_second = 0;

@@ -1,5 +1,5 @@
-// Tests the options in millimetres, pixels and ratios: their units, their ranges, and their effects
-// in each attempt.
+// Tests the options that are given in millimetres, pixels or ratios: units, ranges, and effects in
+// each attempt.
 #include "dotpose/locator_options.hpp"
 
 #include <algorithm>
@@ -152,7 +152,7 @@ TEST(LocatorOptions, TheCodeIsDetectedUnlessItIsGiven) {
         const Fix tracked = locator.locate(render(last).view(), Prediction::like(fix));
         EXPECT_EQ(tracked.attempt, Attempt::tracked);
         EXPECT_EQ(tracked.cell, fix.cell);
-        // Options without a code discard the detected code.
+        // After new options are set without a code, the code must be detected again.
         locator.set_options(LocatorOptions{});
         EXPECT_EQ(locator.options().code, CodeVariant::anoto);
         EXPECT_EQ(locator.locate(render(last).view()).status, Status::ok);
@@ -162,7 +162,7 @@ TEST(LocatorOptions, TheCodeIsDetectedUnlessItIsGiven) {
               Status::ok);
 }
 
-/// Returns the frame with its contrast multiplied by `by`. The grey levels move towards 128.
+/// Returns the frame with all differences of its grey levels from 128 multiplied by `by`.
 GreyImage paled(GreyImage image, double by) {
     for (std::uint8_t& grey : image.pixels)
         grey = static_cast<std::uint8_t>(std::lround(128 + by * (grey - 128)));
@@ -187,8 +187,9 @@ Fix pushed(const GreyImage& image, const LocatorOptions& options) {
 /// A function that locates a frame with the given options.
 using Way = std::function<Fix(const GreyImage&, const LocatorOptions&)>;
 
-/// Expects that an attempt locates a frame if the minimum contrast is a third of the contrast of
-/// the frame. Also expects that the attempt refuses the frame if the minimum is twice the contrast.
+/// Expects that an attempt locates a frame if the minimum contrast is 0 or a third of the frame's
+/// contrast. Expects that it refuses the frame if the minimum contrast is twice the frame's
+/// contrast.
 void expect_contrast_counts(const Way& locate, const GreyImage& image, Attempt attempt) {
     const int contrast = contrast_of(image);
     ASSERT_GT(contrast, 15);

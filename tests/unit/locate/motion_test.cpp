@@ -14,8 +14,8 @@ namespace {
 constexpr std::uint64_t kSeed = 7171;
 constexpr KnownRegion kSheet{CodeVariant::anoto, {}, {1024, 2048}, 393, 564};
 
-/// Returns the shot of a camera that has moved. The motion is the displacement along the axes of
-/// the image of `shot`, in mm, and the rotation. Noise and light are those of another frame.
+/// Returns the shot of a camera that has moved. The motion is a displacement in mm, along the axes
+/// of the image of `shot`, and a rotation. The noise and the light differ from those of `shot`.
 Shot moved_shot(const Shot& shot, const MeasuredMotion& motion) {
     Shot next = shot;
     CameraPose& pose = next.pose;
@@ -73,7 +73,7 @@ constexpr int kLength = 6;
 
 /// Results of several series of `kLength` frames each.
 struct Series {
-    /// located[k] is the number of series with a fix in their first k + 1 frames.
+    /// Element k is the number of series that have a fix in their first k + 1 frames.
     std::array<int, kLength> located{};
     int with_earlier = 0;  ///< number of fixes from more than one frame
     int wrong = 0;
@@ -86,7 +86,7 @@ Series run_series(Locator& locator, const ShotSize& size, int count, float sigma
         const auto index = static_cast<std::uint64_t>(i);
         Shot shot = is_on_sheet ? shot_on_sheet(size, index) : shot_of(size, kSeed, index);
         Rng rng(kSeed, 1'000'000 + index);
-        // The first call has no motion, and therefore ends the previous series.
+        // A frame without a motion ends the previous series.
         static_cast<void>(locator.locate(render_scene(Scene::white, shot).view()));
         MeasuredMotion motion;
         bool is_located = false;
@@ -123,7 +123,7 @@ class FramesReadTogether : public testing::Test {
     Locator locator_{*memory_, DeviceOptions{}};
 };
 
-// A single view of 7.3 cells per side never gives a certain place on the whole plane.
+// A single view of 7.3 x 7.3 cells is never certain if the sheets are not known.
 TEST_F(FramesReadTogether, SmallViewsOfTheWholePlaneBecomeCertain) {
     const Series series =
         run_series(locator_, {.width_px = 80, .height_px = 80}, 40, 0.02F, 0.005F, false);
@@ -134,7 +134,7 @@ TEST_F(FramesReadTogether, SmallViewsOfTheWholePlaneBecomeCertain) {
     EXPECT_GT(series.with_earlier, 100);
 }
 
-// A single view of 4.9 cells per side never gives a certain place on a sheet.
+// A single view of 4.9 x 4.9 cells is never certain, even if the sheets are known.
 TEST_F(FramesReadTogether, SmallViewsOfKnownSheetsBecomeCertain) {
     ASSERT_EQ(locator_.set_known({&kSheet, 1}, OtherSheets::impossible), Status::ok);
     const Series series =
@@ -145,8 +145,8 @@ TEST_F(FramesReadTogether, SmallViewsOfKnownSheetsBecomeCertain) {
     EXPECT_EQ(series.located[3], 40);
 }
 
-// Only the order of magnitude of the motion is known. The dots that two frames share determine the
-// motion.
+// Only the order of magnitude of the motion is known. It can be computed exactly from the dots that
+// two frames share.
 TEST_F(FramesReadTogether, CommonDotsReplaceAnInaccurateMotion) {
     const Series series =
         run_series(locator_, {.width_px = 90, .height_px = 90}, 40, 0.8F, 0.3F, false);
@@ -156,8 +156,8 @@ TEST_F(FramesReadTogether, CommonDotsReplaceAnInaccurateMotion) {
     EXPECT_EQ(series.located[5], 40);
 }
 
-// The robot is put down at another place before each frame, but its odometry reports no motion. No
-// frame may be located, because the bits of these frames must not be combined.
+// Before each frame, the robot is put down at another place, but its odometry reports no motion. No
+// frame may be located, because a fix would combine bits of different places.
 TEST_F(FramesReadTogether, AWrongMotionGivesNoWrongFix) {
     constexpr ShotSize kSize{.width_px = 80, .height_px = 80};
     const MeasuredMotion none{.sigma_mm = 0.05F, .sigma_rad = 0.02F};
@@ -171,8 +171,8 @@ TEST_F(FramesReadTogether, AWrongMotionGivesNoWrongFix) {
     EXPECT_EQ(located, 0);
 }
 
-// Frames without a pattern between the views of a series must have no effect except that the motion
-// adds up.
+// Between the views of a series, there are frames without a pattern. Their motions must be added
+// up. Otherwise, these frames must have no effect.
 TEST_F(FramesReadTogether, FramesWithoutAPatternAreSkipped) {
     constexpr ShotSize kSize{.width_px = 80, .height_px = 80};
     int located = 0;
@@ -208,7 +208,7 @@ TEST_F(FramesReadTogether, ALocatorDoesNotContinueTheSeriesOfAnEarlierOne) {
     EXPECT_FALSE(other.locate(render(moved_shot(next, motion)).view(), motion));
 }
 
-// After a fix, the motion predicts the next frame. The tracked attempt therefore reads this frame.
+// After a fix, the next frame is predicted from the motion, so the tracked attempt can locate it.
 TEST_F(FramesReadTogether, AMotionPredictsTheNextFrame) {
     Shot shot = shot_of({}, kSeed, 3);
     const MeasuredMotion motion{.right_mm = 2.5F,

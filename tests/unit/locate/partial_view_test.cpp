@@ -1,4 +1,4 @@
-// Tests that views that the pattern covers only partly are located by a single attempt.
+// Tests views that are only partly covered by the pattern. A single attempt must locate them.
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -57,8 +57,8 @@ TEST(PartialViews, IslandsAreLocatedAtOnce) {
     expect_located_at_once(view);
 }
 
-/// The attempt of devices starts at the centroid of the dots. Noise on blank paper must not shift
-/// the centroid.
+/// The attempt of devices starts at the centroid of the dots, which noise on blank paper must not
+/// shift.
 TEST(PartialViews, BordersAndCornersAreLocatedByDevices) {
     const auto memory = std::make_unique<LargeMemory>();
     DeviceOptions options;
@@ -83,8 +83,8 @@ TEST(PartialViews, BordersAndCornersAreLocatedByDevices) {
 }
 
 TEST(PartialViews, CoverWhatTheyShould) {
-    // Each cell has the same amount of ink, so the ratio of the darkness of the two images is the
-    // covered fraction.
+    // All cells have the same amount of ink. The covered fraction is therefore the ratio of the
+    // total darkness of the two images.
     PartialView view;
     view.min_share = view.max_share = 0.3;
     for (std::uint64_t i = 0; i < 4; ++i) {

@@ -22,7 +22,7 @@ void set_bit(core::BitLines& lines, int line, int cell, int bit) {
     lines.bits[i] |= static_cast<std::uint64_t>(bit) << (cell + core::BitBlock::kMiddle);
 }
 
-/// Returns the bits of the code around a place, which is the place of cell (0, 0).
+/// Returns a block of bits of the code. `place` is the place of its cell (0, 0).
 core::BitBlock upright_block(CodeVariant code, const Place& place) {
     core::BitBlock block;
     for (int j = -kHalf; j < kHalf; ++j) {

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 77;
 constexpr int kDirections = 12;
-/// Without motion, the image contains 24 rows of cells. With any motion of these tests, it contains
-/// at least 9 rows.
+/// The image contains 24 rows of cells if nothing moves, and at least 9 rows with any motion of
+/// these tests.
 constexpr ShotSize kSize{.spacing_px = 20, .width_px = 640, .height_px = 480};
 
 /// Returns a frame whose scene moves during the readout by `motion` times the height of the image,

@@ -1,5 +1,4 @@
-// Tests the second attempt: the frames that reach this attempt, and the frames that only this
-// attempt locates.
+// Tests the second attempt: which frames reach it, and which frames only it can locate.
 #include "locate/second.hpp"
 
 #include <gtest/gtest.h>
@@ -60,8 +59,8 @@ TEST(SecondAttempt, DotsThatFallOnThePixelsAlikeAreNotBiased) {
                                                 core::SecondAttempt::Resampling::if_doubtful));
         const Fix fix = w.fix;
         EXPECT_EQ(fix.attempt, Attempt::second);
-        // Without correction of the bias, the error would be up to 0.01 spacings, which is 50
-        // standard deviations.
+        // Without the correction of the pixel bias, the error would be up to 0.01 spacings, which
+        // is 50 standard deviations.
         EXPECT_LT(std::abs(fix.x_grid() - x_grid(shot.pose)), 5 * std::sqrt(fix.covariance[0][0]));
         EXPECT_LT(std::abs(fix.y_grid() - y_grid(shot.pose)), 5 * std::sqrt(fix.covariance[1][1]));
     }

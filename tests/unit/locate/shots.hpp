@@ -41,8 +41,9 @@ inline double turn_between(double a_rad, double b_rad) {
     return std::abs(std::remainder(a_rad - b_rad, 2 * std::numbers::pi));
 }
 
-/// Returns true if a fix is correct. Its section must be the true section. Its position must be
-/// within a fifth of a spacing along each axis, and its angle within two degrees of the true pose.
+/// Returns true if the section of a fix is the true section, its position is within a fifth of a
+/// spacing of the true position along each axis, and its angle is within two degrees of the true
+/// angle.
 inline bool is_right(const Fix& fix, const Shot& shot) {
     return std::abs(fix.x_grid() - x_grid(shot.pose)) < 0.2 &&
            std::abs(fix.y_grid() - y_grid(shot.pose)) < 0.2 &&
@@ -50,8 +51,8 @@ inline bool is_right(const Fix& fix, const Shot& shot) {
            fix.section == shot.page.pattern.section;
 }
 
-/// Expects the status, pose, counts, residual and covariance of two fixes to be equal. Compares the
-/// covariances bit by bit.
+/// Expects that two fixes have the same status, pose, counts, residual and covariance. The
+/// covariances must be equal bit by bit.
 inline void expect_same_bits(const Fix& a, const Fix& b) {
     EXPECT_EQ(a.status, b.status);
     EXPECT_EQ(a.attempt, b.attempt);

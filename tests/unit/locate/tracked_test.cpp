@@ -31,7 +31,8 @@ Prediction true_prediction(const Shot& shot) {
     plane.at_centre_q16 = fixed({shot.pose.fraction_x, shot.pose.fraction_y}, 16);
     plane.du_q24 = fixed(0.5 * (at(1, 0) - at(-1, 0)), 24);
     plane.dv_q24 = fixed(0.5 * (at(0, 1) - at(0, -1)), 24);
-    // Along x, at(x, 0) = du x / (1 + tilt x). The tilt therefore follows from two opposite points.
+    // Along the image x axis, the pattern point at distance x is at(x, 0) = du x / (1 + tilt x).
+    // The tilt is computed from two opposite points, x and -x.
     constexpr double kFar_px = 50;
     const auto tilt = [](Vec2 ahead, Vec2 behind) {
         const double a = length(ahead);
@@ -69,8 +70,8 @@ DeviceOptions options_for(const Shot& shot) {
     return options;
 }
 
-/// Returns wrong predictions: displaced by some cells, rotated by quarter turns, in another
-/// section, and at a random place.
+/// Returns wrong predictions: some are displaced by whole cells, rotated by quarter turns or in
+/// another section, and one is at a random place.
 std::vector<Prediction> wrong_predictions(const Shot& shot, Rng& rng) {
     const Prediction truth = true_prediction(shot);
     std::vector<Prediction> wrong;
@@ -240,7 +241,7 @@ std::int32_t any_number(Rng& rng) {
     }
 }
 
-/// Returns a prediction in which some fields are random.
+/// Returns a copy of the prediction in which some fields have random values.
 Prediction garbled(Prediction p, Rng& rng) {
     PlaneFromImage& plane = p.pattern_from_image;
     const std::array numbers{&plane.centre_q8.x,

@@ -1,5 +1,5 @@
-// Tests frames of a rolling shutter in which the scene turns while the rows are read: single
-// frames, and drives with predictions from the last fix.
+// Tests a rolling shutter that sees a scene turn while it reads the rows. Tests single frames, and
+// drives with predictions from the last fix.
 #include <cmath>
 #include <numbers>
 
@@ -50,7 +50,7 @@ Counts locate_turned(const ShotSize& size, double turn_deg, Vec2 motion, int fra
         const double off_x = fix.x_grid() - x_grid(shot.pose);
         const double off_y = fix.y_grid() - y_grid(shot.pose);
         EXPECT_LT(std::hypot(off_x, off_y), 0.012) << turn_deg << ", frame " << i;
-        // The signs differ, because theta decreases if the scene turns clockwise.
+        // The signs are opposite, because theta decreases if the scene turns clockwise.
         EXPECT_NEAR(fix.readout_turn_rad, -shot.camera.readout_turn_rad, 0.5 * kDegree) << i;
         counts.squares += off_x * off_x / double{fix.covariance[0][0]} +
                           off_y * off_y / double{fix.covariance[1][1]};

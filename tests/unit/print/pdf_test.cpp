@@ -58,8 +58,8 @@ TEST(labels, say_what_is_on_the_page) {
     EXPECT_THAT(content, HasSubstr("dotpose print -o door.pdf"));
     EXPECT_THAT(content, HasSubstr("0 0 0 1 k 0 0 0 1 K"));
     EXPECT_THAT(content, HasSubstr("(0 mm) Tj"));
-    // The ruler counts from the edge of the page and ends before the end of the dots, which is at
-    // 10.2 mm + 79.8 mm. Its last number is therefore 80.
+    // The ruler counts from the edge of the page. The dots begin at 10.2 mm and are 79.8 mm wide,
+    // so they end at 90.0 mm. The ruler ends before that, and its last number is 80.
     EXPECT_THAT(content, HasSubstr("(80) Tj"));
     EXPECT_THAT(content, Not(HasSubstr("(90) Tj")));
 }
@@ -97,9 +97,8 @@ Marks marks_of(const std::string& content, double height_mm) {
 TEST(labels, rulers_count_from_the_corner_of_the_page) {
     const Sheet sheet = make_sheet(small_page(10));
     const Marks marks = marks_of(content_of_labels(sheet, {1, 1}, named()), sheet.height_mm);
-    // The rulers end at 89 mm above the dots and at 49 mm beside them, the last whole millimetres
-    // before the end of the dots. The ticks from 5 to 9 mm are omitted, because the arrows are
-    // there.
+    // The last ticks are at the last whole millimetres before the end of the dots: 89 mm above them
+    // and 49 mm beside them. There are no ticks from 5 to 9 mm, because the arrows are there.
     std::vector<double> expected_x = {1, 2, 3, 4};
     std::vector<double> expected_y = expected_x;
     for (int mm = 10; mm <= 89; ++mm) {
@@ -109,7 +108,7 @@ TEST(labels, rulers_count_from_the_corner_of_the_page) {
     const auto near = [](double distance_mm) { return testing::DoubleNear(distance_mm, 0.001); };
     EXPECT_THAT(marks.ticks_x_mm, testing::Pointwise(testing::DoubleNear(0.001), expected_x));
     EXPECT_THAT(marks.ticks_y_mm, testing::Pointwise(testing::DoubleNear(0.001), expected_y));
-    // A number is centred at its tick. Two digits of 0.556 x 4.5 points are 1.765 mm wide.
+    // A number is centred at its tick. Two digits are 2 * 0.556 * 4.5 points = 1.765 mm wide.
     ASSERT_TRUE(marks.texts_mm.contains("80"));
     EXPECT_THAT(marks.texts_mm.at("80")[0] + 1.765 / 2, near(80));
 }
@@ -128,7 +127,7 @@ TEST(labels, show_the_origin_and_its_pattern_coordinates) {
     EXPECT_THAT(content, HasSubstr("count from this corner, in the pattern " + corner));
     const Marks marks = marks_of(content, sheet.height_mm);
     ASSERT_TRUE(marks.texts_mm.contains("x") && marks.texts_mm.contains("y"));
-    // Each letter is at the head of its arrow: x to the right, y below.
+    // Each letter is at the head of its arrow: x is to the right of y, and y is below x.
     EXPECT_GT(marks.texts_mm.at("x")[0], marks.texts_mm.at("y")[0] + 3);
     EXPECT_GT(marks.texts_mm.at("y")[1], marks.texts_mm.at("x")[1] + 3);
     // On a narrow page, the text is below the dots.
@@ -159,8 +158,8 @@ TEST(labels, stay_clear_of_the_dots) {
             x *= mm_per_pt;
             y = sheet.height_mm - y * mm_per_pt;
             EXPECT_TRUE(x > 0 && y > 0 && y < sheet.height_mm) << line;
-            // The position of a text is its baseline. Capitals extend 0.718 * 6 pt = 1.52 mm above
-            // the baseline.
+            // The position of a text is that of its baseline. Capitals extend above the baseline by
+            // 0.718 * 6 pt = 1.52 mm.
             EXPECT_TRUE(x < left || y < top || y > bottom + (is_text ? 1.52 : 0))
                 << margin_mm << ": " << line;
         }

@@ -39,10 +39,10 @@ Sheet small_sheet() {
     return make_sheet(options);
 }
 
-// With a spacing of 0.508 mm, the spacing and the displacement are whole numbers of pixels. The
-// margin of 2 mm, plus the 0.127 mm by which ink extends beyond an intersection, is 25.12 pixels of
-// 1/300 inch. The first intersection is therefore the centre of pixel 25, and an intersection
-// follows every 6 pixels.
+// With a spacing of 0.508 mm, the spacing and the displacement are whole numbers of pixels of 1/300
+// inch. The margin of 2 mm, plus the 0.127 mm by which ink extends beyond an intersection, is 25.12
+// pixels. The first intersection is therefore at the centre of pixel 25. The next intersections
+// follow every 6 pixels.
 constexpr int kFirst_px = 25;
 constexpr int kSpacing_px = 6;
 
@@ -67,8 +67,8 @@ void expect_exact_dots(const Bitmap& page, const Sheet& sheet, int scale) {
             }
         }
     }
-    // All expected pixels are distinct and contain ink, so equal counts mean that there is no other
-    // ink.
+    // The checks above found ink in all expected pixels, which are distinct. If the counts are
+    // equal, there is no other ink.
     EXPECT_EQ(page.count_ink(), sheet.columns * sheet.rows * static_cast<int>(shape.size()));
 }
 
@@ -88,8 +88,8 @@ TEST(write_raster, fills_whole_printer_pixels_with_the_default_spacing) {
 }
 
 TEST(write_raster, first_letters_are_those_of_the_code) {
-    // The page contains the symbols "dddurddl" of the test vector at (217, 1134). The vector is
-    // independent of `symbol_at`.
+    // At (217, 1134), the pattern has the symbols "dddurddl", according to a test vector that does
+    // not depend on `symbol_at`.
     const Bitmap page = print_and_read(small_sheet(), "page.png", 300);
     const Pixels expected = {{0, 1}, {0, 1}, {0, 1}, {0, -1}, {1, 0}, {0, 1}, {0, 1}, {-1, 0}};
     for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -101,7 +101,7 @@ TEST(write_raster, first_letters_are_those_of_the_code) {
     }
 }
 
-/// Errors of the centroids of the ink relative to the expected dot at each intersection, in pixels.
+/// Distances, in pixels, of the centroids of the ink from the expected centres of the dots.
 struct Errors {
     double largest_px = 0;
     double mean_px = 0;
@@ -176,9 +176,9 @@ TEST(write_raster, has_all_dots_without_a_margin) {
 }
 
 TEST(write_raster, keeps_dots_that_rounding_would_push_off_the_page) {
-    // The width of the page is 100.4 pixels, and the file has 100 pixels. The centres of dots of
-    // the last column that are displaced to the right are at 100.1, so the nearest pixel would be
-    // past the end.
+    // The page is 100.4 pixels wide, and the file has 100 pixels. In the last column, the centres
+    // of dots that are displaced to the right are at 100.1, so the nearest pixel would be outside
+    // the file.
     constexpr double kPixel_mm = 25.4 / 300;
     Sheet sheet;
     sheet.pattern.dot_mm = 0.6 * kPixel_mm;

@@ -20,8 +20,8 @@ void expect_refused(const SheetOptions& options, const char* part_of_message) {
                 ThrowsMessage<BadArgument>(HasSubstr(part_of_message)));
 }
 
-/// Returns the distances of the outermost possible ink from two opposite edges of the page: left
-/// and right, or top and bottom.
+/// Returns the distances of the ink from two opposite edges of the page (left and right, or top and
+/// bottom), if the outermost dots are displaced towards these edges.
 std::pair<double, double> free_mm(double first_mm, int count, double size_mm,
                                   const Pattern& pattern) {
     const double ink_mm = pattern.displacement_mm + pattern.dot_mm / 2;
@@ -61,7 +61,8 @@ TEST(make_sheet, keeps_the_margin_and_wastes_less_than_a_cell) {
             for (const double free : {left, right, top, bottom}) {
                 EXPECT_GE(free, margin_mm - 1e-6) << margin_mm << " " << spacing_mm;
             }
-            // Snapping to the pixels of the printer may move the first dot by up to one pixel.
+            // Because intersections are moved to whole pixels of the printer, the first dot may be
+            // up to one pixel farther from the edge.
             EXPECT_LE(left, margin_mm + 25.4 / 300) << margin_mm << " " << spacing_mm;
             EXPECT_LE(top, margin_mm + 25.4 / 300) << margin_mm << " " << spacing_mm;
             EXPECT_LT(right, margin_mm + spacing_mm) << margin_mm << " " << spacing_mm;

@@ -20,8 +20,8 @@ struct Point {
     double y_mm;
 };
 
-/// Returns the dots of one path: relative moves from (0, 0), "mX Yh0", each followed by a line of
-/// zero length.
+/// Returns the dots of one path. The path consists of relative moves from (0, 0), each followed by
+/// a line of zero length: "mX Yh0".
 std::vector<Point> dots_of(const std::string& path, double mm_per_unit) {
     std::istringstream stream(path);
     std::vector<Point> dots;

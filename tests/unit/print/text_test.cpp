@@ -19,7 +19,6 @@ struct Vector {
     std::vector<std::string> rows;
 };
 
-// Test vectors from an independent implementation.
 const std::vector<Vector> kVectors = {
     {CodeVariant::anoto,
      {0, 0},
@@ -83,8 +82,8 @@ TEST(write_text, writes_the_letters_of_the_code) {
 }
 
 TEST(write_text, reaches_the_last_corner_of_the_code_plane) {
-    // The vector at x = 410815341, y = 5 is 7 columns from the end, so 8 columns cannot start
-    // there.
+    // The vector begins at x = 410815341, only 7 columns before the end of the plane. The sheet
+    // begins one column earlier and contains the first 7 of the 8 columns of the vector.
     const std::vector<std::string> expected = {"urrrduu", "urdrllr", "lrlrldl", "drdddur",
                                                "drdurdr", "lulrurr", "dlrlrdr", "rrdllld"};
     const TemporaryDirectory directory;

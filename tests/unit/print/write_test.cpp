@@ -86,7 +86,8 @@ TEST(write_sheet, leaves_the_old_file_and_no_litter_when_stopped) {
         options.progress = [&](int rows_done, int rows) {
             EXPECT_EQ(rows, page().rows);
             EXPECT_EQ(rows_done, ++calls);
-            // Until the writing ends, the old file exists, and the new file has another name.
+            // The new file has a temporary name until it is complete. Until then, the old file
+            // still exists.
             EXPECT_EQ(read_file(directory / name), "old");
             EXPECT_EQ(directory.names().size(), 2U);
             return rows_done < 50;

@@ -115,8 +115,8 @@ TEST(Server, DeliversValuesToClientsThatAcknowledge) {
     wait_until([&] { return topic.is_wanted(); });
     server.publish(topic, [] { return "value-2."; });
     EXPECT_THAT(client.receive("."), HasSubstr("value-2"));
-    // Without an acknowledgement, the client receives no third value, and the server does not
-    // produce one.
+    // The client has not acknowledged a value, so it receives no third value. The server does not
+    // even produce one.
     server.publish(topic, [] { return "value-3."; });
     server.publish(topic, [] { return "value-4."; });
     EXPECT_FALSE(topic.is_wanted());

@@ -117,8 +117,8 @@ TEST(Subscription, ChangedRequestsDoNotKeepAClientFromNewValues) {
         client.begin();
         EXPECT_FALSE(client.is_due(2));
         client.acknowledge();
-        // The client has not acknowledged all messages, so it does not receive value 2 again. It is
-        // ready for a new value.
+        // The request has changed, but the client has not acknowledged all messages. It therefore
+        // does not receive value 2 again. It receives only a newer value.
         EXPECT_FALSE(client.is_due(2));
         EXPECT_TRUE(client.is_ready(2));
         EXPECT_TRUE(client.is_due(3));

@@ -1,4 +1,4 @@
-// Tests one dot in the image: its place, area and spread, and the printing errors of the page.
+// Tests the image of one dot: place, area, spread and printing errors.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -26,8 +26,8 @@ CameraModel camera_with_spacing(double spacing_px) {
     return camera;
 }
 
-// Returns the light that reaches each pixel if the disc is sampled at 64 x 64 points per pixel.
-// This is slow, but independent of the renderer.
+// Returns the light that reaches each pixel. Samples the disc at 64 x 64 points per pixel, which is
+// slow but independent of the renderer.
 std::vector<double> sampled(const CameraModel& camera, Vec2 centre, double radius_px,
                             const Imperfections& seen) {
     constexpr int kPoints = 64;
@@ -128,8 +128,8 @@ TEST(Dot, InkMassIsTheDotsAreaWhateverBlursIt) {
     }
 }
 
-// Light is additive. Many dots together remove the sum of the light that they remove individually.
-// This is also true if their blurred images overlap or the frame cuts them off.
+// Many dots together remove the sum of the light that each removes alone. This is also true if
+// their blurred images overlap or are cut off by the frame, because light is additive.
 TEST(Dot, ManyTakeAwayTheSumOfEach) {
     Rng rng(6);
     CameraModel camera;
@@ -144,7 +144,7 @@ TEST(Dot, ManyTakeAwayTheSumOfEach) {
     std::vector<double> sum(paper.begin(), paper.end());
     simulate::Ink all;
     for (int i = 0; i < 40; ++i) {
-        // Columns are 3 px apart, so dots do not cover each other. Rows are random.
+        // Columns are 3 px apart and rows are random, so that dots do not cover each other.
         const double u = 3 * (i % 23) - 2.5;
         const double v = i < 23 ? rng.uniform(-2, 20) : rng.uniform(23, 45);
         simulate::Ink one;
@@ -168,13 +168,15 @@ TEST(Dot, BlurAndMotionWidenItAsTheyShould) {
     seen.blur_sigma_px = 0.8;
     seen.motion_px = {1.8, 0};
     const Darkness dot = measure(exact_levels(one_dot_page(), camera, pose, seen), 188, 200);
-    // Variances add up: disc r^2 / 4, lens sigma^2, pixel 1/12, motion length^2 / 12.
+    // The variance of the image of a dot is the sum of the variances of the disc (r^2 / 4), of the
+    // lens (sigma^2), of the pixel (1/12) and of the motion (length^2 / 12).
     const double still = radius_px * radius_px / 4 + 0.64 + 1.0 / 12;
     EXPECT_NEAR(dot.variance_v, still, 0.005);
     EXPECT_NEAR(dot.variance_u, still + 1.8 * 1.8 / 12, 0.01);
 }
 
-// The same cell is seen from two poses. The error of the dot's place on the paper must be the same.
+// The same cell is seen from two poses, and its dot must have the same error of its place on the
+// paper.
 TEST(Dot, PrintingErrorsBelongToThePage) {
     Imperfections seen;
     seen.blur_sigma_px = 0.5;

@@ -1,4 +1,4 @@
-// Tests whole frames: statistics, determinism, presets, pages with edges, refusals.
+// Tests whole frames: noise statistics, repeatability, presets, edges of pages, and refusals.
 #include <algorithm>
 #include <string>
 #include <thread>
@@ -63,9 +63,9 @@ TEST(Frame, NoiseHasItsMeanDeviationAndTails) {
     const auto count = static_cast<double>(image.pixels.size());
     EXPECT_NEAR(sum / count, 0, 0.03);
     EXPECT_NEAR(std::sqrt(square / count), std::sqrt(16 + 1.0 / 12), 0.02);
-    // A rounded error above 12.4 levels is at least 13, so the error before rounding is at least
-    // 12.5 levels, which is 3.125 sigma. A normal distribution exceeds this limit in 0.178 % of all
-    // cases.
+    // Levels are rounded. A rounded error above 12.4 levels is at least 13, so the error before
+    // rounding was at least 12.5 levels, which is 3.125 sigma. A normally distributed error exceeds
+    // 3.125 sigma in 0.178 % of all cases.
     EXPECT_NEAR(beyond_3_sigma / count, 0.00178, 0.0003);
 }
 
@@ -118,7 +118,7 @@ TEST(Frame, PaperTextureHasItsDeviation) {
     EXPECT_NEAR(std::sqrt(square / count - mean * mean) / mean, 0.05, 0.002);
 }
 
-// A grain of the paper has the same level in a whole frame and in a frame of one pixel.
+// A grain of the paper must have the same level in a large frame and in a frame of one pixel.
 TEST(Frame, PaperTextureBelongsToThePage) {
     Imperfections seen;
     seen.texture = 0.05;
@@ -237,7 +237,6 @@ TEST(Preset, RangesAreThoseOfTheTable) {
     EXPECT_STREQ(name(Preset::nominal), "nominal");
 }
 
-// Each pixel of the sensor has an offset that is the same in every frame.
 TEST(Frame, TheFixedPatternIsTheSameInEveryFrame) {
     Shot shot = shot_of(Preset::clean, 0);
     shot.imperfections.fixed_pattern = 4;

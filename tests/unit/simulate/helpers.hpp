@@ -15,7 +15,7 @@ inline double radians(double degrees) {
     return degrees * std::numbers::pi / 180;
 }
 
-/// A page with only the dot of cell (1000, 2000).
+/// A page whose only dot is that of cell (1000, 2000).
 inline constexpr Cell kDotCell{1000, 2000};
 inline Page one_dot_page() {
     Page page;
@@ -61,7 +61,8 @@ Darkness measure(const Levels& levels, int width_px, double paper) {
     double square_v = 0;
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const double dark = 1 - static_cast<double>(levels[i]) / paper;
-        // Single precision causes errors of 1e-6 everywhere, which would add up over a whole frame.
+        // Single precision causes errors of 1e-6 in all pixels, which would add up over the frame,
+        // so small values are ignored.
         if (std::abs(dark) < 1e-5) continue;
         const double u = static_cast<double>(i % static_cast<std::size_t>(width_px));
         const double v = static_cast<double>(i / static_cast<std::size_t>(width_px));

@@ -1,4 +1,5 @@
-// Tests that a page given as an image and the same page given as a pattern produce the same frames.
+// Tests pages that are given as images. The frames must equal those of the same page given as a
+// pattern.
 #include <algorithm>
 #include <cmath>
 
@@ -79,8 +80,8 @@ TEST(PageImage, ShowsWhatThePatternShows) {
         int largest = 0;
         for (std::size_t i = 0; i < image.pixels.size(); ++i)
             largest = std::max(largest, std::abs(image.pixels[i] - expected.pixels[i]));
-        // For comparison: dots are about 60 grey levels darker than the paper, and the levels at
-        // their edges change by about 30 per pixel.
+        // These limits are small: dots are about 60 grey levels darker than the paper, and the
+        // levels at their edges change by about 30 per pixel.
         EXPECT_LE(largest, 2);
         EXPECT_LT(*std::min_element(expected.pixels.begin(), expected.pixels.end()), 130);
     }

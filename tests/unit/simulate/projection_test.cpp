@@ -37,8 +37,8 @@ TEST(Projection, AtZeroDegreesImageAndPatternAxesAgree) {
 TEST(Projection, AtNinetyDegreesTheImageXAxisPointsDownThePage) {
     CameraPose pose;
     pose.theta_rad = radians(90);
-    // A step of 20 px along image x is 20 px down the page. A step along image y is to the left on
-    // the page.
+    // The camera is turned by 90 degrees. A step of 20 px along image x is a step down on the page,
+    // and a step along image y is a step to the left.
     expect_near(pixel({}, pose, {0, 20 * kMm}), {kCentreU + 20, kCentreV}, 1e-9);
     expect_near(pixel({}, pose, {-7 * kMm, 0}), {kCentreU, kCentreV + 7}, 1e-9);
 }
@@ -84,8 +84,8 @@ TEST(Projection, ATurningSceneIsSeenInEachRowAtTheAngleOfItsTime) {
             const Vec2 offset_mm{kMm * still_px.x, kMm * still_px.y};
             const Vec2 seen = pixel(rolling, {}, offset_mm);
             const double time = (seen.y - kCentreV) / 120;
-            // The scene turns about a fixed point c of the image. At c, the motion and the effect
-            // of the rotation cancel: 10 + 6 i + i turn c = 0, in complex numbers.
+            // The scene turns about a fixed point c of the image, at which the motion and the
+            // effect of the rotation cancel. In complex numbers, 10 + 6 i + i turn c = 0.
             const std::complex<double> i(0, 1);
             const std::complex<double> c = std::complex(10.0, 6.0) * i / radians(turn_deg);
             const std::complex<double> expected = c + (std::complex(still_px.x, still_px.y) - c) *
@@ -97,9 +97,9 @@ TEST(Projection, ATurningSceneIsSeenInEachRowAtTheAngleOfItsTime) {
 }
 
 TEST(Projection, ADotToTheRightOfAClockwiseTurnIsSeenLower) {
-    // At row v, the scene has turned by v / 120 of a radian. The point (60, 0) appears in the row v
-    // = 60 sin(v / 120), which is v = 0. The point (60, 10) appears in the row v = 60 sin(v / 120)
-    // + 10 cos(v / 120). Iterating this equation gives v = 19.6450.
+    // At row v, the scene has turned by v / 120 rad. The point (60, 0) appears in the row v = 60
+    // sin(v / 120), which has the solution v = 0. The point (60, 10) appears in the row v = 60
+    // sin(v / 120) + 10 cos(v / 120), which has the solution v = 19.6450.
     CameraModel rolling;
     rolling.readout_turn_rad = 1;
     expect_near(pixel(rolling, {}, {60 * kMm, 0}), {kCentreU + 60, kCentreV}, 1e-9);
@@ -123,8 +123,8 @@ TEST(Projection, TurningAndBackIsInverseOverTheWholeImage) {
 TEST(Projection, TiltAboutXMovesTheLowerPaperAway) {
     CameraPose pose;
     pose.tilt_x_rad = radians(3);
-    // By similar triangles, a point t mm down the paper is t cos 3 below the axis, at a distance of
-    // 16 mm plus t sin 3.
+    // By similar triangles, a point that is t mm down the paper is t cos(3 degrees) below the
+    // optical axis, at a distance of 16 mm + t sin(3 degrees).
     const double t = 2;
     const double below = t * std::cos(radians(3));
     const double depth = 16 + t * std::sin(radians(3));

@@ -45,8 +45,8 @@ TEST(Random, BelowTakesEachValueEquallyOften) {
     EXPECT_EQ(rng.below(1), 0u);
 }
 
-// Compares normal numbers with their definition in random.hpp: the number of ones among 128 bits,
-// smoothed by a uniform number.
+// random.hpp defines a normal number as the number of ones among 128 bits, smoothed by a uniform
+// number. This test computes it in this way.
 TEST(Random, NormalCountsOnes) {
     Rng rng(4);
     Rng same(4);

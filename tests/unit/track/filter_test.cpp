@@ -1,4 +1,4 @@
-// Tests the accuracy of the filter and of its covariance.
+// Tests the errors of the filter, and whether its covariance agrees with them.
 #include "track/filter.hpp"
 
 #include <algorithm>
@@ -87,8 +87,8 @@ std::array<double, 6> solved(const Covariance9& covariance, std::array<double, 6
     return b;
 }
 
-/// A robot that moves as the filter assumes for an agility of 1. Its accelerations have the
-/// standard deviations in TrackOptions, and are constant within a frame. From frame to frame, each
+/// A robot that moves as the filter assumes for an agility of 1. Its accelerations are constant
+/// within a frame and have the standard deviations in TrackOptions. From each frame to the next, an
 /// acceleration is multiplied by 0.5 / 0.505, and random noise is added.
 struct ModelRobot {
     explicit ModelRobot(Rng& rng) {
@@ -114,9 +114,10 @@ struct ModelRobot {
 };
 
 TEST(Filter, ItsCovarianceIsThatOfItsErrors) {
-    // In each measurement, the errors of x, y and angle are correlated. The squared error of the
-    // estimate (three pose components and their speeds), normalised by its covariance, is
-    // chi-squared distributed with six degrees of freedom: its mean is 6 and its variance 12.
+    // The errors of x, y and angle in one measurement are correlated. The estimate consists of
+    // three pose components and their speeds. Its squared error, normalised by its covariance, has
+    // a chi-squared distribution with six degrees of freedom, whose mean is 6 and whose variance is
+    // 12.
     TrackOptions options;
     options.min_sigma_mm = options.min_sigma_rad = 0;
     constexpr std::array<float, 3> kOwn = {0.004F, 0.004F, 0.0004F};
@@ -170,8 +171,9 @@ struct Errors {
     double gain() const { return filtered_mm / raw_mm; }
 };
 
-/// Tracks a robot that drives a figure eight at up to `speed_mm_s` and is never lifted. The
-/// sightings have independent errors and a constant error. The first second is not counted.
+/// Tracks a robot that drives a figure eight at up to `speed_mm_s` and is not lifted. Each sighting
+/// has an independent error and the same constant error. Errors in the first second are not
+/// counted.
 Errors track_eight(double speed_mm_s, double sigma_mm, double constant_mm = 0) {
     Drive drive(
         {.put_down = 1e9, .second_put_down = 1e9, .stop = 9, .end = 10, .speed_mm_s = speed_mm_s});
@@ -223,15 +225,15 @@ TEST(Filter, IsNeverWorseThanWhatItSees) {
 }
 
 TEST(Filter, DoesNotTrustErrorsThatAllSightingsShare) {
-    // Like printing errors, the constant error is not reduced by averaging. The covariance must
-    // include it.
+    // The constant error, like a printing error, is not reduced by averaging, so the covariance
+    // must include it.
     const Errors errors = track_eight(0, 0.00005, 0.0005);
     EXPECT_LT(errors.normalised, 1.2);
     EXPECT_GT(errors.normalised, 0.3);
 }
 
-/// Returns a tracker of a robot that was at rest at x = 0 for a second. The sightings have errors
-/// of 1 µm.
+/// Returns a tracker of a robot that has been at rest at x = 0 for a second. The errors of its
+/// sightings are 1 µm.
 Tracker standing(Rng& rng) {
     Tracker tracker;
     for (int frame = 0; frame < 200; ++frame) {

@@ -27,7 +27,7 @@ Fix lost() {
     return {};
 }
 
-/// A device in simulated time that takes frames as the pacer requires.
+/// A device in simulated time. It takes a frame whenever the pacer requires one.
 class Device {
   public:
     explicit Device(const PacerOptions& options = {}) : pacer_(options) {}
@@ -54,7 +54,8 @@ class Device {
 
 TEST(FramePacer, TakesEveryFrameOfAMovingDevice) {
     Device device;
-    // A speed of 0.2 mm per second is slow, but exceeds the threshold within 5 s.
+    // The device moves at 0.2 mm per second. Its motion between two frames is below the threshold,
+    // but its motion in 5 s exceeds the threshold.
     device.run_until(60 * kSecond_us,
                      [](std::int64_t t) { return at(100 + 0.4e-6 * static_cast<double>(t)); });
     EXPECT_EQ(device.frames_us.size(), 60U * 50);
@@ -63,7 +64,7 @@ TEST(FramePacer, TakesEveryFrameOfAMovingDevice) {
 
 TEST(FramePacer, TakesAFrameASecondAfterFiveSecondsOfRest) {
     Device device;
-    // The device is at rest, with noise of 0.01 spacings.
+    // The device is at rest, and its fixes have a noise of 0.01 spacings.
     device.run_until(65 * kSecond_us, [](std::int64_t t) {
         return at(100 + (t / kFrame_us % 2 == 0 ? 0.01 : -0.01));
     });
@@ -122,8 +123,8 @@ TEST(FramePacer, AMissedFrameIsNoMovement) {
 
 TEST(FramePacer, AddsUpWhatASlowDeviceCreeps) {
     Device device;
-    // The device moves by a spacing per minute. From frame to frame, the device appears to be at
-    // rest, but in 6 s it moves by a tenth of a spacing.
+    // The device moves by one spacing per minute. From one frame to the next, it seems to be at
+    // rest. In 6 s, however, it moves by a tenth of a spacing.
     device.run_until(600 * kSecond_us,
                      [](std::int64_t t) { return at(100 + static_cast<double>(t) / 60e6); });
     const auto moving = std::ranges::count(device.motions, Motion::moving);

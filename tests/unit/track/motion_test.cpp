@@ -1,4 +1,4 @@
-// Tests trackers that also use odometry, which is the measured motion between frames.
+// Tests trackers that combine sightings with odometry, which measures the motion between frames.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -86,7 +86,7 @@ double mahalanobis(std::array<std::array<double, 3>, 3> a, std::array<double, 3>
     return sum;
 }
 
-/// Returns the squared error of the pose relative to its covariance. The expected value is 3.
+/// Returns the squared error of the pose, normalised by its covariance. The expected value is 3.
 double relative_error(const TrackedPose& pose, bool is_y_up) {
     const Pose truth = pose_at(static_cast<double>(pose.time_us) * 1e-6, is_y_up);
     std::array<std::array<double, 3>, 3> covariance{};
@@ -101,8 +101,8 @@ double relative_error(const TrackedPose& pose, bool is_y_up) {
 
 class TrackMotion : public testing::TestWithParam<bool> {};
 
-// The robot drives for a second over the pattern, and for three seconds over a table without a
-// pattern.
+// For one second, the robot drives over the pattern. In the next three seconds, it drives over a
+// table without a pattern.
 TEST_P(TrackMotion, OdometryCarriesThePoseAcrossAGap) {
     const bool is_y_up = GetParam();
     constexpr int kDrives = 200;
@@ -130,8 +130,8 @@ TEST_P(TrackMotion, OdometryCarriesThePoseAcrossAGap) {
         EXPECT_GT(sum / (3 * kDrives), 0.8);
         EXPECT_LT(sum / (3 * kDrives), 1.25);
     }
-    // 600 steps with independent errors of 0.01 mm add up to a standard deviation of 0.24 mm. The
-    // errors of their rotations, 0.012 rad in total, displace the robot further.
+    // The sum of 600 steps with independent errors of 0.01 mm has a standard deviation of 0.24 mm.
+    // The rotation errors, 0.012 rad in total, add to the error of the position.
     EXPECT_GT(sigma_mm, 0.24);
     EXPECT_LT(sigma_mm, 1.5);
 }
@@ -150,8 +150,8 @@ TEST(TrackMotionLost, ARobotIsLostWhenItsOdometryIsTooUncertain) {
         tracker.update(t, nullptr, odometry_until(t, false, rng));
         if (tracker.track().events.lost) lost_us = t;
     }
-    // After 100 steps with independent errors of 0.01 mm, the standard deviation is 0.1 mm, which
-    // is the limit. Because of the errors of the rotation, the limit is reached earlier.
+    // The sum of 100 steps with independent errors of 0.01 mm has a standard deviation of 0.1 mm,
+    // which is the limit. The limit is reached earlier, because the rotation has errors, too.
     EXPECT_GT(lost_us, 20 * kFrame_us);
     EXPECT_LT(lost_us, 102 * kFrame_us);
 }

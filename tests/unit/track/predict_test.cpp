@@ -89,7 +89,6 @@ Sighting in_world(const Pose& pose, std::int64_t time_us) {
     return sighting;
 }
 
-/// A tracker and its newest frame.
 struct Followed {
     Tracker tracker;
     Fix fix;
@@ -134,8 +133,8 @@ TEST(TrackerPredict, GoesOnStraightAndTurning) {
     for (const std::int64_t ahead_us : {2'500, 5'000, 20'000})
         expect_near(pose_of(robot.predict(200'000 + ahead_us)), driving(200'000 + ahead_us), 0.02,
                     1e-3);
-    // The robot moved by more than two spacings between frames, which is too far for a prediction
-    // without the tracker.
+    // Between two frames, the robot moves by more than two spacings. Without the tracker, a
+    // prediction would therefore fail.
     EXPECT_GT(driving(205'000).x - driving(200'000).x, 2);
 }
 
@@ -150,7 +149,7 @@ TEST(TrackerPredict, TheReferencePointMovesAsTheFilterSays) {
     options.reference_dy_q8 = -20 * 256;
     Followed robot;
     for (std::int64_t t = 0; t <= 200'000; t += kFrame_us) {
-        // The reference point does not move, and the camera turns about it.
+        // The camera turns about the reference point, so this point does not move.
         const Pose centre{5000.25, 7000.5, 0.4 + 3e-6 * static_cast<double>(t)};
         robot.fix = fix_at(centre);
         const Pose there = pose_of(Prediction::like(robot.fix), 60, -20);
@@ -192,7 +191,7 @@ TEST(TrackerPredict, ExpectsNothingWhereTheFilterDoesNot) {
     robot = drive(200'000, driving);
     expect_as_seen(robot.predict(200'000), robot.fix);  // at the time of the newest frame
     expect_as_seen(robot.predict(100'000), robot.fix);
-    // 70 ms after the last sighting, the robot counts as lost.
+    // 70 ms after its last sighting, the robot is lost, so the tracker makes no prediction.
     expect_as_seen(robot.predict(270'000), robot.fix);
     robot.tracker.update(300'000, nullptr);
     EXPECT_FALSE(robot.tracker.has_prior());

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kFrame_us = 5000;
 constexpr double kPi = std::numbers::pi;
-/// A place in the far corner of the pattern plane.
+/// A position in the corner of the pattern plane that is farthest from the origin.
 constexpr std::int64_t kFar_nm = 208'694'000'000'000;
 
 std::int32_t bam(double angle_rad) {
@@ -48,7 +48,7 @@ std::string events_of(const Track& track) {
            (e.moving ? "moving " : "");
 }
 
-/// Drives at 100 mm/s along x and turns at 2 rad/s, up to but excluding `end_us`.
+/// Drives at 100 mm/s along x and turns at 2 rad/s. The last frame is before `end_us`.
 void drive(Tracker& tracker, std::int64_t begin_us, std::int64_t end_us) {
     for (std::int64_t t = begin_us; t < end_us; t += kFrame_us) {
         const double s = static_cast<double>(t) * 1e-6;
@@ -105,7 +105,7 @@ TEST(Tracker, IsLostAfterTheDebounce) {
     EXPECT_TRUE(tracker.track().is_lost);
     EXPECT_FALSE(tracker.has_prior());
     EXPECT_EQ(events_of(tracker.update(170'000, nullptr)), "");
-    // The robot is found again at a place to which it may have driven.
+    // The robot is found again at a place that it could have reached in the meantime.
     EXPECT_EQ(events_of(see(tracker, at(175'000, 40, 30))), "fix ");
 }
 
@@ -187,8 +187,9 @@ TEST(Tracker, BelievesWeakSightingsThatThePriorSupports) {
     drive(tracker, 0, 100'000);
     const Track& track = see(tracker, weak(at(100'000, 10, 0, 0.2), -12));
     EXPECT_EQ(track.verdict, Verdict::with_prior);
-    // The gate extends at least 0.125 mm to each side (half of the permitted acceleration times the
-    // squared time), but is narrower than a cell. It contains 2 to 4 cells, out of 2^36 hypotheses.
+    // The gate extends to each side by at least 0.125 mm, which is half of the permitted
+    // acceleration times the squared time, but is narrower than a cell. It therefore contains 2 to
+    // 4 of the 2^36 hypotheses.
     EXPECT_GE(track.p_wrong_log2, -12 + 1 - 36);
     EXPECT_LE(track.p_wrong_log2, -12 + 2 - 36);
 }
@@ -200,13 +201,13 @@ TEST(Tracker, RefusesOtherWeakSightings) {
         tracker.update(time_us - 1, nullptr);
         return see(tracker, sighting).verdict;
     };
-    // In this order: a sighting outside of the gate, a sighting with a p_wrong close to chance, and
-    // a sighting of a lost robot.
+    // Three sightings must be refused: one outside the gate, one whose p_wrong is close to chance,
+    // and one of a lost robot.
     EXPECT_EQ(verdict(100'000, weak(at(100'000, 12, 0, 0.2), -12)), Verdict::too_weak);
     EXPECT_EQ(verdict(100'000, weak(at(100'000, 10, 0, 0.2), -9)), Verdict::too_weak);
     EXPECT_EQ(verdict(165'000, weak(at(165'000, 16.5, 0, 0.33), -12)), Verdict::too_weak);
-    // After 60 ms, the gate extends about 18 mm to each side of the prediction, so it may contain
-    // alternatives.
+    // After 60 ms without a sighting, the gate extends by about 18 mm to each side of the
+    // prediction, so it may contain alternatives.
     EXPECT_EQ(verdict(155'000, weak(at(155'000, 15.5, 0, 0.31), -12)), Verdict::too_weak);
     EXPECT_EQ(verdict(120'000, weak(at(120'000, 12, 0, 0.24), -12)), Verdict::with_prior);
 }
@@ -233,8 +234,8 @@ TEST(Tracker, TellsRestFromMovement) {
     ASSERT_EQ(events.size(), 3U);
     EXPECT_EQ(events[0].second, "fix ");
     EXPECT_EQ(events[1].second, "stationary ");
-    // The time at rest starts when the robot is within 0.1 mm of its resting place. After the
-    // sudden stop, the filter needs a few frames to settle.
+    // The robot is at rest from the time at which it is within 0.1 mm of its resting place. After
+    // the sudden stop, the filter needs a few frames to settle.
     EXPECT_NEAR(static_cast<double>(events[1].first), 1.5e6, 30e3);
     EXPECT_EQ(events[2].second, "moving ");
     EXPECT_NEAR(static_cast<double>(events[2].first), 2.0e6, 10e3);  // moving by 0.1 mm takes 2 ms

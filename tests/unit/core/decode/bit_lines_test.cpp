@@ -44,8 +44,8 @@ void set_bit(core::BitLines& lines, int line, int cell, bool value) {
     if (value) lines.bits[at] |= bit;
 }
 
-/// Returns the bits of the cells from `least` to `most` - 1, as seen by a camera rotated by
-/// `quarters` quarter turns. The displacements of the dots rotate with the paper.
+/// Returns the bits of the cells from `least` to `most` - 1, as a camera rotated by `quarters`
+/// quarter turns sees them. Each dot is rotated about its intersection together with the paper.
 BitBlock seen_block(CodeVariant code, const Place& zero, int quarters, FixedVec least,
                     FixedVec most, const Damage& damage, Rng& rng) {
     BitBlock block;
@@ -77,7 +77,7 @@ void expect_same(const BitBlock& a, const BitBlock& b) {
     }
 }
 
-/// Returns a random place. Three of four places have a coordinate near an end of the code.
+/// Returns a random place, which in three of four cases is near an end of the code.
 Place some_place(int i, Rng& rng) {
     Place place = random_place(rng);
     if (i % 4 == 1) place.cell.x = i % 8 == 1 ? 3 : kPositionsPerAxis - 4;
@@ -205,7 +205,8 @@ TEST(BitLines, OneWrongBitMakesALineInexact) {
             const std::uint64_t here = std::uint64_t{1} << cell;
             const bool bit = main_bit(roll + static_cast<unsigned>(cell)) == 1;
             bits = bit ? bits | here : bits & ~here;
-            // Six adjacent bits at the beginning are always present. Any other bit may be missing.
+            // The first six adjacent bits are always present, because six bits are needed to
+            // determine the roll. Any other bit may be missing.
             if (cell < first + 6 || rng.below(8) != 0) valid |= here;
         }
         EXPECT_EQ(core::exact_roll(bits, valid), roll);
@@ -223,7 +224,7 @@ TEST(BitLines, LinesOfTwoPlacesAreNotOnePlace) {
         const CodeVariant code = kCodeVariants[static_cast<std::size_t>(i % 3)];
         BitBlock block = seen_block(code, some_place(i, rng), 0, {-8, -8}, {8, 8}, {}, rng);
         const BitBlock other = seen_block(code, random_place(rng), 0, {-8, -8}, {8, 8}, {}, rng);
-        // The first four columns belong to another place.
+        // The first four columns belong to another place, so the lines contradict each other.
         for (std::size_t line = 24; line < 28; ++line)
             block.columns.bits[line] = other.columns.bits[line];
         Place place;

@@ -16,7 +16,7 @@ using namespace core;
 constexpr std::uint64_t kSeed = 29;
 using Decode = Status (*)(const Grid&, CodeVariant, std::span<ScoredLine>, Decoding&);
 
-/// Decodes a view, and expects its true position and orientation.
+/// Decodes a view, and expects the true position and orientation.
 void expect_truth(Decode decode, const Reading& reading) {
     std::array<ScoredLine, 2 * kMaxLines> storage;
     Decoding found = reading.decoding;

@@ -39,8 +39,8 @@ struct Sampled {
         sample_cells(image.view(), paper, FixedLens{}, plane, owned.grid);
     }
     const Grid& grid() const { return owned.grid; }
-    /// Calls use(cell, px, bits, symbol) for all cells. `px` is the place of the cell in the image,
-    /// `bits` are the bits of the cell for an upright grid, and `symbol` is the symbol of the code.
+    /// Calls use(cell, px, bits, symbol) for each cell, with its place in the image, its bits in an
+    /// upright grid, and its symbol in the code.
     template <typename Use>
     void visit(Use use) const {
         for (int j = grid().j0; j < grid().j0 + grid().rows; ++j) {

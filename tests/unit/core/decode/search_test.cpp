@@ -16,7 +16,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 43;
 
-/// A window whose x bits are stored as weights, with storage for the scores of its columns.
+/// A window with the x bits as weights, and storage for the scores of its columns.
 struct ScoredWindow {
     ScoredWindow(int columns, int rows) : owned(std::max(columns, rows)) {
         owned.grid.columns = columns;
@@ -84,8 +84,8 @@ TEST(ScoreLines, TellsByHowMuchTheBestOfEachLineLeads) {
 }
 
 TEST(FindAxis, FindsThePositionAmongWrongBits) {
-    // Longer lines tolerate more wrong bits. For example, with 12 rows and every fifth bit wrong,
-    // only half of the windows are found.
+    // Longer lines tolerate more wrong bits. With 12 rows, for example, only half of the windows
+    // are found if every fifth bit is wrong.
     for (const CodeVariant code : {CodeVariant::anoto, CodeVariant::microdots}) {
         EXPECT_GE(found_of_200(code, 12, 0.08), 198) << "seed " << kSeed;
         EXPECT_GE(found_of_200(code, 20, 0.12), 198) << "seed " << kSeed;
@@ -157,8 +157,9 @@ TEST(FindAxis, RandomBitsAreNotInTheCodeOrScoreLow) {
         ScoredWindow lines = window(CodeVariant::anoto, random_place(rng), 20, 12, 0.5, rng);
         AxisReading reading;
         if (lines.find(CodeVariant::anoto, reading) == Status::not_in_code) continue;
-        // Each of the 6 lines of the selected run agrees with its best roll in 9 or 10 of 12 bits.
-        // The other 14 lines score 0 on average, so the total score is far below the maximum.
+        // Of the 12 random bits of a line, 9 or 10 agree with the best of the 63 rolls. This
+        // happens in the 6 lines of the selected run, whereas the other 14 lines score 0 on
+        // average. The total score is therefore far below the maximum.
         EXPECT_FALSE(reading.is_clear()) << i << ", seed " << kSeed;
         EXPECT_LT(reading.score, reading.max_possible * 7 / 10) << i << ", seed " << kSeed;
     }

@@ -13,8 +13,8 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 71;
 
-/// Appends lines with `bits` bits each, of which the fraction `wrong` is wrong. Hidden lines have
-/// no bits.
+/// Appends lines with `bits` bits each, of which the fraction `wrong` is wrong. Lines for which
+/// `is_hidden` is true have no bits.
 template <typename IsHidden>
 void read_lines(RatiosCase& c, int bits, double wrong, Rng& rng, IsHidden is_hidden) {
     for (std::size_t i = 0; i < c.rolls.size(); ++i) {
@@ -37,7 +37,7 @@ TEST(SearchBySteps, ReadsLinesOnBothSidesOfHiddenOnes) {
     Rng rng(kSeed);
     int right = 0;
     for (int i = 0; i < 300; ++i) {
-        // Only five consecutive lines on each side of the hidden lines have bits, and the window
+        // On each side of the hidden lines, only five consecutive lines have bits. The window
         // decoder needs six.
         const std::size_t hidden = 1 + rng.below(3);
         RatiosCase c = at_random_place(rng, 10 + static_cast<int>(hidden));

@@ -22,7 +22,7 @@ GreyImage dotted(int width_px, int height_px, int paper, int ink) {
     return image;
 }
 
-/// Calls `visit(band)` for every band, in the order in which bands become ready.
+/// Calls `visit(band)` for every band, as soon as the rows that the band needs have been received.
 template <typename Visit>
 void for_each_band(const GreyImage& image, const ThresholdOptions& options,
                    AdaptiveThreshold& threshold, Visit visit) {
@@ -32,7 +32,8 @@ void for_each_band(const GreyImage& image, const ThresholdOptions& options,
         const int ready = take_row(image.view().row(v), threshold);
         ASSERT_GE(ready, 0);
         for (int i = 0; i < ready; ++i, ++next) {
-            // The band and the band below it must have been received completely.
+            // When a band is ready, its rows and those of the band below it must have been
+            // received.
             ASSERT_LE(std::min(band_end(threshold, next + 1), image.height_px), v + 1);
             measure_levels(next, options, threshold);
             visit(next);
@@ -71,10 +72,11 @@ TEST(AdaptiveThreshold, ThresholdsLieAtTheirSharesOfTheContrast) {
                       [&, p = paper, i = ink](int) {
                           for (int t = 0; t < 8; ++t) {
                               const Levels level = levels_of_tile(w.threshold, t);
-                              // The third and the seventh row of a tile are measured. A quarter of
-                              // the third row is ink, which is an eighth of the measured pixels.
+                              // Only the third and the seventh row of a tile are measured. Ink
+                              // covers a quarter of the third row and none of the seventh, which is
+                              // an eighth of the measured pixels.
                               const double mean = std::floor(p - (p - i) / 8.0);
-                              // The contrast is quantised to 1/64 of the paper's level.
+                              // The contrast is rounded to 1/64 of the paper level.
                               const double step = mean / 64 + 1;
                               const double low = mean - (mean - i) * options.low_q8 / 256;
                               const double high = mean - (mean - i) * options.high_q8 / 256;
@@ -89,8 +91,8 @@ TEST(AdaptiveThreshold, ThresholdsLieAtTheirSharesOfTheContrast) {
 
 TEST(AdaptiveThreshold, LevelsAreTheSameInAllColumnsOfATile) {
     LargeWorkspace w;
-    // The images have tiles of different heights, and tiles that the border cuts. The light changes
-    // from tile to tile.
+    // The images have tiles of different heights, and tiles that extend beyond the border. The
+    // light changes from tile to tile.
     for (const auto& [width, height] :
          {std::pair{120, 80}, std::pair{101, 64}, std::pair{400, 256}, std::pair{397, 250}}) {
         SCOPED_TRACE(testing::Message() << width << " x " << height);
@@ -139,9 +141,9 @@ TEST(AdaptiveThreshold, ADefectPixelIsHalfAsDarkAsInk) {
         for (const int width : {1, 2}) {
             GreyImage image = blank(120, 80);
             fill(image, u, 34, u + width, 35, 20);
-            // The contrast of a tile is measured with pairs of adjacent pixels, of which the first
-            // is in an even column. The ink is 180 levels darker than the paper, so the contrast of
-            // a pair with one dark pixel is about 90.
+            // The contrast of a tile is measured with pairs of adjacent pixels, the first of which
+            // is in an even column. The ink is 180 levels darker than the paper, so a pair with one
+            // dark pixel has a contrast of about 90.
             for (const int min_contrast : {70, 100}) {
                 int dark_tiles = 0;
                 for_each_band(image, {.min_contrast = min_contrast}, w.threshold, [&](int) {
@@ -149,8 +151,9 @@ TEST(AdaptiveThreshold, ADefectPixelIsHalfAsDarkAsInk) {
                         dark_tiles += levels_of_tile(w.threshold, t).low > 0;
                 });
                 const bool is_pair = width == 2 && u % 2 == 0;
-                // The tile of the mark and its eight neighbours count as dark. A mark across the
-                // border of two tiles makes these tiles and their ten neighbours dark.
+                // The tile that contains the mark and its eight neighbours count as dark. If the
+                // mark is on the border of two tiles, these two tiles and their ten neighbours
+                // count as dark.
                 const bool is_split = width == 2 && u == 31;
                 EXPECT_EQ(dark_tiles, min_contrast == 100 && !is_pair ? 0
                                       : is_split                      ? 12
@@ -170,8 +173,8 @@ TEST(AdaptiveThreshold, BlankAreasHaveNoInk) {
             }
         });
     }
-    // If the contrast of the ink is below the minimum, all tiles are blank. Otherwise, only the
-    // tiles near the ink are not blank.
+    // If the contrast of the ink is below the minimum, all tiles are blank. Otherwise, all tiles
+    // are blank except those near the ink.
     ThresholdOptions options;
     options.min_contrast = 20;
     for (const int ink : {185, 150}) {
@@ -192,7 +195,7 @@ TEST(AdaptiveThreshold, WhatIsAsPaleAsNoiseIsBlankOnceOthersShowInk) {
     ThresholdOptions options;
     options.min_contrast = 8;
     // From top to bottom, the image contains a pale spot, a spot of ink, and another pale spot. The
-    // pale spots have the contrast of noise.
+    // contrast of the pale spots is as low as that of noise.
     GreyImage image = blank(120, 120);
     fill(image, 18, 18, 20, 20, 190);
     fill(image, 98, 50, 100, 52, 80);
@@ -208,7 +211,7 @@ TEST(AdaptiveThreshold, WhatIsAsPaleAsNoiseIsBlankOnceOthersShowInk) {
 }
 
 TEST(AdaptiveThreshold, ThresholdsFollowAShadow) {
-    // The right half has a third of the light.
+    // The right half of the image receives a third of the light of the left half.
     SmallWorkspace w;
     GreyImage image = dotted(160, 80, 210, 30);
     for (int v = 0; v < 80; ++v) {

@@ -16,7 +16,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 22;
 
-/// Maximum and rms shift of the centroid of a dot. The shift occurs because the threshold cuts off
+/// Maximum and rms error of the centroid of a dot. The error occurs because the threshold omits
 /// whole pixels at the rim of the dot.
 constexpr double kWorstShift_px = 0.25;
 constexpr double kUsualShift_px = 0.11;
@@ -41,7 +41,8 @@ TEST(Blobs, ABlurredDotIsFoundAtEverySubPixelPhase) {
         double squares = 0;
         for (int phase = 0; phase < 64; ++phase) {
             const Vec2 centre{40 + phase % 8 / 8.0, 33 + phase / 8 / 8.0};
-            // Large dots have a large spacing, which occurs only in large images.
+            // Large dots are drawn in a large image. They occur only there, because their spacing
+            // is large.
             GreyImage image = sigma < 4 ? blank(80, 64) : blank(256, 256);
             darken(image, centre, sigma, 0.7);
             const auto dots = blobs_of(image);
@@ -90,13 +91,15 @@ void expect_one(std::initializer_list<std::string_view> picture) {
         shape.append(line).append("\n");
         ++v;
     }
-    // Depending on `u0`, the shape is within one tile, or across the border of two tiles.
+    // The shape is in one tile for some values of `u0`, and across the border of two tiles for the
+    // others.
     for (const int u0 : {24, 29, 33}) {
         const auto dots = blobs_of(drawn(picture, u0));
         ASSERT_EQ(dots.size(), 1u) << shape << "at " << u0;
         EXPECT_EQ(dots[0].area_px, 4 * area) << shape << "at " << u0;
         const Vec2 centre = Vec2{u0 + 0.5, 30.5} + 2.0 / area * sum;
-        // The weights of the pixels vary by a few percent from tile to tile.
+        // The weights of the pixels differ by a few percent between tiles, so the centroid is not
+        // exact.
         EXPECT_LT(nearest_px(dots, centre), 0.3) << shape << "at " << u0;
     }
 }
@@ -186,8 +189,8 @@ TEST(Blobs, BigGraphicsAreNoDotsAndHideNone) {
     fill(image, 90, 40, 102, 80, 200);  // a hole in the stroke
     const auto dots = blobs_of(image);
     EXPECT_EQ(dots.size(), beside.size());
-    // The stroke changes the thresholds of its band of tiles, which shifts the centroids of dots
-    // across the border of the band.
+    // The stroke changes the thresholds of all tiles in its band. If a dot is across the border of
+    // this band, its two parts have different thresholds, which shifts its centroid.
     constexpr double kShiftBesideGraphics_px = 0.3;
     for (const Vec2 centre : beside) {
         EXPECT_LT(nearest_px(dots, centre), kShiftBesideGraphics_px)
@@ -237,8 +240,8 @@ TEST(Blobs, NoMoreRunsAreLookedAtThanTheWorkspaceSays) {
         w.open.max_runs = rows * 20;
         EXPECT_EQ(static_cast<int>(blobs_of(image, w).size()), rows * 10);
     }
-    // The first three rows of dots have 60 runs. The other five runs are at the top of five dots in
-    // the fourth row.
+    // The first three rows of dots have 60 runs. The remaining five runs are used by the top rows
+    // of five dots in the fourth row.
     w.open.max_runs = 3 * 20 + 5;
     EXPECT_EQ(blobs_of(image, w).size(), 35u);
 }
@@ -276,8 +279,8 @@ Flood flood(GreyImage& image, int u, int v) {
 }
 
 bool is_at(const DetectedDot& dot, const Flood& blob) {
-    // Weights vary with the threshold from tile to tile. This variation moves the centroid by at
-    // most a tenth of the size of the blob.
+    // The weights of pixels depend on the threshold of their tile. The differences between tiles
+    // move the centroid by at most a tenth of the size of the blob.
     const double size = std::max(blob.right - blob.left, blob.bottom - blob.top) + 1;
     return dot.area_px == blob.area && length(real(dot.centre_q8, 8) - blob.centre) <= 0.1 * size;
 }
@@ -299,8 +302,7 @@ void compare_with_flooding(GreyImage image) {
                 continue;
             }
             ++all;
-            // Larger sets may be rejected, because dots are smaller than 30 px with any lens and at
-            // any spacing.
+            // Larger sets may be rejected, because dots are always smaller than 30 px.
             if (blob.right - blob.left > 30 || blob.bottom - blob.top > 30) continue;
             ++least;
             ASSERT_TRUE(contains(blob))
@@ -316,8 +318,8 @@ TEST(Blobs, RandomPixelsFormTheSetsThatFloodingFinds) {
     for (int i = 0; i < 60; ++i) {
         GreyImage image =
             blank(64 + static_cast<int>(rng.below(220)), 64 + static_cast<int>(rng.below(220)));
-        // The density is high enough that the tiles near the corners contain ink in one of their
-        // four measured rows.
+        // The density is high enough that even the tiles near the corners contain ink in one of
+        // their four measured rows.
         const double density = rng.uniform(0.2, 0.42);
         const int side = density < 0.3 ? 2 : 1;
         for (int v = 0; v + side <= image.height_px; v += side) {

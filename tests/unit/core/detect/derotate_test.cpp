@@ -1,4 +1,4 @@
-// Tests that the rotation during the readout is removed from images and from points. The expected
+// Tests the removal of a rotation during the readout, from images and from points. The expected
 // results come from a simulated camera that does not rotate.
 #include "core/detect/derotate.hpp"
 
@@ -32,7 +32,7 @@ core::ReadoutTurn turn_of(const CameraModel& camera) {
 }
 
 TEST(ReadoutTurn, SeparatesTheRotationFromTheMotion) {
-    // Projects each point twice: with motion only, and with motion and rotation.
+    // Projects each point with motion only, and with motion and rotation.
     const Vec2 motion{20, -12};
     const CameraModel moving = turning_camera(0, motion);
     for (const double turn_rad : {-0.9, 0.05, 0.6}) {
@@ -53,9 +53,9 @@ TEST(ReadoutTurn, SeparatesTheRotationFromTheMotion) {
 }
 
 TEST(ReadoutTurn, ThePlaneOfASquareGridShowsTheDrift) {
-    // A grid with a spacing of 10 px, turned by 30 degrees, in a drifting scene. The scene point p
-    // appears at p + v drift in the image, where v is the image row. du and dv are the columns of
-    // the map from the image to the grid.
+    // A grid with a spacing of 10 px, turned by 30 degrees, in a scene that drifts during the
+    // readout. The scene point p appears in the image at p + v drift, where v is the image row. du
+    // and dv are the columns of the map from image to grid.
     const float c = std::sqrt(0.75F) / 10;
     const float s = 0.5F / 10;
     const core::FloatVec drift{0.2F, -0.3F};
@@ -71,8 +71,8 @@ TEST(ReadoutTurn, ThePlaneOfASquareGridShowsTheDrift) {
 
 TEST(Derotated, IsTheImageOfAStillScene) {
     constexpr int kBorder_px = 40;  // the rotation moves other parts of the scene into this border
-    // Maximum mean difference, in grey levels. It is small, because most pixels are paper and do
-    // not differ.
+    // Maximum mean difference in grey levels. It is small, because most pixels are paper in both
+    // images.
     constexpr double kMaxMeanDifference = 1;
     dotpose::Setup setup;
     setup.preset = Preset::clean;

@@ -38,8 +38,8 @@ TEST(Paper, FollowsTheLightUnderDotsAndStrokes) {
     const Measured measured(image);
     for (int v = 0; v < 120; v += 7) {
         for (int u = 0; u < 188; u += 7) {
-            // The tolerance is large, because the level of a block under the stroke is that of a
-            // neighbouring block, where the light differs. A block is 12 px wide.
+            // The paper level of a block under the stroke is that of a neighbouring block, 12 px
+            // away, where the light differs. The tolerance allows for this difference.
             EXPECT_NEAR(paper_at(measured.map, u, v), light(u), 14) << u << ", " << v;
             EXPECT_GE(brightest_paper_near(measured.map, u, v), paper_at(measured.map, u, v));
         }

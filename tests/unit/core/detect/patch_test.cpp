@@ -34,7 +34,8 @@ TEST(Patch, LiesAroundItsCentreWithinTheImage) {
         EXPECT_GE(patch->top_px, 0);
         EXPECT_LE(patch->left_px + patch->width_px * scale, image.width_px);
         EXPECT_LE(patch->top_px + patch->height_px * scale, image.height_px);
-        // Unless the border of the image shifts the patch, its middle is at the requested pixel.
+        // If the patch is not shifted because of the border of the image, its middle is at the
+        // requested pixel.
         const double off_u = double{core::middle_u_px(*patch)} - u;
         if (patch->left_px > 0 && patch->left_px + patch->width_px * scale < image.width_px) {
             EXPECT_LE(std::abs(off_u), 1);
@@ -76,7 +77,7 @@ TEST(PatchContrast, IsThatOfTheTypicalTile) {
             patch->darkness[i] = 55;
         ASSERT_TRUE(core::measure_contrast(*patch));
         EXPECT_NEAR(patch->dot_contrast_q8, 256.0 * (200 - darkest) / 200, 4.1);
-        // The threshold is darker than the paper by 150 / 256 of the contrast.
+        // The threshold is darker than the paper by the fraction 150 / 256 of the contrast.
         const double depth = (200 - darkest) / 200.0;
         EXPECT_NEAR(patch->thresholds[2], 200 * (1 - depth * 150 / 256), 3);
     }

@@ -21,7 +21,7 @@ struct Set {
     bool passes_high = false;
 };
 
-/// Results of comparing each pixel with the thresholds of its tile.
+/// The result of comparing each pixel with the low and the high threshold of its tile.
 struct Marked {
     std::vector<char> is_dark;
     std::vector<char> is_below_high;
@@ -75,7 +75,8 @@ Set flood(Marked& pixels, int width, int height, int u, int v) {
     return found;
 }
 
-/// Returns the sets that do not touch the border and have a pixel below the high threshold.
+/// Returns the sets that do not touch the border of the image and contain a pixel below the high
+/// threshold.
 std::vector<Set> expected_sets(const GreyImage& image, AdaptiveThreshold& threshold) {
     Marked pixels = marked(image, threshold);
     std::vector<Set> sets;
@@ -111,8 +112,8 @@ void expect_sets(const GreyImage& image) {
 }
 
 TEST(PixelSets, AreThoseDarkerThanTheirTilesLevel) {
-    // The grey levels are random, and include levels one step from the threshold. The light is
-    // uneven.
+    // The grey levels are random, and include levels just above and below the thresholds. The light
+    // is uneven.
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         const int width = 64 + static_cast<int>(rng.below(260));

@@ -50,9 +50,8 @@ TEST(Smooth, SinglePixelsVanish) {
         const GreyImage found = smoothed(image);
         for (int v = 0; v < 120; ++v) {
             for (int u = 0; u < 188; ++u) {
-                // A bright pixel is 55 levels above the paper. It raises the mean of its
-                // surroundings by up to 55 / 25 levels, because the surroundings contain at least 5
-                // x 5 pixels.
+                // The bright pixel is 55 levels above the paper. It raises the mean of its
+                // surroundings, which contain at least 5 x 5 pixels, by at most 55 / 25 levels.
                 ASSERT_NEAR(found.view().row(v)[u], kNormalLevel, 3) << u << ", " << v;
             }
         }
@@ -65,9 +64,9 @@ TEST(Smooth, SinglePixelsVanish) {
 }
 
 TEST(Smooth, DotsAreWeightedWithTheBinomial) {
-    // A square of 3 x 3 pixels is wider than an impulse. At its middle, the filter (1 4 6 4 1) / 16
-    // along each axis gives the square the weight (14 / 16)^2. The square is an eighth darker than
-    // the paper.
+    // A square of 3 x 3 pixels is wider than an impulse, so it remains. The filter (1 4 6 4 1) / 16
+    // along each axis gives it the weight (14 / 16)^2 at its middle. The square is an eighth darker
+    // than the paper.
     GreyImage image = blank(400, 400);
     fill(image, 199, 199, 202, 202, pixel(image, 0, 0) * 7 / 8);
     const GreyImage found = smoothed(image);
@@ -102,9 +101,9 @@ TEST(Smooth, AGradientOfTheLightBecomesEven) {
                 ASSERT_NEAR(found.view().row(v)[u], kNormalLevel, 2) << u << ", " << v;
             }
         }
-        // At less than 4 px from the border, a part of the surroundings is outside the image, and
-        // the middle of the remaining part is up to 2 px from the pixel. The mean of this part
-        // differs from the level at the pixel, because of the slope.
+        // At less than 4 px from the border, a part of the surroundings is outside the image. The
+        // middle of the other part is up to 2 px from the pixel. Because of the slope of the light,
+        // the mean of this part differs from the level at the pixel.
         expect_even(found, 5);
     }
 }

@@ -14,7 +14,7 @@ TEST(Undistort, IsEquations1And2) {
     Rng rng(kSeed);
     for (const Vec2 size : {Vec2{64, 64}, Vec2{188, 120}, Vec2{640, 480}, Vec2{4096, 4096}}) {
         const Vec2 centre{(size.x - 1) / 2, (size.y - 1) / 2};
-        // The lens changes the radius of the corner by a factor between one half and two.
+        // The lens scales the distance of the corner from the centre by a factor from 1/2 to 2.
         for (const double at_corner : {-0.5, -0.2, -0.01, 0.0, 0.01, 0.3, 1.0}) {
             const double k = at_corner / (centre.x * centre.x + centre.y * centre.y);
             std::vector<DetectedDot> dots;
@@ -27,8 +27,8 @@ TEST(Undistort, IsEquations1And2) {
                 const Vec2 r = real(before[i].centre_q8, 8) - centre;
                 const Vec2 expected = centre + 1 / (1 + k * (r.x * r.x + r.y * r.y)) * r;
                 const Vec2 found = real(dots[i].centre_q8, 8);
-                // k is rounded to 2^-40. At the corner of the largest image, the error of k r^2 is
-                // up to 4e-6, and a strong distortion magnifies this error.
+                // k is rounded to a multiple of 2^-40. At the corner of the largest image, this
+                // changes k r^2 by up to 4e-6, and a strong distortion magnifies the error.
                 const double tolerance = 0.51 / 256 + 4e-5 * length(r);
                 ASSERT_NEAR(found.x, expected.x, tolerance) << "k " << k << ", seed " << kSeed;
                 ASSERT_NEAR(found.y, expected.y, tolerance) << "k " << k << ", seed " << kSeed;
@@ -50,8 +50,8 @@ TEST(Undistort, DistortedIsTheInverse) {
                 const FixedVec seen = fixed({rng.uniform(0, size.x), rng.uniform(0, size.y)}, 8);
                 const FixedVec again =
                     core::distorted(lens, centre, core::undistorted(lens, centre, seen));
-                // Both directions round to 1/256 px. A distortion of 0.2 in the corner magnifies
-                // the rounding error by a factor of up to two.
+                // `distorted` and its inverse both round to 1/256 px. A distortion of 0.2 in the
+                // corner magnifies the rounding error up to twofold.
                 ASSERT_LE(std::abs(again.x - seen.x), 3) << at_corner << ", seed " << kSeed;
                 ASSERT_LE(std::abs(again.y - seen.y), 3) << at_corner << ", seed " << kSeed;
             }
@@ -75,16 +75,16 @@ TEST(Undistort, TheLensMayBeCentredElsewhere) {
     }
 }
 
-// Regression: the distortion of points far outside the image overflowed. The fuzzer found such
-// points on a plane seen edge-on.
+// Regression: `distorted` overflowed for points far outside the image. Such points occur on a plane
+// that is seen edge-on.
 TEST(Undistort, PointsFarOutsideTheImageKeepTheirDirection) {
     for (const std::int32_t k_q40 : {-385875968, INT32_MIN, INT32_MAX}) {
         const FixedLens lens{k_q40};
         for (const int far_px : {4096, 11'500, 1'000'000}) {
             const FixedVec r{far_px * 256, -far_px * 128};
             // `distorted` multiplies by 2 / (1 + root), where the root is limited to the range 0 to
-            // 4. For barrel distortion, the root is 4. For pincushion distortion, no image point
-            // maps to this distance, and the root is 0.
+            // 4. For these barrel distortions, the root is 4. For these pincushion distortions, no
+            // image point maps to this distance, and the root is 0.
             const int fifths = k_q40 < 0 ? 2 : 10;
             const FixedVec seen = core::distorted(lens, {}, r);
             EXPECT_NEAR(seen.x, r.x / 5 * fifths, far_px) << k_q40;

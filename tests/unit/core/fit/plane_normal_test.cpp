@@ -42,7 +42,8 @@ ScaledPlane scaled(const PlaneFromImage& plane) {
     return {float_plane(plane), kReach_px};
 }
 
-/// Projects four pixels to the pattern: `pixel_q8`, and three arbitrary pixels.
+/// Projects four pixels to the pattern. The first one is `pixel_q8`, and the other three are
+/// arbitrary.
 FourVecs project(const ScaledPlane& scaled, const PlaneFromImage& plane, FixedVec pixel_q8) {
     const auto x = static_cast<float>(pixel_q8.x - plane.centre_q8.x) / 256;
     const auto y = static_cast<float>(pixel_q8.y - plane.centre_q8.y) / 256;
@@ -83,8 +84,8 @@ TEST(ScaledPlane, ChangesAsItsDerivativesTell) {
             const Vec2 change =
                 (1 / (2 * static_cast<double>(kStep))) * (formula(scaled(plane).changed(more), px) -
                                                           formula(scaled(plane).changed(less), px));
-            // The derivative with respect to the lens term, kBend, neglects tilt and shear, so its
-            // tolerance is larger.
+            // The tolerance for the lens term, kBend, is larger, because its derivative neglects
+            // tilt and shear.
             const double most = k == kBend ? 0.15 : 0.002;
             ASSERT_NEAR(derivatives[0][k], change.x, most);
             ASSERT_NEAR(derivatives[1][k], change.y, most);
@@ -133,8 +134,8 @@ TEST(ScaledPlane, DistortionsAreWhatMakesItDifferFromAPlainCamera) {
     EXPECT_NEAR(plain.du_y, -plain.dv_x, 2e-5);
 }
 
-/// Normal equations of many points. Their residuals are those caused by changing the parameters by
-/// `step`.
+/// Normal equations of many points. The residual of each point is its displacement if the
+/// parameters change by `step`.
 struct Problem {
     static constexpr int kPoints = 150;
     PlaneNormal normal;
@@ -272,7 +273,7 @@ TEST(PlaneNormal, CountsAPointOfWeightThreeThreeTimes) {
 }
 
 TEST(PlaneNormal, LeavesOutWhatThePointsDoNotDetermine) {
-    // For points on one line, the terms with y cannot be distinguished from the other terms.
+    // If all points are on one line, y is a function of x, so some parameters are not determined.
     Rng rng(kSeed);
     Problem problem({0.01F, -0.02F, 0.03F, 0.01F}, rng, true);
     ASSERT_TRUE(problem.normal.decompose());

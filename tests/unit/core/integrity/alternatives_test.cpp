@@ -58,11 +58,12 @@ TEST(Alternatives, AreNotMoreWithMoreColumns) {
             ASSERT_LE(log2, before) << columns << " columns, window " << i << ", seed " << kSeed;
             before = log2;
         }
-        // Positions that share five of 17 lines differ in twelve lines, by at least two bits each.
-        // With odds of 2^-5 per bit, the odds of each of these 2^29 positions are at most 2^-120.
-        // The result is larger than these odds, because small odds count as 2^-56.
+        // A position that shares only five of 17 lines with the reading differs in twelve lines, by
+        // at least two bits each. With odds of 2^-5 per bit, its odds are at most 2^-120, and there
+        // are 2^29 such positions. The limit is much larger than their sum, because small odds
+        // count as 2^-56.
         EXPECT_LE(before, -40);
-        // Higher odds per bit do not increase the odds of the alternatives.
+        // If a bit is more reliable, the alternatives must not become more probable.
         EXPECT_LE(alternatives_of_window(code, place, 8, 2 * kOdds_q8),
                   alternatives_of_window(code, place, 8, kOdds_q8));
     }
@@ -80,10 +81,10 @@ TEST(Alternatives, FewLinesExcludeNone) {
 
 using Odds = std::array<float, kSections>;
 
-/// Returns the expected sum of the odds of all alternatives that differ in two or more sequences,
-/// for a reading of two adjacent lines. The first line is at `position`. `first` and `second` are
-/// the odds of the two lines at each roll offset. `factor` is the safety factor for the step
-/// between the lines.
+/// Returns the expected sum of the odds of all alternatives that differ from the reading in two or
+/// more sequences. The reading consists of two adjacent lines, the first of which is at `position`.
+/// `first` and `second` are the odds of the two lines at each roll offset. `factor` is the safety
+/// factor for the step between the lines.
 double two_lines(std::uint32_t position, const Odds& first, const Odds& second, double factor) {
     constexpr std::array<int, 4> kBases{3, 3, 2, 3};
     const auto texts = code_test::secondary_texts(CodeVariant::anoto);
@@ -99,7 +100,8 @@ double two_lines(std::uint32_t position, const Odds& first, const Odds& second, 
         if (sequences < 2) continue;
         int cases = 0;
         double sum = 0;
-        // `alternative` contains one digit of each sequence, in the mixed radix 3 x 3 x 2 x 3.
+        // `alternative` encodes one digit of each sequence as a number in the mixed radix 3 x 3 x 2
+        // x 3.
         for (int alternative = 0; alternative < 54; ++alternative) {
             int difference = 0;
             bool counts = true;
@@ -180,8 +182,8 @@ TEST(ExpectedAlternatives, OfTwoLinesAreThoseOfEveryPairOfDigits) {
 }
 
 TEST(ExpectedAlternatives, EachDifferenceHasItsOwnShare) {
-    // Each line has odds at a single roll offset, so the sum is the expected number of alternatives
-    // with one particular difference.
+    // Each line has odds at only one roll offset, so the sum is the expected number of alternatives
+    // whose two roll offsets have this difference.
     for (const int from : {0, 5, 62}) {
         for (int to = 0; to < 63; ++to) {
             Odds first{};

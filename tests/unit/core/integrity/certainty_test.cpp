@@ -1,5 +1,5 @@
-// Tests p_wrong of the first and tracked attempts against sums over all alternatives in double
-// precision.
+// Tests p_wrong, the upper bound of the probability that a fix is wrong, of the first and tracked
+// attempts. The expected values are sums over all alternatives in double precision.
 #include "core/integrity/certainty.hpp"
 
 #include <gtest/gtest.h>
@@ -77,8 +77,8 @@ TEST(IsCertain, AcceptsWhatIsClearlyRead) {
     }
 }
 
-/// Returns a block that agrees with its own place and with an alternative equally well. Of the bits
-/// in which the two places differ, half agree with each place.
+/// Returns a block that agrees equally well with its own place and with an alternative. Of the bits
+/// in which the two places differ, half are those of each place.
 Block between(const Block& block, const std::vector<int>& own,
               const std::vector<int>& alternative) {
     Block mixed = block;
@@ -105,8 +105,7 @@ TEST(IsCertain, RefusesWhatAnAlternativeExplainsAsWell) {
         const Block block = cut_block(code_test::kCodeVariants[static_cast<std::size_t>(i % 3)],
                                       any_place(rng), 11, 12);
         const auto own = rolls_of(block, true, 0, 0, 0);
-        // Select the worst alternative: the one that contradicts the fewest bits of the block, but
-        // at least one.
+        // Selects the alternative that contradicts the fewest bits of the block, but at least one.
         std::vector<int> worst;
         int fewest = INT32_MAX;
         const auto texts = code_test::secondary_texts(block.code);
@@ -125,7 +124,7 @@ TEST(IsCertain, RefusesWhatAnAlternativeExplainsAsWell) {
         }
         ASSERT_FALSE(worst.empty());
         IntegrityOptions options;
-        // Disables the limit of bit errors, so that only the alternatives can cause a refusal.
+        // Allows any number of bit errors, so that only the alternatives can cause a refusal.
         options.max_bit_error_q8 = 256;
         without_errors += judge(block, block.place, options).is_certain;
         EXPECT_FALSE(judge(between(block, own, worst), block.place, options).is_certain);

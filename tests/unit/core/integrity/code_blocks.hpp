@@ -74,8 +74,8 @@ inline int contradictions(const Block& block, bool is_x, const std::vector<int>&
     return wrong;
 }
 
-/// Returns the rolls that the lines of an axis would have if one sequence were `further` digits
-/// ahead, and all rolls were increased by `shift`.
+/// Returns the rolls that the lines of an axis have after one sequence is moved ahead by `further`
+/// digits and all rolls are increased by `shift`.
 inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequence, int further,
                                  int shift) {
     const Place& p = block.place;
@@ -97,9 +97,9 @@ inline std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequ
     return rolls;
 }
 
-/// Returns log2 of the sum of the odds of three kinds of alternatives over both axes: alternatives
-/// that differ in one sequence and share a line, other sections, and chance. Uses the same odds per
-/// bit as the verdict.
+/// Returns log2 of the sum, over both axes, of the probability of a match by chance and the odds of
+/// two kinds of alternatives: those that differ in one sequence and share a line, and other
+/// sections. The odds per bit are those of the verdict.
 inline double exact_log2(const Block& block) {
     double sum = 0;
     core::Confidence both;
@@ -116,7 +116,7 @@ inline double exact_log2(const Block& block) {
     const double odds_per_bit = core::odds_per_bit_q8(both) / 256.0;
     for (const bool is_x : {true, false}) {
         const int own_wrong = errors[is_x ? 0 : 1];
-        // The exact probability of a match by chance, which the verdict must not underestimate.
+        // The verdict must not underestimate the exact probability of a match by chance.
         sum += std::exp2(
             static_cast<double>(exact_chance_log2(read)[static_cast<std::size_t>(own_wrong)]));
         const auto texts = code_test::secondary_texts(block.code);

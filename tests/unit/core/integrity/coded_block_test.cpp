@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 4021;
 
-/// A view of the cells around cell (0, 0), which is at a given place of the code. Columns and rows
-/// begin at kFirst.
+/// The cells around cell (0, 0), which is at a given place of the code. The first column and the
+/// first row are kFirst.
 struct Seen {
     static constexpr int kFirst = -20;
     static constexpr int kCount = 41;

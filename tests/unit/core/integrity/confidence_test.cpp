@@ -53,8 +53,8 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
     for (const int bits : {100, 400, 3000}) {
         for (const int wrong : {0, 1, 5, 20}) {
             SCOPED_TRACE(testing::Message() << wrong << " wrong of " << bits);
-            // The fraction of wrong bits is 1 / (1 + odds). The estimate allows for two additional
-            // errors.
+            // The fraction of wrong bits is 1 / (1 + odds). The estimate adds two errors to those
+            // observed, as a margin for small samples.
             const double expected = std::log2(bits / (wrong + 2.0) - 1);
             // Weights are quantised in steps of 8, which changes the largest weights by up to 3 %.
             // The exponential is accurate to 2 %, and 0.1 is the tolerance for this error.
@@ -66,7 +66,7 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
 
 TEST(OddsPerBit, GrowWithTheWeightOfWhatIsRight) {
     // The odds are those of a bit with full weight. If bits with half the weight have the same
-    // fraction of errors, log2 of the odds is about twice as large.
+    // fraction of errors, log2 of the odds per full weight is about twice as large.
     const double full = odds_per_bit_q8(confidence(1000, 124, 50));
     const double half = odds_per_bit_q8(confidence(1000, 60, 50));
     EXPECT_GT(half, 1.7 * full);
@@ -111,9 +111,10 @@ TEST(Chance, ChanceIsBoundedFromAboveAndNotFarOff) {
             const int bound = chance_log2(bits, odds);
             ASSERT_GE(bound, std::min(exact[static_cast<std::size_t>(e)], 37.0L) - 1e-9L);
             if (2 * e > n) continue;
-            // The tolerance has three parts. Chernoff's bound is too large by a factor of up to
-            // sqrt(8 n p q). The odds allow for two additional errors, which change the result by
-            // up to about (e + 2) log2((e + 2) / e). Rounding adds 2 and n / 2^6.
+            // The tolerance has three parts. Chernoff's bound exceeds the exact probability by a
+            // factor of up to sqrt(8 n p q). The odds allow for two additional errors, which
+            // changes the result by up to about (e + 2) log2((e + 2) / e). Rounding adds 2 and n /
+            // 2^6.
             const double slack = 0.5 * std::log2(8.0 * n) + 10 + n / 64.0;
             ASSERT_LE(bound, exact[static_cast<std::size_t>(e)] + slack);
         }
@@ -141,8 +142,8 @@ TEST(Chance, InFineStepsOfThreeTimesAsManyHypothesesIsABoundToo) {
 }
 
 TEST(Chance, EachBitThatAgreesHasItsFactor) {
-    // The result for 2^20 equal bits, divided by 2^20, is the logarithm of the factor of one bit,
-    // (1 + 2^-y) / 2, to an accuracy of 2^-20.
+    // The result for 2^20 equal bits is divided by 2^20. This gives log2 of the factor of one bit,
+    // (1 + 2^-y) / 2, with an accuracy of 2^-20.
     constexpr int kDoublings = 20;
     for (const int weight : {4, 12, 60, 124}) {
         Confidence bits = confidence(1, weight, 0);
@@ -153,8 +154,8 @@ TEST(Chance, EachBitThatAgreesHasItsFactor) {
             const double exact = std::log2(1 + std::exp2(-y)) - 1;
             const double found = std::ldexp(chance_log2(bits, odds_q8) - 37, -kDoublings);
             ASSERT_GE(found, exact - 1e-6) << weight << " at " << odds_q8;
-            // y is rounded down to a multiple of 2^-8, which changes the logarithm by at most 2^-9.
-            // The chords that approximate the curve are at most 0.173 / 2^5 above it.
+            // y is rounded down to a multiple of 2^-8, which changes log2 of the factor by at most
+            // 2^-9. Chords approximate the curve, and are at most 0.173 / 2^5 above it.
             ASSERT_LE(found, exact + 0.002 + 0.0055) << weight << " at " << odds_q8;
         }
     }
@@ -179,8 +180,8 @@ TEST(Chance, EachBitThatContradictsHasItsFactor) {
 }
 
 TEST(Chance, WeakBitsThatContradictSayLittle) {
-    // 200 bits of full weight agree with the position. 50 weak bits contain no information, because
-    // half of them contradict the position.
+    // 200 bits of full weight agree with the position. Of the 50 weak bits, half contradict the
+    // position, so they contain no information.
     const auto chance_with_weak = [](int weight) {
         Confidence bits;
         for (int i = 0; i < 200; ++i)
@@ -196,7 +197,7 @@ TEST(Chance, WeakBitsThatContradictSayLittle) {
 }
 
 TEST(Chance, ChanceHoldsForRandomBits) {
-    // Counts the trials in which the bound for one hypothesis is at most 2^-8. The trials consist
+    // Counts the trials in which the bound for one hypothesis is at most 2^-8. Each trial consists
     // of random bits with random weights.
     Rng rng(kSeed);
     constexpr int kTrials = 200'000;
@@ -205,8 +206,8 @@ TEST(Chance, ChanceHoldsForRandomBits) {
         Confidence bits;
         for (int i = 0; i < 20; ++i)
             bits.add(static_cast<int>(rng.below(128)), rng.below(2) == 0);
-        // The result includes a factor of 2^37, the number of hypotheses. A result of 37 - 8 is
-        // therefore a bound of 2^-8 for one hypothesis. On average, at most 781 of the 200,000
+        // The result is the bound for one hypothesis multiplied by 2^37, the number of hypotheses.
+        // A result of 37 - 8 is therefore a bound of 2^-8. On average, at most 200,000 / 2^8 = 781
         // trials may have such a bound.
         beyond += chance_log2(bits, odds_per_bit_q8(bits)) <= 37 - 8;
     }

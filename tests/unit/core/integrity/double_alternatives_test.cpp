@@ -18,8 +18,8 @@ using namespace core;
 constexpr std::uint64_t kSeed = 46;
 constexpr int kLines = 9;
 constexpr int kOdds_q8 = 3 * 256;
-/// Minimum of the computed sum, because each of the 190,027 pairs of places counts at least 2^-64
-/// at each shift.
+/// Minimum of the computed sum. Each of the 190,027 pairs of places counts at least 2^-64 at each
+/// of the 63 shifts.
 constexpr double kFloor = 190'027.0 * 63 * 0x1p-64;
 
 /// Lines that agree with a position. In each line, the roll of the position has the score 1000. The
@@ -47,8 +47,8 @@ struct Case {
 };
 
 /// Returns the sum of the odds of all double alternatives, relative to the position. A double
-/// alternative is at another place in two of the sequences. Each is counted at every shift (0 to
-/// 62) at which at least one line has the same roll as the position.
+/// alternative is at another place in two of the sequences. It is counted once for every shift (0
+/// to 62) at which at least one of its lines has the same roll as the position.
 double exact_sum(const Case& c) {
     const auto texts = code_test::secondary_texts(CodeVariant::anoto);
     const int first_roll = roll(CodeVariant::anoto, c.position);
@@ -105,15 +105,16 @@ TEST(DoubleAlternativesAtLength, AreSummedOneByOne) {
         const double exact = exact_sum(c);
         ASSERT_GT(exact, 1e-12);
         const RankedLines lines(ratios);
-        // With these limits, all pairs that share two or more lines are evaluated. The other pairs
-        // count 32 times their expectation.
+        // With these limits, all pairs of places that share two or more lines with the position are
+        // evaluated. The other pairs count 32 times their expectation.
         const float rest = expected_double_alternatives(kernels(), lines, kLines)[2];
         const auto sum =
             static_cast<double>(sum_of_double_alternatives(kernels(), lines, 1, 0, 64 * rest));
         const double ratio = (sum - kFloor - 31 * static_cast<double>(rest)) / exact;
         // Exponentials are accurate to 2 %, and their exponents are rounded to multiples of 2^-8.
         EXPECT_GE(ratio, 0.96) << "least " << least << ", seed " << kSeed;
-        // Pairs that share one line or none are counted at their expectation.
+        // Pairs of places that share at most one line with the position count as their expectation,
+        // so the sum may exceed the exact sum.
         EXPECT_LE(ratio, least == 420 ? 2 : 1.04) << "least " << least << ", seed " << kSeed;
     }
 }

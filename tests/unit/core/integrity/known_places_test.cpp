@@ -31,8 +31,8 @@ void set_bit(core::BitLines& lines, int line, int cell, int bit) {
     lines.bits[i] |= static_cast<std::uint64_t>(bit) << (cell + kMiddle);
 }
 
-/// Draws a rectangle with its upper left cell at a place. Each bit is wrong, and each cell is
-/// missing, with a given probability.
+/// Draws a rectangle with its upper left cell at `at`. Each bit is wrong with the probability
+/// `wrong`, and each cell is missing with the probability `missing`.
 Cells draw_cells(const KnownRegion& sheet, Cell at, int columns, int rows, double wrong,
                  double missing, Rng& rng) {
     Cells cells{columns, rows, {}, {}};
@@ -80,7 +80,7 @@ std::array<int, 2> wrong_bits(const core::BitBlock& block, CodeVariant code, con
     return wrong;
 }
 
-/// Returns the probability that at most `wrong` of `bits` fair bits are wrong.
+/// Returns the probability that at most `wrong` of `bits` random bits differ from given bits.
 double random_agreement(int bits, int wrong) {
     double term = std::exp2(-bits);
     double sum = 0;
@@ -91,7 +91,8 @@ double random_agreement(int bits, int wrong) {
     return sum;
 }
 
-/// Returns the sum of the odds of all places of a sheet except `best`, relative to `best`.
+/// Returns the sum of the odds of all places of a sheet except `best`. The odds are relative to
+/// those of `best`.
 double other_odds(const core::BitBlock& block, const KnownRegion& sheet,
                   const core::KnownPlace& best) {
     core::Confidence confidence;
@@ -170,8 +171,9 @@ TEST(KnownPlaces, UnknownSheetsMayHaveTheSameRows) {
         const auto best = core::find_known_place(core::kernels(), block, sheets);
         return best ? wrong_at(block, sheets, *best) : 1;
     };
-    // An unknown sheet may have the same rows and, by chance, also the same 25 bits of the other
-    // axis. The factor 4 stands for two axes, and for two positions with each roll.
+    // The view contains 5 x 5 cells. An unknown sheet may have the same rolls along one axis and,
+    // by chance, also the same 25 bits of the other axis. The factor of 4 stands for two axes, and
+    // for the two positions with each roll.
     EXPECT_GE(wrong_if(OtherSheets::possible), 4 * std::exp2(-25.0));
     EXPECT_LT(wrong_if(OtherSheets::impossible), std::exp2(-25.0));
 }

@@ -1,5 +1,5 @@
 // Tests the likelihood ratios of hard bits. They must equal the ratios of scored lines whose bits
-// all have weight 127. The estimates of their sums must be upper bounds.
+// all have weight 127. Estimates of sums of these ratios must be upper bounds.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -44,7 +44,7 @@ struct Columns {
             line.code = code::kMainWords[rolls[static_cast<std::size_t>(i)]];
             for (int j = 0; j < kLength; ++j) {
                 const std::uint32_t bit = std::uint32_t{1} << j;
-                // The corners are not in view, as in a rotated frame.
+                // The cells in the corners of the block are not in view, as in a rotated frame.
                 const bool is_in_view = i + j > 3 && i + j < kLines + kLength - 6;
                 const bool is_seen = is_in_view && rng.below(40) >= static_cast<unsigned>(lost);
                 const bool is_wrong = is_seen && rng.below(60) < static_cast<unsigned>(lost);
@@ -105,11 +105,11 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanThereIs) {
     for (int round = 0; round < 200; ++round) {
         Columns columns(rng);
         const int estimate_q8 = quick_alternatives_log2_q8(columns.of_bits());
-        // The exact sum is rounded up to a power of two several times, which may make it four times
-        // too large.
+        // The exact sum is rounded up to a power of two several times, so it may be up to four
+        // times too large.
         const int counted = alternatives_log2(kernels(), columns.of_weights());
-        // The exact sum counts small odds as 2^-56. For several thousand alternatives, this adds up
-        // to 2^-42.
+        // The exact sum counts small odds as 2^-56, which adds up to 2^-42 for several thousand
+        // alternatives. Smaller sums are not compared.
         if (counted > -41) {
             EXPECT_GE(estimate_q8, 256 * (counted - 2));
             ++compared;
@@ -141,7 +141,8 @@ double single_odds(const LikelihoodRatios& ratios) {
     return sum;
 }
 
-/// The estimate is an upper bound both if tables suffice and if alternatives are enumerated.
+/// The estimate must be an upper bound, whether it comes from tables or from an enumeration of
+/// alternatives.
 TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSingleAlternatives) {
     Rng rng(12);
     int told = 0;
@@ -160,8 +161,8 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSingleAlternatives) {
 }
 
 /// Returns the expected odds of one set of far alternatives in double precision (docs/integrity.md,
-/// the quick estimate). They are the sum of the odds of alternatives that share a run of lines with
-/// the reading, and of the odds of all other alternatives.
+/// "The quick bound"). The result is the sum of two parts: the odds of alternatives that share a
+/// run of lines with the reading, and the odds of all other alternatives.
 double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
     const auto power = [](int log2_q8) { return std::exp2(log2_q8 / 256.0); };
     const double equal = power(set.equal_q8 + kUnevenness_q8);
@@ -184,8 +185,8 @@ double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
     return sum * power(set.alternatives_q8);
 }
 
-/// The estimate is an upper bound for any certainty of the reading and any limit. With this small
-/// number of lines, all sets have about equal odds, so the test would detect a missing set.
+/// The estimate must be an upper bound for any certainty of the reading and any limit. With so few
+/// lines, all sets have about equal odds, so a missing set would be noticed.
 TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSetsOfFarAlternatives) {
     Rng rng(11);
     int doubtful = 0;
@@ -210,7 +211,8 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSetsOfFarAlternatives) {
     EXPECT_GT(doubtful, 100);
 }
 
-/// If the table guarantees a minimum loss, every alternative must lose at least this much.
+/// If the table states a minimum loss for a place, every alternative at this place must lose at
+/// least as much.
 TEST(UnsharedLines, AreNotSharedByAnyAlternative) {
     Rng rng(10);
     int known = 0;

@@ -1,5 +1,5 @@
-// Tests sum_of_likely_alternatives with lines that agree with two positions: with the reading, and
-// almost as well with one alternative. All other positions have much smaller odds.
+// Tests sum_of_likely_alternatives with lines that agree with the reading and, almost as well, with
+// one alternative. All other positions have much smaller odds.
 #include "core/integrity/likely_alternatives.hpp"
 
 #include <bit>
@@ -18,8 +18,8 @@ constexpr std::uint64_t kSeed = 61;
 constexpr int kLines = 11;
 constexpr float kMaxRest = 0x1p-16F;
 
-/// Returns another place in a sequence, at which the digits of at least three steps are equal, if
-/// there is one.
+/// Returns another place in a sequence, whose digits equal those of the place `own` at three or
+/// more steps, if there is such a place.
 std::uint32_t similar_place(const std::string_view text, std::uint32_t own, Rng& rng) {
     const auto length = static_cast<std::uint32_t>(text.size());
     const std::uint32_t first = rng.below(length);
@@ -39,9 +39,9 @@ std::uint32_t similar_place(const std::string_view text, std::uint32_t own, Rng&
     return most_similar;
 }
 
-/// Lines with the score 1000 at the roll of the reading, 900 at the roll of an alternative, and
-/// from -2100 to -1500 at all other rolls. The alternative differs from the reading in the
-/// sequences whose bits in `different` are 1.
+/// Lines that score 1000 at the roll of the reading, 900 at the roll of an alternative, and -2100
+/// to -1500 at all other rolls. The alternative differs from the reading in the sequences whose
+/// bits in `different` are set.
 struct Case {
     Case(Rng& rng, unsigned different) : lines(at_random_place(rng, kLines)) {
         lines.odds_q8 = 3 * 256;
@@ -71,7 +71,7 @@ std::optional<float> likely(const RatiosCase& c, float max_rest, float max_odds)
     return sum_of_likely_alternatives(kernels(), RankedLines(ratios), max_rest, max_odds);
 }
 
-/// Returns the first case whose search is short.
+/// Returns the first case in which the search for likely alternatives is short enough to be used.
 Case short_case(Rng& rng, unsigned different) {
     for (;;) {
         const Case c(rng, different);

@@ -21,8 +21,8 @@ RatiosCase random_case(int lines, CodeVariant code, Rng& rng) {
     return c;
 }
 
-/// Returns the minimum loss over all patterns of shared lines with at most `max_shared` consecutive
-/// shared lines. A pattern has one bit per line, which is set if the line is shared.
+/// Returns the minimum loss over all patterns with at most `max_shared` consecutive shared lines. A
+/// pattern has one bit per line, which is set if the alternative shares the line with the reading.
 int min_loss_of_patterns(const std::vector<int>& losses, int max_shared) {
     int least = INT32_MAX;
     for (std::uint32_t shared = 0; shared < 1U << losses.size(); ++shared) {
@@ -40,8 +40,8 @@ int min_loss_of_patterns(const std::vector<int>& losses, int max_shared) {
     return least;
 }
 
-/// Returns, for each line, the score of its roll minus the maximum score of the other rolls. A
-/// negative difference counts as 0.
+/// Returns the loss of each line: the score at the roll of the reading minus the maximum score at
+/// the other rolls, or 0 if this difference is negative.
 std::vector<int> losses_of(const RatiosCase& c) {
     std::vector<int> losses;
     for (std::size_t line = 0; line < c.rolls.size(); ++line) {

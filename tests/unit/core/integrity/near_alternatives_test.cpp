@@ -1,6 +1,6 @@
 // Tests sum_of_near_alternatives against a sum in double precision. For every run of adjacent
-// lines, an exhaustive search finds the alternatives that have the digits of the reading in this
-// run.
+// lines, an exhaustive search finds the alternatives whose digits in this run equal those of the
+// reading.
 #include "core/integrity/near_alternatives.hpp"
 
 #include <gtest/gtest.h>

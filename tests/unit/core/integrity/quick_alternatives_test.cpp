@@ -27,8 +27,8 @@ RatiosCase random_case(Rng& rng) {
     return c;
 }
 
-/// Returns the sum of the odds of all other places of one sequence, over the shifts at which a
-/// place shares a line with the reading.
+/// Returns the sum of the odds of all other places of one sequence. A place counts once for each
+/// shift at which it shares a line with the reading.
 double sum_of_singles(const RatiosCase& c) {
     const auto texts = code_test::secondary_texts(c.code);
     const std::size_t count = c.rolls.size();
@@ -63,7 +63,8 @@ double sum_of_singles(const RatiosCase& c) {
     return sum;
 }
 
-/// Returns the quick estimate, and expects it to be at least the odds of the single alternatives.
+/// Returns log2 of the quick estimate, and expects the estimate to be at least the sum of the odds
+/// of the single alternatives.
 double checked(const RatiosCase& c) {
     const double quick = quick_alternatives_log2_q8(c.ratios()) / 256.0;
     EXPECT_LE(quick, 0);
@@ -85,8 +86,8 @@ TEST(QuickAlternatives, CountAllThatDifferInOneSequence) {
 
 TEST(QuickAlternatives, CountWhatSharesTheOnlyLinesThatSayMuch) {
     // An alternative may share five consecutive lines with the reading, or seven lines in
-    // `libdots`. Here, only four to nine consecutive lines are certain, so an alternative may share
-    // nearly all certain lines.
+    // `libdots`. Here, only four to nine consecutive lines have clear bits. An alternative that
+    // shares nearly all of them loses little, and must be counted.
     Rng rng(kSeed);
     int told = 0;
     for (int i = 0; i < 400; ++i) {
@@ -106,8 +107,8 @@ TEST(QuickAlternatives, CountWhatSharesTheOnlyLinesThatSayMuch) {
 }
 
 TEST(QuickAlternatives, CountOthersThatLinesFitBetter) {
-    // The bits of some lines belong to a random roll. An alternative with this roll has a higher
-    // score than the reading in these lines.
+    // Some lines have the bits of a random roll. In these lines, an alternative with this roll
+    // scores higher than the reading.
     Rng rng(kSeed);
     int told = 0;
     for (int i = 0; i < 300; ++i) {
@@ -133,9 +134,9 @@ TEST(QuickAlternatives, AreNoFewerThanACloseLookShows) {
         if (quick == 0) continue;
         ++told;
         const int counted = alternatives_log2(kernels(), c.ratios());
-        // The exact sum may be up to four times too large, because alternatives may count twice,
-        // and the sum is rounded up to a power of two. Small sums are not compared, because they
-        // may contain expectations multiplied by 32.
+        // The exact sum may be up to four times too large, because it counts some alternatives
+        // twice and is rounded up to a power of two. Small sums are not compared, because they may
+        // contain expectations multiplied by 32.
         if (counted <= -33) continue;
         EXPECT_GE(quick, counted - 2) << "case " << i << ", seed " << kSeed;
         ++compared;
@@ -158,7 +159,6 @@ TEST(QuickAlternatives, FewLinesOrWeakOddsDoNotTell) {
         c.storage.push_back(scored_line(own, 12, 0, 127, rng));
     c.odds_q8 = 8;
     EXPECT_EQ(quick_alternatives_log2_q8(c.ratios()), 0);
-    // With odds of 2^8 for a bit of full weight, the odds of the alternatives are negligible.
     c.odds_q8 = 8 * 256;
     EXPECT_LT(quick_alternatives_log2_q8(c.ratios()), -30 * 256);
 }

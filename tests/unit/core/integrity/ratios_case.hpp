@@ -28,7 +28,7 @@ struct RatiosCase {
     LikelihoodRatios ratios() const { return {code, lines(), reading(), odds_q8}; }
 };
 
-/// Returns a line of `bits` bits of the main sequence, with random weights between `most` / 2 and
+/// Returns a line of `bits` bits of the main sequence, with random weights from `most` / 2 to
 /// `most`. The fraction `wrong` of the bits is flipped.
 inline ScoredLine scored_line(int roll, int bits, double wrong, int most, Rng& rng) {
     std::vector<std::int8_t> weights;
@@ -81,8 +81,8 @@ inline PlacesOfAlternative own_places(const RatiosCase& c) {
     return places;
 }
 
-/// Returns the rolls of the lines of an alternative that starts at `places`. The rolls are shifted
-/// so that line `shared` has the same roll as in the reading.
+/// Returns the rolls of the lines of the alternative at `places`, shifted so that line `shared` has
+/// the same roll as in the reading.
 inline std::vector<int> rolls_from(const RatiosCase& c, const PlacesOfAlternative& places,
                                    std::size_t shared) {
     const auto texts = code_test::secondary_texts(c.code);

@@ -49,8 +49,9 @@ std::vector<Alternative> all_alternatives(const RatiosCase& c) {
     return alternatives;
 }
 
-/// Returns the loss of an alternative in the lines [first, end), at the shift that minimises it.
-/// Only shifts at which the alternative shares a line with the reading count.
+/// Returns the minimum loss of an alternative in the lines [first, end), over the shifts at which
+/// the alternative shares a line with the reading. The loss is the score of the reading minus that
+/// of the alternative.
 double min_loss(const RatiosCase& c, const Alternative& alternative, std::size_t first,
                 std::size_t end) {
     double least = std::numeric_limits<double>::infinity();
@@ -72,8 +73,8 @@ struct Sum {
     int terms = 0;
 };
 
-/// Returns the sum of the odds of all alternatives at all borders. Excludes alternatives whose odds
-/// are at most 2^kMinLog2 without the factor for the seam.
+/// Returns the sum of the odds of all alternatives at all borders. Alternatives are excluded if
+/// their odds, without the prior probability of a seam, are at most 2^kMinLog2.
 Sum sum_of_all(const RatiosCase& c) {
     Sum sum;
     for (const Alternative& alternative : all_alternatives(c)) {
@@ -114,7 +115,7 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
             c.storage.push_back(scored_line(shown, bits, wrong, 127, rng));
         }
         c.odds_q8 = static_cast<int>(256 * rng.uniform(2, 8));
-        // Because of rounding, odds near the limit may or may not be counted.
+        // Odds at the limit may be counted or not, because of rounding.
         const double limit = std::exp2(kSeamLog2 + kMinLog2);
         const LikelihoodRatios ratios = c.ratios();
         const int counted_q8 = seam_alternatives_log2_q8(ratios);
@@ -133,9 +134,9 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
 }
 
 TEST(SeamAlternatives, ASeamExplainsTenLinesAsWell) {
-    // The counted alternatives have the rolls of the reading on one side of the border, and rolls
-    // with a constant shift on the other side. With a seam at the border, they explain all ten
-    // lines as well as the reading.
+    // The alternatives that are counted here have the rolls of the reading on one side of the
+    // border, and these rolls plus a constant shift on the other side. If there is a seam at the
+    // border, they explain all ten lines as well as the reading does.
     constexpr std::size_t kLines = 10;
     constexpr std::size_t kBorder = 5;
     Rng rng(kSeed);
@@ -169,9 +170,9 @@ TEST(SeamAlternatives, NoneExplainsManyClearLines) {
 }
 
 TEST(SeamAlternatives, WhatTheLinesShowBetterIsDoubt) {
-    // The bits are those of an alternative with a seam. On each side of the border, the alternative
-    // agrees with the reading in five lines, up to a shift. Only the first and the last line can
-    // therefore distinguish it from the reading.
+    // The bits are those of an alternative with a seam. On each side of the border, five lines of
+    // the alternative differ from the reading only by a constant shift. Therefore, only the first
+    // and the last line show that the reading is wrong.
     Rng rng(kSeed);
     int shown = 0;
     for (int i = 0; i < 2000; ++i) {

@@ -30,8 +30,8 @@ double exact_sum(const LikelihoodRatios& ratios, std::size_t sequence) {
         set_roll_offsets(ratios, sequence, place, offsets);
         const auto end = offsets.begin() + ratios.count();
         for (auto shared = offsets.begin(); shared != end; ++shared) {
-            // All lines that are shared at one shift belong to the same alternative, which is
-            // counted once.
+            // All lines that are shared at one shift belong to the same alternative, which must be
+            // counted only once.
             if (std::find(offsets.begin(), shared, *shared) != shared) continue;
             int lost = 0;
             for (int line = 0; line < ratios.count(); ++line)
@@ -91,7 +91,7 @@ std::uint32_t any_position(Rng& rng, int i) {
     return anywhere - anywhere % length + length - 1 - std::min(before, length - 1);
 }
 
-/// Lines of hard bits. Some bits are missing, and some bits are wrong.
+/// Lines of hard bits, some of which are missing or wrong.
 struct BitsCase {
     BitsCase(CodeVariant code_, Rng& rng, int i) : code(code_) {
         reading.position = any_position(rng, i);

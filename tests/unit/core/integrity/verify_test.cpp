@@ -62,8 +62,9 @@ TEST(Verify, CountsEveryBitThatContradicts) {
             // Additional contradictions must not reduce the quick estimate of p_wrong.
             const Verdict quick = judge(reading, any, verify_quickly);
             ASSERT_EQ(quick.fix.bit_errors, flipped);
-            // Below odds of 2^-36 on an axis, `quick_alternatives` computes no tighter bound, so
-            // estimates below 2^-34 count as equal. Rounding may change each `p_wrong_log2` by 1.
+            // If the odds on an axis are below 2^-36, `quick_alternatives` does not compute them
+            // exactly, so estimates below 2^-34 count as equal. Rounding may change each
+            // `p_wrong_log2` by 1.
             constexpr int kCoarse = -34;
             ASSERT_GE(std::max(quick.fix.p_wrong_log2, kCoarse),
                       std::max(quick_before.fix.p_wrong_log2, kCoarse) - 1);
@@ -72,8 +73,6 @@ TEST(Verify, CountsEveryBitThatContradicts) {
             ASSERT_GE(now.fix.p_wrong_log2, std::min(chance, 0.0L));
             before = now;
         }
-        // Now a quarter of the bits of one axis contradict the position, as if a second pattern
-        // were in view.
         EXPECT_EQ(before.status, Status::not_certain);
     }
 }
@@ -89,7 +88,8 @@ TEST(Verify, RefusesWhatMissesTheAskedCertainty) {
         Verdict verdict = judge(reading, options, how);
         EXPECT_EQ(verdict.status, Status::ok);
         EXPECT_EQ(verdict.fix.p_wrong_log2, usual.fix.p_wrong_log2);
-        // If the limit is lowered further, the exact sums may still confirm the position.
+        // The limit is lowered below each result. The exact sums may then still confirm the
+        // position.
         int looks = 0;
         for (; verdict.status == Status::ok; ++looks) {
             ASSERT_LE(verdict.fix.p_wrong_log2, options.max_p_wrong_log2);
@@ -149,8 +149,8 @@ TEST(Verify, LinesThatAreScoredAreNotScoredAgain) {
             verify(kernels(), reading.grid(), CodeVariant::anoto, nullptr, found, {}, storage, fix),
             Status::ok);
         EXPECT_EQ(fix.p_wrong_log2, fresh.fix.p_wrong_log2);
-        // `verify` must use the scores in the storage. Cleared scores are equal for all rolls, so
-        // they exclude no alternative.
+        // After the scores in the storage are cleared, they are equal for all rolls and exclude no
+        // alternative. `verify` must use them, and therefore refuse.
         storage.fill({});
         EXPECT_EQ(
             verify(kernels(), reading.grid(), CodeVariant::anoto, nullptr, found, {}, storage, fix),
@@ -198,8 +198,8 @@ Reading troubled(Rng& rng, int turn) {
     return Reading(view, QuarterTurn{turn}, dots);
 }
 
-/// Returns log2 of the probability of a match by chance plus the odds of all alternatives, summed
-/// over both axes. Uses the exact sums.
+/// Returns log2 of the sum, over both axes, of the probability of a match by chance and the odds of
+/// all alternatives. Uses the exact sums.
 double exact_p_wrong(const Reading& reading) {
     const Decoding truth = reading.truth();
     const CodeVariant code = reading.view.code;
@@ -255,8 +255,8 @@ TEST(VerifyQuickly, NeverClaimsMoreThanACloseLookBears) {
         const Verdict quick = judge(reading, options, verify_quickly);
         if (quick.status != Status::ok) continue;
         ++accepted;
-        // exact_p_wrong rounds sums of alternatives up to powers of two, so it may be too large by
-        // 1.
+        // exact_p_wrong rounds the sums of alternatives up to powers of two, so its result may be 1
+        // too large.
         EXPECT_GE(quick.fix.p_wrong_log2, exact_p_wrong(reading) - 1);
         const Verdict close = judge(reading, options);
         EXPECT_EQ(close.status, Status::ok);

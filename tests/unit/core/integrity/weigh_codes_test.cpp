@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 83;
 
-/// Returns the same lines interpreted in another code variant.
+/// Returns the same lines as if they were lines of another code variant.
 RatiosCase as_in(CodeVariant code, const RatiosCase& c) {
     RatiosCase other;
     other.code = code;
@@ -23,7 +23,7 @@ RatiosCase as_in(CodeVariant code, const RatiosCase& c) {
     return other;
 }
 
-/// Returns the rolls of the same place in the other code variant.
+/// Returns the rolls of the lines at the same place in the other code variant.
 std::vector<int> rolls_here(const RatiosCase& c, CodeVariant other) {
     const int further = roll(other, c.position) - roll(c.code, c.position) + kSections;
     std::vector<int> rolls = rolls_from(as_in(other, c), own_places(c), 0);
@@ -95,8 +95,8 @@ TEST(WeighOtherCodes, SumsUpPlacesAlongBothAxes) {
             const OtherCode& there = others.of[static_cast<std::size_t>(other)];
             EXPECT_NEAR(static_cast<double>(there.here()) / (x_here * y_here), 1, 0.06);
             EXPECT_GE(static_cast<double>(there.elsewhere()), 0.94 * exact);
-            // Unlikely places are not summed individually, but counted with an upper bound of their
-            // odds. The sum may therefore exceed the exact sum.
+            // The odds of unlikely places are not computed one by one. Each counts as an upper
+            // bound, so the sum may exceed the exact sum.
             const double most = x_here + x_elsewhere + y_here + y_elsewhere;
             EXPECT_LE(static_cast<double>(there.elsewhere()), 1.06 * exact + 2e-12 * most + 4e-13);
             close += exact > 1e-9 ? 1 : 0;

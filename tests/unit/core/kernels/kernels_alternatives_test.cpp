@@ -15,8 +15,8 @@ namespace {
 
 using namespace core;
 
-/// The places of a reading in the four sequences. Also computes how much the roll of a line at
-/// another place of a sequence differs from the reading.
+/// The places of a reading in the four sequences. It also computes the difference between the roll
+/// of a line at another place of a sequence and that of the reading.
 struct OwnPlaces {
     const code::Basis& basis;
     std::array<std::uint32_t, 4> own;
@@ -49,7 +49,8 @@ TEST(KernelsAlternatives, SimilarPlacesLoseTooLittleByTheirSteps) {
                     ASSERT_FALSE(is_similar);
                     continue;
                 }
-                // Computes the maximum sum over differing steps, no two of which are adjacent.
+                // Computes the maximum sum of the losses of steps with different digits, of which
+                // no two are adjacent.
                 int most = 0;
                 int max_before = 0;
                 for (int step = 0; step < steps.count; ++step) {
@@ -106,8 +107,8 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
                         lost += places.offset(k, place, line) == shift ? 0 : loss;
                     const std::array<int, 3> alternative{static_cast<int>(k),
                                                          static_cast<int>(place), shift};
-                    // The kernel adds up only the losses of lines after the shared line. It may
-                    // therefore list additional places, which this test does not check.
+                    // The kernel adds up only the losses of lines after the shared line. The list
+                    // may therefore contain places that lose more, which this test allows.
                     if (lost >= enough) continue;
                     ASSERT_TRUE(found.count(alternative) > 0) << k << ' ' << place << ' ' << shift;
                     ++listed;
@@ -192,14 +193,14 @@ TEST(KernelsAlternatives, ExpectationsHaveTheSameBitsInEachForm) {
 }
 
 /// Expected odds in double precision, indexed by the roll offset and by the length of the current
-/// run. The run consists of the adjacent lines, up to and including the newest line, in which the
-/// alternative has the digits of the reading and the roll offset 0.
+/// run. The current run consists of the adjacent lines, the last of which is the newest line, in
+/// which the alternative has the roll offset 0 and the digits of the reading.
 using OddsByRun = std::array<std::array<double, 66>, 63>;
 
-/// Calls `use` for every choice of digits at one step in the sequences of the bit set `different`,
+/// Calls `use` for every choice of digits at one step, in the sequences of the bit set `different`
 /// from sequence `k` on. The first argument of `use` is the change of the roll modulo 63. The
 /// second argument is true if all digits equal those of the reading. `shift` and `are_equal` are
-/// the values of these arguments for the sequences below `k`.
+/// the values of the two arguments for the sequences below `k`.
 void visit_digits(const OwnPlaces& places, unsigned different, std::size_t line, std::size_t k,
                   int shift, bool are_equal, const auto& use) {
     if (k == 4) return use((shift + 63 * 63) % 63, are_equal);
@@ -246,9 +247,8 @@ double expected_in_double(const OwnPlaces& places, unsigned different,
     return alternatives * sum;
 }
 
-/// In a view of two patterns, 12 adjacent lines contradict the alternatives, and the other 9 lines
-/// confirm them. The product of the odds of the contradicting lines is far outside the range of a
-/// float.
+/// In a view of two patterns, 12 adjacent lines contradict the alternatives and the other 9 lines
+/// confirm them. The product of the odds of the 12 lines is far outside the range of a float.
 TEST(KernelsAlternatives, ExpectationsOfTwoPatternsAreThoseInDoublePrecision) {
     repeat_with_each_form(3, [&](const Kernels& kernels, Rng& rng) {
         const OwnPlaces places(rng);

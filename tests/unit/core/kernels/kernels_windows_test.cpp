@@ -112,8 +112,8 @@ TEST(KernelsWindows, CentresAreFoundWhereDotsAre) {
     repeat_with_each_form(200, [](const Kernels& kernels, Rng& rng) {
         constexpr double kMargin_px = 2;
         const double sigma_px = rng.uniform(0.7, 4);
-        // A smaller window would contain little more than the top of the dot, which is flat after
-        // rounding to whole grey levels.
+        // A smaller window would contain little more than the top of the dot, which is flat because
+        // grey levels are integers.
         const auto reach_px = static_cast<float>(rng.uniform(std::max(3.3, 2.5 * sigma_px), 12));
         const auto anywhere = [&] { return rng.uniform(20, OneDot::kSide_px - 21); };
         const auto at_border = [&] { return rng.uniform(kMargin_px, kMargin_px + 1); };
@@ -124,8 +124,8 @@ TEST(KernelsWindows, CentresAreFoundWhereDotsAre) {
         const double v = anywhere();
         OneDot dot(u, v, sigma_px, rng.uniform(-0.15, 0.15));
         kernels.refine_centres(dot.view, dot.cells, reach_px, dot.table.dots);
-        // Rounding to grey levels causes an error of a few thousandths of a pixel. If the border of
-        // the image cuts off the rim of the dot, the error is larger.
+        // Rounding to grey levels causes an error of a few thousandths of a pixel. The error is
+        // larger if the border of the image cuts off the rim of the dot.
         const double max_px = is_inside ? 0.01 : 0.04;
         EXPECT_NEAR(dot.table.dots.x[0], u, max_px) << sigma_px << ' ' << reach_px;
         EXPECT_NEAR(dot.table.dots.y[0], v, max_px) << sigma_px << ' ' << reach_px;
@@ -147,9 +147,9 @@ TEST(KernelsWindows, CentresFarFromTheirDotsStay) {
 
 TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
     repeat_with_each_form(100, [](const Kernels& kernels, Rng& rng) {
-        // The list contains one dot eight times, with different predicted centres. Four predictions
-        // are close to the dot, because the kernel estimates from them how the moment depends on
-        // the offset.
+        // One dot is listed eight times, with different predicted centres. Four predictions are
+        // close to the dot, because the kernel uses them to estimate how the moment depends on the
+        // offset.
         const double u = rng.uniform(20, OneDot::kSide_px - 21);
         const double v = rng.uniform(20, OneDot::kSide_px - 21);
         OneDot dot(u, v, rng.uniform(0.9, 1.5), 0);
@@ -232,7 +232,6 @@ struct LitDots {
         view.pixels = pixels.data();
     }
     static double sq(double value) { return value * value; }
-    /// Returns the mean error of the measured dots, in px.
     std::pair<double, double> mean_error() const {
         double x = 0;
         double y = 0;

@@ -51,8 +51,8 @@ class Record {
     std::vector<unsigned char> bytes_;
 };
 
-/// Calls `run(kernels, record)` for all forms, and expects the same record as for the portable
-/// form.
+/// Calls `run(kernels, record)` for every form of the kernels, and expects every record to equal
+/// that of the portable form.
 template <typename Run>
 void expect_same(Run run) {
     Record expected;
@@ -66,8 +66,8 @@ void expect_same(Run run) {
 
 inline constexpr std::uint64_t kPlainSeed = 20262;
 
-/// Calls `use(kernels, rng)` `times` times for each form. The random numbers differ from call to
-/// call, but are the same for all forms.
+/// Calls `use(kernels, rng)` `times` times for each form. The random numbers differ between calls,
+/// but are the same for all forms.
 template <typename Use>
 void repeat_with_each_form(int times, Use use) {
     for (const core::Kernels* form : forms()) {

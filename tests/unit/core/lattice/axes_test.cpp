@@ -14,7 +14,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 25;
 
-/// Returns the symmetric edges among the dots closest to the middle of an image.
+/// Returns the symmetric edges (paper, Fig. 4) of the dots closest to the middle of an image.
 std::vector<SeedEdge> edges_of(const std::vector<DetectedDot>& dots, Vec2 image_px) {
     std::array<std::uint16_t, kMaxSeeds> seeds;
     const FixedVec centre = fixed({(image_px.x - 1) / 2, (image_px.y - 1) / 2}, 8);
@@ -60,9 +60,9 @@ TEST(Axes, AreFoundAtAnyAngleAndSpacing) {
             EXPECT_NEAR(std::remainder(degrees(found.v) - degrees(found.u) - 90, 360), 0, 1e-6);
         }
     }
-    // Displacements change an edge by up to a third of its length, so the axes have an error of a
+    // Displacements change the length of an edge by up to a third, so the axes have an error of a
     // few percent. The limit is 5 %, because the refinement starts with dots up to 4 cells away,
-    // where 5 % of the distance is 1/5 cell.
+    // where an error of 5 % is 1/5 cell.
     const auto worst = [](std::vector<double>& errors, double share) {
         std::sort(errors.begin(), errors.end());
         return errors[static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1))];
@@ -80,8 +80,8 @@ TEST(Axes, AreNearlyExactWithoutDisplacements) {
         const auto dots = dots_of(placed_dots(mesh, 20, image, [](int, int) { return Vec2{}; }));
         Lattice lattice;
         ASSERT_EQ(axes_of(edges_of(dots, image), lattice), Status::ok) << angle;
-        // The stage lengthens the axes by 4 %, because the nearest neighbours of displaced dots are
-        // closer than a spacing.
+        // Displaced dots have neighbours that are closer than a spacing. The stage uses nearest
+        // neighbours, and lengthens the axes by 4 % to compensate for this.
         EXPECT_NEAR(length(mesh_of(lattice).u), 11 * 1.043, 0.05) << angle;
         EXPECT_NEAR(std::remainder(degrees(mesh_of(lattice).u) - angle, 90), 0, 0.2) << angle;
     }
@@ -144,8 +144,8 @@ TEST(Axes, APlaneHasASpacingOfAtLeastFourPixels) {
 }
 
 TEST(Axes, BlobsFarApartDoNotOverflow) {
-    // The largest image is 4096 px wide, so 40 blobs in a row may be 100 px apart. No grid has such
-    // a spacing, but the sums must not overflow.
+    // In the largest image, which is 4096 px wide, 40 blobs in a row may be 100 px apart. No grid
+    // has such a spacing, but the sums must not overflow.
     Lattice lattice;
     for (const int step_px : {70, 100, 300, 1000}) {
         std::vector<SeedEdge> edges;

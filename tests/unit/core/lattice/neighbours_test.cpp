@@ -28,7 +28,7 @@ std::int64_t squared_distance(const DetectedDot& a, const DetectedDot& b) {
     return x * x + y * y;
 }
 
-/// Returns true if two dots are close enough to be neighbours. No grid has cells of 128 px.
+/// Returns true if two dots are close enough to be neighbours, because no grid has cells of 128 px.
 bool may_be_neighbours(const DetectedDot& a, const DetectedDot& b) {
     const std::int32_t x = std::abs(a.centre_q8.x - b.centre_q8.x);
     const std::int32_t y = std::abs(a.centre_q8.y - b.centre_q8.y);
@@ -38,8 +38,8 @@ bool may_be_neighbours(const DetectedDot& a, const DetectedDot& b) {
 constexpr int kKinds = 6;
 
 /// Returns points of a kind: 0 for scattered points, 1 for clumps, 2 for a line, 3 for a grid, 4
-/// for points some of which coincide, and 5 for a grid in which the last point of a full list is
-/// alone in its row.
+/// for points some of which coincide, and 5 for a grid whose last point is alone in its row if
+/// `count` is the maximum.
 std::vector<DetectedDot> points(Rng& rng, int count, int kind) {
     std::vector<DetectedDot> dots;
     for (int i = 0; i < count; ++i) {

@@ -49,8 +49,8 @@ std::unique_ptr<Patch> patch_of(const FloatPlane& plane, const Trouble& trouble,
     for (int j = -70; j <= 70; ++j) {
         for (int i = -70; i <= 70; ++i) {
             const Vec2 d = 6 * trouble.displacement * random_displacement(rng);
-            // A point behind the horizon of a tilted plane has no place in the image. The condition
-            // below excludes it.
+            // A point behind the horizon of a tilted plane has no image, which the negated
+            // condition below excludes.
             const Vec2 at = image_of(plane, {i + d.x, j + d.y});
             const Vec2 seen = at + trouble.jitter_px * Vec2{rng.normal(), rng.normal()};
             if (!(std::abs(seen.x) < half.x - 2 && std::abs(seen.y) < half.y - 2)) continue;
@@ -64,8 +64,9 @@ std::unique_ptr<Patch> patch_of(const FloatPlane& plane, const Trouble& trouble,
     return patch;
 }
 
-/// Returns the maximum distance between the pattern points of two planes, for image points up to
-/// `half_px` from the centre. Ignores an offset of whole cells and a rotation by quarter turns.
+/// Returns the maximum distance between the pattern points that two planes assign to an image
+/// point, over image points up to `half_px` from the centre. Offsets of whole cells and rotations
+/// by quarter turns are ignored.
 double difference(const FloatPlane& found, const FloatPlane& truth, Vec2 half_px) {
     double least = 1e9;
     for (int quarters = 0; quarters < 4; ++quarters) {
@@ -106,9 +107,9 @@ TEST(FindGrid, FindsThePlaneOfTiltedCameras) {
         EXPECT_LT(difference(grid.grid_from_image, truth, {20, 20}), 0.1);
         EXPECT_NEAR(grid.displacement, 1 / 6.0, 0.03);
         EXPECT_LT(grid.variance, 0.003);
-        // The plane must be accurate enough for the windows around the intersections to contain the
+        // The plane must be accurate enough that the windows around the intersections contain the
         // dots. One grid may be less accurate, because its growth ended early. Such a grid is
-        // refused when its dots are measured.
+        // refused later, when its dots are measured.
         exact += difference(grid.grid_from_image, truth, {56, 40}) < 0.15 &&
                  difference(grid.grid_from_image, truth, {112, 80}) < 0.45;
     }
@@ -140,8 +141,8 @@ TEST(FindGrid, FindsCoarseGridsInReducedPatches) {
         ASSERT_TRUE(core::find_grid(core::kernels(), *patch, core::whole_view(*patch), grid))
             << scale;
         EXPECT_LT(difference(grid.grid_from_image, truth, {112.0 * scale, 80.0 * scale}), 0.05);
-        // With the wrong scale, the spacing is too large or too small for the search. The search
-        // may still find the true grid, but no other grid.
+        // At the wrong scale, the spacing is outside the range of the search. The search may still
+        // find the true grid, but must not find any other grid.
         patch->scale = scale == 2 ? 4 : 1;
         EXPECT_FALSE(core::find_grid(core::kernels(), *patch, core::whole_view(*patch), grid) &&
                      difference(grid.grid_from_image, truth, {40, 40}) > 0.2);

@@ -50,8 +50,8 @@ TEST(SearchPeriodogram, RecoversTheGridWithAThirdOfTheDotsMissing) {
         EXPECT_NEAR(turned_degrees(std::atan2(found.u.y, found.u.x), angle), 0, 0.5);
         EXPECT_NEAR(length(found.v) / spacing, 1, 0.01);
         EXPECT_NEAR(turned_degrees(std::atan2(found.v.y, found.v.x), angle), 0, 0.5);
-        // The origin may be any intersection. With 150 dots displaced by 0.12 spacings (rms per
-        // axis), the standard error of the origin is 0.01.
+        // The origin may be at any intersection. With 150 dots, each displaced by 0.12 spacings
+        // (rms per axis), the standard error of the origin is 0.01 spacings.
         const Vec2 at = mesh.inverse(found.origin);
         EXPECT_NEAR(std::remainder(at.x, 1), 0, 0.06);
         EXPECT_NEAR(std::remainder(at.y, 1), 0, 0.06);
@@ -79,8 +79,7 @@ TEST(SearchPeriodogram, RecoversTheGridThatATiltedCameraSees) {
         const std::vector<DetectedDot> dots = dots_of(placed_dots(mesh, 40, image, displacement));
         std::array<std::uint16_t, kMaxSeeds> seeds;
         const int count = choose_seeds(dots, fixed(centre, 8), seeds);
-        // The search starts from a square grid with a spacing that is 3 % too small, as if it came
-        // from clustered edges.
+        // The search starts from a square grid whose spacing is 3 % too small.
         Lattice lattice = lattice_of({0.97 * flat.u, 0.97 * flat.v, centre});
         search_periodogram(dots, std::span(seeds).first(static_cast<std::size_t>(count)),
                            fixed(centre, 8), 12, lattice);

@@ -1,5 +1,5 @@
-// Tests the common properties of growing and refining a grid. Both stages extend the grid from a
-// rough estimate in the middle over the whole image, and refuse dots that do not form a grid.
+// Tests what growing a grid and refining a grid have in common. Both extend the grid from a rough
+// estimate in the middle over the whole image, and refuse dots that do not form a grid.
 #include "core/lattice/regularity.hpp"
 
 #include <ostream>
@@ -96,8 +96,8 @@ TEST_P(OutwardGrid, RefusesScatteredDots) {
     }
 }
 
-/// The limits are 7 of 10 dots near their intersections, and mean squared offsets from 1/256 to
-/// 1/10.
+/// The verdict requires that at least 7 of 10 dots are near their intersections, and that the mean
+/// squared offset is between 1/256 and 1/10.
 TEST(Regularity, JudgesByItsBounds) {
     const auto verdict = [](int near, double mean_square) {
         const Regularity regularity{100, near, 9};

@@ -45,7 +45,7 @@ TEST(Fixed, QuotientsAreRoundedToNearestHalvesAwayFromZero) {
     for (int i = 0; i < 100000; ++i) {
         const auto n = static_cast<std::int64_t>(rng.bits()) >> (24 + rng.below(40));
         const std::int64_t d = 1 + rng.below(1U << (1 + rng.below(20)));
-        // Long double keeps the quotient exact enough to distinguish any half from its neighbours.
+        // In long double, the quotient is exact enough to be rounded correctly.
         const auto expected =
             std::llround(static_cast<long double>(n) / static_cast<long double>(d));
         ASSERT_EQ(divide_rounded(n, d), expected) << n << " / " << d << ", seed " << kSeed;
@@ -152,8 +152,8 @@ TEST(Fixed, SumsOfPowersOfTwoAreRoundedUp) {
         for (int b = -40 * 256; b <= 0; b += 41) {
             const double exact = 256 * std::log2(std::exp2(a / 256.0) + std::exp2(b / 256.0));
             ASSERT_GE(add_log2(a, b), exact) << a << ", " << b;
-            // The function approximates log2(1 + 2^-d) by chords, which are at most 0.021 (5.5 /
-            // 256) above the curve, and rounds twice.
+            // The function approximates log2(1 + 2^-d) by chords and rounds twice. The chords are
+            // at most 0.021 (5.5 / 256) above the curve.
             ASSERT_LE(add_log2(a, b), exact + 5.5 + 2) << a << ", " << b;
         }
         ASSERT_LE(add_log2(a, kNever_q8), a + 1);

@@ -39,7 +39,7 @@ TEST(FloatPlane, FarAwayItDoesNotFold) {
     plane.du_x = plane.dv_y = 0.1F;
     plane.tilt_x = -0.01F;
     EXPECT_FLOAT_EQ(core::plane_point(plane, {75, 10}).x, 30);
-    // At larger distances, the divisor would be smaller, but it is limited to a quarter.
+    // At larger distances, the divisor is limited to a quarter.
     EXPECT_FLOAT_EQ(core::plane_point(plane, {100, 10}).x, 40);
     EXPECT_FLOAT_EQ(core::plane_point(plane, {200, 10}).y, 4);
 }
@@ -118,14 +118,14 @@ TEST(FloatPlane, TellsWhatACameraMaySee) {
         std::swap(bad.du_x, bad.dv_x);
         std::swap(bad.du_y, bad.dv_y);
         EXPECT_FALSE(core::is_within_reason(bad, 94, 60));
-        // The plane is folded within the image, or its origin is far away.
+        // The perspective is too strong within the image, or the origin of the plane is far away.
         bad = good;
         bad.tilt_x = 0.01F;
         EXPECT_FALSE(core::is_within_reason(bad, 94, 60));
         bad = good;
         bad.at_y = 1e6F;
         EXPECT_FALSE(core::is_within_reason(bad, 94, 60));
-        // The plane is seen edge-on: both steps are almost parallel.
+        // The plane is seen edge-on, so both steps are almost parallel.
         bad = good;
         bad.dv_x = bad.du_x + 0.1F * good.dv_x;
         bad.dv_y = bad.du_y + 0.1F * good.dv_y;

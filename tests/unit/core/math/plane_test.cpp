@@ -36,7 +36,7 @@ TEST(Plane, PointsAreThoseOfTheFormula) {
             const FixedVec p_q8 = fixed({rng.uniform(0, side), rng.uniform(0, side)}, 8);
             const Vec2 expected = formula(plane, real(p_q8, 8));
             const Vec2 found = real(plane_point_q16(plane, p_q8), 16);
-            // The divisor has a resolution of 2^-30, and the products are rounded to 2^-16
+            // The divisor is rounded to a multiple of 2^-30, and the products to multiples of 2^-16
             // spacings.
             ASSERT_NEAR(found.x, expected.x, 4e-5);
             ASSERT_NEAR(found.y, expected.y, 4e-5);
@@ -64,9 +64,9 @@ TEST(Plane, OfALatticeGivesItsCoordinates) {
             const Vec2 p{rng.uniform(0, 4095), rng.uniform(0, 4095)};
             const Vec2 expected = mesh.inverse(p);
             const Vec2 found = real(plane_point_q16(plane, fixed(p, 8)), 16);
-            // The inverse map has a resolution of 2^-24 per px and axis, which is 5e-4 over 4096
-            // px. Points and the origin have a resolution of 1/256 px, which is 7e-4 spacings at 6
-            // px per spacing.
+            // The inverse map is rounded to 2^-24 per px and axis, which is 5e-4 spacings over 4096
+            // px. Points and the origin are rounded to 1/256 px, which is 7e-4 spacings at 6 px per
+            // spacing.
             ASSERT_NEAR(found.x, expected.x, 1.2e-3) << "lattice " << i << ", seed " << kSeed;
             ASSERT_NEAR(found.y, expected.y, 1.2e-3) << "lattice " << i << ", seed " << kSeed;
         }
@@ -90,8 +90,8 @@ TEST(Plane, ImagePointsAreTheInverse) {
 }
 
 TEST(Plane, TheSearchForImagePointsEndsWhereTheMapFolds) {
-    // The lens term has any value that a fit can represent, and the points are far outside the dots
-    // of a fit. Such a point may have no image point. No intermediate result may overflow.
+    // The lens term has any value that a fit can represent, and the points are far from the dots of
+    // the fit. A point may then have no image point, but no intermediate result may overflow.
     Rng rng(kSeed);
     for (int i = 0; i < 2000; ++i) {
         SCOPED_TRACE(testing::Message() << "plane " << i << ", seed " << kSeed);
@@ -99,7 +99,7 @@ TEST(Plane, TheSearchForImagePointsEndsWhereTheMapFolds) {
         const auto any = [&] { return static_cast<std::int32_t>(rng.bits()) >> rng.below(13); };
         plane.lens_q40 = any();
         if (i % 2 == 1) {
-            // Planes fitted to false dots may have any values.
+            // The fit to false dots may give any values.
             plane.du_q24 = {any(), any()};
             plane.dv_q24 = {any(), any()};
             plane.perspective_q30 = {any(), any()};

@@ -1,6 +1,6 @@
-// Tests the correction of the bias of facing dots, which are two neighbours displaced towards each
-// other. Their measured centres are shifted towards each other. The centres of other neighbours are
-// not shifted.
+// Tests the correction of the bias of facing dots. Two neighbouring dots face each other if they
+// are displaced towards each other. Their measured centres are then shifted towards each other,
+// whereas those of other dots are not shifted.
 #include "core/pose/facing_dots.hpp"
 
 #include <map>
@@ -61,7 +61,7 @@ class FacingFrame {
         const Symbol symbol = symbols_[{i, j}];
         return {i + kDisplacement * dx(symbol), j + kDisplacement * dy(symbol)};
     }
-    /// Returns the direction from a dot to the neighbour that it faces, or 0 if it does not face a
+    /// Returns the direction from a dot to the neighbour that it faces, or (0, 0) if it faces no
     /// neighbour.
     Vec2 facing(int i, int j) {
         const Symbol own = symbols_[{i, j}];
@@ -94,7 +94,7 @@ TEST(FacingDots, AreMovedApartByWhatDrawsThemTogether) {
         const FloatPlane plane = random_float_plane(spacing_px, rng.uniform(0, 4e-4), rng);
         constexpr double kPull = 0.014;
         FacingFrame frame(plane, kPull, rng);
-        // A quarter of the dots have a neighbour that faces them.
+        // A quarter of the dots face a neighbour.
         EXPECT_NEAR(frame.mean_error_px(), kPull * spacing_px / 4, kPull * spacing_px / 12);
         ASSERT_TRUE(core::correct_neighbour_bias(plane, fit_with(kPull), frame.dots()));
         EXPECT_LT(frame.mean_error_px(), 0.1 * kPull * spacing_px);

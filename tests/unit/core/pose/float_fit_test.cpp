@@ -1,4 +1,4 @@
-// Tests fits to dots placed by a plane in double precision.
+// Tests planes that are fitted to dots. The dots are placed by a plane in double precision.
 #include "core/pose/float_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ void show_dots(const FloatPlane& plane, double noise_px, double wrong, Rng& rng,
     }
 }
 
-/// Returns `truth` without perspective, with errors of up to 0.08 spacings in position, and with
+/// Returns `truth` without its perspective, with an error of up to 0.08 spacings in position and
 /// small errors in scale and rotation.
 FloatPlane guess_of(const FloatPlane& truth, Rng& rng) {
     FloatPlane guess = truth;

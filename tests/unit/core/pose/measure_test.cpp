@@ -36,9 +36,9 @@ bool is_inside(const View& view, Vec2 point_px, double margin_px) {
            point_px.y < far.y;
 }
 
-/// Expects that dots at least `margin_px` inside the image are measured, with errors below the
-/// tolerance. Dots closer to the border may be missing, or have an error of up to a third of a
-/// pixel, because the border cuts the centroid window.
+/// Expects that all dots that are at least `margin_px` from the border are measured, with errors
+/// below the tolerance. Dots closer to the border may be missing or have an error of up to a third
+/// of a pixel, because the border cuts the centroid window.
 void expect_measured(const View& view, const std::vector<PlacedDot>& placed, int quarters,
                      double margin_px, double tolerance_px, Rng& rng) {
     const GreyImage image = drawn(view, placed, rng.uniform(0, 6.3));
@@ -88,9 +88,9 @@ TEST(MeasureDots, FindsTheirCentresInUnevenLight) {
 }
 
 TEST(MeasureDots, FindsBadlyPrintedOnesWhereTheyAre) {
-    // A printer with a scatter of 25 µm displaces one dot in a hundred by 75 µm, or 0.15 spacings.
-    // If such dots were lost, or measured with too small displacements, the residuals would not
-    // show the quality of the print.
+    // If a printer has a scatter of 25 µm, one dot in a hundred is displaced by 75 µm, which is
+    // 0.15 spacings. If such dots were lost, or measured with displacements that are too small, the
+    // residuals would be smaller than the errors of the print.
     Rng rng(kSeed);
     for (int i = 0; i < 20; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
@@ -103,7 +103,7 @@ TEST(MeasureDots, FindsBadlyPrintedOnesWhereTheyAre) {
             at = at + 0.15 * view.spacing_px * Vec2{std::cos(direction), std::sin(direction)};
         }
         // The tolerance is large, because a displaced dot may be only half a spacing from a
-        // neighbour. The rim of the neighbour is then in the window.
+        // neighbour, so that its window includes the rim of the neighbour.
         expect_measured(view, placed, i % 4, 7, 0.14, rng);
     }
 }

@@ -1,5 +1,5 @@
-// Tests the correction of the pixel bias on dots with equal sub-pixel phases, drawn with the shape
-// of the dot model and with other shapes.
+// Tests the correction of the pixel bias. The dots of a frame have equal sub-pixel phases. They are
+// drawn with the shape of the dot model, and with other shapes.
 #include "core/pose/pixel_bias.hpp"
 
 #include <gtest/gtest.h>
@@ -26,8 +26,8 @@ struct MeanError {
     core::FloatVec variance_px2;
 };
 
-/// A frame of dots with equal sub-pixel phases, because the spacing and the displacement are whole
-/// numbers of pixels.
+/// A frame whose dots have equal sub-pixel phases, because the spacing and the displacement are
+/// whole numbers of pixels.
 class AlikeFrame {
   public:
     AlikeFrame(const InkAt& ink, Vec2 phase, Rng& rng)
@@ -70,7 +70,7 @@ class AlikeFrame {
         }
         MeanError error;
         error.before = mean_error();
-        // A plane fitted to the measured centres has the same error as their mean.
+        // The error of a plane fitted to the measured centres is the mean error of the centres.
         const Vec2 origin = truth_.front() + error.before - place_of_first();
         core::FloatPlane plane;
         plane.du_x = plane.dv_y = 1.0F / kSpacing_px;

@@ -60,7 +60,7 @@ TEST(Pose, FittedToExactDotsIsExact) {
         const Reading reading = reading_off_grid(i, rng);
         const Fitted fit = fitted(reading);
         ASSERT_TRUE(fit.ok);
-        // The rounding to 1/256 px varies across the image. This variation has the same effect as a
+        // The rounding of dots to 1/256 px varies across the image, which the fit interprets as a
         // slight lens distortion.
         expect_pose(reading, fit.pose, reading.view.centre_px(), 2e-4);
         EXPECT_GE(fit.fix.dots_used, static_cast<int>(reading.dots.size()) * 9 / 10);
@@ -209,8 +209,8 @@ TEST(Pose, CovarianceIsThatOfManyNoisyFrames) {
         const Scatter found = scatter(view, reference, 0.1, kRounds, rng);
         ASSERT_EQ(found.count, kRounds);
         for (std::size_t r = 0; r < 3; ++r) {
-            // Covariances allow for a tilt, which this view does not have. Away from the centre,
-            // they are therefore too large.
+            // The covariance allows for a tilt. Because this view has no tilt, the covariance is
+            // too large away from the centre.
             const double ratio = found.claimed[r][r] / found.squares[r][r];
             EXPECT_GT(ratio, 0.85) << r;
             EXPECT_LT(ratio, 1.6) << r;
@@ -240,8 +240,8 @@ struct HalfDark {
 
 TEST(Pose, DotsInTheDarkCountLess) {
     // Noise of 0.02 px in the light part corresponds to 0.08 px in the dark part, so the variance
-    // of a dot is 16 times as large there. Compared with a view whose dots are all in the light
-    // part, the variance of the plain mean is 8.5 times as large, and the variance of the weighted
+    // of a dot is 16 times as large there. The reference is a view with all dots in the light part.
+    // In comparison, the variance of the plain mean is 8.5 times as large, and that of the weighted
     // mean is 1.9 times as large.
     Rng rng(kSeed);
     const HalfDark paper;

@@ -1,5 +1,5 @@
-// Makes views of the pattern whose dots have several kinds of errors, and checks that the fitted
-// pose is the pose of the camera.
+// Makes views of the pattern with several kinds of errors in the dots, and compares fitted poses
+// with the pose of the camera.
 #pragma once
 
 #include <cmath>
@@ -25,7 +25,8 @@ inline void expect_pose(const Reading& reading, const PlaneFromImage& found, Vec
     const Vec2 error = error_at(reading, found, pixel);
     EXPECT_NEAR(error.x, 0, tolerance);
     EXPECT_NEAR(error.y, 0, tolerance);
-    // Allows a slope error that amounts to the position tolerance over half the image height.
+    // Over half the height of the image, the error of the slope may amount to the tolerance of the
+    // position.
     const View& view = reading.view;
     const double slope = 2 * tolerance / view.image_px.y;
     const PlaneFromImage flat = core::tangent(found, fixed(pixel, 8));
@@ -35,8 +36,8 @@ inline void expect_pose(const Reading& reading, const PlaneFromImage& found, Vec
     EXPECT_NEAR(real(flat.dv_q24, 24).y, view.dv().y, slope);
 }
 
-/// Returns exact dots of a random view. `i` selects the code variant and the turn. The grid is
-/// slightly inaccurate, which must not affect the result.
+/// Returns the exact dots of a random view. `i` selects the code variant and the turn. The initial
+/// grid is slightly inaccurate, which must not affect the result.
 inline Reading reading_off_grid(int i, Rng& rng) {
     View view = random_view(rng);
     view.spacing_px = rng.uniform(6, 11);
@@ -59,7 +60,8 @@ inline std::vector<DetectedDot> dots_with_outliers(const View& view, double min_
     return dots;
 }
 
-/// Returns the dots of a view. They are displaced by `displacement` spacings instead of a sixth.
+/// Returns the dots of a view, displaced by `displacement` spacings instead of a sixth of the
+/// spacing.
 inline std::vector<DetectedDot> dots_displaced_by(double displacement, const View& view) {
     std::vector<DetectedDot> dots;
     for (const PlacedDot& d : pattern_dots(view)) {

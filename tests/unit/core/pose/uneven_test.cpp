@@ -24,11 +24,11 @@ constexpr int kReach_px = 95;
 constexpr double kJitter = 0.02;
 constexpr double kMaxSigmas = 4.5;
 
-/// Displacement of the paper, in spacings, as a function of the place relative to the image centre.
+/// The displacement of the paper, in spacings, at a place relative to the image centre.
 using Shift = std::function<Vec2(Vec2)>;
 
-/// A sheet in an image of 188 x 120 px whose dots are displaced by a function, and the pose fitted
-/// to these dots.
+/// A sheet whose paper is displaced by a function, seen in an image of 188 x 120 px, and the pose
+/// fitted to its dots.
 struct Sheet {
     FloatPlane truth;
     OwnedDots owned;
@@ -65,7 +65,7 @@ struct Sheet {
         return std::equal(columns.begin(), columns.end(), owned.dots.column.begin());
     }
     Vec2 off() const { return formula(plane, {}) - formula(truth, {}); }
-    /// Returns the maximum of the errors of x and y, in units of their standard deviations.
+    /// Returns the larger of the errors of x and y, each divided by its standard deviation.
     double sigmas_off() const {
         return std::max(std::abs(off().x) / std::sqrt(double{fix.covariance[0][0]}),
                         std::abs(off().y) / std::sqrt(double{fix.covariance[1][1]}));
@@ -113,8 +113,8 @@ TEST(FitUneven, FitsTheSideOfTheReferencePoint) {
         EXPECT_LT(length(sheet.off()), 0.02);
         EXPECT_LT(sheet.fix.dots_used, sheet.owned.dots.count * 9 / 10);
     }
-    // In some trials, the estimated line is slightly off the true line. The sheet is then
-    // classified as uneven, because a line does not explain all residuals.
+    // In some trials, the estimated line is not exactly the true line, and does not explain all
+    // residuals. The sheet is then classified as uneven.
     EXPECT_GE(divided, 55);
 }
 
@@ -131,9 +131,9 @@ TEST(FitUneven, LeavesOpenWhichSideAReferencePointAtTheLineIsOn) {
     }
 }
 
-// A plane absorbs most of a small step in the middle, and the residuals of rows that the step
-// crosses have a mean of 0. Regression: these two effects together caused errors of up to 24 sigma
-// on a sheet classified as even.
+// A plane absorbs most of a small step in the middle of the view, and the residuals of each row
+// that crosses the step have a mean of 0. Regression: because of both effects, the step was not
+// found. The sheet was classified as even, with errors of up to 24 standard deviations.
 TEST(FitUneven, SeesASmallStepInTheMiddle) {
     Rng rng(kSeed);
     int claim_too_much = 0;
@@ -149,8 +149,8 @@ TEST(FitUneven, SeesASmallStepInTheMiddle) {
         ASSERT_TRUE(sheet.is_fitted);
         claim_too_much += sheet.sigmas_off() > 4 ? 1 : 0;
     }
-    // The fast attempts do not search for a line if the scatter between blocks is small. They
-    // therefore miss a few small steps.
+    // The fast attempts search for a line only if the scatter between blocks is large, so they miss
+    // a few small steps.
     EXPECT_LE(claim_too_much, 2);
 }
 
