@@ -44,10 +44,10 @@ struct ThresholdOptions {
     /// High threshold, in 1/256 of the local contrast. The darkest pixel of a blob must be at least
     /// this much darker than the paper. Larger values reject more noise. [1 to 256]
     int high_q8 = 155;
-    /// Contrast below which an image tile counts as blank, in grey levels. The limit in use is
-    /// clamp(c / 6, min_contrast, 2 * min_contrast), where c is the largest contrast of a tile in
-    /// the frame so far. Devices use this option or `DeviceOptions::min_contrast`, whichever is
-    /// larger. [1 to 255]
+    /// Minimum contrast of an image tile with dots, in grey levels. A tile counts as blank if its
+    /// contrast is below clamp(c / 6, min_contrast, 2 * min_contrast), where c is the largest
+    /// contrast of a tile in the frame so far. Devices use this option or
+    /// `DeviceOptions::min_contrast`, whichever is larger. [1 to 255]
     int min_contrast = 8;
 };
 

@@ -29,7 +29,7 @@ class StackedDots {
     /// Uses the pixels within `reach_px` of the central pixel, and within kHalf_px along each axis.
     explicit StackedDots(float reach_px);
 
-    /// Adds a dot if all its pixels are in the image.
+    /// Adds a dot if all its pixels are in the image. `paper` is the paper level around the dot.
     void add(const ImageView& image, const Phase& phase, float paper);
 
     /// Calls `use` for each stack that contains dots.

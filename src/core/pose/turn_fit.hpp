@@ -15,7 +15,7 @@ struct TurnFit {
     ReadoutTurn turn;    ///< fitted rotation
     float variance = 0;  ///< variance of `turn.rad_per_row`
     /// Additional covariance of x, y (in spacings) and theta at the reference point, due to the
-    /// uncertainty of the rotation.
+    /// uncertainty of the rotation and of the drift.
     std::array<std::array<float, 3>, 3> pose_covariance{};
 };
 

@@ -51,7 +51,8 @@ class Blocks {
     float outliers() const { return outliers_; }
     float side() const { return side_; }  ///< side of a block, in spacings
     /// Returns the variance of the displacement of the sheet at a block, along one axis, in
-    /// spacings^2.
+    /// spacings^2. This is the variance of the block displacements minus that due to pixel bias,
+    /// but at least 0.
     float variance_of_sheet() const {
         return std::max(scatter_.variance_between() - variance_of_bias_, 0.0F);
     }
