@@ -131,9 +131,9 @@ Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noe
 Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexcept;
 
 /// Computes the position of the first of 6 to 32 adjacent columns (or rows) from their rolls. Each
-/// roll must be in [0, 63). The rolls may be indices for any row (or column) instead of row 0, but
-/// for the same one in all columns. Errors: bad_window if the number of rolls is not from 6 to 32;
-/// not_in_code and ambiguous as for `decode`.
+/// roll must be in [0, 63). The rolls may be indices of the bits in any row (or column) instead of
+/// row 0, but all of them must refer to the same one. Errors: bad_window if the number of rolls is
+/// not from 6 to 32; not_in_code and ambiguous as for `decode`.
 Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 

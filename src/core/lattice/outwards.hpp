@@ -29,7 +29,7 @@ struct PatchGrid {
 /// origin of the dot coordinates.
 struct PatchView {
     float spacing_px = 0;  ///< approximate spacing, in px of the image
-    /// Maximum distance of a dot from the origin, per axis, in image pixels.
+    /// Upper bound on the distance of every dot from the origin, per axis, in image pixels.
     float full_reach_px = 0;
     /// Approximate number of central dots, from which the waves are computed; at most 64
     float central_dots = 30;
@@ -49,7 +49,7 @@ PatchView whole_view(const Patch& patch);
 bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
 /// Finds the grid. Returns false if there are fewer than `view.min_dots` dots, if the dots do not
-/// form a grid, or if they are not displaced from the intersections.
+/// form a grid, or if they are not displaced from the intersections. `grid` must then not be used.
 bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view, PatchGrid& grid);
 
 }  // namespace dotpose::core

@@ -55,8 +55,8 @@ struct ReadoutTurn {
     }
 
     /// Returns the inverse of `without_turn`, by Newton's method with `steps` steps. `row` is the
-    /// approximate row of the result. Valid where the scene moves down more slowly than the rows
-    /// are read.
+    /// approximate row of the result. The result is correct only where the scene moves down by less
+    /// than one row per row, because otherwise several rows or none may show the scene point.
     FloatVec seen_from(FloatVec still, float row, int steps) const {
         constexpr float kMinClosing = 0.05F;
         constexpr float kMaxRow = 4096;  // exceeds the rows of every image

@@ -24,7 +24,8 @@ Parameters direction_gradient(const FourVecs& places, float scale, std::size_t f
 }
 
 /// Multiplies the covariance of the whitened parameters by a vector. Only adjacent parameters are
-/// correlated, so all elements that are not next to the diagonal are 0 and are skipped.
+/// correlated, so the covariance is tridiagonal, and the function skips the other elements, which
+/// are 0.
 Parameters times(const std::array<Parameters, kPoseParameters>& covariance, const Parameters& a) {
     Parameters product;
     for (std::size_t k = 0; k < kPoseParameters; ++k) {

@@ -21,9 +21,9 @@ float settled(const FloatPlane& p, float reach) {
                       tuned::kMinSettled, tuned::kMaxSettled);
 }
 
-/// Returns true if replacing the outlier limit `limit` with `next_limit` certainly or almost keeps
-/// the inliers: all dots are inliers with both limits, or the relative difference of the limits is
-/// below kSameLimit.
+/// Returns true if the outlier limits `limit` and `next_limit` select practically the same inliers.
+/// This is the case if all dots are inliers with both limits, or if the limits differ by less than
+/// kSameLimit times `limit`.
 bool keeps_dots(const FitSums& sums, float limit, float next_limit) {
     return (sums.outliers == 0 && sums.farthest <= next_limit) ||
            std::abs(next_limit - limit) < tuned::kSameLimit * limit;
