@@ -92,7 +92,7 @@ struct Fix {
                                         ///< 2^-16 spacing
     /// Change of theta during the readout of a rolling shutter, from the first to the last row. 0
     /// if the frame shows no significant rotation. The pose and `pattern_from_image` apply to the
-    /// middle row.
+    /// time at which the middle row was read.
     float readout_turn_rad = 0;
 
     /// Covariance of (x, y, theta) at the reference point, with x and y in spacings and theta in

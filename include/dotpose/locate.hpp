@@ -219,7 +219,9 @@ class Locator : public RowLocator {
 /// class does not contain the code of Locator.
 class DeviceLocator : public RowLocator {
   public:
-    /// Memory and options have the same rules as for Locator.
+    /// Uses `memory`, which must outlive the locator. No other locator may use this memory while
+    /// this locator exists. If any option is outside its range, every frame gets the status
+    /// bad_argument.
     explicit DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options = {});
 
     /// Sets the known regions, as Locator::set_known does. `locate` and `finish` then search for

@@ -99,7 +99,8 @@ inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     return column + kTileWidth_px;
 }
 
-/// Number of tiles by contrast relative to the paper level, in bins of 1/kContrastBins.
+/// Number of tiles for each contrast. The contrast is a fraction of the paper level, in bins of
+/// 1/kContrastBins.
 using Histogram = std::array<std::uint16_t, kContrastBins>;
 
 /// Adds the tiles with at least `min_contrast` to the histogram, and returns their number. All

@@ -30,8 +30,8 @@ inline FloatVec rotated(FloatVec v, UnitVec by) {
 /// top to bottom. Points are in px relative to the image centre. The middle row is row 0, and it
 /// shows the scene at time 0.
 ///
-/// During each row, the scene moves by drift + rad_per_row (p - axis)'. The prime denotes a
-/// rotation by 90 degrees. The scene point p appears in the image at
+/// While the middle row is read, the image of a scene point p moves by drift + rad_per_row (p -
+/// axis)'. The prime denotes a rotation by 90 degrees. The scene point p appears in the image at
 ///
 ///     seen = axis + R(row rad_per_row) (p - axis) + way(row), where row = seen.y.
 ///

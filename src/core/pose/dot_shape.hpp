@@ -27,7 +27,7 @@ class DotShape {
     using Terms = std::array<float, Term::count>;
 
     /// Fits the model to the stacks. Returns false if there are too few dots, or if the stacks do
-    /// not determine the model.
+    /// not determine the model. The other functions may be called only after a successful fit.
     bool fit(const StackedDots& stacks);
 
     /// Draws the fitted dot. `centre` is in px relative to the central pixel.

@@ -48,7 +48,7 @@ struct PartSums {
     float squares() const { return counts[3]; }
 
     /// Returns the summed squared residuals of the coherent dots, after subtracting the best common
-    /// displacement and rotation.
+    /// displacement and rotation. If there are fewer than three coherent dots, subtracts nothing.
     float remaining() const {
         if (dots() < 3) return squares();
         const float by = 1 / dots();
@@ -85,7 +85,7 @@ struct Symmetric3 {
     Symmetric3 times(float by) const {
         return {by * xx, by * xy, by * xz, by * yy, by * yz, by * zz};
     }
-    /// Returns the inverse, or 0 if the determinant is not positive.
+    /// Returns the inverse, or a zero matrix if the determinant is not positive.
     Symmetric3 inverse() const {
         const Symmetric3 a = adjugate();
         const float determinant = xx * a.xx + xy * a.xy + xz * a.xz;
@@ -335,8 +335,8 @@ PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, con
         search.try_direction(direction, best);
         direction = turned(direction, kSin, kSin);
     }
-    // Skips the refinement if the gain is less than half the threshold, because a small rotation of
-    // the line rarely doubles the gain.
+    // Returns a line with a gain of less than kPossible / 2 without refining its direction, because
+    // a small rotation of the line rarely doubles the gain.
     if (best.gain < PaperStep::kPossible / 2) return best;
     float s = kSin;
     for (int halving = 0; halving < 5; ++halving) {

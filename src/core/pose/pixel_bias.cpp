@@ -72,8 +72,8 @@ struct CentroidError {
 enum class Along : std::uint8_t { u, v };
 
 /// Returns the centroid error along one axis. `dot_px` and `window_px` are the coordinates of the
-/// dot and of the window centre along this axis, relative to a pixel centre. Uses the slope along u
-/// for both axes, as the kernels do.
+/// dot and of the window centre along this axis, relative to a pixel centre. Like the kernels,
+/// divides the moments of both axes by the slope of the moment along u.
 CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, float window_px,
                              float radius_px) {
     const bool is_u = axis == Along::u;
@@ -95,8 +95,8 @@ CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, fl
     return error;
 }
 
-/// Centroid bias along one axis: amplitude * sin(2 pi phase). Applies to windows centred on their
-/// dots.
+/// Centroid bias along one axis: amplitude * sin(2 pi phase). Valid only for windows that are
+/// centred on their dots.
 class AxisBias {
   public:
     AxisBias(const DotShape& shape, Along axis, float radius_px) {
