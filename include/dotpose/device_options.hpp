@@ -119,11 +119,11 @@ struct DeviceOptions {
     /// The default of 0 accepts any readable contrast. [0 to 255]
     int min_contrast = 0;
 
-    /// Maximum number of dots in the pose fit of the first and the tracked attempt. The fit uses
-    /// dots that are spread evenly over the frame. The pose error is proportional to 1 /
-    /// sqrt(max_dots), and the time of the fit is proportional to max_dots. The default includes
-    /// all dots of a VGA frame at 9 px per spacing. [any; clamped to the range from 64 to the
-    /// capacity of the memory]
+    /// Maximum number of dots in the pose fit of the first and the tracked attempt. If more dots
+    /// are in view, the fit uses a selection that is spread evenly over the frame. The pose error
+    /// is then proportional to 1 / sqrt(max_dots), and the time of the fit is proportional to
+    /// max_dots. The default includes all dots of a VGA frame at 9 px per spacing. [any; clamped to
+    /// the range from 64 to the capacity of the memory]
     int max_dots = 4096;
 
     /// Spacing of the printed grid, in nm. Used to convert a fix to millimetres. Default: 0.508 mm,
