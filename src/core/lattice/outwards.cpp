@@ -271,7 +271,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
         pass.reach_px = std::min(std::max(pass.reach_px * growth(fraction), 4 * spacing), full);
     }
     // Graphics may prevent the fit from covering the whole patch, so a fit to the dots within five
-    // spacings of the origin is also accepted. It is enough to read bits.
+    // spacings of the origin is also accepted. Such a fit is sufficient for reading bits.
     if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
     grid.agreement = sums.used * pass.max_off * pass.max_off - sums.squares;

@@ -23,7 +23,8 @@ struct GroupScatter {
         constexpr float kFitted = 6;
         return std::max(2 * groups - kFitted, 1.0F);
     }
-    /// Returns the variance of a dot about its group mean, for one coordinate.
+    /// Returns the variance of a dot's residual about the mean residual of its group, for one
+    /// coordinate.
     float variance_within() const {
         constexpr float kExact = 1e-12F;
         return std::max(squares - between, 0.0F) / std::max(2 * (dots - groups), 1.0F) + kExact;

@@ -9,9 +9,9 @@ namespace dotpose::core {
 
 /// A line in the pattern that divides the sheet.
 struct PaperStep {
-    /// Thresholds for `gain`. The gain of 1 in 100 flat sheets exceeds kPossible by chance. A gain
-    /// above kCertain is almost never due to chance. The thresholds are high because steps are
-    /// rare, and because the search tries many lines with three parameters each.
+    /// Thresholds for `gain`. On 1 in 100 flat sheets, the largest gain exceeds kPossible by
+    /// chance. On flat sheets, a gain above kCertain almost never occurs. The thresholds are high
+    /// because steps are rare, and because the search tries many lines with three parameters each.
     static constexpr float kPossible = 12;
     static constexpr float kCertain = 23;
 

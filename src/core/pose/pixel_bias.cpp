@@ -65,8 +65,8 @@ float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide
 struct CentroidError {
     float px;                  ///< centroid minus true centre
     DotShape::Terms by_shape;  ///< derivatives of `px` with respect to the shape terms
-    float slope_ratio;         ///< slope of the moment along this axis, divided by the slope along
-                               ///< u
+    float slope_ratio;  ///< slope of the moment along this axis, divided by the slope of the moment
+                        ///< along u
 };
 
 enum class Along : std::uint8_t { u, v };
