@@ -81,7 +81,7 @@ constexpr int dx(Symbol symbol) {
 constexpr int dy(Symbol symbol) {
     return x_bit(symbol) + y_bit(symbol) - 1;
 }
-/// Returns 'u', 'l', 'r' or 'd'.
+/// Returns the first letter of the direction: 'u', 'l', 'r' or 'd'.
 constexpr char letter(Symbol symbol) {
     return "ulrd"[static_cast<int>(symbol) & 3];
 }
@@ -130,14 +130,16 @@ Place moved(CodeVariant code, Place place, std::int32_t dx, std::int32_t dy) noe
 ///   affected.
 Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexcept;
 
-/// Computes the position of the first column (or row) from 6 to 32 consecutive rolls. Each roll
-/// must be in [0, 63). All rolls must refer to the same row (or column). Errors: as for `decode`.
+/// Computes the position of the first of 6 to 32 adjacent columns (or rows) from their rolls. Each
+/// roll must be in [0, 63). The rolls may be indices of the bits in any row (or column) instead of
+/// row 0, but all of them must refer to the same one. Errors: bad_window if the number of rolls is
+/// not from 6 to 32; not_in_code and ambiguous as for `decode`.
 Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 
-/// Returns `Section::u` of the column at `position`, or `Section::v` of the row at `position`.
-/// `roll_seen` is the index in the main sequence of the bit that this column (or row) has in row
-/// (or column) `cross_position`.
+/// Returns the section in which the column (or row) at `position` has a given roll: `Section::u`
+/// for a column, and `Section::v` for a row. `roll_seen` is the index in the main sequence of the
+/// bit that this column (or row) has in row (or column) `cross_position`.
 int section_of(CodeVariant code, int roll_seen, std::uint32_t position,
                std::uint32_t cross_position) noexcept;
 

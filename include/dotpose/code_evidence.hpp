@@ -29,32 +29,36 @@ namespace dotpose {
 /// Odds for each code variant of a sheet, given all frames so far.
 ///
 /// Consecutive frames at one place show the same dots with the same defects, so together they have
-/// the weight of a single frame. Each frame alone would divide the odds of a variant by some
-/// factor. All frames at one place together divide the odds by the mean of these factors. A frame
-/// is at the same place as the frames before it if it is less than 64 cells from the first of them,
-/// along both axes.
+/// the weight of a single frame. Each frame alone would divide the odds of a variant by a factor:
+/// the likelihood of the frame's bits in their likeliest variant, divided by their likelihood in
+/// this variant. All consecutive frames at one place together divide the odds by the mean of their
+/// factors. A frame is at the same place as the frames before it if it is less than 64 cells from
+/// the first of them, along both axes.
 class CodeEvidence {
   public:
     /// log2 of the likelihood or of the odds of each code variant, in units of 2^-8.
     using LogOdds = std::array<std::int32_t, kCodeVariantCount>;
 
-    /// Maximum log2 ratio between the odds of the likeliest code variant and the odds of any other
-    /// code variant. The limit applies to each frame and to all frames together. Because of this
-    /// limit, later frames can show that the sheet was replaced.
+    /// Maximum log2 of the ratio between the odds of the likeliest code variant and the odds of any
+    /// other code variant. The maximum applies to each frame, and to all frames together. Without
+    /// it, the evidence from many frames of one sheet could not be outweighed by the first frames
+    /// of a new sheet in another code variant.
     static constexpr std::int32_t kMax_log2 = 40;
-    /// Maximum log2 factor by which all consecutive frames at one place together reduce the odds of
-    /// a variant.
+    /// Maximum log2 of the factor by which all consecutive frames at one place together divide the
+    /// odds of a variant.
     static constexpr std::int32_t kMaxOfPlace_log2 = 32;
 
     /// Starts with equal odds for all code variants.
     CodeEvidence() = default;
 
-    /// Returns the code variant with the highest odds.
+    /// Returns the code variant with the highest odds. Of variants with equal odds, returns the
+    /// first in the order of CodeVariant.
     CodeVariant likeliest() const;
-    /// Returns the log2 odds for `code` relative to the likeliest code variant. The result is in
-    /// units of 2^-8, and at most 0.
+    /// Returns the log2 of a ratio: the odds of `code`, divided by the odds of the likeliest code
+    /// variant. The result is in units of 2^-8, and at most 0.
     std::int32_t log2_q8(CodeVariant code) const;
-    /// Returns the probability, in [0, 1], that the sheet is not printed in `code`.
+    /// Returns the probability, in [0, 1], that the sheet is not printed in `code`, assuming that
+    /// it is printed in one of the code variants.
     float p_wrong(CodeVariant code) const;
 
     /// Adds a frame located at `cell`. `log2_q8` contains the log2 likelihood of the frame's bits
@@ -65,8 +69,9 @@ class CodeEvidence {
     LogOdds sum() const;
 
     LogOdds before_log2_q8_{};  ///< log2 odds from the frames at all places before the newest place
-    /// Sum of the factors by which each frame at the newest place alone would reduce the odds of a
-    /// code variant, relative to the likeliest variant. `sum()` uses the mean of these factors.
+    /// For each code variant, the sum over all frames at the newest place. Each frame adds the
+    /// factor by which it alone would divide the odds of the variant. `sum()` uses the mean of
+    /// these factors.
     std::array<float, kCodeVariantCount> factors_here_{};
     Cell here_;
     std::uint32_t frames_here_ = 0;

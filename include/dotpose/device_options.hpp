@@ -44,10 +44,10 @@ struct ThresholdOptions {
     /// High threshold, in 1/256 of the local contrast. The darkest pixel of a blob must be at least
     /// this much darker than the paper. Larger values reject more noise. [1 to 256]
     int high_q8 = 155;
-    /// Contrast below which an image tile counts as blank, in grey levels. The limit in use is
-    /// clamp(c / 6, min_contrast, 2 * min_contrast), where c is the largest contrast of a tile in
-    /// the frame so far. Devices use this option or `DeviceOptions::min_contrast`, whichever is
-    /// larger. [1 to 255]
+    /// Minimum contrast of an image tile with dots, in grey levels. A tile counts as blank if its
+    /// contrast is below clamp(c / 6, min_contrast, 2 * min_contrast), where c is the largest
+    /// contrast of a tile in the frame so far. Devices use this option or
+    /// `DeviceOptions::min_contrast`, whichever is larger. [1 to 255]
     int min_contrast = 8;
 };
 
@@ -119,11 +119,11 @@ struct DeviceOptions {
     /// The default of 0 accepts any readable contrast. [0 to 255]
     int min_contrast = 0;
 
-    /// Maximum number of dots in the pose fit of the first and the tracked attempt. The fit uses
-    /// dots that are spread evenly over the frame. The pose error is proportional to 1 /
-    /// sqrt(max_dots), and the time of the fit is proportional to max_dots. The default includes
-    /// all dots of a VGA frame at 9 px per spacing. [any; clamped to the range from 64 to the
-    /// capacity of the memory]
+    /// Maximum number of dots in the pose fit of the first and the tracked attempt. If more dots
+    /// are in view, the fit uses a selection that is spread evenly over the frame. The pose error
+    /// is then proportional to 1 / sqrt(max_dots), and the time of the fit is proportional to
+    /// max_dots. The default includes all dots of a VGA frame at 9 px per spacing. [any; clamped to
+    /// the range from 64 to the capacity of the memory]
     int max_dots = 4096;
 
     /// Spacing of the printed grid, in nm. Used to convert a fix to millimetres. Default: 0.508 mm,

@@ -72,13 +72,15 @@ struct Fix {
     /// Number of frames whose bits were combined to find the position. It exceeds 1 only if the
     /// caller gave the camera motion between the frames.
     int frames = 1;
-    int dots_seen = 0;  ///< number of dot-sized blobs
+    int dots_seen = 0;  ///< number of dots found in the image, as dot-sized blobs or at the places
+                        ///< that the code predicts
     int dots_used = 0;  ///< number of dots in the pose fit
     /// Number of bits that contradict the position. Each cell contributes two bits.
     int bit_errors = 0;
     /// Upper bound on the probability that the position is wrong, as log2.
     int p_wrong_log2 = 0;
-    /// Root mean square distance of the dots from their fitted places, per axis.
+    /// Root mean square distance of the dots from their fitted places, per axis. 0 if the
+    /// covariance is unknown.
     float residual_px = 0;
 
     /// Map from the image to the pattern, in spacings relative to `place`. The pose is the point to
@@ -90,10 +92,11 @@ struct Fix {
                                         ///< 2^-16 spacing
     /// Change of theta during the readout of a rolling shutter, from the first to the last row. 0
     /// if the frame shows no significant rotation. The pose and `pattern_from_image` apply to the
-    /// middle row.
+    /// time at which the middle row was read.
     float readout_turn_rad = 0;
 
-    /// Covariance of (x, y, theta), with x and y in spacings and theta in radians.
+    /// Covariance of (x, y, theta) at the reference point, with x and y in spacings and theta in
+    /// radians. All elements are 0 if the covariance is unknown.
     float covariance[3][3] = {};
     /// Returns true if the covariance is known. A DeviceLocator computes neither covariance nor
     /// residual.

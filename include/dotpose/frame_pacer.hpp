@@ -31,12 +31,12 @@ struct PacerOptions {
     std::int64_t stationary_period_us = 1'000'000;
     /// Frame period while moving. With the default of 0, frames are taken as fast as possible.
     std::int64_t moving_period_us = 0;
-    /// Movement threshold along either axis, in units of 2^-16 spacings. The distance is measured
-    /// from the place where the device came to rest. The threshold must be well above the noise of
-    /// fixes at rest. Default: a tenth of a spacing.
+    /// Distance along either axis above which a device counts as moved, in units of 2^-16 spacings.
+    /// The distance is measured from the place where the device came to rest. The value must be
+    /// well above the noise of fixes at rest. Default: a tenth of a spacing.
     std::int32_t moved_q16 = 6554;
-    /// Movement threshold for rotations, as a binary angle: 2^31 is half a turn. Default: one
-    /// degree.
+    /// Rotation above which a device counts as moved, as a binary angle: 2^31 is half a turn.
+    /// Default: one degree.
     std::int32_t turned_bam = 11'930'465;
     /// True if a stationary device counts as moved when it loses the pattern, because it may have
     /// been lifted. Set this to false if frames also fail while the device is at rest.

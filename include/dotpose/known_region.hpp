@@ -25,8 +25,9 @@ struct KnownRegion {
     std::uint32_t rows = 0;
 };
 
-/// Minimum number of dots of a grid if regions are known, unless the options contain a lower
-/// `min_dots`. The smallest views with a certain position have about 25 dots.
+/// Minimum number of dots required to search for a grid if regions are known. If `min_dots` in the
+/// options is lower, it is used instead. The smallest views with a certain position have about 25
+/// dots.
 inline constexpr int kMinKnownDots = 16;
 
 /// Specifies whether sheets other than the known sheets may be in view.

@@ -118,11 +118,12 @@ class Locator : public RowLocator {
     }
 
     /// Sets the known regions: the parts of the code plane that are printed on the sheets that may
-    /// be in view. With known regions, a view of about 30 dots is sufficient for a fix. `regions`
-    /// must remain valid while the locator uses it. An empty span makes all places possible again.
-    /// If a region is empty, extends beyond the plane, or has an invalid code or section, the
-    /// function returns bad_argument, and the previous regions remain in use. Effort::device does
-    /// not use the regions.
+    /// be in view. With known regions, a view of about 30 dots is sufficient for a fix. The locator
+    /// does not copy the regions, so their array must remain valid until other regions are set or
+    /// the locator is destroyed. An empty span makes all places possible again. If a region is
+    /// empty, extends beyond the plane, or has an invalid code or section, the function returns
+    /// bad_argument, and the previous regions remain in use. Effort::device does not use the
+    /// regions.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 
@@ -218,13 +219,16 @@ class Locator : public RowLocator {
 /// class does not contain the code of Locator.
 class DeviceLocator : public RowLocator {
   public:
-    /// Memory and options have the same rules as for Locator.
+    /// Uses `memory`, which must outlive the locator. No other locator may use this memory while
+    /// this locator exists. If any option is outside its range, every frame gets the status
+    /// bad_argument.
     explicit DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options = {});
 
-    /// Sets the known regions, as Locator::set_known does. Searches the regions first, and the
-    /// other parts of the plane only if other sheets are possible. Ignores regions in a code other
-    /// than `options().code`. A search needs no additional memory. Its time is proportional to the
-    /// total number of columns and rows of the regions, so there should be few regions.
+    /// Sets the known regions, as Locator::set_known does. `locate` and `finish` then search for
+    /// the position in the regions first, and in the rest of the plane only if other sheets are
+    /// possible. They ignore regions in a code other than `options().code`. The search needs no
+    /// additional memory. Its time is proportional to the total number of columns and rows of all
+    /// regions, so there should be few regions.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 

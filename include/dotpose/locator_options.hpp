@@ -15,8 +15,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Options for a Locator. All options apply to every attempt, including images that are pushed row
-/// by row.
+/// Options for a Locator. All options apply to every attempt, and also to images that are pushed
+/// row by row.
 struct LocatorOptions {
     /// Code variant of the sheet. Default: detected from all frames so far. If two code variants
     /// explain a frame about equally well, the frame gets the status ambiguous_code.

@@ -43,7 +43,8 @@ struct PosePacket {
     std::int16_t theta_bam16 = 0;  ///< binary angle: 2^15 is half a turn, and one step is 0.0055
                                    ///< degrees
     Section section;
-    /// Upper bound on the probability that the position is wrong, as -log2. 255 means 255 or more.
+    /// -log2 of the upper bound on the probability that the position is wrong. 255 means 255 or
+    /// more.
     std::uint8_t certainty = 0;
     /// Standard deviation of x or y, whichever is larger, in units of 2^-12 spacings, rounded up.
     /// 255 means 255 or more, or unknown.

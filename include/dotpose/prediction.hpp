@@ -31,7 +31,7 @@ struct Prediction {
     /// is min(3 sigma, 0.6) on a DeviceLocator, and min(3 sigma + 0.1, 0.6) on a Locator.
     std::int32_t sigma_q16 = 65536 / 5;
     /// Standard deviation of the angle, as a binary angle: 2^31 is half a turn. Default: 1.4
-    /// degrees. The search ignores this value. It always covers rotations of up to 4 degrees.
+    /// degrees. The search ignores this value, and always covers rotations of up to 4 degrees.
     std::int32_t sigma_theta_bam = 1 << 24;
     /// Change of theta during the readout of a rolling shutter (see Fix). A DeviceLocator ignores
     /// this value.

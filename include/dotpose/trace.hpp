@@ -36,8 +36,8 @@ struct DetectedDot {
     std::uint16_t area_px = 0;
 };
 
-/// Edge between two seeds. Seeds are the dots from which the lattice is found. Each of the two
-/// seeds is among the four nearest neighbours of the other.
+/// Edge between two seeds, each of which is among the four nearest neighbours of the other. Seeds
+/// are the dots from which the lattice is found.
 struct SeedEdge {
     std::int16_t from = 0;  ///< index of a seed
     std::int16_t to = 0;

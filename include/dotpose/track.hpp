@@ -198,12 +198,14 @@ struct MotionEstimate {
     Vector3 acceleration{};    ///< mm/s^2, rad/s^2
     Covariance9 covariance{};  ///< covariance of (x, y, theta), their velocities and their
                                ///< accelerations
-    /// Agility: factor, at most 1, by which the filter scales the acceleration variance of each
-    /// axis in TrackOptions.
+    /// Agility of each axis: a factor of at most 1, by which the filter multiplies the variance of
+    /// the acceleration along this axis. TrackOptions contains the standard deviation for a factor
+    /// of 1.
     Vector3 agility{1, 1, 1};
     Vector3 innovation{};  ///< difference between the newest sighting and its prediction
     Matrix3 noise{};       ///< covariance of the newest sighting, including printing errors
-    /// Running mean of the ratio between the squared innovations and their predicted variances.
+    /// Running mean of the squared innovation, divided by its predicted covariance and by its three
+    /// dimensions. The mean is 1 if the innovations are as large as predicted.
     float scatter = 1;
 };
 

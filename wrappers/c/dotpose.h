@@ -228,7 +228,8 @@ typedef struct dotpose_fix {
     double p_wrong; /* 32 */
     /* Binary logarithm of the upper bound p_wrong. */
     int32_t p_wrong_log2; /* 40 */
-    /* Number of dot-sized blobs. */
+    /* Number of dots found in the image, as dot-sized blobs or at the places that the code
+     * predicts. */
     int32_t dots_seen; /* 44 */
     /* Number of dots to which the pose was fitted. */
     int32_t dots_used; /* 48 */

@@ -99,7 +99,8 @@ inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     return column + kTileWidth_px;
 }
 
-/// Number of tiles by contrast relative to the paper level, in bins of 1/kContrastBins.
+/// Number of tiles for each contrast. The contrast is a fraction of the paper level, in bins of
+/// 1/kContrastBins.
 using Histogram = std::array<std::uint16_t, kContrastBins>;
 
 /// Adds the tiles with at least `min_contrast` to the histogram, and returns their number. All
@@ -165,8 +166,8 @@ void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q
 }  // namespace
 
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold) {
-    // Divisor from the largest contrast so far to the minimum contrast. A smaller divisor would
-    // reject more noise, but it would also reject pale dots in uneven light.
+    // The minimum contrast is the largest contrast so far divided by this number. A smaller divisor
+    // would reject more noise, but it would also reject pale dots in uneven light.
     constexpr int kContrastPart = 6;
     return std::clamp(threshold.max_contrast / kContrastPart, options.min_contrast,
                       2 * options.min_contrast);
@@ -204,8 +205,9 @@ void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold
     std::uint8_t* const papers = threshold.half_low_levels.data() + whole_width(threshold) - tiles;
     std::uint8_t* const darknesses = threshold.high_levels.data();
     join_bands(three_bands(threshold, band), tiles, papers, darknesses);
-    // Extends the darkness to the adjacent tiles, because the dot spacing may exceed the tile
-    // width. The paper level needs no extension, because every tile contains paper.
+    // Takes the maximum darkness of each tile and its two neighbours, because the dot spacing may
+    // exceed the tile width, so a tile may contain no dot. The paper level needs no such maximum,
+    // because every tile contains paper.
     join_neighbours(darknesses, tiles);
     // If the last tile is mostly padding, raises its paper level to at least that of the preceding
     // tile.

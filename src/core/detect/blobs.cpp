@@ -69,7 +69,8 @@ std::int32_t mean_q8(std::uint32_t sum, std::uint32_t mass) {
 }
 
 /// Returns true if a blob is small, is not at the image border, and has a pixel darker than the
-/// high threshold. The lower border needs no test, because blobs in the last row are never closed.
+/// high threshold. The lower border needs no test, because only blobs that do not continue in the
+/// next row are tested, and the last row has no next row.
 bool may_be_dot(const OpenBlob& blob, const AdaptiveThreshold& threshold) {
     return blob.passes_high && blob.area_px <= kMaxDotArea_px && blob.first_v > 0 &&
            blob.left > 0 && blob.right < threshold.width_px &&
@@ -198,7 +199,8 @@ void close_blobs(std::span<const Run> above, int v, const AdaptiveThreshold& thr
         OpenBlob* const blob = run.blob;
         if (blob == nullptr || blob->last_v == v) continue;
         if (blob->part_of == nullptr) close_blob(*blob, threshold, list);
-        blob->last_v = static_cast<std::uint16_t>(v);  // excludes the other runs of this blob
+        blob->last_v =
+            static_cast<std::uint16_t>(v);  // so that the other runs of this blob are skipped
         blob->part_of = open.first_unused;
         open.first_unused = blob;
     }

@@ -12,7 +12,8 @@ constexpr std::uint32_t inverse_q22(std::uint32_t n) {
     return (1U << 22) / (n + 1);
 }
 
-/// Divides by a mass from 16 to 2^16. The error is at most 1 %.
+/// Divides sums by a mass from 16 to 2^16. The relative error of the inverse of the mass is at most
+/// 1 %.
 class Inverse {
   public:
     explicit Inverse(std::int32_t mass) {

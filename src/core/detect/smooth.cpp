@@ -70,15 +70,16 @@ void weight_down(const std::array<const std::uint16_t*, kRows>& rows, int width_
     }
 }
 
-/// Returns half the side of the averaging window for the local light, along one axis. Near the
-/// image border, the window is smaller so that it remains centred, because only a centred window
-/// cancels light gradients. The result is at least kMinHalf_px.
+/// Returns half the side of the window over which the local mean level is computed, along one axis.
+/// Near the image border, the window is smaller so that it remains centred, because only a centred
+/// window cancels light gradients. The result is at least kMinHalf_px.
 int half_side(int at, int length, int max_half) {
     return std::max(std::min({max_half, at, length - 1 - at}), tuned::kMinHalf_px);
 }
 
 /// Adds a row to the column sums, or subtracts the row if `add` is false. A pixel much darker than
-/// the paper counts as paper, because a stroke of graphics does not mean that there is less light.
+/// the paper counts as paper, because the local mean represents the illumination and must not
+/// depend on graphics.
 void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     const std::uint8_t* row = image.row(v);
     std::uint32_t* sums = smoothing.column_sums.data();

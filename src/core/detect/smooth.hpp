@@ -31,7 +31,8 @@ void begin_smoothing(const ImageView& image, Smoothing& smoothing);
 
 /// Returns the next row of the filtered image, from top to bottom. The filter clamps each pixel to
 /// the range of its eight neighbours, except at the image border, applies a 5 x 5 binomial filter
-/// (sigma 1 px), and divides by the mean of a rectangle around the pixel. The row is valid until
+/// (sigma 1 px), and scales the result so that the mean level of a rectangle around the pixel
+/// becomes kNormalLevel. This mean is computed from the unfiltered image. The row is valid until
 /// the next call.
 const std::uint8_t* next_smooth_row(const ImageView& image, Smoothing& smoothing);
 

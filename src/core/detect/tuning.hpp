@@ -31,8 +31,8 @@ namespace smooth {
 /// window shrinks to this size at the image border.
 inline constexpr int kMinHalf_px = 4;
 /// Maximum level of a stroke, in tenths of the brightest paper level nearby. Darker pixels count as
-/// paper in the local mean, because a stroke of graphics does not mean that there is less light.
-/// The values 4 and 9 locate 1,995 frames.
+/// paper in the local mean, because this mean represents the illumination and must not depend on
+/// graphics. The values 4 and 9 locate 1,995 frames.
 inline constexpr int kStroke_10ths = 7;
 /// Minimum level of the normalised image, in fifths of kNormalLevel. Graphics are clamped to this
 /// level, so they are not darker than a weak dot. Otherwise, the required contrast near dark
@@ -49,7 +49,8 @@ inline constexpr int kSmall_px = 48;
 /// has fewer tiles, half of them are enough.
 inline constexpr int kMinDarkness = 12;
 inline constexpr int kMinTiles = 12;
-/// Minimum darkness of a dot relative to a typical dot, in 1/256. Lighter minima count as noise.
+/// Minimum darkness of a dot divided by the darkness of a typical dot, in 1/256. Lighter minima
+/// count as noise.
 inline constexpr int kThreshold_q8 = 150;
 /// Distances at which the surroundings of a minimum are tested, along the axes and diagonally, in
 /// px. At most kMaxDark of the eight directions may be dark. The limit is not 0, because

@@ -31,10 +31,10 @@ std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
     return static_cast<std::int32_t>(square_root(half_square * 2));
 }
 
-/// Returns the grid direction modulo a quarter turn, as a binary angle (2^32 units per turn). If
-/// the steps are written as complex numbers, the fourth power is the same for steps in all four
-/// grid directions, so the fourth powers of all edges can be added. `length_q8` is the median edge
-/// length.
+/// Returns the grid direction that is at most 45 degrees from +x, as a binary angle (2^32 units per
+/// turn). If the steps are written as complex numbers, the fourth power is the same for steps in
+/// all four grid directions, so the fourth powers of all edges can be added. `length_q8` is the
+/// median edge length.
 std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t length_q8) {
     const std::int32_t inverse_q16 = 1024 * 65536 / length_q8;
     std::int32_t sum_re = 0;
@@ -188,9 +188,9 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
     // neighbours.
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;
-    // Unlike the paper, which uses both medians as axes, this estimate averages them into a square
-    // grid, because they deviate from a square mostly by random errors, not by tilt. Averaging
-    // halves the variance.
+    // Unlike the paper, which uses both medians as axes, this estimate averages u and v, rotated by
+    // -90 degrees, into one axis of a square grid. The medians deviate from a square grid mostly by
+    // random errors, not by tilt, so averaging halves the variance.
     const FixedVec twice_u{u.x + v.y, u.y - v.x};
     lattice.u_q16 = {twice_u.x * kLengthening_q8 / 2, twice_u.y * kLengthening_q8 / 2};
     lattice.v_q16 = {-lattice.u_q16.y, lattice.u_q16.x};

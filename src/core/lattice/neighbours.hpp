@@ -20,9 +20,10 @@ struct BucketedSeed {
     std::uint16_t begin = 0;  ///< index of the bucket's first seed
 };
 
-/// Chooses at most `seeds.size()` dots in a square around `centre_q8`. The square grows by one bin
-/// of a distance histogram at a time, as long as it contains at most `seeds.size()` dots. Writes
-/// the dot indices to `seeds` and returns their number.
+/// Chooses at most `seeds.size()` dots in a square around `centre_q8`. The half side of the square
+/// is a multiple of the bin width of a distance histogram: the largest for which the square
+/// contains at most `seeds.size()` dots, but at least one bin. Writes the dot indices to `seeds`
+/// and returns their number.
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds);
 

@@ -117,8 +117,8 @@ bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane)
     const auto right_of = [](const std::array<float, 6>& s) {
         return std::array{s[1], s[2], s[0]};
     };
-    // Return the sums of i x times (x, y, 1), and of i y times (x, y, 1), for the argument
-    // `sums.i`. For the argument `sums.j`, j replaces i.
+    // `with_x(sums.i)` returns the sums of i x x, i x y and i x, and `with_y(sums.i)` returns the
+    // sums of i y x, i y y and i y. For `sums.j`, j replaces i.
     const auto with_x = [](const std::array<float, 6>& s) { return std::array{s[3], s[4], s[1]}; };
     const auto with_y = [](const std::array<float, 6>& s) { return std::array{s[4], s[5], s[2]}; };
     std::array<float, 3> i = inverse(right_of(sums.i));
@@ -169,8 +169,8 @@ float growth(float fraction) {
     return fraction > tuned::kFairFraction ? tuned::kFairGrowth : tuned::kPoorGrowth;
 }
 
-/// The distance of a dot to its kNearest-th nearest neighbour measures the density of the dots
-/// around it. The largest density gives the first estimate of the grid spacing.
+/// The density of the dots around a dot is measured by the distance to its kNearest-th nearest
+/// neighbour. The first estimate of the grid spacing is computed from the smallest such distance.
 constexpr std::size_t kNearest = 20;
 
 /// Returns the squared distance from the dot at `of` to its kNearest-th nearest neighbour, in px^2.
@@ -201,8 +201,10 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
     PatchDots& dots = patch.dots;
     const int count = dots.count;
     if (count < tuned::kMinDots) return false;
-    // Limits for the number of dots that are tested as origins, and for the number of computed
-    // distances. If noise adds many dots, fewer of them are tested as origins.
+    // Limits for the number of dots that are tested as origins. The time of one test is
+    // proportional to the number of dots, so if noise adds many dots, fewer of them are tested:
+    // about kMaxDistances distances are computed, unless this would leave fewer than kMinCandidates
+    // dots.
     constexpr int kMaxCandidates = 64;
     constexpr int kMinCandidates = 16;
     constexpr int kMaxDistances = 32768;
@@ -251,8 +253,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     if (mean_square < kUndisplaced) return false;
     grid.displacement =
         std::clamp(std::sqrt(mean_square), tuned::kMinDisplacement, tuned::kMaxDisplacement);
-    // Further rounds assign each dot to the nearest of the four places of its cell. This reduces
-    // the noise to a fifth.
+    // Further rounds assign each dot to the nearest of the four places of its cell, so
+    // displacements no longer count as noise.
     pass.displacement = grid.displacement;
     pass.max_off = std::min(tuned::kMaxOffsetPart * grid.displacement, tuned::kMaxOffset);
     for (int round = 0; round < tuned::kMaxRounds; ++round) {
@@ -268,8 +270,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
             break;
         pass.reach_px = std::min(std::max(pass.reach_px * growth(fraction), 4 * spacing), full);
     }
-    // Accepts a fit to the dots within five spacings, because graphics may prevent the fit from
-    // covering the whole patch. Five spacings are enough to read bits.
+    // Graphics may prevent the fit from covering the whole patch, so a fit to the dots within five
+    // spacings of the origin is also accepted. Such a fit is sufficient for reading bits.
     if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
     grid.agreement = sums.used * pass.max_off * pass.max_off - sums.squares;

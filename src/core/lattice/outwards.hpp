@@ -16,8 +16,8 @@ struct PatchGrid {
     /// Root mean square displacement of the dots, in spacings. It is clamped to the range from
     /// kMinDisplacement to kMaxDisplacement (lattice/tuning.hpp).
     float displacement = 0;
-    /// Variance of the offset between a dot and the nearest of the four places of its cell, per
-    /// axis, in spacings^2.
+    /// Mean squared offset, per axis, between a dot and the nearest of the four places of its cell,
+    /// in spacings^2.
     float variance = 0;
     /// Agreement of the dots with the grid, in spacings^2, to compare grids of the same dots. If m
     /// is `CellPass::max_off`, each dot at a distance d <= m from the nearest place of its cell
@@ -29,7 +29,7 @@ struct PatchGrid {
 /// origin of the dot coordinates.
 struct PatchView {
     float spacing_px = 0;  ///< approximate spacing, in px of the image
-    /// Maximum distance of a dot from the origin, per axis, in image pixels.
+    /// Upper bound on the distance of every dot from the origin, per axis, in image pixels.
     float full_reach_px = 0;
     /// Approximate number of central dots, from which the waves are computed; at most 64
     float central_dots = 30;
@@ -45,11 +45,11 @@ PatchView whole_view(const Patch& patch);
 /// Moves the origin of the dots to the densest part of the patch, for patches that the pattern
 /// covers only partly. A part is dense if the distance of a dot to its 20th nearest neighbour is
 /// small. Sets `view`, and sets `from_middle_px` to the new origin relative to the patch middle, in
-/// whole px. Returns false if there are fewer than kMinDots dots.
+/// whole px. Returns false without any change if there are fewer than kMinDots dots.
 bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
 /// Finds the grid. Returns false if there are fewer than `view.min_dots` dots, if the dots do not
-/// form a grid, or if they are not displaced from the intersections.
+/// form a grid, or if they are not displaced from the intersections. `grid` must then not be used.
 bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view, PatchGrid& grid);
 
 }  // namespace dotpose::core

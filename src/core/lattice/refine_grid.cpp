@@ -72,8 +72,8 @@ int reach_px(std::span<const DetectedDot> dots, FixedVec centre_q8) {
 }
 
 /// Fits the plane to the targets of the dots with one Gauss-Newton step. `target_of(g)` returns the
-/// target of a dot at grid point g. Leaves the plane unchanged if the dots do not determine the
-/// step.
+/// target of a dot at grid point g. If the dots do not determine the step, the plane remains
+/// unchanged.
 template <typename TargetOf>
 void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, TargetOf target_of) {
     const int reach = reach_px(dots, plane.centre_q8);

@@ -27,8 +27,8 @@ struct Regularity {
     /// members, it includes dots beyond the reach. Callers ignore dots beyond kFarthest_cells.
     int farthest_cell = 0;
 
-    /// Returns true if at least kSettled_20th / 20 of the dots are near an intersection. The reach
-    /// of the fit may then grow.
+    /// Returns true if at least kSettled_20th / 20 of the dots are near an intersection. Repeating
+    /// the fit at the same reach is then unnecessary.
     bool is_settled() const {
         return 20 * near_intersections >= tuning::regularity::kSettled_20th * dots;
     }
@@ -51,8 +51,9 @@ struct Regularity {
 
 /// Extends a fit from kFirstReach_cells to the farthest dot. `fit(reach_cells)` must fit the grid
 /// to the dots at most `reach_cells` from the origin, and set `found`. At each reach, repeats the
-/// fit up to `max_rounds` times until enough dots are near an intersection. Each fit assigns more
-/// dots to the correct cells. Returns false if `fit` returns false.
+/// fit until enough dots are near an intersection, but at most `max_rounds` times, because each fit
+/// assigns more dots to the correct cells. Then extends the reach, even if too few dots are near an
+/// intersection. Returns false if `fit` returns false.
 template <typename Fit>
 bool fit_outwards(int max_rounds, const Regularity& found, Fit fit) {
     for (int reach = kFirstReach_cells;; reach += reach / 2 + 1) {

@@ -11,8 +11,8 @@ namespace dotpose::core::tuning {
 
 /// Growth of a grid fit (lattice/regularity).
 namespace regularity {
-/// Minimum fraction of dots near an intersection before the fit extends to farther dots, in 1/20.
-/// The other dots may be dirt.
+/// Minimum fraction of dots near an intersection, in 1/20, at which a fit extends to farther dots
+/// without being repeated. The fraction is less than 1, because some dots may be dirt.
 inline constexpr int kSettled_20th = 19;
 /// Minimum fraction of dots near an intersection in a grid, in 1/10. At random places, half the
 /// dots are near an intersection.

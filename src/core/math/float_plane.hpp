@@ -49,8 +49,9 @@ inline float spacing_px(const FloatPlane& plane) {
 }
 
 /// Returns true if the plane is a plausible view of paper. The spacing must be from 3 to 400 px,
-/// the cells must not be too flat, the map must not fold within the image, and the coordinates must
-/// fit in PlaneFromImage. Returns false if a value is NaN.
+/// the image axes must be mapped to directions with an angle whose sine exceeds 1/4, the map must
+/// not fold within the image, and the coordinates must fit in PlaneFromImage. Returns false if a
+/// value is NaN.
 bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px);
 
 PlaneFromImage fixed_plane(const FloatPlane& plane, FixedVec centre_q8);

@@ -12,8 +12,9 @@ struct GridPoint {
     FixedVec offset_q16;  ///< in spacings, each in [-1/2, 1/2) (paper, eq. 5)
 };
 
-/// Limit for coordinates in 2^-16 spacings, and for slopes in 2^-24 spacings per px. Only planes
-/// fitted to false dots exceed it. Four times the limit fits in 32 bits.
+/// Maximum magnitude of coordinates in 2^-16 spacings, and of slopes in 2^-24 spacings per px.
+/// Larger values, which occur only in planes fitted to false dots, are clamped. Four times the
+/// maximum fits in 32 bits.
 inline constexpr std::int32_t kBeyondReason = 1 << 28;
 
 /// Returns k |r|^2 in units of 2^-48, for an offset r from the distortion centre. On steeply tilted

@@ -13,7 +13,8 @@ inline constexpr float kPower24 = 16777216.0F;
 inline constexpr float kPower30 = 1073741824.0F;
 inline constexpr float kPower40 = kPower24 * kPower16;
 
-/// Returns the nearest integer, clamped to +-kBeyondReason. Returns -kBeyondReason for NaN.
+/// Returns the integer nearest to `value`, clamped to +-kBeyondReason. Returns -kBeyondReason for
+/// NaN.
 inline std::int32_t rounded(float value) {
     constexpr float kMax = kBeyondReason;
     const float whole = value + (value < 0 ? -0.5F : 0.5F);

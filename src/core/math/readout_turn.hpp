@@ -30,8 +30,8 @@ inline FloatVec rotated(FloatVec v, UnitVec by) {
 /// top to bottom. Points are in px relative to the image centre. The middle row is row 0, and it
 /// shows the scene at time 0.
 ///
-/// During each row, the scene moves by drift + rad_per_row (p - axis)'. The prime denotes a
-/// rotation by 90 degrees. The scene point p appears in the image at
+/// While the middle row is read, the image of a scene point p moves by drift + rad_per_row (p -
+/// axis)'. The prime denotes a rotation by 90 degrees. The scene point p appears in the image at
 ///
 ///     seen = axis + R(row rad_per_row) (p - axis) + way(row), where row = seen.y.
 ///
@@ -55,8 +55,8 @@ struct ReadoutTurn {
     }
 
     /// Returns the inverse of `without_turn`, by Newton's method with `steps` steps. `row` is the
-    /// approximate row of the result. Valid where the scene moves down more slowly than the rows
-    /// are read.
+    /// approximate row of the result. The result is correct only where the scene moves down by less
+    /// than one row per row, because otherwise several rows or none may show the scene point.
     FloatVec seen_from(FloatVec still, float row, int steps) const {
         constexpr float kMinClosing = 0.05F;
         constexpr float kMaxRow = 4096;  // exceeds the rows of every image

@@ -23,8 +23,9 @@ Parameters direction_gradient(const FourVecs& places, float scale, std::size_t f
     return gradient;
 }
 
-/// Multiplies a covariance by a vector. The covariance is tridiagonal, because only adjacent
-/// parameters are correlated.
+/// Multiplies the covariance of the whitened parameters by a vector. Only adjacent parameters are
+/// correlated, so the covariance is tridiagonal, and the function skips the other elements, which
+/// are 0.
 Parameters times(const std::array<Parameters, kPoseParameters>& covariance, const Parameters& a) {
     Parameters product;
     for (std::size_t k = 0; k < kPoseParameters; ++k) {
@@ -53,9 +54,9 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
     fix.dots_seen = std::max(fix.dots_seen, fix.dots_used);
     fix.residual_px = std::sqrt(fit.variance) * static_cast<float>(fix.spacing_px_q16) / 65536.0F;
     const ScaledPlane plane(float_plane(pattern_from_image), static_cast<float>(fit.reach_px));
-    // Theta is the direction of the image's x axis in the pattern. Its gradient is the gradient of
-    // the direction between two points, kStep_px to the left and to the right of the reference
-    // point.
+    // Theta is the direction of the image's x axis in the pattern. It is approximated by the
+    // direction from a point kStep_px to the left of the reference point to a point kStep_px to the
+    // right.
     constexpr float kStep_px = 8;
     const FixedVec from_centre_q8 = reference_q8 - pattern_from_image.centre_q8;
     const float x = static_cast<float>(from_centre_q8.x) / 256;

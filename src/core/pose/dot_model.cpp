@@ -12,7 +12,7 @@ constexpr auto kSide = DotPixels::kSide;
 /// Chords of half an ellipse at equal steps of the parametric angle a, from the outermost to the
 /// innermost. Each element is cos(a): the chord is at v = radius.y cos(a), and its ends are at u =
 /// +-radius.x sin(a). The other half of the ellipse is symmetric. Adjacent chords must be less than
-/// a pixel apart, so kChordsOfSmall is enough for small ellipses.
+/// a pixel apart, so a small ellipse needs fewer chords (kChordsOfSmall).
 constexpr float kChordsOfSmall[] = {0.99144486F, 0.92387953F, 0.79335334F,
                                     0.60876143F, 0.38268343F, 0.13052619F};
 constexpr float kChords[] = {0.99691733F, 0.97236992F, 0.92387953F, 0.85264016F, 0.76040597F,

@@ -32,7 +32,8 @@ struct DotPixels {
     std::array<std::array<float, kSide>, kSide> all{};
 };
 
-/// Image of a model dot, and the derivatives of this image. The total darkness of the image is 1.
+/// Image of a model dot, and the derivatives of this image. The total darkness of a dot that is
+/// completely within the drawn pixels is 1.
 struct DotImages {
     DotPixels dot;
     /// Derivatives with respect to the centre, the squared half axes and the blur variance, each

@@ -11,7 +11,8 @@ class DotShape {
   public:
     /// Terms of the fit. `offset_u` and `offset_v` are the mean offset of the dots from their
     /// expected places. The radii are squared half axes, and the blurs are variances. `mass` is the
-    /// total darkness of a dot, and `paper` is the darkness of the paper.
+    /// total darkness of a dot. `paper` is the darkness of a pixel without ink, which is close to
+    /// 0, because darkness is relative to the local paper level.
     enum Term : std::size_t {
         offset_u,
         offset_v,
@@ -26,7 +27,7 @@ class DotShape {
     using Terms = std::array<float, Term::count>;
 
     /// Fits the model to the stacks. Returns false if there are too few dots, or if the stacks do
-    /// not determine the model.
+    /// not determine the model. The other functions may be called only after a successful fit.
     bool fit(const StackedDots& stacks);
 
     /// Draws the fitted dot. `centre` is in px relative to the central pixel.
@@ -38,7 +39,8 @@ class DotShape {
     /// Returns the mean offset of the dots from their expected places, in px.
     FloatVec offset() const { return {terms_[offset_u], terms_[offset_v]}; }
     /// Returns the variance of a quantity that depends on the terms, given its derivatives with
-    /// respect to the terms. The variance from the normal equations is multiplied by the misfit.
+    /// respect to the terms. This is the variance from the normal equations times `misfit()`,
+    /// because residuals larger than the noise make the terms less certain.
     float variance(const Terms& derivatives) const;
     /// Returns the reduced chi-squared of the fit, but at least 1. The misfit is about 1 if the
     /// residuals contain only noise.

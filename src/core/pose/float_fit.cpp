@@ -10,9 +10,10 @@ namespace {
 
 namespace tuned = tuning::fit;
 
-/// Returns the limit of `moved` (see `solve`) below which the fit has converged. For planes with
-/// little perspective and lens distortion, the limit is larger, because their fit is nearly linear
-/// and a single step ends close to the solution.
+/// Returns a threshold for `moved`, the squared length of a step (see `solve`). The fit has
+/// converged if `moved` is below the threshold. The threshold is larger for planes with little
+/// perspective and lens distortion, because their fit is nearly linear and a single step ends close
+/// to the solution.
 float settled(const FloatPlane& p, float reach) {
     const float nonlinear =
         (std::abs(p.tilt_x) + std::abs(p.tilt_y)) * reach + std::abs(p.bend) * reach * reach;
@@ -20,8 +21,9 @@ float settled(const FloatPlane& p, float reach) {
                       tuned::kMinSettled, tuned::kMaxSettled);
 }
 
-/// Returns true if the outlier limits `limit` and `next_limit` select the same inliers, or if their
-/// relative difference is below kSameLimit.
+/// Returns true if the outlier limits `limit` and `next_limit` select practically the same inliers.
+/// This is the case if all dots are inliers with both limits, or if the limits differ by less than
+/// kSameLimit times `limit`.
 bool keeps_dots(const FitSums& sums, float limit, float next_limit) {
     return (sums.outliers == 0 && sums.farthest <= next_limit) ||
            std::abs(next_limit - limit) < tuned::kSameLimit * limit;

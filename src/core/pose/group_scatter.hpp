@@ -23,13 +23,15 @@ struct GroupScatter {
         constexpr float kFitted = 6;
         return std::max(2 * groups - kFitted, 1.0F);
     }
-    /// Returns the variance of a dot about its group mean, for one coordinate.
+    /// Returns the variance of a dot's residual about the mean residual of its group, for one
+    /// coordinate.
     float variance_within() const {
         constexpr float kExact = 1e-12F;
         return std::max(squares - between, 0.0F) / std::max(2 * (dots - groups), 1.0F) + kExact;
     }
-    /// Returns the excess of the scatter between groups over the expected scatter of uncorrelated
-    /// residuals, in standard deviations.
+    /// Returns how far the scatter between groups exceeds its expected value for uncorrelated
+    /// residuals, in standard deviations of this scatter. Negative if the scatter is smaller than
+    /// expected.
     float excess() const {
         return (between / (freedom() * variance_within()) - 1) * std::sqrt(freedom() / 2);
     }

@@ -98,8 +98,8 @@ struct BorderBackground {
 };
 
 /// Computes the paper level from the window sides that are in the image. There are at least two
-/// such sides, because no image is smaller than a window. If one of two opposite sides is missing,
-/// the slope between them is 0.
+/// such sides, because an image that shows a grid is larger than a window. If one of two opposite
+/// sides is missing, the slope between them is 0.
 BorderBackground border_background(const Patch& patch, FixedVec pixel, int half) {
     const auto side = [](bool is_inside, int first, int last, auto level) -> std::optional<float> {
         if (!is_inside) return {};

@@ -21,11 +21,12 @@ constexpr float kLinesPerSpacing = 2;
 constexpr int kDirections = 8;
 constexpr float kBehind = tuned::kBehind;
 
-/// Sums over the dots in one part of the sheet. A dot is *coherent* if a displacement of the whole
-/// part can explain its residual.
+/// Sums over the dots in one part of the sheet. A dot is *coherent* if its residual is at most as
+/// large as the residual that a displacement of the whole part can explain (tuned::kTogether).
 struct PartSums {
-    /// Number of dots, sum of their log odds for the plane of the whole sheet, number of coherent
-    /// dots, and sum of the squared residuals of the coherent dots.
+    /// Number of dots; sum of the log odds that each dot is on the plane of the whole sheet rather
+    /// than at a random place (see tuned::kOnPlane); number of coherent dots; sum of the squared
+    /// residuals of the coherent dots.
     Four counts;
     Four places;  ///< coherent dots: sums of x and y, and of the residuals along x and y
     /// Coherent dots: sums of xx, xy and yy, and of the cross products of place and residual.
@@ -47,7 +48,7 @@ struct PartSums {
     float squares() const { return counts[3]; }
 
     /// Returns the summed squared residuals of the coherent dots, after subtracting the best common
-    /// displacement and rotation.
+    /// displacement and rotation. If there are fewer than three coherent dots, subtracts nothing.
     float remaining() const {
         if (dots() < 3) return squares();
         const float by = 1 / dots();
@@ -84,7 +85,7 @@ struct Symmetric3 {
     Symmetric3 times(float by) const {
         return {by * xx, by * xy, by * xz, by * yy, by * yz, by * zz};
     }
-    /// Returns the inverse, or 0 if the determinant is not positive.
+    /// Returns the inverse, or a zero matrix if the determinant is not positive.
     Symmetric3 inverse() const {
         const Symmetric3 a = adjugate();
         const float determinant = xx * a.xx + xy * a.xy + xz * a.xz;
@@ -92,9 +93,10 @@ struct Symmetric3 {
     }
 };
 
-/// Least-squares affine map from the places of all coherent dots to their residuals. Gains are
-/// relative to this map, because the plane fitted to all dots is distorted by a step: if the step
-/// is in the middle of the view, the plane explains most of it.
+/// Least-squares affine map from the places of all coherent dots to their residuals. A step
+/// distorts the plane that was fitted to all dots: if the step is in the middle of the view, a tilt
+/// of this plane explains most of it. The effect of a step is therefore computed by fitting the
+/// step and this map together.
 class AffineFit {
   public:
     AffineFit() = default;
@@ -110,8 +112,8 @@ class AffineFit {
 
     /// Returns the summed squared residuals of all coherent dots, after subtracting the map.
     float squares() const { return squares_; }
-    /// Returns the reduction of the summed squared residuals by a displacement of the part
-    /// `beyond`.
+    /// Returns by how much `squares()` decreases if a displacement of the part `beyond` is fitted
+    /// together with the map. Returns 0 if the dots do not determine the displacement.
     float explained_by_displacement(const PartSums& beyond) const {
         const Triple step{beyond.dots(), beyond.places[0], beyond.places[1]};
         const float spread = step[0] - inner_product(step, inverse_ * step);
@@ -120,8 +122,9 @@ class AffineFit {
         const float y = beyond.places[3] - inner_product(step, y_);
         return (x * x + y * y) / spread;
     }
-    /// Returns the reduction of the summed squared residuals by a displacement and rotation of the
-    /// part `beyond`.
+    /// Returns by how much `squares()` decreases if a displacement and a rotation of the part
+    /// `beyond` are fitted together with the map. Returns 0 if the dots do not determine the
+    /// displacement.
     float explained_by_step(const PartSums& beyond) const {
         const float xx = beyond.moments[0];
         const float xy = beyond.moments[1];
@@ -148,9 +151,9 @@ class AffineFit {
     }
 
   private:
-    /// Minimum spread at which the dots determine a step. If an affine map is fitted to the value 1
-    /// for dots beyond the line and 0 for all other dots, the spread is the sum of the squared
-    /// residuals.
+    /// Minimum spread at which the dots determine a step. The spread measures how badly an affine
+    /// map imitates a step: if an affine map is fitted to the value 1 for dots beyond the line and
+    /// 0 for all other dots, the spread is the sum of its squared residuals.
     static constexpr float kMinSpread = 1;
 
     Symmetric3 inverse_{};
@@ -183,9 +186,9 @@ class Search {
         const auto wanted = static_cast<std::size_t>(kLinesPerSpacing * length);
         lines_ = std::clamp(wanted, std::size_t{4}, kLines);
         per_spacing_ = static_cast<float>(lines_) / length;
-        // The log odds of an outlier depend on the number of outliers. If they are frequent, for
-        // example because of printed text, an outlier is only weak evidence of a displacement of
-        // the paper.
+        // The log odds of an outlier depend on the number of outliers. If outliers are frequent,
+        // for example because of printed text, a single outlier is only weak evidence that the
+        // paper is displaced.
         off_plane_ = natural_log((outliers + 1) / static_cast<float>(count_ + 1));
         for (std::size_t k = 0; k < count_; ++k)
             sums_[k] = sums_of(dots_[k]);
@@ -265,7 +268,8 @@ class Search {
 
     /// Returns the gain of a step relative to the affine map, as a log likelihood ratio. For n
     /// coherent dots, the gain is n ln(s / r), where s and r are the summed squared residuals
-    /// without and with the step. Returns 0 if the upper bound n (s - r) / r is at most `min_gain`.
+    /// without and with the step. Because ln(x) <= x - 1, the gain is at most n (s - r) / r.
+    /// Returns 0 without computing the logarithm if this bound is at most `min_gain`.
     float gain_of_step(const PartSums& beyond, float min_gain) const {
         const float explained = affine_.explained_by_step(beyond);
         const float remaining = affine_.squares() - explained;
@@ -281,8 +285,8 @@ class Search {
                off_plane_ * (part.seen() - part.dots());
     }
 
-    /// Returns an upper bound on `gain_of`, which is the gain if the separate planes explain all
-    /// coherent dots exactly.
+    /// Returns an upper bound on `gain_of`: the gain for separate planes on which all coherent dots
+    /// have residuals of 0.
     float max_gain_of(const PartSums& beyond, const PartSums& here) const {
         const auto max_of = [this](const PartSums& part) {
             return kOnPlane * part.dots() + off_plane_ * (part.seen() - part.dots());
@@ -293,7 +297,9 @@ class Search {
 
     /// Returns the log likelihood ratio between separate planes and one plane for the whole sheet.
     /// Both parts have a separate plane, because the plane of the whole sheet may fit neither of
-    /// them. If the dots beyond the line have no common plane, their log odds are 0.
+    /// them. If its own plane explains the part beyond the line worse than random places do, the
+    /// log odds of this part are 0. If its own plane explains the part here worse than the plane of
+    /// the whole sheet does, this part adds nothing.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));
@@ -305,8 +311,8 @@ class Search {
     PartSums all_{};
     AffineFit affine_;
     float variance_;
-    /// Natural logarithm of the odds for a plane that an outlier contributes. No dot contributes
-    /// less (see tuned::kOnPlane).
+    /// Log odds (natural) that an outlier contributes for a plane, and lower limit of the log odds
+    /// of every dot (see tuned::kOnPlane).
     float off_plane_;
     float weight_ = 1;  ///< number of dots that each sample represents
     std::size_t lines_ = 0;
@@ -329,8 +335,8 @@ PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, con
         search.try_direction(direction, best);
         direction = turned(direction, kSin, kSin);
     }
-    // Skips the refinement if the gain is less than half the threshold, because a small rotation of
-    // the line rarely doubles the gain.
+    // Returns a line with a gain of less than kPossible / 2 without refining its direction, because
+    // a small rotation of the line rarely doubles the gain.
     if (best.gain < PaperStep::kPossible / 2) return best;
     float s = kSin;
     for (int halving = 0; halving < 5; ++halving) {

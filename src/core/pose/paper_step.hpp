@@ -9,9 +9,9 @@ namespace dotpose::core {
 
 /// A line in the pattern that divides the sheet.
 struct PaperStep {
-    /// Thresholds for `gain`. The gain of 1 in 100 flat sheets exceeds kPossible by chance. A gain
-    /// above kCertain is almost never due to chance. The thresholds are high because steps are
-    /// rare, and because the search tries many lines with three parameters each.
+    /// Thresholds for `gain`. On 1 in 100 flat sheets, the largest gain exceeds kPossible by
+    /// chance. On flat sheets, a gain above kCertain almost never occurs. The thresholds are high
+    /// because steps are rare, and because the search tries many lines with three parameters each.
     static constexpr float kPossible = 12;
     static constexpr float kCertain = 23;
 
@@ -19,11 +19,12 @@ struct PaperStep {
     /// Distance from the reference point to the line, in spacings. Negative if the reference point
     /// is beyond the line.
     float distance = 0;
-    float gain = 0;  ///< natural log of the likelihood ratio, relative to a single plane
+    float gain = 0;  ///< natural log of the likelihood ratio between a sheet divided by this line
+                     ///< and a single plane
 };
 
-/// Returns the line with the largest gain, or a gain of 0 if no line has a positive gain. `fit` is
-/// the result of fitting `plane`.
+/// Returns the line with the largest gain. If no line has a positive gain, the `gain` of the result
+/// is 0. `fit` contains the statistics of the fit of `plane` to the dots.
 PaperStep find_paper_step(const MeasuredDots& dots, const FloatPlane& plane, const PoseFit& fit,
                           FloatVec reference_px);
 

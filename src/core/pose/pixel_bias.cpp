@@ -65,15 +65,15 @@ float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide
 struct CentroidError {
     float px;                  ///< centroid minus true centre
     DotShape::Terms by_shape;  ///< derivatives of `px` with respect to the shape terms
-    float slope_ratio;         ///< slope of the moment along this axis, divided by the slope along
-                               ///< u
+    float slope_ratio;  ///< slope of the moment along this axis, divided by the slope of the moment
+                        ///< along u
 };
 
 enum class Along : std::uint8_t { u, v };
 
 /// Returns the centroid error along one axis. `dot_px` and `window_px` are the coordinates of the
-/// dot and of the window centre along this axis, relative to a pixel centre. Uses the slope along u
-/// for both axes, as the kernels do.
+/// dot and of the window centre along this axis, relative to a pixel centre. Like the kernels,
+/// divides the moments of both axes by the slope of the moment along u.
 CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, float window_px,
                              float radius_px) {
     const bool is_u = axis == Along::u;
@@ -95,8 +95,8 @@ CentroidError centroid_error(const DotShape& shape, Along axis, float dot_px, fl
     return error;
 }
 
-/// Centroid bias along one axis: amplitude * sin(2 pi phase). Applies to windows centred on their
-/// dots.
+/// Centroid bias along one axis: amplitude * sin(2 pi phase). Valid only for windows that are
+/// centred on their dots.
 class AxisBias {
   public:
     AxisBias(const DotShape& shape, Along axis, float radius_px) {
@@ -140,10 +140,11 @@ class AxisBias {
     float dots_ = 0;
 };
 
-/// Returns the centroid error, in px, of a dot at offset `d` from its window centre. The kernels
-/// take a single Newton step as if the moment were linear in d, but it is proportional to d - bend
-/// d^3. They also divide the moments of both axes by the slope along u at the window centre.
-/// `slope_ratio` is the slope along v divided by the slope along u.
+/// Returns the centroid error, in px, of a dot at offset `d` from its window centre. There are two
+/// causes. The kernels take a single Newton step, which is exact only if the moment is linear in d,
+/// but the moment is proportional to d - bend d^3. The kernels also divide the moments of both axes
+/// by the slope along u at the window centre. `slope_ratio` is the slope along v divided by the
+/// slope along u.
 FloatVec error_off_centre(float bend, float slope_ratio, FloatVec d) {
     return {2 * bend * d.x * d.x * d.x,
             d.y * (slope_ratio * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1)};
@@ -168,8 +169,8 @@ class ExpectedDots {
           centre_px_(centre_px),
           dots_(dots) {}
 
-    /// Visits every `every`-th dot. Calls `use` with the index and the sub-pixel phase of each
-    /// inlier.
+    /// Visits every `every`-th dot. For each of these dots that is an inlier, calls `use` with its
+    /// index and the `Phase` of its expected image point.
     template <typename Use>
     void visit(std::size_t every, Use use) const {
         for (std::size_t k = 0; k < static_cast<std::size_t>(dots_.count); k += every) {
@@ -220,8 +221,8 @@ FloatVec correct_pixel_bias(const ImageView& image, const CentroidWindow& window
                    });
     DotShape shape;
     if (!shape.fit(stacks)) return {};
-    // Skips strongly blurred dots, because they have no bias and may be larger than the model
-    // image.
+    // Skips strongly blurred dots, because their bias is negligible and they may be larger than the
+    // model image.
     if (std::min(shape.blur_2().x, shape.blur_2().y) > tuned::kBlurred_px2) return {};
     AxisBias along_u(shape, Along::u, window.radius_px);
     AxisBias along_v(shape, Along::v, window.radius_px);

@@ -10,10 +10,11 @@
 
 namespace dotpose::core {
 
-/// Improves the pose, and rejects outliers. Each fitted distortion term adds noise to the pose,
-/// although its true value is 0 for a camera that looks straight at flat paper. The terms are
-/// therefore reduced to their posterior means (fit/posterior). Returns false if the dots do not
-/// determine the pose.
+/// Improves the pose, and rejects outliers. Each fitted distortion term adds noise to the pose. For
+/// a camera that looks straight at flat paper, this noise is avoidable, because the true value of
+/// the term is 0. The terms are therefore reduced to their posterior means (fit/posterior). Returns
+/// false if the dots do not determine the pose. `pattern_from_image` is then the result of the last
+/// successful iteration.
 bool refine_pose(const Observations& observations, PlaneFromImage& pattern_from_image,
                  PoseFit& fit);
 

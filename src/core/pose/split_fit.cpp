@@ -13,8 +13,9 @@ namespace {
 
 namespace tuned = tuning::paper_step;
 
-/// Sets `common` to the residual, in spacings, that the largest number of dots near a point have in
-/// common. Returns false if fewer than kMinAgreeing dots have it in common.
+/// Finds the residual with which the largest number of dots near a point agree, within kAgreement.
+/// Sets `common` to this residual, in spacings. Returns false if fewer than kMinAgreeing dots agree
+/// with it.
 bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                         FloatVec near, FloatVec& common) {
     constexpr std::size_t kMaxDots = 256;
@@ -76,9 +77,10 @@ bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
                        split.fit))
             return false;
         if (round + 1 == tuned::kRounds) break;
-        // Searches for the line again, relative to the plane of one side, which is more precise
-        // than relative to the plane of all dots. The gain of this search is ignored, because the
-        // dots beyond the line did not contribute to the plane.
+        // Searches for the line again. The residuals are now relative to the plane of one side, so
+        // the search is more precise than with the plane of all dots. The gain of this search is
+        // not a valid likelihood ratio and is ignored, because the plane was not fitted to the dots
+        // beyond the line.
         const PaperStep step = find_paper_step(dots, split.plane, split.fit, reference_px);
         if (step.gain > 0) split.step = step;
     }

@@ -5,9 +5,9 @@
 
 namespace dotpose::core {
 
-/// Restricts fits to one side of a line during the lifetime of the object. The cells of all other
-/// dots are moved far away, so that these dots are outliers. Dots near the line belong to neither
-/// side.
+/// Restricts fits to one side of a line during the lifetime of the object. The constructor moves
+/// the cells of all other dots far away, so that these dots are outliers, and the destructor moves
+/// them back. Dots near the line belong to neither side.
 class HalfPlane {
   public:
     /// The side to fit: the side of the reference point, or the side beyond the line.
@@ -34,7 +34,8 @@ struct SplitFit {
 
 /// Finds the most likely dividing line, and fits the plane to the side of the reference point. On
 /// entry, `split` contains the fit to all dots. Returns false if no line has a gain of at least
-/// PaperStep::kPossible, or if the dots on this side do not determine a plane.
+/// PaperStep::kPossible, or if the dots on this side do not determine a plane. `split` must then
+/// not be used.
 bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    SplitFit& split);
 

@@ -29,7 +29,7 @@ class StackedDots {
     /// Uses the pixels within `reach_px` of the central pixel, and within kHalf_px along each axis.
     explicit StackedDots(float reach_px);
 
-    /// Adds a dot if all its pixels are in the image.
+    /// Adds a dot if all its pixels are in the image. `paper` is the paper level around the dot.
     void add(const ImageView& image, const Phase& phase, float paper);
 
     /// Calls `use` for each stack that contains dots.
@@ -53,10 +53,10 @@ class StackedDots {
     /// Returns true if there are enough dots to estimate the noise from differences between dots in
     /// the same stack.
     bool are_enough() const;
-    /// Returns the total darkness of a dot, averaged over all dots.
+    /// Returns the total darkness of a dot, averaged over all dots. Requires `are_enough`.
     float mass() const;
     /// Returns the variance of a pixel's darkness within a stack, plus a constant for the
-    /// quantization of grey levels.
+    /// quantization of grey levels. Requires `are_enough`.
     float noise_2() const;
 
   private:

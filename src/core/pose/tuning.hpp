@@ -43,14 +43,15 @@ namespace fit {
 /// (kMaxRoundsOfFloats).
 inline constexpr int kMaxRounds = 4;
 inline constexpr int kMaxRoundsOfFloats = 5;
-/// Limit of `moved` (see `solve` in fit/solve_plane.hpp) below which `refine_pose` stops, because
-/// the next step would be much smaller.
+/// `refine_pose` stops if `moved`, the squared length of a step (see `solve` in
+/// fit/solve_plane.hpp), is at most this value, because the next step would be much smaller.
 inline constexpr float kSettled = 0.01F;
-/// Outlier limit for squared residuals, in units of their median. The median is 1.39 sigma^2, so
-/// the limit is 4.1 sigma. By chance, 1 dot in 4,000 exceeds this limit.
+/// Outlier limit for squared residuals, in units of their median. The median is 1.39 sigma^2, where
+/// sigma is the standard deviation of one coordinate, so the limit for the residual is 4.1 sigma.
+/// By chance, 1 dot in 4,000 exceeds this limit.
 inline constexpr int kOutlier_medians = 12;
-/// Outlier limit for squared residuals, in units of a known variance. The limit is 4.1 sigma. By
-/// chance, 1 dot in 4,000 exceeds this limit.
+/// Outlier limit for squared residuals, in units of the known variance of one coordinate. The limit
+/// for the residual is 4.1 standard deviations. By chance, 1 dot in 4,000 exceeds this limit.
 inline constexpr float kOutlier = 16.6F;
 /// Relative change of the outlier limit below which the inliers count as unchanged.
 inline constexpr float kSameLimit = 0.04F;
@@ -91,7 +92,7 @@ inline constexpr int kMaxRounds = 30;
 
 /// Bias of facing dots (pose/facing_dots).
 namespace facing {
-/// Minimum significance at which the bias is corrected, in standard deviations.
+/// The bias is corrected if it exceeds this number of its standard deviations.
 inline constexpr float kSure = 4;
 }  // namespace facing
 
@@ -104,9 +105,9 @@ inline constexpr int kDots = 256;
 inline constexpr float kBeyondEdge_px = 1.5F;
 /// Blur variance above which the bias is negligible.
 inline constexpr float kBlurred_px2 = 0.7F * 0.7F;
-/// Variance of the remaining bias after a correction, divided by the squared bias. The variance is
-/// kOfModel + kOfMisfit * max(misfit - kMisfit, 0), where misfit is `DotShape::misfit()`. For round
-/// dots, the second term is 0.
+/// Variance of the remaining bias after a correction, divided by the squared amplitude of the
+/// computed bias. The variance is kOfModel + kOfMisfit * max(misfit - kMisfit, 0), where misfit is
+/// `DotShape::misfit()`. For round dots, the second term is 0.
 inline constexpr float kOfModel = 0.01F;
 inline constexpr float kMisfit = 2.5F;
 inline constexpr float kOfMisfit = 0.025F;
@@ -200,8 +201,9 @@ namespace turn {
 /// kStep_px, and the change of the drift is kDriftStep, in px per row.
 inline constexpr float kStep_px = 0.3F;
 inline constexpr float kDriftStep = 0.02F;
-/// Standard deviation of the drift that is computed from the plane, in px per row. For example, a
-/// camera tilted by 14 degrees sees the paper foreshortened by 3 %, like a drift of 0.03.
+/// Standard deviation of the error of the drift that `drift_of` computes from the plane, in px per
+/// row. For example, a camera tilted by 14 degrees sees the paper foreshortened by 3 %, like a
+/// drift of 0.03.
 inline constexpr float kDrift = 0.02F;
 }  // namespace turn
 

@@ -51,7 +51,8 @@ class Blocks {
     float outliers() const { return outliers_; }
     float side() const { return side_; }  ///< side of a block, in spacings
     /// Returns the variance of the displacement of the sheet at a block, along one axis, in
-    /// spacings^2.
+    /// spacings^2. This is the variance of the block displacements minus that due to pixel bias,
+    /// but at least 0.
     float variance_of_sheet() const {
         return std::max(scatter_.variance_between() - variance_of_bias_, 0.0F);
     }
@@ -125,8 +126,9 @@ void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec refere
 /// - If the line is certain, and the dots on the reference point's side are in one plane, replaces
 ///   the plane by a fit to this side, and sets the surface to divided.
 /// - Otherwise, keeps the plane, and sets the surface to uneven if the line is certain or if the
-///   scatter between blocks exceeds kUneven. If a line was found, adds the difference between the
-///   plane and the fit to this side to the covariance.
+///   scatter between blocks exceeds kUneven. If a line was found, fits another plane to the
+///   reference point's side, and adds the squared difference between the two poses to the
+///   covariance.
 ///
 /// In both cases, also widens the covariance if the blocks may be displaced, or if the line is
 /// certain and close to the reference point.

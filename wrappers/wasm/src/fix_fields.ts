@@ -56,7 +56,7 @@ export interface FixFields {
     theta_rad: number;
     /** Upper bound on the probability that the position is wrong. */
     p_wrong: number;
-    /** Number of dot-sized blobs. */
+    /** Number of dots found in the image, as dot-sized blobs or at the places that the code predicts. */
     dots_seen: number;
     /** Number of dots to which the pose was fitted. */
     dots_used: number;
