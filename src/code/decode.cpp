@@ -22,12 +22,12 @@ struct Places {
     int count = 0;
 };
 
-/// Returns true if a.digits[place + i] equals digit `digit` of deltas[i] for all i. Indices into
-/// a.digits wrap around.
+/// Returns true if a.digit(place + i) equals digit `digit` of deltas[i] for all i. Indices into
+/// the sequence wrap around.
 bool matches_at(const code::Secondary& a, std::size_t digit, std::span<const std::uint8_t> deltas,
                 std::uint32_t place) {
     for (const std::uint8_t d : deltas) {
-        if (a.digits[place] != code::digit_of_delta(d, digit)) return false;
+        if (a.digit(place) != code::digit_of_delta(d, digit)) return false;
         place = place + 1 == a.length ? 0 : place + 1;
     }
     return true;

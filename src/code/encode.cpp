@@ -7,7 +7,7 @@ namespace dotpose {
 int delta(CodeVariant code, std::uint32_t p) noexcept {
     unsigned sum = code::kMinDelta;
     for (const code::Secondary& a : code::basis(code)) {
-        sum += unsigned{a.weight} * a.digits[a.place_of(p)];
+        sum += unsigned{a.weight} * a.digit(a.place_of(p));
     }
     return static_cast<int>(sum);
 }

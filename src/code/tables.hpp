@@ -40,7 +40,6 @@ constexpr std::uint32_t modulo_sections(std::uint32_t n) {
 
 /// A secondary sequence with its tables. The type is the same for all lengths and bases.
 struct Secondary {
-    const std::uint8_t* digits;  ///< `length` digits
     /// Contribution to the roll, by place: the sum of all weighted digits before the place, modulo
     /// 63. Has kLinesAhead + kVectorAhead entries beyond the end.
     const std::uint8_t* rolls;
@@ -68,6 +67,14 @@ struct Secondary {
             rest -= length;
         return rest;
     }
+    /// Returns the digit at a place below `length`. The digits have no table of their own, to save
+    /// flash memory on devices.
+    constexpr std::uint8_t digit(std::uint32_t place) const {
+        const int difference = rolls[place + 1] - rolls[place];
+        const int weighted = difference < 0 ? difference + kSections : difference;
+        return static_cast<std::uint8_t>((weighted >= weight ? 1 : 0) +
+                                         (weighted > weight ? 1 : 0));
+    }
     /// Compares the `count` digits from `place` on with the `count` digits from each of the 32
     /// places that begin at 32 * word. Bit i of the result is 1 if the digits from place 32 * word
     /// + i on are equal. Indices wrap around. Bits beyond the end of the sequence are 0.
@@ -75,7 +82,7 @@ struct Secondary {
         const std::uint32_t rest = length - 32 * word;
         std::uint32_t places = rest < 32 ? ~(~std::uint32_t{0} << rest) : ~std::uint32_t{0};
         for (int ahead = 0; ahead < count; ++ahead) {
-            const std::uint32_t* here = places_of[digits[place]] + word;
+            const std::uint32_t* here = places_of[digit(place)] + word;
             places &= here[0] >> ahead | here[1] << 1 << (31 - ahead);
             if (++place == length) place = 0;
         }
@@ -141,8 +148,7 @@ struct Tables {
     static constexpr auto kPlacesOf2 = places_of(Sequence, Base == 3 ? 2 : 1);
     static constexpr std::array<const std::uint32_t*, 3> kPlacesOf{
         kPlacesOf0.data(), kPlacesOf1.data(), kPlacesOf2.data()};
-    static constexpr Secondary kSecondary{Sequence.data(),
-                                          kRolls.data(),
+    static constexpr Secondary kSecondary{kRolls.data(),
                                           kPlaces.data(),
                                           kPlacesOf.data(),
                                           (1U << 20) / kLength,

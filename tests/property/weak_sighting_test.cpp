@@ -198,7 +198,7 @@ std::vector<Repetition> repetitions(CodeVariant code) {
     for (unsigned distance = 1; distance <= kReach; ++distance) {
         std::array<std::vector<std::uint32_t>, 4> places;
         for (std::size_t k = 0; k < 4; ++k) {
-            const auto digit = [&](unsigned at) { return basis[k].digits[at % basis[k].length]; };
+            const auto digit = [&](unsigned at) { return basis[k].digit(at % basis[k].length); };
             for (unsigned place = 0; place < basis[k].length; ++place) {
                 bool is_same = true;
                 for (unsigned i = place; i < place + 4; ++i)

@@ -54,11 +54,14 @@ Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
     Choices places{};
     std::array<std::int32_t, kChoices> losses;
     losses.fill(INT32_MAX);
+    std::array<std::uint8_t, 256> digits;
+    for (std::uint32_t place = 0; place < sequence.length; ++place)
+        digits[place] = sequence.digit(place);
     for (std::uint32_t first = 0; first < sequence.length; ++first) {
         std::int32_t loss = 0;
         std::uint32_t place = first;
         for (const StepLosses& step : steps) {
-            loss += step[n][sequence.digits[place]];
+            loss += step[n][digits[place]];
             place = place + 1 == sequence.length ? 0 : place + 1;
         }
         if (loss >= losses.back()) continue;

@@ -155,7 +155,7 @@ class Finder {
     void set_equal_places(const code::Secondary& sequence, std::size_t k) {
         std::uint32_t place = lines_.ratios.places[k];
         for (std::size_t step = 0; step + 1 < static_cast<std::size_t>(count_); ++step) {
-            const std::uint32_t* equal = sequence.places_of[sequence.digits[place]] + step / 32;
+            const std::uint32_t* equal = sequence.places_of[sequence.digit(place)] + step / 32;
             const std::size_t ahead = step % 32;
             PlaceBits& places = equal_[step][k];
             for (std::size_t word = 0; word < places.size(); ++word)

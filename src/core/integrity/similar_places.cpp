@@ -88,7 +88,7 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
     for (int step = 0; step < steps.count; ++step) {
         const std::uint8_t parts = steps.losses[static_cast<std::size_t>(step)];
         if (parts > 0) {
-            steps_[count_++] = {a.places_of[a.digits[own]], static_cast<std::uint8_t>(step), parts};
+            steps_[count_++] = {a.places_of[a.digit(own)], static_cast<std::uint8_t>(step), parts};
         }
         if (++own == a.length) own = 0;
     }

@@ -273,7 +273,7 @@ class AxisWeigher {
         if (!steps_) steps_ = losses_.of_steps(ratios_);
         // Searches the a4 of `other` for the digits of the reading in the a4 of `read`.
         code::Secondary a4 = code::basis(other)[kA4];
-        a4.digits = ratios_.basis[kA4].digits;
+        a4.rolls = ratios_.basis[kA4].rolls;
         const PlaceBits similar = kernels_.find_similar_places(a4, ratios_.places[kA4], *steps_);
         int added = 0;
         for (std::uint32_t word = 0; word < similar.size(); ++word) {

@@ -38,6 +38,17 @@ TEST(Secondary, HasThePlaceThatADivisionLeaves) {
     }
 }
 
+TEST(Secondary, HasTheDigitsOfTheText) {
+    for (const CodeVariant code : kCodeVariants) {
+        const auto texts = secondary_texts(code);
+        for (std::size_t k = 0; k < texts.size(); ++k) {
+            const code::Secondary& a = code::basis(code)[k];
+            for (std::uint32_t place = 0; place < a.length; ++place)
+                ASSERT_EQ(a.digit(place), digit_at(texts[k], place)) << k << ", " << place;
+        }
+    }
+}
+
 TEST(Secondary, RollsAndPlacesOfDigitsGoOnBeyondTheEnd) {
     for (const CodeVariant code : kCodeVariants) {
         const auto texts = secondary_texts(code);

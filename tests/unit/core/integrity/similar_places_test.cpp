@@ -34,7 +34,7 @@ bool is_similar(const code::Secondary& a, std::uint32_t own, std::uint32_t place
     for (int step = 0; step < steps.count; ++step) {
         const auto i = static_cast<std::uint32_t>(step);
         const unsigned parts = steps.losses[i];
-        const bool differs = a.digits[(own + i) % a.length] != a.digits[(place + i) % a.length];
+        const bool differs = a.digit((own + i) % a.length) != a.digit((place + i) % a.length);
         is_counted = parts > 0 && differs && !is_counted;
         if (is_counted) lost += parts;
     }

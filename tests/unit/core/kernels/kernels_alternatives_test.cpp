@@ -55,8 +55,8 @@ TEST(KernelsAlternatives, SimilarPlacesLoseTooLittleByTheirSteps) {
                 int max_before = 0;
                 for (int step = 0; step < steps.count; ++step) {
                     const auto at = static_cast<std::uint32_t>(step);
-                    const bool differ = a.digits[(place + at) % a.length] !=
-                                        a.digits[(places.own[k] + at) % a.length];
+                    const bool differ = a.digit((place + at) % a.length) !=
+                                        a.digit((places.own[k] + at) % a.length);
                     const int with_this = max_before + (differ ? steps.parts[at] : 0);
                     max_before = most;
                     most = std::max(most, with_this);
@@ -207,7 +207,7 @@ void visit_digits(const OwnPlaces& places, unsigned different, std::size_t line,
     if ((different >> k & 1) == 0)
         return visit_digits(places, different, line, k + 1, shift, are_equal, use);
     const code::Secondary& a = places.basis[k];
-    const int own = a.digits[(places.own[k] + line) % a.length];
+    const int own = a.digit((places.own[k] + line) % a.length);
     for (int digit = 0; digit < a.base; ++digit) {
         visit_digits(places, different, line, k + 1, shift + a.weight * (digit - own),
                      are_equal && digit == own, use);
