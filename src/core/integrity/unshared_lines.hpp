@@ -71,7 +71,7 @@ class UnsharedLines {
 inline std::size_t UnsharedLines::min_unshared(std::size_t sequence, Sharing sharing) const {
     const code::Secondary& a = ratios_.basis[sequence];
     // For a4, `kUnshared` contains only the restored variant, kA4Restored.
-    const bool is_known = sequence < 3 || a.digits == code::kA4Restored.data();
+    const bool is_known = sequence < 3 || a.rolls == code::kBasis<code::kA4Restored>[3].rolls;
     if (row_ == SIZE_MAX || !is_known) return 0;
     const std::uint32_t ahead = ratios_.places[sequence] + first_line_;
     const std::uint32_t place = ahead < a.length ? ahead : ahead - a.length;
