@@ -416,7 +416,7 @@ TEST(PartOf, SeesTheSamePaper) {
 
 /// Regression: the flat field of the whole image was stretched over the crop, and the readout time
 /// was that of the whole image.
-TEST(CameraFile, ACropHasItsPartOfTheFlatFieldAndOfTheReadoutTime) {
+TEST_F(CameraFile, ACropHasItsPartOfTheFlatFieldAndOfTheReadoutTime) {
     Camera camera;
     camera.width_px = 641;
     camera.height_px = 481;
