@@ -79,7 +79,7 @@ struct GuideState {
     std::vector<std::string> needs;  ///< unmet requirements of a step with a moving robot
     std::string problem;             ///< failure of the step, or of writing the file
     std::optional<GuideResult> result;
-    std::optional<Camera> camera;  ///< the camera of the run
+    std::optional<Camera> camera;  ///< given camera, or the last saved one
 };
 
 class CalibrationGuide {

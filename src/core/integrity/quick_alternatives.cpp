@@ -239,8 +239,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     const Loss* loss = losses_.data();
     for (const Loss* const end = loss + first_count_; loss != end; ++loss)
         keep(*loss);
-    // Maximum value of `largest` at which the alternative loses at least `loss_limit_` in the lines
-    // that were added so far, at any shift.
+    // If `largest` is at most this value, the alternative loses at least `loss_limit_` in the lines
+    // that were added so far, at every shift. Such an alternative does not matter.
     std::uint32_t max_to_keep = none - loss_limit_ + first_losses_;
     for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
         keep(*loss);

@@ -337,9 +337,9 @@ struct Kernels {
     /// `limit`, in spacings^2. `scale` is the unit of (u, v) in FitSums, in spacings.
     FitSums (*sum_fit)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float scale, float limit);
-    /// Sums the residuals of the inliers in `side` x `side` blocks. Inliers are defined as in
-    /// `sum_fit`. The blocks extend `reach_px` from the plane centre in each direction. Dots
-    /// outside the blocks count in the nearest block.
+    /// Sums the residuals of the inliers (see `sum_fit`) in each block of a square grid. The grid
+    /// has `side` blocks along each axis, and its border is `reach_px` from the plane centre in
+    /// each direction. Dots outside the grid count in the nearest block.
     void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float limit, float reach_px, int side, BlockSums& sums);
     /// Returns the places in a sequence where an alternative may lose less than the loss limit,

@@ -68,8 +68,8 @@ std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
 
 std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift) {
     if (shift > 0) {
-        // Shifts the numerator left by as many of the `shift` bits as fit in 62 bits, and the
-        // denominator right by the remaining bits.
+        // Shifts the numerator left by at most `shift` bits, so that its magnitude is below 2^62.
+        // Shifts the denominator right by the remaining bits.
         const auto bits = std::bit_width(static_cast<std::uint64_t>(magnitude(numerator)));
         const int up = std::clamp(62 - static_cast<int>(bits), 0, shift);
         numerator *= std::int64_t{1} << up;

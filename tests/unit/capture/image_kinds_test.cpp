@@ -178,7 +178,8 @@ TEST_F(TiffKinds, HaveColoursThatAreMultipliedByTheirOpacity) {
         TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, &kind);
     };
     const Bytes pixels = pixels_of(file_of(opacity, levels));
-    EXPECT_THAT(pixels, testing::Each(204));  // a fifth, plus three fifths of the white paper
+    // The premultiplied level is 1/5, and 3/5 of the white paper is visible through the pixel.
+    EXPECT_THAT(pixels, testing::Each(204));
 }
 
 TEST_F(TiffKinds, HaveFewBits) {
