@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -94,6 +95,13 @@ class MqttClient {
     }
     mosquitto* handle() const { return mosquitto_; }
     std::string place() const;
+
+    /// Maximum number of messages that libmosquitto has not sent (QoS 0) or the broker has not
+    /// acknowledged (QoS 1). The number is small, because libmosquitto sends its messages in order,
+    /// while the publisher sends the newest messages first.
+    static constexpr std::size_t kMaxUnderWay = 20;
+    /// Quality of service of presence messages: at least once.
+    static constexpr int kPresenceQos = 1;
 
     MqttOptions options_;
     mutable std::mutex mutex_;
