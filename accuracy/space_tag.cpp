@@ -8,11 +8,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <string>
 
 #include <fmt/core.h>
 
+#include "dotpose/files/degrees.hpp"
 #include "dotpose/files/error.hpp"
 #include "space_apriltag.hpp"
 #include "space_view.hpp"
@@ -80,7 +80,6 @@ void compare(const Shot& shot, int id, TagTally& tally) {
 
 std::string rows_text(const SpaceLens& lens, double tilt_deg, const TagTally& tally,
                       std::uint64_t frames) {
-    constexpr double kDegrees = 180 / std::numbers::pi;
     std::string text;
     for (std::size_t i = 0; i < kMethods.size(); ++i) {
         const TagErrors& e = tally.methods[i];

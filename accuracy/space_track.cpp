@@ -6,13 +6,13 @@
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/core.h>
 
+#include "dotpose/files/degrees.hpp"
 #include "space_view.hpp"
 #include "tables.hpp"
 
@@ -57,7 +57,7 @@ struct TrackErrors {
     double mean(double sum) const { return sum / static_cast<double>(count); }
     std::string text() const {
         return fmt::format("{:.4f} | {:.4f} | {:.2f}", std::sqrt(mean(position)),
-                           std::sqrt(mean(rotation)) * 180 / std::numbers::pi, mean(normalised));
+                           std::sqrt(mean(rotation)) * kDegrees, mean(normalised));
     }
 };
 

@@ -35,8 +35,8 @@ Eigen::Matrix<double, 2, kNodeTerms> offset_terms(const MapGrid& grid, std::size
 
 /// Returns the coarse nodes around a dot.
 MapField::Around around_dot(const MapField& nodes, const MapGrid& grid, std::size_t dot) {
-    const auto columns = static_cast<std::size_t>(grid.columns);
-    return nodes.around(static_cast<int>(dot % columns), static_cast<int>(dot / columns));
+    const auto [column, row] = grid.cell_of(dot);
+    return nodes.around(column, row);
 }
 
 }  // namespace
@@ -71,8 +71,7 @@ MapDeformation::FrameEquations MapDeformation::equations_of(
     }
     const MapView view(grid, frame, solution.reach_mm);
     const Eigen::Index count = first_term(nodes.size());
-    Eigen::Matrix<double, kFrameTerms, kFrameTerms> block =
-        Eigen::Matrix<double, kFrameTerms, kFrameTerms>::Zero();
+    FrameBlock block = FrameBlock::Zero();
     Eigen::Matrix<double, kFrameTerms, Eigen::Dynamic> right =
         Eigen::Matrix<double, kFrameTerms, Eigen::Dynamic>::Zero(kFrameTerms, count);
     result.matrix = MatrixXd::Zero(count, count);
@@ -97,11 +96,7 @@ MapDeformation::FrameEquations MapDeformation::equations_of(
         }
     }
     const double variance = solution.noise_mm * solution.noise_mm;
-    for (int k = 0; k < kViewTerms; ++k) {
-        const double sigma = solution.view_sigma[static_cast<std::size_t>(k)];
-        block(4 + k, 4 + k) += variance / (sigma * sigma);
-    }
-    block.diagonal().array() += 1e-9 * block.diagonal().maxCoeff();
+    add_view_prior(solution, variance, block);
     const MatrixXd terms = block.llt().solve(right);
     result.matrix -= right.transpose() * terms;
     result.matrix /= variance;

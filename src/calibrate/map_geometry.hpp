@@ -81,6 +81,16 @@ class MapView {
     Eigen::Matrix2d rotation_;
 };
 
+/// Adds the prior of the view terms to the normal equations of a frame, which are in units of
+/// 1 / `variance`. Makes the block invertible if the dots of the frame do not determine all terms.
+inline void add_view_prior(const MapSolution& solution, double variance, FrameBlock& block) {
+    for (int k = 0; k < kViewTerms; ++k) {
+        const double sigma = solution.view_sigma[static_cast<std::size_t>(k)];
+        block(4 + k, 4 + k) += variance / (sigma * sigma);
+    }
+    block.diagonal().array() += 1e-9 * block.diagonal().maxCoeff();
+}
+
 /// Returns the sum of the view terms of a frame and the terms of the camera.
 inline CameraVector shared_terms(const FrameVector& frame, const CameraVector& camera) {
     CameraVector shared = camera;

@@ -17,7 +17,6 @@ namespace dotpose::calibrate {
 namespace {
 
 using Eigen::Vector2d;
-using FrameBlock = Eigen::Matrix<double, kFrameTerms, kFrameTerms>;
 
 /// Number of linearisations. After each, the variances are estimated and the outliers are marked
 /// again.
@@ -27,10 +26,8 @@ constexpr int kRounds = 3;
 /// applies to all rounds but the last one, because they only estimate variances and find outliers.
 constexpr double kConverged = 1e-6;
 constexpr double kFirstConverged = 1e-4;
-/// Maximum squared residual of an observation, in units of the variance per axis. Noise exceeds it
-/// once in 4,000 observations. The first limit is larger, because the offsets of the dots are not
-/// known yet.
-constexpr double kOutlier = 16.6;
+/// Maximum squared residual of an observation in the first round, in units of the variance per
+/// axis. It exceeds kMaxSquaredLength, because the offsets of the dots are not known yet.
 constexpr double kFirstOutlier = 30;
 constexpr double kMinNoise_mm = 1e-4;
 constexpr double kMinJitter_mm = 5e-4;
@@ -216,7 +213,7 @@ void solve_map(const MapGrid& grid, const EarlierOffsets& earlier, double reach_
         system.solve(solution, round == kRounds - 1 ? kConverged : kFirstConverged,
                      [&](double share) { progress((round + share) / kRounds); });
         const std::size_t used = observations.size() - solution.outliers;
-        const Statistics now = measure(grid, kOutlier, solution, observations);
+        const Statistics now = measure(grid, kMaxSquaredLength, solution, observations);
         estimate_variances(grid, now.squares, used, solution);
         solution.view_sigma = now.view_sigma;
     }

@@ -36,6 +36,7 @@ inline constexpr int kCameraTerms = kViewTerms + 1;
 /// Parameters of a frame: place (2), angle, displacement of the dots, and the view terms.
 inline constexpr int kFrameTerms = 4 + kViewTerms;
 using FrameVector = Eigen::Matrix<double, kFrameTerms, 1>;
+using FrameBlock = Eigen::Matrix<double, kFrameTerms, kFrameTerms>;
 using CameraVector = Eigen::Matrix<double, kCameraTerms, 1>;
 
 /// Pose and view of a frame. The point P in the camera frame is the point place + R(angle) (P +
@@ -57,10 +58,14 @@ struct MapGrid {
     std::vector<std::array<std::int8_t, 2>> directions;
 
     std::size_t dots() const { return directions.size(); }
-    Eigen::Vector2d place_mm(std::size_t dot) const {
+    /// Returns the column and the row of a dot.
+    std::array<int, 2> cell_of(std::size_t dot) const {
         const auto wide = static_cast<std::size_t>(columns);
-        return {pitch_mm.x() * static_cast<double>(dot % wide),
-                pitch_mm.y() * static_cast<double>(dot / wide)};
+        return {static_cast<int>(dot % wide), static_cast<int>(dot / wide)};
+    }
+    Eigen::Vector2d place_mm(std::size_t dot) const {
+        const auto [column, row] = cell_of(dot);
+        return {pitch_mm.x() * column, pitch_mm.y() * row};
     }
     /// Returns the place of a dot without its offset: the intersection plus the displacement.
     Eigen::Vector2d place_mm(std::size_t dot, double displacement_mm) const {

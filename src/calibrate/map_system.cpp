@@ -93,9 +93,8 @@ void MapSystem::eliminate(const MapUnknowns& at, Residuals residuals) {
             sum += sums[i];
         if (has_earlier)
             sum += static_cast<double>(earlier_.views[i]) * earlier_.offset_mm[i].cast<double>();
-        const auto columns = static_cast<std::size_t>(grid_.columns);
-        const Vector2d mean =
-            field.at(static_cast<int>(i % columns), static_cast<int>(i / columns));
+        const auto [column, row] = grid_.cell_of(i);
+        const Vector2d mean = field.at(column, row);
         offsets_[i] = (weight_ * sum + prior_weight_ * mean) / double(information_[i]);
     });
 }
@@ -136,9 +135,8 @@ void MapSystem::add_field(const MapUnknowns& at, MapUnknowns& result) const {
     MapField field = solution_.field;
     field.values() = at.field;
     for (std::size_t i = 0; i < grid_.dots(); ++i) {
-        const auto columns = static_cast<std::size_t>(grid_.columns);
-        const MapField::Around near =
-            field.around(static_cast<int>(i % columns), static_cast<int>(i / columns));
+        const auto [column, row] = grid_.cell_of(i);
+        const MapField::Around near = field.around(column, row);
         Vector2d off = -offsets_[i];
         for (std::size_t k = 0; k < near.nodes.size(); ++k)
             off += near.weights[k] * at.field[near.nodes[k]];
@@ -157,7 +155,6 @@ MapUnknowns MapSystem::product(const MapUnknowns& at, Residuals residuals) {
 }
 
 void MapSystem::make_preconditioner() {
-    using FrameBlock = Eigen::Matrix<double, kFrameTerms, kFrameTerms>;
     using CameraBlock = Eigen::Matrix<double, kCameraTerms, kCameraTerms>;
     const auto& frames = solution_.frames;
     frame_blocks_.resize(frames.size());
@@ -180,12 +177,7 @@ void MapSystem::make_preconditioner() {
             shared.col(kViewTerms) << square * terms.x, square * terms.y;
             camera_sum += weight * shared.transpose() * shared;
         }
-        for (int k = 0; k < kViewTerms; ++k) {
-            const double sigma = solution_.view_sigma[static_cast<std::size_t>(k)];
-            block(4 + k, 4 + k) += 1 / (sigma * sigma);
-        }
-        // Makes the block invertible if the dots of the frame do not determine all terms.
-        block.diagonal().array() += 1e-9 * block.diagonal().maxCoeff();
+        add_view_prior(solution_, 1, block);
         frame_blocks_[f].compute(block);
     });
     CameraBlock sum = CameraBlock::Zero();
@@ -196,9 +188,8 @@ void MapSystem::make_preconditioner() {
     MapField field = solution_.field;
     field_diagonal_.assign(field.nodes(), 0);
     for (std::size_t i = 0; i < grid_.dots(); ++i) {
-        const auto columns = static_cast<std::size_t>(grid_.columns);
-        const MapField::Around near =
-            field.around(static_cast<int>(i % columns), static_cast<int>(i / columns));
+        const auto [column, row] = grid_.cell_of(i);
+        const MapField::Around near = field.around(column, row);
         const double weight = prior_weight_ * (1 - prior_weight_ / double(information_[i]));
         for (std::size_t k = 0; k < near.nodes.size(); ++k)
             field_diagonal_[near.nodes[k]] += weight * near.weights[k] * near.weights[k];

@@ -97,7 +97,6 @@ Correction fit_terms(const FixPlane& plane, const std::vector<MapDot>& dots, dou
     Correction result;
     double limit = 0.04;  // initial limit of the squared residual, in spacings^2
     constexpr int kRounds = 4;
-    constexpr double kOutlier = 16.6;
     for (int round = 0; round < kRounds; ++round) {
         result = correct(plane, dots, map_weight, last, limit, used);
         last = result.terms;
@@ -106,7 +105,7 @@ Correction fit_terms(const FixPlane& plane, const std::vector<MapDot>& dots, dou
             const Vector2d wanted = dot.step + map_weight * dot.offset - plane.place(dot.pixel);
             squares.push_back((wanted - derivatives_at(plane, dot) * last).squaredNorm());
         }
-        limit = kOutlier * upper_median(std::move(squares)) / kMedianOfSquaredLength;
+        limit = kMaxSquaredLength * upper_median(std::move(squares)) / kMedianOfSquaredLength;
     }
     return result;
 }

@@ -9,6 +9,9 @@ namespace dotpose::calibrate {
 
 /// Median of the squared length of a two-dimensional Gaussian vector with variance 1 per axis.
 inline constexpr double kMedianOfSquaredLength = 1.386;
+/// Squared length of such a vector that is exceeded by chance once in 4,000. Longer residuals are
+/// outliers.
+inline constexpr double kMaxSquaredLength = 16.6;
 
 /// Returns the upper median. `values` must not be empty.
 inline double upper_median(std::vector<double> values) {
