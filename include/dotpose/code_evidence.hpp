@@ -1,8 +1,8 @@
 /// Code evidence: the probability of each code variant, given the frames of a sheet.
 ///
-/// The code variants agree on most of the plane, so many frames can be read in several variants,
-/// usually at the same place. If the places differ, further frames of the sheet show which variant
-/// is correct:
+/// On most of the plane, the dots of the code variants are equal. Many frames can therefore be read
+/// in several variants, usually at the same place. If the places differ, further frames of the
+/// sheet show which variant is correct:
 ///
 ///     CodeEvidence evidence;
 ///     for (;;) {

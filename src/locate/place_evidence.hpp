@@ -18,8 +18,8 @@
 
 namespace dotpose::core {
 
-/// What is known about the place of a block of bits apart from the bits, and memory for the
-/// comparison with the code.
+/// Inputs and memory with which the place of a block of bits is found and tested: the options, the
+/// known sheets, and the bits of earlier frames. The block itself is passed separately.
 struct PlaceEvidence {
     const Kernels& kernels;
     const DeviceOptions& options;

@@ -60,7 +60,7 @@ struct SpaceTrackOptions {
     std::int64_t lost_after_us = 200'000;
 };
 
-/// What a tracker did with the pose of a frame.
+/// Decision of a tracker about the pose of a frame.
 enum class SpaceVerdict : std::uint8_t {
     none,             ///< there was no sighting
     accepted,         ///< the first pose was used

@@ -304,9 +304,9 @@ Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int 
 }
 
 TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
-    // Of the ten differences, only the one across the border is wrong. At least five of the others
-    // are on the same side of the border. They determine a position, and the wrong difference
-    // contradicts this position.
+    // Eleven columns have ten differences between adjacent rolls. The difference across the border
+    // of the sections is wrong. At least five of the correct differences are on one side of the
+    // border. They determine a position, which the wrong difference contradicts.
     std::mt19937 rng(kSeed);
     int found_in_8 = 0;
     constexpr int kDraws = 20'000;

@@ -175,8 +175,8 @@ TEST(Dot, BlurAndMotionWidenItAsTheyShould) {
     EXPECT_NEAR(dot.variance_u, still + 1.8 * 1.8 / 12, 0.01);
 }
 
-// The same cell is seen from two poses, and its dot must have the same error of its place on the
-// paper.
+// A printing error belongs to the dot on the paper. A camera must therefore measure the same error
+// from every pose.
 TEST(Dot, PrintingErrorsBelongToThePage) {
     Imperfections seen;
     seen.blur_sigma_px = 0.5;

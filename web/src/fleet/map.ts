@@ -285,7 +285,7 @@ export class FleetMap {
         this.#is_ground_old = false;
     }
 
-    /** Returns true if there are so many robots that their marks are copied. */
+    /** Returns true if marks are copied as pixels, which is faster than filling paths from `kMinCopied` robots on. */
     #copies(): boolean {
         return (this.#positions?.count ?? 0) >= kMinCopied;
     }

@@ -157,8 +157,8 @@ TEST(FindAxis, RandomBitsAreNotInTheCodeOrScoreLow) {
         ScoredWindow lines = window(CodeVariant::anoto, random_place(rng), 20, 12, 0.5, rng);
         AxisReading reading;
         if (lines.find(CodeVariant::anoto, reading) == Status::not_in_code) continue;
-        // Of the 12 random bits of a line, 9 or 10 agree with the best of the 63 rolls. This
-        // happens in the 6 lines of the selected run, whereas the other 14 lines score 0 on
+        // Each line has 12 random bits. The best of its 63 rolls agrees with 9 or 10 of them. The
+        // search selects a run of 6 lines with such rolls, but the other 14 lines score 0 on
         // average. The total score is therefore far below the maximum.
         EXPECT_FALSE(reading.is_clear()) << i << ", seed " << kSeed;
         EXPECT_LT(reading.score, reading.max_possible * 7 / 10) << i << ", seed " << kSeed;
