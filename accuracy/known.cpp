@@ -4,9 +4,12 @@
 //   dotpose_tables known [--frames N] [--foreign N] [--sheets N] [--device] [--seed S]
 //
 // The exit status is 1 if a fix is wrong.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <fmt/core.h>
@@ -27,6 +30,13 @@ struct ViewSize {
     double spacing_px;
     int width_px;
     int height_px;
+};
+
+/// Views of one size, some of whose dots are hidden.
+struct HiddenView {
+    ViewSize size;
+    std::string what;
+    std::function<void(Shot&)> hide;
 };
 
 std::vector<KnownRegion> sheets_of(std::uint64_t count) {
@@ -72,6 +82,83 @@ Shot draw_on_page(const ViewSize& size, std::uint64_t seed, std::uint64_t index,
     return shot;
 }
 
+/// Leaves the dots of a strip of `rows` rows or columns, which crosses the whole width of the image
+/// anywhere, turned by up to 5 degrees. The rest is paper without dots.
+void leave_strip(Shot& shot, const ViewSize& size, int rows) {
+    constexpr double kMaxTurn_rad = 5 * std::numbers::pi / 180;
+    Rng rng(shot.seed, 3);
+    const int quarter = static_cast<int>(rng.below(4));
+    shot.pose.theta_rad = quarter * std::numbers::pi / 2 + rng.uniform(-kMaxTurn_rad, kMaxTurn_rad);
+    // The whole strip is in view, also at the left and the right border of the image.
+    const double tilted = size.width_px * std::tan(kMaxTurn_rad);
+    const double room = (size.height_px - tilted) / size.spacing_px - rows - 1;
+    const double offset = rng.uniform(-room / 2, room / 2);
+    constexpr double kBeyondView = 1000;
+    const bool is_along_x = quarter % 2 == 0;
+    const CameraPose& pose = shot.pose;
+    // The strip begins and ends between two intersections.
+    const double middle =
+        std::round((is_along_x ? y_grid(pose) : x_grid(pose)) + offset) + (rows % 2 == 0 ? 0.5 : 0);
+    const PageArea strip{is_along_x ? x_grid(pose) : middle, is_along_x ? middle : y_grid(pose),
+                         is_along_x ? kBeyondView : rows / 2.0,
+                         is_along_x ? rows / 2.0 : kBeyondView};
+    shot.page.areas = {strip};
+}
+
+/// Returns the fraction of the dots that graphics touch.
+double fraction_hidden(const Shot& shot) {
+    constexpr double kPaper = 255;
+    constexpr int kDotRadius_px = 2;
+    Shot bare = shot;
+    bare.imperfections = {};
+    bare.imperfections.paper_level = kPaper;
+    bare.imperfections.graphics = shot.imperfections.graphics;
+    bare.imperfections.sub_pixels = 2;
+    bare.page.columns = bare.page.rows = 1;  // one dot, far outside the view
+    const GreyImage image = render(bare);
+    int touched = 0;
+    int places = 0;
+    for (int v = kDotRadius_px; v < image.height_px - kDotRadius_px; ++v) {
+        for (int u = kDotRadius_px; u < image.width_px - kDotRadius_px; ++u) {
+            bool is_touched = false;
+            for (int dv = -kDotRadius_px; dv <= kDotRadius_px; ++dv) {
+                const auto first = image.pixels.begin() + (v + dv) * image.width_px + u;
+                is_touched |= std::any_of(first - kDotRadius_px, first + kDotRadius_px + 1,
+                                          [](int grey) { return grey < 0.8 * kPaper; });
+            }
+            touched += is_touched;
+            ++places;
+        }
+    }
+    return static_cast<double>(touched) / places;
+}
+
+/// Adds strokes and words until they hide 60 % of the dots, to within 2.5 %.
+void cover_with_graphics(Shot& shot) {
+    for (std::uint64_t trial = 0;; ++trial) {
+        shot.seed = Rng(shot.seed, trial).bits();
+        shot.imperfections.graphics = 0;
+        double hidden = 0;
+        while (hidden < 0.575) {
+            ++shot.imperfections.graphics;
+            hidden = fraction_hidden(shot);
+        }
+        if (hidden < 0.625) return;
+    }
+}
+
+std::vector<HiddenView> hidden_views() {
+    std::vector<HiddenView> views;
+    const ViewSize wide{20, 640, 480};
+    for (const int rows : {3, 4, 5, 6}) {
+        views.push_back({wide, fmt::format("strip of {} rows", rows),
+                         [wide, rows](Shot& shot) { leave_strip(shot, wide, rows); }});
+    }
+    for (const ViewSize size : {ViewSize{11, 188, 120}, wide, ViewSize{11, 640, 480}})
+        views.push_back({size, "60 % under graphics", cover_with_graphics});
+    return views;
+}
+
 void locate(const Shot& shot, const DeviceOptions& options, std::span<const KnownRegion> sheets,
             OtherSheets others, KnownTally& tally) {
     Locator locator(thread_memory(), options);
@@ -87,10 +174,10 @@ void locate(const Shot& shot, const DeviceOptions& options, std::span<const Know
 }
 
 /// Prints a row of a table. Returns true if no fix is wrong.
-bool print_row(const ViewSize& size, const Count<KnownTally>& count) {
+bool print_row(const ViewSize& size, const std::string& dots, const Count<KnownTally>& count) {
     const KnownTally& tally = count.tally;
-    fmt::print("| {} | {} x {} | {} | {:.2f} | {} | {:.1e} | {:.0f} |\n", size.spacing_px,
-               size.width_px, size.height_px, tally.frames,
+    fmt::print("| {} | {} x {} | {} | {} | {:.2f} | {} | {:.1e} | {:.0f} |\n", size.spacing_px,
+               size.width_px, size.height_px, dots, tally.frames,
                100.0 * static_cast<double>(tally.located) / static_cast<double>(tally.frames),
                tally.wrong, tally.claimed, 1e6 * count.seconds / static_cast<double>(tally.frames));
     std::fflush(stdout);
@@ -99,8 +186,9 @@ bool print_row(const ViewSize& size, const Count<KnownTally>& count) {
 
 void print_head(const char* what) {
     fmt::print(
-        "\n{}\n\n| spacing, px | view, px | frames | located, % | wrong | claimed | time, us |\n"
-        "|--:|--:|--:|--:|--:|--:|--:|\n",
+        "\n{}\n\n| spacing, px | view, px | dots | frames | located, % | wrong | claimed | time, "
+        "us |\n"
+        "|--:|--:|---|--:|--:|--:|--:|--:|\n",
         what);
 }
 
@@ -137,19 +225,31 @@ bool known_table(TableRun& run) {
         for (const ViewSize& size : kSizes) {
             if (frames == 0) break;
             is_right &= print_row(
-                size, run.count<KnownTally>("frames", frames, [&](std::uint64_t i, KnownTally& t) {
+                size, "all",
+                run.count<KnownTally>("frames", frames, [&](std::uint64_t i, KnownTally& t) {
                     locate(draw_on_page(size, run.seed, i, sheets), options, sheets, others, t);
+                }));
+        }
+        for (const HiddenView& view : hidden_views()) {
+            if (frames == 0 || as_device) break;
+            is_right &= print_row(
+                view.size, view.what,
+                run.count<KnownTally>("frames", frames, [&](std::uint64_t i, KnownTally& t) {
+                    Shot shot = draw_on_page(view.size, run.seed, i, sheets);
+                    view.hide(shot);
+                    locate(shot, options, sheets, others, t);
                 }));
         }
     }
     print_head("Frames of unknown sheets, anywhere");
     const ViewSize size{11, 77, 77};
     if (foreign > 0) {
-        is_right &= print_row(
-            size, run.count<KnownTally>("frames", foreign, [&](std::uint64_t i, KnownTally& t) {
-                locate(draw_shot(setup_of(size, run.seed), i), options, sheets,
-                       OtherSheets::impossible, t);
-            }));
+        is_right &=
+            print_row(size, "all",
+                      run.count<KnownTally>("frames", foreign, [&](std::uint64_t i, KnownTally& t) {
+                          locate(draw_shot(setup_of(size, run.seed), i), options, sheets,
+                                 OtherSheets::impossible, t);
+                      }));
     }
     return is_right;
 }

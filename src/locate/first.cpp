@@ -95,9 +95,18 @@ class PatchSearch {
         return confirm(frame_, *hypothesis, evidence_, measurement_, fix_);
     }
 
-    /// Searches the whole image in adjacent patches. The patches grow from round to round.
+    /// Searches the whole image. If the search fails, repeats it for pale dots among graphics.
     Confirmation search_everywhere() {
         tries_left_ = tuned::kMaxTries;
+        for (const DotTiles tiles : {DotTiles::median, DotTiles::pale}) {
+            dot_tiles_ = tiles;
+            if (search_patches() == Confirmation::ok) return Confirmation::ok;
+        }
+        return tries_left_ < tuned::kMaxTries ? Confirmation::uncertain : Confirmation::implausible;
+    }
+
+    /// Searches adjacent patches that cover the image. The patches grow from round to round.
+    Confirmation search_patches() {
         const ImageView& image = frame_.image;
         for (const int scale : {1, 2, 4}) {
             const int width = kPatchWidth_px * scale;
@@ -108,7 +117,7 @@ class PatchSearch {
                 }
             }
         }
-        return tries_left_ < tuned::kMaxTries ? Confirmation::uncertain : Confirmation::implausible;
+        return Confirmation::implausible;
     }
 
     /// Searches a patch around an image point. If there is no hypothesis and the dots are densest
@@ -139,7 +148,7 @@ class PatchSearch {
         PatchView view;
         FloatVec from_middle;
         if (!place_patch(frame_.image, around_px, scale, patch_) ||
-            !find_patch_dots(frame_, patch_, fix_))
+            !find_patch_dots(frame_, patch_, fix_, dot_tiles_))
             return {};
         keep_isolated(patch_);
         if (!move_origin_to_densest(patch_, view, from_middle)) return {};
@@ -172,6 +181,7 @@ class PatchSearch {
     /// increases the probability of a wrong fix, because it is a further chance of agreeing with
     /// the bits by accident.
     int tries_left_ = 0;
+    DotTiles dot_tiles_ = DotTiles::median;  ///< for `find_hypothesis`
 };
 
 }  // namespace

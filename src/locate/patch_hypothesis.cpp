@@ -34,11 +34,11 @@ bool place_patch_in_middle(const ImageView& image, int scale, Patch& patch) {
     return place_patch(image, {image.width_px / 2, image.height_px / 2}, scale, patch);
 }
 
-bool find_patch_dots(const Frame& frame, Patch& patch, Fix& fix) {
+bool find_patch_dots(const Frame& frame, Patch& patch, Fix& fix, DotTiles tiles) {
     patch.dots.count = 0;
     frame.kernels.fill_patch(frame.image, patch);
     frame.kernels.smooth_patch(patch);
-    if (!measure_contrast(patch)) return false;
+    if (!measure_contrast(patch, tiles)) return false;
     frame.kernels.find_minima(patch);
     fix.dots_seen = std::max(fix.dots_seen, patch.dots.count);
     const bool are_few = fix.dots_seen < std::max(frame.min_dots, 1);

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "core/detect/patch.hpp"
 #include "core/lattice/outwards.hpp"
 #include "core/patch_memory.hpp"
 #include "dotpose/fix.hpp"
@@ -32,7 +33,7 @@ bool place_patch_in_middle(const ImageView& image, int scale, Patch& patch);
 /// Finds the dots of the patch. Sets the status of the fix to too_few_dots or no_grid, which
 /// applies if no patch contains a grid. Returns false, without setting the status, if the patch has
 /// no contrast.
-bool find_patch_dots(const Frame& frame, Patch& patch, Fix& fix);
+bool find_patch_dots(const Frame& frame, Patch& patch, Fix& fix, DotTiles tiles = DotTiles::median);
 
 /// Finds a place in the code from the dots and the grid of a patch. The dots, the grid and the
 /// hypothesis are relative to `from_centre`. Returns nullopt if no place is found.

@@ -118,7 +118,7 @@ struct Imperfections {
     static constexpr double kGrain_px = 3;  ///< size of the texture's grains
     double tilt_x_rad = 0;  ///< tilt that `draw_shot` adds to the pose; `render` ignores it
     double tilt_y_rad = 0;
-    /// Number of sub-pixels per pixel along each axis, at most 8. With 0, the number is chosen so
+    /// Number of sub-pixels per pixel along each axis: 2, 4 or 8. With 0, the number is chosen so
     /// that the position error of every dot is at most 0.003 px. Larger numbers take longer.
     int sub_pixels = 0;
 };

@@ -44,7 +44,7 @@ bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int w
     return std::min(patch.width_px, patch.height_px) >= patch.min_side_px;
 }
 
-bool measure_contrast(Patch& patch) {
+bool measure_contrast(Patch& patch, DotTiles tiles) {
     const int columns = (patch.width_px + Patch::kTileWidth_px - 1) / Patch::kTileWidth_px;
     const int rows = (patch.height_px + Patch::kTileHeight_px - 1) / Patch::kTileHeight_px;
     const auto tile = [](int column, int row) {
@@ -65,10 +65,21 @@ bool measure_contrast(Patch& patch) {
     const int dark_tiles = rows * columns - counts[kFlat];
     const bool is_small = std::min(patch.width_px, patch.height_px) < tuned::kSmall_px;
     if (dark_tiles < (is_small ? rows * columns / 2 : tuned::kMinTiles)) return false;
-    std::size_t median = 0;
-    for (int below = counts[0]; 2 * below <= dark_tiles; below += counts[++median]) {
+    // Returns the largest darkness that at most one of `parts` tiles do not exceed.
+    const auto darkness_of_part = [&](int parts) {
+        std::size_t darkness = 0;
+        for (int below = counts[0]; parts * below <= dark_tiles; below += counts[++darkness]) {
+        }
+        return static_cast<int>(darkness);
+    };
+    const int median = darkness_of_part(2);
+    int typical = median;
+    if (tiles == DotTiles::pale) {
+        typical = darkness_of_part(tuned::kPaleParts);
+        if (static_cast<float>(typical) > tuned::kMaxPale * static_cast<float>(median))
+            return false;
     }
-    patch.dot_contrast_q8 = 4 * static_cast<int>(median) + 2;
+    patch.dot_contrast_q8 = 4 * typical + 2;
     const int contrast_q16 = patch.dot_contrast_q8 * tuned::kThreshold_q8;
     for (int row = 0; row < rows; ++row) {
         // Computes the thresholds of the whole row, including unused tiles, because compilers

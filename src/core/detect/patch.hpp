@@ -2,6 +2,8 @@
 // thresholds, and removes minima that are not dots (paper, section II-B.1).
 #pragma once
 
+#include <cstdint>
+
 #include "core/patch_memory.hpp"
 #include "dotpose/image.hpp"
 
@@ -14,9 +16,17 @@ namespace dotpose::core {
 bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int width_px,
                  int height_px, int scale, Patch& patch);
 
+/// The tiles of a patch from whose darkness the contrast of the dots is estimated.
+enum class DotTiles : std::uint8_t {
+    median,  ///< the tile of median darkness among all tiles with contrast
+    pale,    ///< a pale tile, for patches in which most tiles contain graphics. Blurred dots are
+             ///< paler than graphics of the same ink.
+};
+
 /// Measures the typical dot contrast in a smoothed patch. Computes each tile's threshold from this
-/// contrast and the tile's paper level. Returns false if too few tiles have contrast.
-bool measure_contrast(Patch& patch);
+/// contrast and the tile's paper level. Returns false if too few tiles have contrast, or if
+/// `tiles` is `pale` and the pale tiles are nearly as dark as the median tile.
+bool measure_contrast(Patch& patch, DotTiles tiles = DotTiles::median);
 
 /// Removes minima that are not dots: minima on plateaus, minima in tiles without contrast, and
 /// minima with dark surroundings in more than two of eight directions. For example, minima on a

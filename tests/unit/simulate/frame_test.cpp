@@ -272,6 +272,8 @@ TEST(Frame, BadValuesAreNamed) {
               std::string::npos);
     EXPECT_NE(message([](Shot& s) { s.imperfections.missing = 2; }).find("0 to 1"),
               std::string::npos);
+    EXPECT_NE(message([](Shot& s) { s.imperfections.sub_pixels = 1; }).find("0, 2, 4 or 8"),
+              std::string::npos);
     EXPECT_NE(message([](Shot& s) { s.pose.theta_rad = NAN; }).find("pose"), std::string::npos);
     EXPECT_NE(message([](Shot& s) { s.page.pattern.section.u = 63; }).find("section"),
               std::string::npos);

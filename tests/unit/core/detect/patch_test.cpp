@@ -83,6 +83,20 @@ TEST(PatchContrast, IsThatOfTheTypicalTile) {
     }
 }
 
+TEST(PatchContrast, PaleTilesAreThoseOfDotsAmongGraphics) {
+    const auto patch = lit_patch(160, 96, 200, 130);
+    EXPECT_FALSE(core::measure_contrast(*patch, core::DotTiles::pale));  // no graphics
+    // Graphics are in 7 of 12 rows of tiles.
+    for (std::size_t row = 0; row < 7; ++row) {
+        for (std::size_t column = 0; column < 10; ++column)
+            patch->darkness[row * Patch::kTilesPerRow + column] = 255 - 30;
+    }
+    ASSERT_TRUE(core::measure_contrast(*patch));
+    EXPECT_NEAR(patch->dot_contrast_q8, 256.0 * 170 / 200, 4.1);
+    ASSERT_TRUE(core::measure_contrast(*patch, core::DotTiles::pale));
+    EXPECT_NEAR(patch->dot_contrast_q8, 256.0 * 70 / 200, 4.1);
+}
+
 TEST(PatchContrast, ThresholdsFollowTheLight) {
     const auto patch = lit_patch(160, 96, 200, 100);
     for (std::size_t row = 6; row < 12; ++row) {
