@@ -13,6 +13,7 @@
 #include "code/tables.hpp"
 #include "core/kernels/scores.hpp"
 #include "core/math/float_plane.hpp"
+#include "core/math/vectors.hpp"
 #include "core/patch_memory.hpp"
 #include "dotpose/image.hpp"
 
@@ -158,18 +159,19 @@ struct DotOffsets {
     std::array<float, 2> of_y{};
 };
 
-/// Residual sums of the inliers in each image block, in spacings.
+/// Sums over the dots in each image block.
 struct BlockSums {
     static constexpr std::size_t kMaxAlong = 9;
     struct Block {
-        float dots = 0;  ///< number of inliers
-        float off_x = 0;
-        float off_y = 0;
+        Four sums;  ///< one vector, because each dot then needs only one addition
+        float inliers() const { return sums[0]; }
+        float dots() const { return sums[1]; }  ///< number of measured dots, including outliers
+        /// Sum of the residuals of the inliers, in spacings.
+        float off_x() const { return sums[2]; }
+        float off_y() const { return sums[3]; }
     };
-    std::array<Block, kMaxAlong * kMaxAlong> all;
-    float dots = 0;      ///< number of inliers
-    float outliers = 0;  ///< number of measured dots that are not inliers
-    float squares = 0;   ///< sum of the squared residuals of the inliers, in spacings^2
+    std::array<Block, kMaxAlong * kMaxAlong> all{};
+    float squares = 0;  ///< sum of the squared residuals of all inliers, in spacings^2
 };
 
 /// Result of comparing cell bits with the code.
@@ -340,8 +342,8 @@ struct Kernels {
     /// Sums the residuals of the inliers (see `sum_fit`) in each block of a square grid. The grid
     /// has `side` blocks along each axis, and its border is `reach_px` from the plane centre in
     /// each direction. Dots outside the grid count in the nearest block.
-    void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
-                       float limit, float reach_px, int side, BlockSums& sums);
+    BlockSums (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
+                            float limit, float reach_px, int side);
     /// Returns the places in a sequence where an alternative may lose less than the loss limit,
     /// which is StepLosses::kLimitParts parts. The result excludes `own`, the place of the reading.
     /// `steps` contains a lower bound on the loss in each step.

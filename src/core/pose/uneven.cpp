@@ -28,23 +28,24 @@ class Blocks {
            const PoseFit& fit) {
         const int side = blocks_along(fit.dots);
         const auto reach_px = static_cast<float>(fit.reach_px);
-        BlockSums sums;
-        kernels.sum_blocks(dots, plane, fit.displacement, tuning::fit::kOutlier * fit.variance,
-                           reach_px, side, sums);
+        const BlockSums sums = kernels.sum_blocks(
+            dots, plane, fit.displacement, tuning::fit::kOutlier * fit.variance, reach_px, side);
         const float spacing = spacing_px(plane);
         side_ = 2 * reach_px / (static_cast<float>(side) * spacing);
         const float bias = tuned::kPixelBias_px / spacing;
         variance_of_bias_ = bias * bias;
+        BlockSums::Block all{};
         for (int b = 0; b < side * side; ++b) {
             const BlockSums::Block& block = sums.all[static_cast<std::size_t>(b)];
-            if (block.dots == 0) continue;
+            all.sums += block.sums;
+            if (block.inliers() == 0) continue;
             scatter_.between +=
-                (block.off_x * block.off_x + block.off_y * block.off_y) / block.dots;
+                (block.off_x() * block.off_x() + block.off_y() * block.off_y()) / block.inliers();
             scatter_.groups += 1;
         }
         scatter_.squares = sums.squares;
-        scatter_.dots = sums.dots;
-        outliers_ = sums.outliers;
+        scatter_.dots = all.inliers();
+        outliers_ = all.dots() - all.inliers();
     }
 
     const GroupScatter& scatter() const { return scatter_; }
