@@ -3,15 +3,14 @@
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { connect, createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { after, afterEach, before, beforeEach, test } from "node:test";
+import { audit, requireAccessible } from "./accessible.mjs";
 import { dotpose, kTool, launch, open } from "./browser.mjs";
 import { readCsv } from "./clip.mjs";
 
-const kAxe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 const kLoad = join(dirname(kTool), "dotpose_fleet_load");
 const kSilentAfter_s = 3;
 /** Time that the page may need after the limit of a condition. */
@@ -80,9 +79,9 @@ async function fleet(options = [], port = 0) {
     return { url, stop };
 }
 
-/** A robot that drives along x with 100 mm/s, and sends ten states per second. */
+/** A robot that drives along x by 10 mm from state to state, usually ten times per second. */
 class Robot {
-    constructor(name, place = {}) {
+    constructor(name, place = {}, period_ms = 100) {
         this.name = name;
         this.place = { map: "hall", sheet: "", y_m: 0.1, ...place };
         this.number = 0;
@@ -94,7 +93,7 @@ class Robot {
             ...["-p", String(broker.port), "-t", `uagv/v2/dotpose/${name}/visualization`, "-l"],
             ...["--will-topic", connection, "--will-payload", will, "--will-retain"],
         );
-        this.timer = setInterval(() => this.send(), 100);
+        this.timer = setInterval(() => this.send(), period_ms);
         robots.push(this);
     }
     send() {
@@ -248,26 +247,6 @@ test("the table is filtered, ordered naturally and turned page by page", async (
     await stop();
 });
 
-/** Requires that axe finds no violation, and that nothing is wider than the screen. */
-async function audit(page, width) {
-    // Scripts of the test are not bound by the content security policy of the page.
-    await page.evaluate(readFileSync(kAxe, "utf8"));
-    const { violations } = await page.evaluate(() => globalThis.axe.run());
-    assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes[0].html]), []);
-    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width);
-}
-
-/** Requires the same in both colour schemes, on a desktop and on phones. */
-async function requireAccessible(page) {
-    for (const colorScheme of ["light", "dark"]) {
-        for (const width of [1300, 390, 320]) {
-            await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
-            await page.setViewportSize({ width, height: 800 });
-            await audit(page, width);
-        }
-    }
-}
-
 /** Returns the number of pixels of the map that have a colour of the style sheet. */
 function pixelsOf(page, colour) {
     return page.evaluate((name) => {
@@ -281,6 +260,17 @@ function pixelsOf(page, colour) {
             count += wanted === `#${[...data.subarray(i, i + 3)].map((byte) => byte.toString(16).padStart(2, "0")).join("")}`;
         return count;
     }, colour);
+}
+
+/** Returns the share of the columns of the graph's lower band that show no state. */
+function emptyShare(page) {
+    return page.evaluate(() => {
+        const { width, height } = document.getElementById("fleet-stored-graph");
+        const copy = new OffscreenCanvas(width, height).getContext("2d");
+        copy.drawImage(document.getElementById("fleet-stored-graph"), 0, 0);
+        const { data } = copy.getImageData(0, height - 3, width, 1);
+        return data.filter((value, i) => i % 4 === 3 && value === 0).length / width;
+    });
 }
 
 test("the stored history of a robot is drawn on the map and over time", async () => {
@@ -334,6 +324,21 @@ test("the stored history of a robot is drawn on the map and over time", async ()
     await showSpan("day");
     await requireAccessible(page);
     assert.deepEqual(complaints, []);
+    await page.close();
+    await stop();
+});
+
+test("the graph of a robot that sends rarely has no gaps", async () => {
+    new Robot("anna", {}, 600);
+    const { url, stop } = await fleet(["--store", join(folder, "rare.db")]);
+    const { page } = await open(browser.context, url);
+    await untilState(page, "anna", "moving");
+    await page.click("#fleet-rows button");
+    await page.waitForFunction(() => Number(document.getElementById("fleet-robot-messages").textContent) >= 8);
+    await page.waitForFunction(() => / 0 waiting/.test(document.getElementById("fleet-counts").textContent));
+    await page.click("#fleet-stored-form button[type=submit]");
+    await page.waitForSelector("#fleet-stored-figure", { state: "visible" });
+    assert.equal(await emptyShare(page), 0);
     await page.close();
     await stop();
 });
@@ -449,9 +454,9 @@ test("axe finds no violation, and nothing is wider than the screen", async () =>
             await page.waitForSelector("#fleet-robot", { state: "visible" });
             anna.is_lost = true;
             await page.waitForSelector("#fleet-alerts li");
-            await audit(page, width);
+            await audit(page);
             await page.click("#fleet-remove");
-            await audit(page, width);
+            await audit(page);
             await page.close();
         }
     }

@@ -3,6 +3,9 @@ import type { Image } from "dotpose";
 import type { ImageQuality } from "./messages.js";
 
 const kRows = 24;
+/** Dots cover at least 1.5 % of the paper, so the darkest pixels are those of dots. */
+const kDarkest = 0.005;
+const kBrightest = 0.95;
 
 /** Returns the grey level at the quantile `share` of a histogram with `count` pixels. */
 function quantile(histogram: Uint32Array, count: number, share: number): number {
@@ -28,7 +31,7 @@ export function measureQuality({ data, width, height, stride = width }: Image): 
         }
     }
     const count = rows * width;
-    const contrast = quantile(levels, count, 0.95) - quantile(levels, count, 0.05);
+    const contrast = quantile(levels, count, kBrightest) - quantile(levels, count, kDarkest);
     let sum = 0;
     levels.forEach((n, level) => (sum += n * level));
     const kSteepest = 0.98;

@@ -18,16 +18,21 @@ function shareText(motion: string, count: number, states: number): string {
     return `${((100 * count) / states).toFixed(count === 0 || count === states ? 0 : 1)} % ${motion}`;
 }
 
+/** Returns the longest time between two states without a pause. */
+function maxGap_ms(span_ms: number): number {
+    const kMaxGap_ms = 2000;
+    return Math.max(kMaxGap_ms, 3 * span_ms);
+}
+
 /** Returns the tracks of the maps of a history. A track has a new stroke after a pause and where the robot was lost. */
 export function tracksOf({ maps, map_of, x_mm, y_mm, times_ms, span_ms }: StoredHistory): Track[] {
-    const kMaxGap_ms = 2000;
     const tracks = maps.map((map): Track => ({ map, strokes_mm: [] }));
     let before = -1;
     for (let i = 0; i < times_ms.length; ++i) {
         const map = map_of[i] ?? null;
         if (map === null) continue;
         const { strokes_mm } = tracks[map]!;
-        const is_next = before === i - 1 && map_of[before] === map && times_ms[i]! - times_ms[before]! <= Math.max(kMaxGap_ms, 3 * span_ms);
+        const is_next = before === i - 1 && map_of[before] === map && times_ms[i]! - times_ms[before]! <= maxGap_ms(span_ms);
         if (!is_next) strokes_mm.push([]);
         strokes_mm.at(-1)!.push(x_mm[i]!, y_mm[i]!);
         before = i;
@@ -132,8 +137,9 @@ export class HistoryPanel {
         const per_ms = width / (times_ms.at(-1)! + span_ms);
         const per_mm_s = (ground - top) / Math.max(max_speed_mm_s, 1);
         times_ms.forEach((time_ms, i) => {
-            // A bar reaches to the next span, except before a pause.
-            const length_ms = Math.min((times_ms[i + 1] ?? Infinity) - time_ms, 3 * span_ms);
+            // A bar reaches to the next state, except before a pause.
+            const gap_ms = (times_ms[i + 1] ?? Infinity) - time_ms;
+            const length_ms = gap_ms <= maxGap_ms(span_ms) ? gap_ms : span_ms;
             const x = Math.floor(time_ms * per_ms);
             const columns = Math.ceil((time_ms + length_ms) * per_ms) - x;
             context.fillStyle = themed("--accent");

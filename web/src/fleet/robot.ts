@@ -69,7 +69,7 @@ export class RobotPanel {
 
     #show(robot: Robot): void {
         const is_fine = robot.state === "moving" || robot.state === "still";
-        element("fleet-robot-state", HTMLElement).classList.toggle("good", is_fine);
+        element("fleet-robot-state", HTMLElement).className = is_fine ? `hint good ${robot.state}` : "hint";
         show({
             "fleet-robot-name": robot.name,
             "fleet-removed-name": robot.name,

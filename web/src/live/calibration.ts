@@ -190,8 +190,8 @@ function take(value: CalibrationValue): void {
 for (const action of ["save", "finish", "cancel"])
     element(`calibration-${action}`, HTMLButtonElement).addEventListener("click", () => send(action));
 connection.subscribe("setup", (value: Value) => {
-    const { robot } = JSON.parse(value as string) as Setup;
-    show({ "live-robot": robot });
+    const { robot, source } = JSON.parse(value as string) as Setup;
+    show({ "live-robot": robot, "live-source": source });
     document.title = `${robot}: calibration`;
 });
 connection.subscribe("calibration", async (value: Value) => {

@@ -60,7 +60,7 @@ export function showState({ line, ...run }: State, setup: Setup | null): void {
         "live-spacing": number(line.spacing_px, (value) => `${value.toFixed(1)} px`),
         "live-rate": `${run.rate_hz.toFixed(1)} frames/s`,
         "live-located": percent(run.fixes, run.frames),
-        "live-counts": `frame ${line.frame}, ${line.t_s.toFixed(3)} s; ${run.frames} frames, ${run.dropped} dropped, ${run.lost} times lost`,
+        "live-counts": `frame ${line.frame}, ${line.t_s.toFixed(3)} s; ${run.frames} frames, ${run.dropped} dropped, ${run.lost} ${run.lost === 1 ? "time" : "times"} lost`,
         "live-warnings": run.warnings.join(". "),
     });
     element("live-warnings", HTMLElement).hidden = run.warnings.length === 0;

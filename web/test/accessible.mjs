@@ -1,0 +1,28 @@
+// Accessibility checks of the pages.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+
+const kAxe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+
+/** Requires that axe finds no violation, and that nothing is wider than the screen. */
+export async function audit(page) {
+    // Scripts of the test are not bound by the content security policy of the page.
+    await page.evaluate(kAxe);
+    const { violations } = await page.evaluate(() => globalThis.axe.run());
+    assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes[0].html]), []);
+    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= page.viewportSize().width);
+}
+
+/** Requires the same in both colour schemes, on a desktop and on phones. The page keeps its size and its scheme. */
+export async function requireAccessible(page) {
+    const size = page.viewportSize();
+    for (const colorScheme of ["dark", "light"]) {
+        for (const width of [1200, 390, 320]) {
+            await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
+            await page.setViewportSize({ width, height: 800 });
+            await audit(page);
+        }
+    }
+    await page.setViewportSize(size);
+}
