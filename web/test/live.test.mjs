@@ -123,6 +123,29 @@ test("the page shows the frame, the map, refusals and recordings", async () => {
     }
 });
 
+test("frames without a sheet do not count as sharp", async () => {
+    dotpose("simulate", "-o", join(folder, "still"), "--frames", "1", "--size", "320x240", "--mm-per-px", "0.03", "--seed", "3");
+    const still = readFileSync(join(folder, "still", "frame_000000.pgm")).subarray(-320 * 240);
+    // A dark table with a faint texture.
+    const table = Buffer.from(still.map((_, i) => (i % 16 < 8 ? 36 : 40)));
+    const run = await watchSource(["-", "--size", "320x240", "--fps", "10"], ["--code", "anoto"]);
+    let shown = table;
+    const camera = setInterval(() => run.input.write(shown), 100);
+    try {
+        const { page } = await open(browser.context, run.url);
+        await page.waitForFunction(() => document.getElementById("live-contrast-text").textContent === "4 grey levels");
+        shown = still;
+        await page.waitForFunction(() => document.getElementById("live-advice").textContent === "The newest frame was located.");
+        await page.waitForFunction(() => Number.parseInt(document.getElementById("live-sharpness-text").textContent, 10) >= 95);
+        shown = table;
+        await page.waitForFunction(() => Number.parseInt(document.getElementById("live-sharpness-text").textContent, 10) < 20);
+        await page.close();
+    } finally {
+        clearInterval(camera);
+        await run.stop();
+    }
+});
+
 test("the page says why frames are refused, and what to change", async () => {
     const run = await watch(makeDrive("dark.mp4", 200, "--paper-level", "12"));
     try {

@@ -58,11 +58,11 @@ export interface CellsInView {
 export interface ImageQuality {
     /** Mean grey level. */
     brightness: number;
-    /** Difference between the 95 % and 5 % quantiles of the grey levels. */
+    /** Difference between the 95 % and 0.5 % quantiles of the grey levels. */
     contrast: number;
-    /**
-     * 98 % quantile of the differences between neighbouring pixels, as a fraction of the contrast.
-     */
+    /** 98 % quantile of the differences between neighbouring pixels. */
+    steepness: number;
+    /** The same as a fraction of the contrast. */
     sharpness: number;
 }
 

@@ -35,9 +35,11 @@ export function measureQuality({ data, width, height, stride = width }: Image): 
     let sum = 0;
     levels.forEach((n, level) => (sum += n * level));
     const kSteepest = 0.98;
+    const steepness = quantile(steps, count, kSteepest);
     return {
         brightness: sum / count,
         contrast,
-        sharpness: contrast === 0 ? 0 : quantile(steps, count, kSteepest) / contrast,
+        steepness,
+        sharpness: contrast === 0 ? 0 : steepness / contrast,
     };
 }

@@ -18,7 +18,10 @@ const kMeasured_ms = 4000;
 /** Measures the quality of a frame on its picture. */
 class Meter {
     readonly #canvas = new OffscreenCanvas(1, 1);
-    /** The best sharpness so far, which shows by how much the focus can be improved. */
+    /**
+     * The steepest edges so far, which show by how much the focus can be improved. They are not compared relative to the
+     * contrast, because the noise of a frame without dots would count as sharp.
+     */
     #best = 0;
 
     measure({ picture }: LiveFrame): ImageQuality {
@@ -33,14 +36,15 @@ class Meter {
     }
 
     show(quality: ImageQuality): void {
-        this.#best = Math.max(this.#best, quality.sharpness);
+        this.#best = Math.max(this.#best, quality.steepness);
         element("live-brightness", HTMLMeterElement).value = quality.brightness;
         element("live-contrast", HTMLMeterElement).value = quality.contrast;
-        element("live-sharpness", HTMLMeterElement).value = quality.sharpness / Math.max(this.#best, 1e-6);
+        const share = quality.steepness / Math.max(this.#best, 1);
+        element("live-sharpness", HTMLMeterElement).value = share;
         show({
             "live-brightness-text": `${Math.round(quality.brightness)} of 255`,
             "live-contrast-text": `${Math.round(quality.contrast)} grey levels`,
-            "live-sharpness-text": `${Math.round((100 * quality.sharpness) / Math.max(this.#best, 1e-6))} % of the best`,
+            "live-sharpness-text": `${Math.round(100 * share)} % of the best`,
             "live-picture-advice": hintOfPicture(quality) ?? "The picture is bright and sharp enough.",
         });
     }
