@@ -3,13 +3,13 @@
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
+import { requireAccessible } from "./accessible.mjs";
+import { takeForms } from "../tools/forms.mjs";
 import { dotpose, kTool, launch, open } from "./browser.mjs";
 
-const kAxe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 const [kWidth_px, kHeight_px] = [188, 120];
 const kSpacing_mm = 0.508;
 const kScale_mm_per_px = 0.046;
@@ -143,8 +143,9 @@ class Run {
         [this.#frames, this.#next] = [frames, 0];
     }
 
+    /** Writes the next frame, unless a busy machine has not read the ones before. */
     #write() {
-        if (this.#reads && this.#frames.length > 0) this.program.stdin.write(this.#frames[this.#next++ % this.#frames.length]);
+        if (this.#reads && this.#frames.length > 0 && this.program.stdin.writableLength === 0) this.program.stdin.write(this.#frames[this.#next++ % this.#frames.length]);
     }
 
     /** Returns the exit status. */
@@ -294,27 +295,9 @@ test("the page keeps the mount of the file that it replaces", async () => {
     }
 });
 
-/** Requires that axe finds no violation in either colour scheme, and that nothing is wider than the screen. */
-async function requireAccessible(page) {
-    for (const colorScheme of ["light", "dark"]) {
-        for (const width of [1200, 390, 320]) {
-            await page.emulateMedia({ colorScheme });
-            await page.setViewportSize({ width, height: 800 });
-            // Scripts of the test are not bound by the content security policy of the page.
-            await page.evaluate(readFileSync(kAxe, "utf8"));
-            const { violations } = await page.evaluate(() => globalThis.axe.run());
-            assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes[0].html]), []);
-            assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width);
-        }
-    }
-}
-
-/** Takes a picture for docs/web.md if the environment names the folder DOTPOSE_PICTURES. */
+/** Takes pictures for docs/web.md if the environment names the folder DOTPOSE_PICTURES. */
 async function picture(page, name) {
-    if (!process.env.DOTPOSE_PICTURES) return;
-    await page.emulateMedia({ colorScheme: "light" });
-    await page.setViewportSize({ width: 1200, height: 900 });
-    await page.screenshot({ path: join(process.env.DOTPOSE_PICTURES, `${name}.png`), fullPage: true });
+    if (process.env.DOTPOSE_PICTURES) await takeForms(page, process.env.DOTPOSE_PICTURES, name);
 }
 
 /** Returns the newest JSON line of a frame. */
@@ -449,13 +432,16 @@ test("axe finds no violation in any state, and nothing is wider than the screen"
         const { page } = await open(browser.context, `${run.url}calibration`);
         await page.waitForSelector("[data-step=lens]:enabled");
         await requireAccessible(page);
-        run.show(shots.rests.slice(0, 3));
+        assert.equal(await page.textContent("#live-source"), "standard input");
+        run.show(shots.rests.slice(0, 18));
         await page.click("[data-step=lens]");
-        await page.waitForSelector("#calibration-needs li");
+        await page.waitForFunction(() => /^[4-6] frames/.test(document.getElementById("calibration-frames").textContent));
         await requireAccessible(page);
+        await picture(page, "web-calibration-lens");
         run.show(shots.rests);
         await page.waitForFunction(titleIs, ": result");
         await requireAccessible(page);
+        await picture(page, "web-calibration-result");
         await page.click("#calibration-save");
         await page.waitForFunction(titleIs, ": saved");
         run.show(shots.turn.slice(0, 2));

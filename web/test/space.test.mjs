@@ -5,6 +5,7 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
+import { requireAccessible } from "./accessible.mjs";
 import { dotpose, launch, open } from "./browser.mjs";
 import { watchSource } from "./watch.mjs";
 
@@ -51,6 +52,7 @@ test("the page shows height, tilt, azimuth and turn, and draws the camera", asyn
     const shown = await seen(options, async (page) => {
         await page.waitForFunction(() => !document.getElementById("live-space").hidden);
         if (process.env.DOTPOSE_PICTURES) await page.screenshot({ path: join(process.env.DOTPOSE_PICTURES, "space.png") });
+        await requireAccessible(page);
         return page.evaluate(() => {
             const number = (id) => Number(document.getElementById(id).textContent.replace(/[^-.\d]/g, ""));
             const rotation = (id) => Number(/rotate\((\S+)/.exec(document.getElementById(id).getAttribute("transform"))[1]);

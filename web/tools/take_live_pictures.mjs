@@ -1,5 +1,6 @@
 // Takes the pictures of docs/web.md and docs/fleet.md. Run `node tools/take_live_pictures.mjs [PART]` after the build of the
-// tool; PART is watch, sheets, stitch, calibration or fleet. test/calibration.test.mjs takes the pictures of a mount and a pen.
+// tool; PART is watch, sheets, stitch or fleet. With DOTPOSE_PICTURES=../docs/pictures, test/calibration.test.mjs
+// takes those of the calibration. Needs ffmpeg.
 import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { createServer } from "node:net";
@@ -9,27 +10,17 @@ import { fileURLToPath } from "node:url";
 import { dotpose, kTool, launch, open } from "../test/browser.mjs";
 import { makeSeamFrames } from "../test/seam_frames.mjs";
 import { watchSource } from "../test/watch.mjs";
+import { takeForms } from "./forms.mjs";
 
-const kDesktop = { width: 1200, height: 900 };
-const kPhone = { width: 390, height: 844 };
+const kPictures = fileURLToPath(new URL("../../docs/pictures/", import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), "dotpose-pictures-"));
-const browser = await launch({ viewport: kDesktop, reducedMotion: "reduce" });
+const browser = await launch({ viewport: { width: 1200, height: 900 }, reducedMotion: "reduce" });
 const programs = [];
 // Names of files are shown in the pages.
 process.chdir(folder);
 
 function pause(seconds) {
     return new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
-}
-
-/** Takes a picture, if given when a frame shows a minimum number of dots. */
-async function take(page, name, { size = kDesktop, colorScheme = "light", fullPage = true, min_dots = 0 } = {}) {
-    await page.setViewportSize(size);
-    await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
-    await page.evaluate(() => scrollTo(0, 0));
-    await pause(1.5);
-    if (min_dots > 0) await page.waitForFunction((min) => Number(document.getElementById("live-dots").textContent) >= min, min_dots);
-    await page.screenshot({ path: fileURLToPath(new URL(`../../docs/pictures/${name}.png`, import.meta.url)), fullPage });
 }
 
 function start(command, ...args) {
@@ -41,7 +32,7 @@ function start(command, ...args) {
 }
 
 /** Makes three sheets with places, and a drive over them. */
-function makeDrive(...options) {
+function makeDrive() {
     const sheets = "sheets.json";
     ["table", "shelf", "door", "dock"].forEach((name, i) => {
         dotpose("print", "-o", "page.pdf", "--paper", "120x100", "--sheets", sheets, "--name", name);
@@ -49,7 +40,7 @@ function makeDrive(...options) {
     });
     const video = "drive.mp4";
     const scene = ["--size", "320x240", "--mm-per-px", "0.03", "--seed", "11", "--frames", "1000"];
-    dotpose("simulate", "--drive", "--sheets", sheets, "-o", video, ...scene, ...options);
+    dotpose("simulate", "--drive", "--sheets", sheets, "-o", video, ...scene);
     return { sheets, video };
 }
 
@@ -63,10 +54,12 @@ const kParts = {
         await pause(8);
         await page.click("#live-record");
         await pause(11);
-        const min_dots = 250;
-        await take(page, "web-light", { min_dots });
-        await take(page, "web-phone", { size: kPhone, min_dots });
-        await take(page, "web-dark", { colorScheme: "dark", min_dots });
+        const ready = () =>
+            page.waitForFunction(() => {
+                const number = (id) => Number.parseFloat(document.getElementById(id).textContent);
+                return number("live-dots") >= 250 && number("live-rate") > 15;
+            });
+        await takeForms(page, kPictures, "web", { ready });
         await page.close();
         await run.stop();
     },
@@ -78,8 +71,7 @@ const kParts = {
         await page.fill("#place-yaw", "-4");
         await page.click("#place-form button[type=submit]");
         await pause(3);
-        await take(page, "web-sheets");
-        await take(page, "web-sheets-phone", { size: kPhone, fullPage: false });
+        await takeForms(page, kPictures, "web-sheets", { fullPhone: false });
         await page.close();
         await run.stop();
     },
@@ -92,21 +84,8 @@ const kParts = {
         await page.click("#stitch-start");
         await page.waitForSelector("#stitch-sheets tr");
         await pause(5);
-        await take(page, "web-stitch", { colorScheme: "dark" });
+        await takeForms(page, kPictures, "web-stitch");
         clearInterval(timer);
-        await page.close();
-        await run.stop();
-    },
-    async calibration() {
-        const { sheets, video } = makeDrive("--k", "-2e-6");
-        const run = await watchSource([video, "--realtime", "--fps", "8"], ["--sheets", sheets, "--calibrate-to", "camera.yaml", "--robot", "anna"]);
-        const { page } = await open(browser.context, `${run.url}calibration`);
-        await page.click("[data-step=lens]");
-        await page.waitForFunction(() => Number.parseInt(document.getElementById("calibration-frames").textContent, 10) >= 2);
-        await take(page, "web-calibration-light");
-        await take(page, "web-calibration-phone", { size: kPhone });
-        await page.waitForFunction(() => document.getElementById("calibration-title").textContent.endsWith(": result"));
-        await take(page, "web-calibration-dark", { colorScheme: "dark" });
         await page.close();
         await run.stop();
     },
@@ -124,21 +103,25 @@ const kParts = {
         const fleet = start(kTool, "fleet", "--mqtt", broker, "--web", "0", "--store", join(folder, "fleet.db"));
         while (!/the page is at (\S+)/.test(fleet.messages)) await pause(0.1);
         const load = (robots, seconds) => start(join(dirname(kTool), "dotpose_fleet_load"), "--port", String(port), "--robots", String(robots), "--hz", "10", "--seconds", String(seconds));
-        load(60, 25);
+        const all = load(60, 600);
         await pause(16);
         const { page } = await open(browser.context, /the page is at (\S+)/.exec(fleet.messages)[1]);
         await page.click("#fleet-rows button:text-is('robot7')");
         await page.waitForSelector("#fleet-stored", { state: "visible" });
-        await page.click("#fleet-stored-form button[type=submit]");
-        await page.waitForSelector("#fleet-stored-figure", { state: "visible" });
-        await take(page, "fleet-history");
+        // The map shows the whole track again after the size of the page has changed.
+        const ready = async () => {
+            await page.click("#fleet-stored-form button[type=submit]");
+            await page.waitForSelector("#fleet-stored-figure", { state: "visible" });
+            await page.evaluate(() => scrollTo(0, 0));
+            await pause(1);
+        };
+        await takeForms(page, kPictures, "fleet-history", { ready });
         await page.click("#fleet-stored-hide");
         await page.click("#fleet-fit");
-        load(48, 60);
+        all.program.kill();
+        load(48, 600);
         await pause(22);
-        await take(page, "fleet-light");
-        await take(page, "fleet-dark", { colorScheme: "dark" });
-        await take(page, "fleet-phone", { size: kPhone });
+        await takeForms(page, kPictures, "fleet");
         await page.close();
     },
 };

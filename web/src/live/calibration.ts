@@ -4,7 +4,7 @@ import { drawMissing, drawResiduals, drawSpin, drawTilts, drawTurns, fullScale_p
 import type { CalibrationState, CalibrationValue, Gauge, LensCoverage, Result } from "./calibration_state.js";
 import { StepList, stepOf, typeset } from "./calibration_steps.js";
 import { Connection, type Value } from "./connection.js";
-import type { Setup } from "./messages.js";
+import { sourceText, type Setup } from "./messages.js";
 import { Picture } from "./picture.js";
 
 const kTitles: Record<CalibrationState["phase"], string> = {
@@ -190,9 +190,9 @@ function take(value: CalibrationValue): void {
 for (const action of ["save", "finish", "cancel"])
     element(`calibration-${action}`, HTMLButtonElement).addEventListener("click", () => send(action));
 connection.subscribe("setup", (value: Value) => {
-    const { robot, source } = JSON.parse(value as string) as Setup;
-    show({ "live-robot": robot, "live-source": source });
-    document.title = `${robot}: calibration`;
+    const setup = JSON.parse(value as string) as Setup;
+    show({ "live-robot": setup.robot, "live-source": sourceText(setup) });
+    document.title = `${setup.robot}: calibration`;
 });
 connection.subscribe("calibration", async (value: Value) => {
     take(JSON.parse(value as string) as CalibrationValue);

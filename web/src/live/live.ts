@@ -2,7 +2,7 @@
 import { announcer, element, show } from "../page/dom.js";
 import { Connection, type Value } from "./connection.js";
 import { PathMap } from "./map.js";
-import type { Advice, History, Path, Setup, State } from "./messages.js";
+import { sourceText, type Advice, type History, type Path, type Setup, type State } from "./messages.js";
 import { Picture } from "./picture.js";
 import { placeOf, showState } from "./readout.js";
 import { Recorder } from "./recorder.js";
@@ -33,7 +33,7 @@ function showSetup(value: Setup): void {
     map.setUp(value);
     recorder.setUp(value);
     sheets.setUp(value);
-    show({ "live-source": value.source, "live-robot": value.robot });
+    show({ "live-source": sourceText(value), "live-robot": value.robot });
     document.title = `${value.robot}: dotpose`;
 }
 

@@ -15,6 +15,11 @@ export interface Setup {
     log: string | null;
 }
 
+/** Returns the name of the source as text. */
+export function sourceText({ source }: Setup): string {
+    return source === "-" ? "standard input" : source;
+}
+
 /** A line of `dotpose watch` (docs/schema/lines-1.json): the keys that the page shows. */
 export interface Line {
     frame: number;
