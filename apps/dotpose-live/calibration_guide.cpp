@@ -21,6 +21,8 @@ constexpr std::chrono::milliseconds kOfferPeriod = 50ms;
 /// Maximum number of waiting jobs. If this number is reached, further commands of a page are
 /// ignored.
 constexpr std::size_t kMaxJobs = 8;
+/// Number of consecutive frames without a fix after which the page says so.
+constexpr int kManyLost = 10;
 
 constexpr std::array<const char*, 5> kSteps = {"lens", "spin", "drive", "readout", "pivot"};
 constexpr std::array<const char*, 6> kPhases = {"idle",   "collecting", "solving",
@@ -164,6 +166,7 @@ void CalibrationGuide::begin(GuideStep step) {
     if (step == GuideStep::lens) collector_ = std::make_unique<LensCollector>(options_.calibrate);
     update([&](GuideState& state) {
         guided_ = frames_for(step, camera);
+        lost_ = 0;
         state.step = step;
         state.phase = GuidePhase::collecting;
         state.advice = "move the camera over the sheet, and rest for a moment at each place";
@@ -206,22 +209,27 @@ void CalibrationGuide::take(const capture::Frame& frame, const Reading& reading,
         offer(frame, image, bits_per_px);
         return;
     }
+    if (guided_->is_complete()) return;
     const Record& record = reading.record;
-    const double spacing_mm = std::isfinite(record.spacing_mm)
-                                  ? record.spacing_mm
-                                  : options_.calibrate.pattern.spacing_mm;
     if (record.fix.status == Status::ok) {
-        take_guided({record.fix, spacing_mm, frame.time_us, frame.index, image});
+        const double spacing_mm = std::isfinite(record.spacing_mm)
+                                      ? record.spacing_mm
+                                      : options_.calibrate.pattern.spacing_mm;
+        lost_ = 0;
+        guided_->take({record.fix, spacing_mm, frame.time_us, frame.index, image});
     } else {
+        ++lost_;
         guided_->lose();
     }
+    show_guided();
 }
 
-/// Takes a frame of a moving robot. `mutex_` must be locked.
-void CalibrationGuide::take_guided(const GuidedFrame& frame) {
-    if (guided_->is_complete()) return;
-    guided_->take(frame);
+/// Shows the progress of a step with a moving robot, and ends the step if it is complete. `mutex_`
+/// must be locked.
+void CalibrationGuide::show_guided() {
     show(*guided_, state_);
+    if (lost_ >= kManyLost)
+        state_.advice = "these frames cannot be located: keep the camera over the dots";
     ++version_;
     if (!guided_->is_complete()) return;
     jobs_.emplace_back([this] {

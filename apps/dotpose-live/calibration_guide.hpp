@@ -131,7 +131,7 @@ class CalibrationGuide {
     void update(const std::function<void(GuideState&)>& change);
 
     void post(bool cancels, std::function<void()> job);
-    void take_guided(const GuidedFrame& frame);
+    void show_guided();
     void offer(const capture::Frame& frame, ImageView image, double bits_per_px);
 
     GuideOptions options_;
@@ -146,6 +146,7 @@ class CalibrationGuide {
     GuideState state_;
     std::uint64_t version_ = 0;
     std::unique_ptr<GuidedFrames> guided_;  ///< none during the step `lens`
+    int lost_ = 0;                          ///< number of frames since the last one with a fix
     std::optional<Camera> saved_camera_;
     Clock::time_point next_offer_{};
 

@@ -106,5 +106,65 @@ TEST(CalibrationGuide, TakesNewSheetsWhileCommandsWait) {
     EXPECT_NEAR(second.paper->mm_per_px_x, 1.02 * first->paper->mm_per_px_x, 1e-6);
 }
 
+/// A guide in the step `readout`, and a camera that moves by 2 spacings from frame to frame.
+class FastDrive {
+  public:
+    explicit FastDrive(const test::TemporaryDirectory& folder) : guide_(options_in(folder)) {
+        frame_.image = {std::vector<std::uint8_t>(8, 200), 4, 2};
+        guide_.start(GuideStep::readout);
+        EXPECT_TRUE(reaches(guide_, is_in(GuidePhase::collecting)));
+    }
+
+    void take(Status status) {
+        Reading reading;
+        reading.record.fix.status = status;
+        reading.record.fix.cell = {100 + 2 * static_cast<std::uint32_t>(frame_.index), 100};
+        guide_.take(frame_, reading, frame_.image.view(), 0);
+        ++frame_.index;
+        frame_.time_us += 20'000;
+    }
+
+    CalibrationGuide& guide() { return guide_; }
+
+  private:
+    static GuideOptions options_in(const test::TemporaryDirectory& folder) {
+        GuideOptions options;
+        options.file = (folder.path() / "camera.yaml").string();
+        options.camera.emplace().paper.emplace();
+        return options;
+    }
+
+    CalibrationGuide guide_;
+    capture::Frame frame_;
+};
+
+TEST(CalibrationGuide, AFastDriveOffTheSheetEndsTheStep) {
+    const test::TemporaryDirectory folder;
+    FastDrive drive(folder);
+    for (int i = 0; i < 20; ++i)
+        drive.take(Status::ok);
+    EXPECT_EQ(drive.guide().state().frames, 20);
+    drive.take(Status::too_few_dots);
+    // The pixels of the frames have no dots, so there is no result.
+    EXPECT_TRUE(reaches(drive.guide(), is_in(GuidePhase::failed)));
+}
+
+TEST(CalibrationGuide, SaysThatTheFramesCannotBeLocated) {
+    const test::TemporaryDirectory folder;
+    FastDrive drive(folder);
+    for (int i = 0; i < 5; ++i)
+        drive.take(Status::ok);
+    drive.take(Status::too_few_dots);
+    EXPECT_EQ(drive.guide().state().frames, 0);
+    EXPECT_EQ(drive.guide().state().advice, "go on at this speed");
+    for (int i = 0; i < 10; ++i)
+        drive.take(Status::too_few_dots);
+    EXPECT_EQ(drive.guide().state().advice,
+              "these frames cannot be located: keep the camera over the dots");
+    drive.take(Status::ok);
+    EXPECT_NE(drive.guide().state().advice,
+              "these frames cannot be located: keep the camera over the dots");
+}
+
 }  // namespace
 }  // namespace dotpose::cli

@@ -117,8 +117,8 @@ TEST(FleetValues, SummaryCountsRobotsByStateAndMap) {
     std::deque<cli::RobotAlert> alerts(2);
     alerts[0].robot = "older";
     alerts[1].robot = "newer";
-    const json summary =
-        json::parse(summary_value(snapshot_of(r), r.fleet, hall(), {true}, 12.34, alerts));
+    const json summary = json::parse(
+        summary_value(snapshot_of(r), r.fleet, hall(), {true, Delivery::all, {}}, 12.34, alerts));
     EXPECT_EQ(summary["robots"], 5);
     EXPECT_EQ(summary["states"],
               json::parse(R"({"moving": 3, "still": 0, "lost": 1, "silent": 1, "gone": 0})"));
