@@ -48,21 +48,12 @@ bool is_clean(const BitsRead& bits) {
                std::max(tuned::kMaxWrong, bits.read / tuned::kDotsPerWrong);
 }
 
-/// Returns true if the image shows too few cells for a certain position, even if all their bits
-/// were clear and agreed with the code. The bits of so few cells could agree with some position by
-/// chance. Returns false if sheets are known, because they need fewer cells. Overwrites the list of
-/// dots.
+/// Returns true if the image shows too few cells for a certain position (see `are_too_few_cells`).
+/// Overwrites the list of dots.
 bool shows_too_few_cells(const Frame& frame, CellsInView view, MeasuredDots& dots) {
-    if (frame.known.any()) return false;
     view.margin_px = 0;
     frame.kernels.list_cells(view, dots);
-    // Adds a margin of 1/kTolerance, because a second attempt may find a plane with a few more
-    // cells in view.
-    constexpr int kTolerance = 16;
-    const int cells = dots.count + dots.count / kTolerance + 1;
-    const Confidence axis = Confidence::of_hard_bits(cells, 0);
-    return chance_log2(axis, odds_per_bit_q8(Confidence::of_hard_bits(2 * cells, 0))) >
-           frame.options.integrity.max_p_wrong_log2;
+    return are_too_few_cells(frame, dots.count);
 }
 
 /// Fits the plane and the displacement to the measured dots. Returns false if the dots do not
@@ -250,6 +241,7 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
                 return Confirmation::implausible;
             if (decides) bits = reader.read_again(hypothesis, block);
         }
+        reader.drop_cut_dots(hypothesis);
         const FloatPlane before = plane;
         reader.find_centres(view, hypothesis, is_last, bits);
         if (!fit_to_dots(frame, dots, bits, hypothesis, pose)) return Confirmation::implausible;
@@ -262,7 +254,8 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
             const bool are_clear = bits.read == bits.seen && bits.wrong_x + bits.wrong_y == 0;
             if (!confirm_place(evidence, hypothesis, view, block, bits, fix)) {
                 if (!is_last || !are_clear) return Confirmation::uncertain;
-                measurement.shows_too_few_cells = shows_too_few_cells(frame, view, dots);
+                measurement.shows_too_few_cells =
+                    hypothesis.reads_cut_dots || shows_too_few_cells(frame, view, dots);
                 return Confirmation::too_few_bits;
             }
         }
@@ -273,6 +266,19 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
         if (is_last) return finish(frame, reader, view, bits, hypothesis, pose, measurement, fix);
         reach.grow();
     }
+}
+
+}  // namespace
+
+namespace {
+
+/// Returns true if the image contains so few cells that their bits may suffice only together with
+/// those of dots cut by the image border.
+bool needs_cut_dots(const Frame& frame, const Hypothesis& hypothesis) {
+    const float spacing = spacing_px(hypothesis.pattern_from_image);
+    const auto pixels = static_cast<float>(frame.image.width_px * frame.image.height_px);
+    return !hypothesis.is_partial_view && !hypothesis.is_certain && !frame.known.any() &&
+           pixels < tuned::kMaxCellsWithCutDots * spacing * spacing;
 }
 
 }  // namespace
@@ -294,8 +300,26 @@ bool is_implausible(const PoseFit& fit, int bits, int bit_errors) {
     return scatter + contradicted > tuned::kMaxImplausible;
 }
 
+bool are_too_few_cells(const Frame& frame, int count) {
+    if (frame.known.any()) return false;
+    // Adds a margin of 1/kTolerance, because a second attempt may find a plane with a few more
+    // cells in view.
+    constexpr int kTolerance = 16;
+    const int cells = count + count / kTolerance + 1;
+    const Confidence axis = Confidence::of_hard_bits(cells, 0);
+    return chance_log2(axis, odds_per_bit_q8(Confidence::of_hard_bits(2 * cells, 0))) >
+           frame.options.integrity.max_p_wrong_log2;
+}
+
 Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvidence& evidence,
                      Measurement& measurement, Fix& fix) {
+    if (needs_cut_dots(frame, hypothesis)) {
+        hypothesis.reads_cut_dots = true;
+        const Confirmation result =
+            measure_and_compare(frame, hypothesis, evidence, measurement, fix);
+        if (result == Confirmation::ok || result == Confirmation::too_few_bits) return result;
+        hypothesis.reads_cut_dots = false;
+    }
     if (hypothesis.is_predicted && can_sample_directly(hypothesis)) {
         std::optional<OtherCodes> before;
         if (evidence.others != nullptr) before = *evidence.others;

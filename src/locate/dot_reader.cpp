@@ -121,6 +121,22 @@ BitsRead DotReader::read_again(const Hypothesis& hypothesis, BitBlock& block) co
                               &block.columns, &block.rows);
 }
 
+void DotReader::drop_cut_dots(const Hypothesis& hypothesis) const {
+    if (!hypothesis.reads_cut_dots) return;
+    const float margin_px = margin_of_whole_dots_px(spacing_px_);
+    const auto is_cut = [&](std::int32_t window, std::int32_t sum, std::int32_t mass, int size_px) {
+        const float at =
+            static_cast<float>(window) + static_cast<float>(sum) / static_cast<float>(mass);
+        return at < margin_px || at > static_cast<float>(size_px - 1) - margin_px;
+    };
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dots_.count); ++k) {
+        if (dots_.x[k] < kNoDot_px &&
+            (is_cut(dots_.window_u[k], dots_.sum_u[k], dots_.mass[k], image_.width_px) ||
+             is_cut(dots_.window_v[k], dots_.sum_v[k], dots_.mass[k], image_.height_px)))
+            dots_.x[k] = kNoDot_px;
+    }
+}
+
 void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bool is_last,
                              BitsRead& bits) const {
     if (hypothesis.is_exact) {

@@ -31,6 +31,8 @@ class DotReader {
     /// Reads the bits of the measured dots again, with the new plane of the hypothesis. Overwrites
     /// `block`.
     BitsRead read_again(const Hypothesis& hypothesis, BitBlock& block) const;
+    /// Drops the measured dots that the image border cuts, because their centroids are biased.
+    void drop_cut_dots(const Hypothesis& hypothesis) const;
     /// Measures the dot centres in centroid windows. If the hypothesis is not exact, does nothing
     /// unless `is_last` is true. If the hypothesis is exact, also fits its plane to the centres,
     /// and sets `projected`, `squares` and `right` of `bits`. `right` is then the number of dots

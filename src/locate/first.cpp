@@ -62,6 +62,7 @@ class PatchSearch {
                 return confirmation;
             is_mirrored =
                 is_mirrored || shows_mirror_image(frame_.kernels, frame_.options.code, patch_);
+            if (measurement_.shows_too_few_cells) return Confirmation::too_few_bits;
             if (confirmation != Confirmation::implausible) break;
         }
         return search_everywhere();
@@ -75,7 +76,9 @@ class PatchSearch {
         if (!find_patch_dots(frame_, patch_, fix_)) return Confirmation::implausible;
         undistort(frame_.options.lens, middle_of(patch_, frame_.image), patch_.dots);
         const Confirmation square = test_grid(false);
-        return square == Confirmation::implausible ? test_grid(true) : square;
+        const bool may_be_skewed =
+            square == Confirmation::implausible && !measurement_.shows_too_few_cells;
+        return may_be_skewed ? test_grid(true) : square;
     }
 
     /// Finds the grid in the patch at the image centre, and tests its hypothesis. If `is_skewed` is
@@ -84,7 +87,12 @@ class PatchSearch {
         PatchView view = whole_view(patch_);
         view.min_dots = frame_.min_dots;
         view.is_skewed = is_skewed;
-        auto hypothesis = read_hypothesis(patch_, view, middle_of(patch_, frame_.image), evidence_);
+        PatchGrid grid;
+        if (!find_grid(frame_.kernels, patch_, view, grid)) return Confirmation::implausible;
+        // Scattered dots may form a skewed grid of any spacing.
+        measurement_.shows_too_few_cells = !is_skewed && shows_too_few_cells(grid.grid_from_image);
+        if (measurement_.shows_too_few_cells) return Confirmation::implausible;
+        auto hypothesis = read_grid(patch_, grid, middle_of(patch_, frame_.image), evidence_);
         if (!hypothesis) return Confirmation::implausible;
         move_origin_to_centre(*hypothesis);
         // If the patch is the whole image, the grid is fitted to all dots. It then predicts each
@@ -93,6 +101,18 @@ class PatchSearch {
             is_whole_image(patch_, frame_.image) &&
             spacing_px(hypothesis->pattern_from_image) >= tuned::kMinSpacingForPrediction_px;
         return confirm(frame_, *hypothesis, evidence_, measurement_, fix_);
+    }
+
+    /// Returns true if the patch is the whole image, and a grid with the spacing of the given grid
+    /// has too few cells in this image for a certain position. Bits of earlier frames may add to
+    /// those of these cells.
+    bool shows_too_few_cells(const FloatPlane& grid_from_image) const {
+        if (!is_whole_image(patch_, frame_.image) || evidence_.earlier.is_in_series()) return false;
+        const float border = 2 * tuning::confirm::kBeyondBorder;
+        const float spacing = spacing_px(grid_from_image);
+        const float cells = (static_cast<float>(frame_.image.width_px) / spacing + border) *
+                            (static_cast<float>(frame_.image.height_px) / spacing + border);
+        return are_too_few_cells(frame_, static_cast<int>(std::min(cells, 1e6F)));
     }
 
     /// Searches the whole image. If the search fails, repeats it for pale dots among graphics.

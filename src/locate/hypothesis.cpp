@@ -24,6 +24,25 @@ Extent extent(float min, float max, int room) {
     return {first, std::max(last - first + 1, 0)};
 }
 
+/// Limits the cells by their distance to the image border.
+void limit_to_image(const Frame& frame, const Hypothesis& hypothesis, CellsInView& view) {
+    const float spacing = spacing_px(hypothesis.pattern_from_image);
+    if (hypothesis.reads_cut_dots) {
+        // A list that depended on the expected dots would prefer dots that agree with the
+        // hypothesis.
+        view.limits_intersections = true;
+        view.margin_px = -tuning::confirm::kBeyondBorder * spacing;
+        return;
+    }
+    // The margin excludes dots that touch the image border, because their images are incomplete.
+    view.margin_px = margin_of_whole_dots_px(spacing);
+    // Small views of known sheets also need the dots closer to the border.
+    const auto shorter_px =
+        static_cast<float>(std::min(frame.image.width_px, frame.image.height_px));
+    if (frame.known.any() && shorter_px < tuning::known::kSmallView * spacing)
+        view.margin_px = tuning::known::kMargin_px;
+}
+
 /// Writes the rolls of the lines in view into `memory`, and sets the pointers of the view to these
 /// rolls.
 void follow_code(CodeVariant code, const Place& place, const RollMemory& memory,
@@ -41,6 +60,10 @@ void follow_code(CodeVariant code, const Place& place, const RollMemory& memory,
 }
 
 }  // namespace
+
+float margin_of_whole_dots_px(float spacing_px) {
+    return std::max(1.7F, 0.15F * spacing_px);
+}
 
 FloatLens float_lens(const FixedLens& lens) {
     constexpr float kQ40 = 1099511627776.0F;
@@ -63,14 +86,7 @@ CellsInView cells_in_view(const Frame& frame, const Hypothesis& hypothesis, floa
     view.height_px = static_cast<float>(image.height_px);
     view.reach_px = reach_px;
     view.displacement = hypothesis.displacement;
-    // The margin excludes dots that touch the image border, because their images are incomplete.
-    view.margin_px = std::max(1.7F, 0.15F * spacing_px(hypothesis.pattern_from_image));
-    // Small views of known sheets also need the dots closer to the border.
-    const auto shorter_px = static_cast<float>(std::min(image.width_px, image.height_px));
-    if (frame.known.any() &&
-        shorter_px < tuning::known::kSmallView * spacing_px(hypothesis.pattern_from_image)) {
-        view.margin_px = tuning::known::kMargin_px;
-    }
+    limit_to_image(frame, hypothesis, view);
     const float half_width = std::min(centre.x + std::abs(hypothesis.from_centre.x) + 1, reach_px);
     const float half_height = std::min(centre.y + std::abs(hypothesis.from_centre.y) + 1, reach_px);
     float min_x = 0, min_y = 0, max_x = 0, max_y = 0;

@@ -23,6 +23,9 @@ struct Hypothesis {
     /// True if each dot is closer to its predicted place than to the other places of its cell. Such
     /// dots are sampled directly.
     bool is_exact = false;
+    /// True if the bits are also read from dots that the image border cuts. Such dots do not count
+    /// for the pose.
+    bool reads_cut_dots = false;
     /// True if the pattern may cover only a part of the image, around `from_centre`.
     bool is_partial_view = false;
     /// Contrast of a typical dot after a 1-2-1 filter along both axes, in 1/256 of the paper level.
@@ -53,6 +56,10 @@ struct RollMemory {
 /// Threshold for dark pixels in a window, in 1/256 of the contrast of a typical dot. Pixels with
 /// more contrast belong to a dot.
 inline constexpr int kCutOfDepth_q8 = 160;
+
+/// Returns the minimum distance of a dot centre to the image border at which the border does not
+/// cut the dot.
+float margin_of_whole_dots_px(float spacing_px);
 
 FloatLens float_lens(const FixedLens& lens);
 

@@ -172,6 +172,12 @@ inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
 /// cache. Larger parts would evict their own first rows.
 inline constexpr int kMinFetched_bytes = 32 << 10;
 inline constexpr int kMaxFetched_bytes = 1 << 20;
+/// Number of cells in the image below which the bits are also read from dots that the image border
+/// cuts. Views with more cells are certain without these dots.
+inline constexpr float kMaxCellsWithCutDots = 144;
+/// Maximum distance of an intersection from the image, in spacings, at which the dot of the cell
+/// may be partly visible.
+inline constexpr float kBeyondBorder = 0.2F;
 /// Minimum number of dots that `DotReader::find_centres` must find to fit a plane to them.
 inline constexpr int kMinFound = 8;
 /// Maximum offset of a directly sampled dot from its predicted place. Dots with larger offsets are

@@ -88,7 +88,7 @@ float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
     // Computes the fastest sums first, and stops when the sum exceeds the limit.
     float known = sum_of_single_alternatives(kernels, lines) + sum_of_other_sections(lines);
     if (known >= limit) return known;
-    const float max_rest = std::min(limit, kUsualLimit) / 32;
+    const float max_rest = std::min(limit, kUsualLimit) / 4;
     if (const auto others = sum_of_likely_alternatives(kernels, lines, max_rest, limit - known))
         return known + *others;
     const auto expected_of = [&](int min_different, int max_different) {

@@ -208,10 +208,13 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     if (chance > limit) return 1;
     const float codes = codes_in_question(query);
     const auto with = [&](float alternatives) { return chance + codes * alternatives; };
+    // An axis may use half the limit. Above this value, a tighter bound may still make the frame
+    // certain.
+    const float enough = limit / 2;
     float sum = with(alternatives(kernels, ratios, unshared, limit));
-    if (sum > limit && !ratios.is_of_bits()) {
+    if (sum > enough && !ratios.is_of_bits()) {
         sum = with(power_of_two_rounded_up(quick_alternatives_log2_q8(ratios, 256 * limit_log2)));
-        if (sum > limit) {
+        if (sum > enough) {
             // The factor covers the error of the exponentials.
             sum = with(1.03F * sum_of_alternatives(kernels, ratios, limit_log2));
         }

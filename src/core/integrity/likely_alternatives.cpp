@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <span>
 
 #include "core/integrity/expected_alternatives.hpp"
@@ -144,12 +145,19 @@ class Finder {
         const bool is_complete = visit(0, 0, all_, 0);
         return is_complete || sum_ > max_odds_ ? std::optional(sum_) : std::nullopt;
     }
+    /// Returns the smallest sum of minimum losses, in the sets of lines that `sum` skipped. It is
+    /// at least the loss limit.
+    int min_skipped_loss() const { return min_skipped_loss_; }
 
   private:
     /// Maximum work of the search, in processor instructions (estimated).
     static constexpr std::size_t kMaxWork = 2'000'000;
-    static constexpr std::size_t kMaxPairs = code::kA3.size() * code::kA4Restored.size();
+    /// A pair of places in the last two sequences is stored as kLastPlaces times the index of the
+    /// first place plus the index of the second place.
+    static constexpr std::size_t kLastPlaces = 256;
+    static constexpr std::size_t kMaxPairs = code::kA3.size() * kLastPlaces;
     static constexpr std::uint16_t kNone = 0xFFFF;
+    static_assert(code::kA4Restored.size() <= kLastPlaces);
     static_assert(kMaxPairs < kNone);
 
     void set_equal_places(const code::Secondary& sequence, std::size_t k) {
@@ -168,15 +176,24 @@ class Finder {
     /// before `line`. `places` contains the places at which an alternative may share the lines in
     /// `shared`. `lost` is the sum of the minimum losses of the other lines before `line`. Returns
     /// false if the search ends early, because it takes too long or the sum exceeds `max_odds_`.
+    /// Visits sets with more shared lines first, because they contain few alternatives, with the
+    /// largest odds.
     bool visit(int line, int lost, const PlaceSets& places, LineSet shared) {
         if (line == count_) return add_all(places, shared);
         const int loss = std::max(lines_.ratios.min_loss(line), 0);
-        if (lost + loss < loss_limit_ && !visit(line + 1, lost + loss, places, shared))
-            return false;
-        // A line with a minimum loss of 0 costs nothing if it is not shared. The branch above
-        // therefore includes the alternatives that share it, and a second branch would count them
+        // A line with a minimum loss of 0 costs nothing if it is not shared. The sets without it
+        // therefore include the alternatives that share it, and sets with it would count them
         // twice.
-        if (loss == 0) return true;
+        if (loss > 0 && !visit_shared(line, lost, places, shared)) return false;
+        if (lost + loss >= loss_limit_) {
+            min_skipped_loss_ = std::min(min_skipped_loss_, lost + loss);
+            return true;
+        }
+        return visit(line + 1, lost + loss, places, shared);
+    }
+
+    /// Visits the sets of shared lines that also contain `line`. See `visit`.
+    bool visit_shared(int line, int lost, const PlaceSets& places, LineSet shared) {
         const LineSet with_line = shared | LineSet{1} << line;
         if (line == 0 || (shared >> (line - 1) & 1) == 0)
             return visit(line + 1, lost, places, with_line);
@@ -191,8 +208,7 @@ class Finder {
             }
             different += others != 0 ? 1 : 0;
         }
-        if (different < 2) return true;
-        return visit(line + 1, lost, fewer, with_line);
+        return different < 2 || visit(line + 1, lost, fewer, with_line);
     }
 
     /// Adds the odds of all combinations of the given places that share exactly the lines `shared`.
@@ -232,10 +248,10 @@ class Finder {
     void add_matches() {
         const auto& [a, b, c, d] = lists_;
         const auto visit_pairs = [&](auto use) {
-            std::uint16_t pair = 0;
             for (std::size_t n = 0; n < c.count(); ++n) {
-                for (std::size_t m = 0; m < d.count(); ++m, ++pair)
-                    use(newest_[sum_of_keys(c.key(n), d.key(m))], pair);
+                for (std::size_t m = 0; m < d.count(); ++m)
+                    use(newest_[sum_of_keys(c.key(n), d.key(m))],
+                        static_cast<std::uint16_t>(kLastPlaces * n + m));
             }
         };
         visit_pairs([&](std::uint16_t& newest, std::uint16_t pair) {
@@ -246,7 +262,7 @@ class Finder {
             for (std::size_t m = 0; m < b.count(); ++m) {
                 const unsigned key = opposite(sum_of_keys(a.key(n), b.key(m)));
                 for (std::uint16_t pair = newest_[key]; pair != kNone; pair = before_[pair])
-                    add({n, m, pair / d.count(), pair % d.count()});
+                    add({n, m, pair / kLastPlaces, pair % kLastPlaces});
             }
         }
         visit_pairs([](std::uint16_t& newest, std::uint16_t) { newest = kNone; });
@@ -301,6 +317,7 @@ class Finder {
     std::array<std::uint16_t, kKeys> newest_;
     std::array<std::uint16_t, kMaxPairs> before_;
     std::size_t work_ = 0;
+    int min_skipped_loss_ = std::numeric_limits<int>::max();
     float sum_ = 0;
 };
 
@@ -309,7 +326,7 @@ class Finder {
 constexpr float kTilt = 0.9F;
 
 /// Minimum of the loss limit, in bits. A smaller limit would shorten the search only a little.
-constexpr float kMinBits = 28;
+constexpr float kMinBits = 24;
 
 /// Returns log2 of kMargin times the expected sum of the tilted odds of all far alternatives. The
 /// tilted odds of an alternative are its odds times 2^(kTilt * min_lost). `min_lost` is the sum, in
@@ -341,16 +358,19 @@ std::optional<float> sum_of_likely_alternatives(const Kernels& kernels, const Ra
                                                 float max_rest, float max_odds) {
     // If the minimum losses of the lines that an alternative does not share add up to n or more
     // bits, its odds are at most 2^(-kTilt * n) times its tilted odds. `needed_bits` is the
-    // smallest n at which the tilted odds, multiplied by this factor, are at most `max_rest`.
+    // smallest n at which the tilted odds, multiplied by this factor, are at most `max_rest`. The
+    // skipped alternatives often lose more, because losses are mostly multiples of one bit.
     const float log2_tilted = log2_of_tilted_odds(kernels, lines);
     const float needed_bits = (log2_tilted - std::log2(max_rest)) / kTilt;
     constexpr float kMaxBits = 100;
     if (!(needed_bits < kMaxBits)) return std::nullopt;
     const float bits = std::max(needed_bits, kMinBits);
     const int loss_limit = lines.ratios.loss_for(-static_cast<int>(256 * bits) - 1);
-    const std::optional<float> sum = Finder(lines, loss_limit, max_odds).sum();
+    Finder finder(lines, loss_limit, max_odds);
+    const std::optional<float> sum = finder.sum();
     if (!sum) return std::nullopt;
-    return *sum + std::exp2(log2_tilted - kTilt * bits);
+    const int log2_skipped_q8 = lines.ratios.log2_odds_q8(finder.min_skipped_loss());
+    return *sum + std::exp2(log2_tilted + kTilt / 256 * static_cast<float>(log2_skipped_q8));
 }
 
 }  // namespace dotpose::core

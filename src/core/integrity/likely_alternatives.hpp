@@ -13,7 +13,7 @@ namespace dotpose::core {
 /// if the minimum losses of the lines that it does not share add up to less than a limit. The
 /// result contains the individual odds of each likely alternative. For all other far alternatives,
 /// it contains kMargin times an upper bound on their expected odds. The limit is the smallest one
-/// at which this part is at most `max_rest`, but at least 28 bits. If the odds of likely
+/// at which this part is at most `max_rest`, but at least 24 bits. If the odds of likely
 /// alternatives add up to more than `max_odds`, the search stops and the result is incomplete, but
 /// exceeds `max_odds`. Returns nullopt if the search would take too long, or if the limit would
 /// have to be 100 bits or more.

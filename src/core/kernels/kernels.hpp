@@ -81,7 +81,10 @@ struct CellsInView {
     float centre_y = 0;
     float width_px = 0;
     float height_px = 0;
-    float margin_px = 0;  ///< minimum distance from a dot to the image border
+    float margin_px = 0;  ///< minimum distance from a dot to the image border; may be negative
+    /// True if `margin_px` and `reach_px` apply to intersections instead of dots. The list of cells
+    /// then does not depend on the code.
+    bool limits_intersections = false;
     /// Maximum |x| and |y| of a dot. (x, y) is the dot's undistorted image point.
     float reach_px = 0;
     float displacement = 0;  ///< distance from an intersection to its dot, in spacings

@@ -48,6 +48,33 @@ TEST(LocateFirst, FindsGridsOfAllSpacings) {
     }
 }
 
+TEST(LocateFirst, ReadsDotsCutByTheBorderOfSmallImages) {
+    constexpr int kFrames = 40;
+    const auto found_in = [](const ShotSize& size) {
+        int found = 0;
+        for (std::uint64_t i = 0; i < kFrames; ++i) {
+            const Shot shot = shot_of(size, kSeed, i);
+            const Fix fix = outwards(render(shot));
+            if (fix.status != Status::ok) continue;
+            ++found;
+            EXPECT_TRUE(is_right(fix, shot)) << size.spacing_px << " px, shot " << i;
+        }
+        return found;
+    };
+    EXPECT_GE(found_in({7, 64, 64}), kFrames * 6 / 10);
+    EXPECT_GE(found_in({9, 80, 80}), kFrames * 4 / 10);
+}
+
+TEST(LocateFirst, SettlesImagesWithTooFewCells) {
+    constexpr int kFrames = 20;
+    int settled = 0;
+    for (std::uint64_t i = 0; i < kFrames; ++i) {
+        outwards(render(shot_of({9, 64, 64}, kSeed, i)));
+        settled += large_workspace().measurement.shows_too_few_cells ? 1 : 0;
+    }
+    EXPECT_GE(settled, kFrames * 9 / 10);
+}
+
 TEST(LocateFirst, FindsAllProfilesAtEveryTurn) {
     int found = 0;
     constexpr int kFrames = 36;

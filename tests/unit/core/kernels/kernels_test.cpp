@@ -187,6 +187,7 @@ TEST_F(KernelsTest, ListedCellsAreTheSame) {
         RandomView random(whole(rng, 64, 700), whole(rng, 64, 500), rng.uniform(5, 40),
                           rng.below(2) * 0.02, rng);
         if (rng.below(3) == 0) random.view.windows = Windows::none;
+        random.view.limits_intersections = rng.below(2) == 0;
         const int capacity = rng.below(2) == 0 ? 4096 : whole(rng, 8, 100);
         expect_same([&](const Kernels& kernels, Record& record) {
             DotTable table(capacity);
