@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <span>
 
@@ -10,7 +11,35 @@ namespace dotpose::core {
 static_assert(code::kA4Restored.size() == code::kA4Published.size() &&
               code::kA4Restored.size() == code::kA4Microdots.size());
 
+namespace {
+
+/// Odds by loss. Remembers the odds of earlier losses, because the losses of hard bits have few
+/// values.
+class OddsByLoss {
+  public:
+    explicit OddsByLoss(const LikelihoodRatios& ratios) : ratios_(ratios) { losses_.fill(kNone); }
+    float operator()(int loss) {
+        // Losses of hard bits are multiples of 254, which this index distinguishes.
+        const auto slot = static_cast<std::size_t>(loss >> 1) % losses_.size();
+        if (losses_[slot] != loss) {
+            losses_[slot] = loss;
+            odds_[slot] = ratios_.odds(loss);
+        }
+        return odds_[slot];
+    }
+
+  private:
+    static constexpr int kNone = std::numeric_limits<int>::max();
+
+    const LikelihoodRatios& ratios_;
+    std::array<int, 64> losses_;
+    std::array<float, 64> odds_;
+};
+
+}  // namespace
+
 RankedLines::RankedLines(const LikelihoodRatios& of) : ratios(of) {
+    OddsByLoss odds_of(ratios);
     for (std::size_t line = 0; line < static_cast<std::size_t>(count()); ++line) {
         auto& losses = losses_[line];
         OddsByOffset& odds = odds_[line];
@@ -22,7 +51,7 @@ RankedLines::RankedLines(const LikelihoodRatios& of) : ratios(of) {
                 scores[own] - scores[roll < kSections ? roll : roll - kSections]);
         }
         for (std::size_t offset = 0; offset < kSections; ++offset)
-            odds[offset] = ratios.odds(losses[offset]);
+            odds[offset] = odds_of(losses[offset]);
         odds.back() = 0;
         for (std::size_t n = kSections; n < losses.size(); n += kSections) {
             const auto end = losses.begin() +
