@@ -153,6 +153,27 @@ TEST_P(SpaceTrackRates, SmoothsWithTrueCovariances) {
 }
 INSTANTIATE_TEST_SUITE_P(FramesPerSecond, SpaceTrackRates, testing::Values(30, 60, 200));
 
+/// With accurate sightings at a low rate, the errors of predictions are those of the motion model.
+/// Their innovations have equal signs for many frames.
+TEST(SpaceTrack, PredictsASmoothMotionWithTrueCovariances) {
+    SpaceTracker tracker;
+    Eye eye(0.05);
+    Tally tracked;
+    Tally predicted;
+    for (int i = 0; i < 1000; ++i) {
+        const double t_s = i / 30.0;
+        const CameraInSpace truth = hand_at(t_s);
+        const auto before = tracker.predict(std::llround(1e6 * t_s));
+        const SpaceTrack& track = tracker.update(eye.look_at(truth, t_s));
+        ASSERT_EQ(track.verdict, SpaceVerdict::accepted) << i;
+        if (i < 60) continue;
+        tracked.add(error_of(track.camera, truth), matrix_of(track.covariance));
+        predicted.add(error_of(before->camera, truth), matrix_of(before->covariance));
+    }
+    tracked.expect_honest();
+    predicted.expect_honest();
+}
+
 TEST(SpaceTrack, HasTheVelocityOfTheCamera) {
     SpaceTracker tracker;
     Eye eye;
