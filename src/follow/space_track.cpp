@@ -204,8 +204,10 @@ SpaceTrack track_of(const Motion& motion, std::uint32_t plane) {
     track.camera = motion.camera;
     const auto covariance = covariance_of(motion);
     for (std::size_t i = 0; i < 6; ++i) {
-        for (std::size_t j = 0; j < 6; ++j)
+        for (std::size_t j = 0; j < 6; ++j) {
             track.covariance[i][j] = covariance(Eigen::Index(i), Eigen::Index(j));
+            track.velocity_covariance[i][j] = covariance(Eigen::Index(6 + i), Eigen::Index(6 + j));
+        }
     }
     std::copy_n(motion.velocity.begin(), 3, track.velocity_mm_s.begin());
     std::copy_n(motion.velocity.begin() + 3, 3, track.turn_rad_s.begin());
