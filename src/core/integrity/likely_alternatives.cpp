@@ -231,11 +231,12 @@ class Finder {
     /// two sequences that make the roll offset equal at both ends of each gap.
     void add_matches() {
         const auto& [a, b, c, d] = lists_;
-        const auto visit_pairs = [&](auto use) {
+        // The captures have new names because clang 14 cannot capture structured bindings.
+        const auto visit_pairs = [&, &third = c, &fourth = d](auto use) {
             std::uint16_t pair = 0;
-            for (std::size_t n = 0; n < c.count(); ++n) {
-                for (std::size_t m = 0; m < d.count(); ++m, ++pair)
-                    use(newest_[sum_of_keys(c.key(n), d.key(m))], pair);
+            for (std::size_t n = 0; n < third.count(); ++n) {
+                for (std::size_t m = 0; m < fourth.count(); ++m, ++pair)
+                    use(newest_[sum_of_keys(third.key(n), fourth.key(m))], pair);
             }
         };
         visit_pairs([&](std::uint16_t& newest, std::uint16_t pair) {
