@@ -161,7 +161,7 @@ dotpose_status dotpose_space_tip_of(const dotpose_space_pose* pose, const dotpos
     const std::array values = {pen->x_mm,        pen->y_mm,        pen->z_mm,       pen->rest_mm,
                                pen->sigma_mm[0], pen->sigma_mm[1], pen->sigma_mm[2]};
     const auto is_finite = [](double value) { return std::isfinite(value); };
-    if (!std::ranges::all_of(values, is_finite)) return DOTPOSE_BAD_VALUE;
+    if (!std::all_of(values.begin(), values.end(), is_finite)) return DOTPOSE_BAD_VALUE;
     return c::without_exceptions([&] {
         const TipPose found =
             tip_of(to_core(*pose), PenTip{pen->x_mm, pen->y_mm, pen->z_mm, pen->rest_mm},
