@@ -47,7 +47,7 @@ if(TARGET dotpose_c)
     install(FILES wrappers/c/dotpose.h TYPE INCLUDE)
 endif()
 if(TARGET dotpose_c_space)
-    install(FILES wrappers/c/space/dotpose_space.h TYPE INCLUDE)
+    install(FILES wrappers/c/space/dotpose_print_map.h wrappers/c/space/dotpose_space.h TYPE INCLUDE)
 endif()
 
 # Each library has its own export set. Users of the core alone then do not need yaml-cpp or libpng.

@@ -18,6 +18,7 @@
 namespace dotpose::test {
 
 inline constexpr double kSpaceDistance_mm = 25;
+inline constexpr double kSpaceFps = 10;  ///< frames per second of the runs
 /// Tilts of the frames. The camera leans towards +x.
 inline constexpr std::array kSpaceTilts_rad = {0.1, 0.25, 0.4, 0.55};
 
@@ -85,13 +86,42 @@ inline void expect_true_space_pose(std::size_t frame, const nlohmann::json& posi
     EXPECT_LT(error.dot(variances.ldlt().solve(error)), 30);
 }
 
+/// Expects that the odometry of the camera contains the true poses and, in the last frame, the
+/// velocities of the camera in its own frame.
+inline void expect_true_camera_odometry(const std::vector<nlohmann::json>& odometry) {
+    ASSERT_EQ(odometry.size(), kSpaceTilts_rad.size());
+    for (std::size_t i = 0; i < odometry.size(); ++i) {
+        EXPECT_EQ(odometry[i]["header"]["frame_id"], "map");
+        EXPECT_EQ(odometry[i]["child_frame_id"], "camera_optical");
+        const nlohmann::json& pose = odometry[i]["pose"]["pose"];
+        expect_true_space_pose(i, pose["position"], pose["orientation"],
+                               odometry[i]["pose"]["covariance"]);
+    }
+    const std::size_t last = kSpaceTilts_rad.size() - 1;
+    const nlohmann::json& twist = odometry[last]["twist"]["twist"];
+    const auto vector_of = [](const nlohmann::json& v) {
+        return Eigen::Vector3d(v["x"], v["y"], v["z"]);
+    };
+    const Eigen::Vector3d velocity_m_s =
+        (true_space_position(last) - true_space_position(last - 1)) * kSpaceFps;
+    const Eigen::Vector3d seen_m_s = true_space_rotation(last) * vector_of(twist["linear"]);
+    EXPECT_LT((seen_m_s - velocity_m_s).norm(), 0.15 * velocity_m_s.norm());
+    // The camera leans about the y axis of the world, which is -y of the image.
+    const double turn_rad_s = (kSpaceTilts_rad[last] - kSpaceTilts_rad[last - 1]) * kSpaceFps;
+    EXPECT_LT((vector_of(twist["angular"]) - Eigen::Vector3d(0, -turn_rad_s, 0)).norm(), 0.2);
+    for (std::size_t i = 0; i < 6; ++i)
+        EXPECT_GT(odometry[last]["twist"]["covariance"][7 * i], 0);
+}
+
 /// Expects that the messages of a run contain the true poses of all frames.
 inline void expect_true_space_poses(const std::vector<nlohmann::json>& messages) {
     std::vector<nlohmann::json> poses;
     std::vector<nlohmann::json> transforms;
+    std::vector<nlohmann::json> odometry;
     for (const nlohmann::json& message : messages) {
         EXPECT_NE(message["topic"], "/tf_static");
         if (message["topic"] == "/anna/camera_pose") poses.push_back(message["message"]);
+        if (message["topic"] == "/anna/camera_odom") odometry.push_back(message["message"]);
         if (message["topic"] != "/tf") continue;
         const nlohmann::json& camera = message["message"]["transforms"].back();
         EXPECT_EQ(camera["header"]["frame_id"], "map");
@@ -108,6 +138,7 @@ inline void expect_true_space_poses(const std::vector<nlohmann::json>& messages)
         expect_true_space_pose(i, transforms[i]["translation"], transforms[i]["rotation"],
                                covariance);
     }
+    expect_true_camera_odometry(odometry);
 }
 
 }  // namespace dotpose::test

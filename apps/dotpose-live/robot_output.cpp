@@ -17,6 +17,7 @@ ros::RobotUpdate update_of(const Reading& reading, std::int64_t stamp_ns) {
     followed.located.spacing_mm = reading.record.spacing_mm;
     followed.located.space = reading.record.space;
     followed.track = reading.track;
+    followed.space_track = reading.space_track;
     return ros::update_of(followed, reading.plane == Plane::sheet_world, stamp_ns);
 }
 

@@ -46,6 +46,17 @@ std::optional<CameraInWorld> camera_pose_of(const Reading& reading) {
     return with_y_down(in_world(space->camera, space->covariance, WorldPose{}));
 }
 
+/// Returns the motion of the tracked camera, with the axes of the track of the robot.
+std::optional<CameraMotion> camera_track_of(const Reading& reading) {
+    if (!reading.space_track) return std::nullopt;
+    auto motion = motion_of(*reading.space_track);
+    if (!motion || reading.plane == Plane::sheet_world) return motion;
+    motion->pose = with_y_down(motion->pose);
+    motion->velocity_m_s[1] *= -1;
+    motion->velocity_m_s[2] *= -1;
+    return motion;
+}
+
 }  // namespace
 
 RobotState state_of(const Reading& reading, const std::string& robot,
@@ -74,6 +85,7 @@ RobotState state_of(const Reading& reading, const std::string& robot,
     state.vy_m_s = static_cast<double>(pose.vy_mm_s) / 1000;
     state.omega_rad_s = static_cast<double>(pose.turn_rad_s);
     state.camera_pose = camera_pose_of(reading);
+    state.camera_track = camera_track_of(reading);
     return state;
 }
 

@@ -52,6 +52,15 @@ nlohmann::ordered_json json_of(const CameraInWorld& camera) {
             {"covariance", std::move(covariance)}};
 }
 
+nlohmann::ordered_json json_of(const CameraMotion& motion) {
+    nlohmann::ordered_json json = json_of(motion.pose);
+    const auto& [vx, vy, vz] = motion.velocity_m_s;
+    const auto& [turn_x, turn_y, turn_z] = motion.turn_rad_s;
+    json["velocity"] = {{"x", vx}, {"y", vy}, {"z", vz}};
+    json["turn"] = {{"x", turn_x}, {"y", turn_y}, {"z", turn_z}};
+    return json;
+}
+
 std::string dump(const nlohmann::ordered_json& json) {
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -78,7 +87,8 @@ std::int64_t system_us() {
 
 std::string json_of(const RobotState& state) {
     nlohmann::ordered_json json = header(state.robot, state.header_id, state.sent_us);
-    // VDA 5050 permits additional members: state, reason, sheet, camera and cameraPose.
+    // VDA 5050 permits additional members: state, reason, sheet, camera, cameraPose and
+    // cameraTrack.
     json["state"] = state.state;
     if (!state.reason.empty()) json["reason"] = state.reason;
     if (!state.sheet.empty()) json["sheet"] = state.sheet;
@@ -93,6 +103,7 @@ std::string json_of(const RobotState& state) {
         json["velocity"] = {
             {"vx", state.vx_m_s}, {"vy", state.vy_m_s}, {"omega", state.omega_rad_s}};
         if (state.camera_pose) json["cameraPose"] = json_of(*state.camera_pose);
+        if (state.camera_track) json["cameraTrack"] = json_of(*state.camera_track);
     }
     return dump(json);
 }

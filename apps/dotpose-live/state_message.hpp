@@ -12,6 +12,7 @@
 
 #include "dotpose/status.hpp"
 #include "dotpose/tools/space_pose.hpp"
+#include "dotpose/tools/space_track.hpp"
 #include "publish/mqtt.hpp"
 
 namespace dotpose::cli {
@@ -85,6 +86,8 @@ struct RobotState {
     double omega_rad_s = 0;
     /// Pose of the camera in space, with the axes of x and y. Not parsed.
     std::optional<CameraInWorld> camera_pose;
+    /// Motion of the tracked camera, with the axes of x and y. Not parsed.
+    std::optional<CameraMotion> camera_track;
 };
 
 /// Returns the message with the subject `visualization`.

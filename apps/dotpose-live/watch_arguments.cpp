@@ -99,7 +99,7 @@ void add_web_options(Command& command, WatchArguments& arguments) {
     arguments.calibration.add_to(command);
 }
 
-void add_track_options(Command& command, TrackOptions& track) {
+void add_track_options(Command& command, TrackOptions& track, SpaceTrackOptions& space_track) {
     const auto require_positive = Range(1e-3, 1e7);
     command.add_option("--max-speed", track.max_speed_mm_s, "Maximum speed of the robot")
         ->type_name("MM/S")
@@ -109,6 +109,12 @@ void add_track_options(Command& command, TrackOptions& track) {
         .add_option(
             "--acceleration", track.acceleration_mm_s2,
             "Usual acceleration of the robot: a larger value follows faster and smooths less")
+        ->type_name("MM/S^2")
+        ->capture_default_str()
+        ->check(require_positive);
+    command
+        .add_option("--camera-acceleration", space_track.acceleration_mm_s2,
+                    "Maximum usual acceleration of the camera in space, with --pose space")
         ->type_name("MM/S^2")
         ->capture_default_str()
         ->check(require_positive);
@@ -155,7 +161,7 @@ void WatchArguments::add_to(Command& command) {
     sources.add_to(command);
     add_follower_options(command, follower,
                          "Sheet file: also report the sheet, and track the robot in the world");
-    add_track_options(command, follower.options.track);
+    add_track_options(command, follower.options.track, follower.options.space_track);
     add_output_options(command, *this);
     add_publish_options(command, outputs);
     dds.add_to(command);

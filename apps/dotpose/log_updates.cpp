@@ -86,7 +86,7 @@ ros::PlanarMotion motion_in(const LogCells& row, const ros::PlanarPose& pose,
     return motion;
 }
 
-/// Column names of a pose of the camera in space.
+/// Column names of a pose of the camera in space, without their prefix.
 struct SpaceColumns {
     std::string_view unit;  ///< end of the names of x, y and z
     std::string_view rotation;
@@ -94,42 +94,63 @@ struct SpaceColumns {
     double angle_rad;  ///< unit of angles in the covariance
 };
 
-constexpr SpaceColumns kSpaceInWorld = {"m", "camera_quaternion_world_xyzw",
-                                        "camera_covariance_m_rad", 1};
-constexpr SpaceColumns kSpaceInPattern = {"mm", "camera_quaternion_xyzw",
-                                          "camera_covariance_mm_deg", kRadians};
+constexpr SpaceColumns kSpaceInWorld = {"m", "quaternion_world_xyzw", "covariance_m_rad", 1};
+constexpr SpaceColumns kSpaceInPattern = {"mm", "quaternion_xyzw", "covariance_mm_deg", kRadians};
 
-SpaceCovariance space_covariance_in(const LogCells& row, const SpaceColumns& columns) {
+/// Returns a pose of the camera in space, in the world or, if `is_in_world` is false, in the
+/// pattern frame with y up. Returns none if the row has no such pose. All column names begin with
+/// `prefix`.
+std::optional<CameraInWorld> space_pose_in(const LogCells& row, const std::string& prefix,
+                                           bool is_in_world) {
+    const SpaceColumns& columns = is_in_world ? kSpaceInWorld : kSpaceInPattern;
+    if (row.text(fmt::format("{}x_{}", prefix, columns.unit)).empty()) return std::nullopt;
+    const auto position = [&](char axis) {
+        return row.required(fmt::format("{}{}_{}", prefix, axis, columns.unit));
+    };
+    const auto component = [&](char axis) {
+        return row.required(fmt::format("{}{}_{}", prefix, columns.rotation, axis));
+    };
+    const Quaternion rotation = {component('w'), component('x'), component('y'), component('z')};
     SpaceCovariance covariance{};
     for (std::size_t i = 0; i < 6; ++i) {
         for (std::size_t j = 0; j < 6; ++j) {
             const double unit = (i < 3 ? 1 : columns.angle_rad) * (j < 3 ? 1 : columns.angle_rad);
             covariance[i][j] =
-                unit * row.required(fmt::format("{}_{}{}", columns.covariance, i, j));
+                unit * row.required(fmt::format("{}{}_{}{}", prefix, columns.covariance, i, j));
         }
     }
-    return covariance;
-}
-
-/// Returns the pose of the camera in space, in the world or, if `is_in_world` is false, in the
-/// pattern frame with y up. Returns none if the row has no pose in space, or if this pose is
-/// ambiguous.
-std::optional<CameraInWorld> camera_in(const LogCells& row, bool is_in_world) {
-    const SpaceColumns& columns = is_in_world ? kSpaceInWorld : kSpaceInPattern;
-    if (row.text("camera_is_ambiguous") != "false") return std::nullopt;
-    if (row.text(fmt::format("camera_x_{}", columns.unit)).empty()) return std::nullopt;
-    const auto position = [&](char axis) {
-        return row.required(fmt::format("camera_{}_{}", axis, columns.unit));
-    };
-    const auto component = [&](char axis) {
-        return row.required(fmt::format("{}_{}", columns.rotation, axis));
-    };
-    const Quaternion rotation = {component('w'), component('x'), component('y'), component('z')};
-    const SpaceCovariance covariance = space_covariance_in(row, columns);
     if (is_in_world)
         return CameraInWorld{position('x'), position('y'), position('z'), rotation, covariance};
     return in_world({position('x'), position('y'), position('z'), rotation}, covariance,
                     WorldPose{});
+}
+
+/// Returns the pose of the camera in space from the frame alone. Returns none if it is unknown or
+/// ambiguous.
+std::optional<CameraInWorld> camera_in(const LogCells& row, bool is_in_world) {
+    if (row.text("camera_is_ambiguous") != "false") return std::nullopt;
+    return space_pose_in(row, "camera_", is_in_world);
+}
+
+/// Returns the motion of the tracked camera. The log contains one standard deviation for the
+/// velocity and one for the angular velocity, which are used for all components.
+std::optional<CameraMotion> camera_motion_in(const LogCells& row, bool is_in_world) {
+    const auto pose = space_pose_in(row, "camera_track_", is_in_world);
+    if (!pose) return std::nullopt;
+    const double up = is_in_world ? 1 : -1;
+    const double sigma_m_s = row.required("camera_sigma_v_mm_s") / 1000;
+    const double sigma_rad_s = row.required("camera_sigma_turn_deg_s") * kRadians;
+    CameraMotion motion;
+    motion.pose = *pose;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const char axis = "xyz"[i];
+        motion.velocity_m_s[i] =
+            (i == 0 ? 1 : up) * row.required(fmt::format("camera_v{}_mm_s", axis)) / 1000;
+        motion.turn_rad_s[i] = row.required(fmt::format("camera_turn_deg_s_{}", axis)) * kRadians;
+        motion.velocity_covariance[i][i] = sigma_m_s * sigma_m_s;
+        motion.velocity_covariance[3 + i][3 + i] = sigma_rad_s * sigma_rad_s;
+    }
+    return motion;
 }
 
 std::int64_t time_ns_in(const LogCells& row) {
@@ -164,14 +185,16 @@ ros::RobotUpdate update_of(const LogCells& row) {
         update.problem = row.text("status");
     }
     update.camera = camera_in(row, is_in_world);
+    update.camera_motion = camera_motion_in(row, is_in_world);
     update.state = row.text("state");
     if (update.state != "lost") {
         const PoseColumns track = track_columns(is_in_world);
         if (const auto pose = pose_in(row, track)) update.motion = motion_in(row, *pose, track);
     }
     update.is_found_again = has_event(row, "fix") || has_event(row, "kidnapped");
-    for (const char* fact : {"status", "events", "verdict", "dots_seen", "dots_used", "attempt",
-                             "p_wrong", "sheet", "camera_is_ambiguous", "camera_second_odds"}) {
+    for (const char* fact :
+         {"status", "events", "verdict", "dots_seen", "dots_used", "attempt", "p_wrong", "sheet",
+          "camera_is_ambiguous", "camera_second_odds", "camera_verdict"}) {
         const std::string_view text = row.text(fact);
         if (!text.empty() || std::string_view(fact) == "events") {
             update.facts.push_back({fact, std::string(text)});

@@ -15,6 +15,7 @@ Reading read(const capture::Frame& frame, Follower& follower) {
     reading.time_us = frame.time_us;
     reading.plane = plane_of(follower);
     reading.track = now.track;
+    reading.space_track = now.space_track;
     reading.record = record_of(now.located, follower);
     reading.record.file = frame.file;
     reading.record.elapsed_us = std::numeric_limits<double>::quiet_NaN();

@@ -21,6 +21,7 @@ struct Reading {
     /// prior.
     Record record;
     Track track;
+    std::optional<SpaceTrack> space_track;  ///< see Followed
     Plane plane = Plane::pattern;
 };
 

@@ -9,6 +9,7 @@
 
 #include "dotpose/files/degrees.hpp"
 #include "dotpose/tools/track_names.hpp"
+#include "space_fields.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -94,6 +95,10 @@ std::vector<Field> fields(const Reading& reading, Units units) {
     };
     all.insert(all.begin() + 1, time.begin(), time.end());  // after the schema version
     append(all, track_fields(reading.track, reading.plane, units));
+    if (!reading.record.has_space) return all;
+    append(all, space_track_fields(reading.space_track.value_or(SpaceTrack{}),
+                                   reading.plane == Plane::sheet_world, reading.record.has_sheets,
+                                   units));
     return all;
 }
 

@@ -21,6 +21,7 @@ RobotTopics::RobotTopics(const std::string& robot)
     : pose('/' + ros_name(robot) + "/pose"),
       camera('/' + ros_name(robot) + "/camera_pose"),
       odometry('/' + ros_name(robot) + "/odom"),
+      camera_odometry('/' + ros_name(robot) + "/camera_odom"),
       status('/' + ros_name(robot) + "/status"),
       image('/' + ros_name(robot) + "/image/compressed") {}
 
@@ -38,6 +39,8 @@ void RobotRecording::take(const ros::RobotMessages& messages, std::int64_t time_
     if (messages.pose) write(poses_, topics_.pose, *messages.pose, time_ns);
     if (messages.camera) write(cameras_, topics_.camera, *messages.camera, time_ns);
     if (messages.odometry) write(odometry_, topics_.odometry, *messages.odometry, time_ns);
+    if (messages.camera_odometry)
+        write(camera_odometry_, topics_.camera_odometry, *messages.camera_odometry, time_ns);
     if (messages.tf) write(tf_, RobotTopics::kTf, *messages.tf, time_ns);
     write(status_, topics_.status, messages.status, time_ns);
 }

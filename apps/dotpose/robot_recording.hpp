@@ -15,6 +15,7 @@ struct RobotTopics {
     std::string pose;
     std::string camera;
     std::string odometry;
+    std::string camera_odometry;
     std::string status;
     std::string image;
     static constexpr const char* kTf = "/tf";
@@ -50,6 +51,7 @@ class RobotRecording {
     std::optional<McapChannel> poses_;
     std::optional<McapChannel> cameras_;
     std::optional<McapChannel> odometry_;
+    std::optional<McapChannel> camera_odometry_;
     std::optional<McapChannel> tf_;
     std::optional<McapChannel> tf_static_;
     std::optional<McapChannel> status_;

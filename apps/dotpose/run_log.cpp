@@ -140,7 +140,8 @@ LogCells LogReader::row_of_json(const std::string& line) {
         const std::size_t rows = value.size() == 9 ? 3 : 6;
         for (std::size_t i = 0; rows * rows == value.size() && i < value.size(); ++i)
             add(fmt::format("{}_{}{}", name, i / rows, i % rows), value[i]);
-        for (std::size_t i = 0; value.size() == 4 && i < value.size(); ++i)
+        const bool is_vector = value.size() == 3 || value.size() == 4;
+        for (std::size_t i = 0; is_vector && i < value.size(); ++i)
             add(fmt::format("{}_{}", name, "xyzw"[i]), value[i]);
     }
     return {columns_, std::move(cells)};

@@ -79,23 +79,29 @@ std::vector<Field> if_known(bool is_known, std::vector<Field> fields) {
     return fields;
 }
 
-std::vector<Field> pattern_fields(const SpacePose& space, Units units) {
+/// Returns position, rotation and covariance in the pattern. All names begin with `prefix`.
+std::vector<Field> pattern_fields(const std::string& prefix, const CameraInSpace& camera,
+                                  const SpaceCovariance& covariance, Units units) {
     std::vector<Field> fields;
-    const OutputPose pose = in_units(units, space.camera, space.covariance);
-    if (units == Units::ros) {
-        append_position("camera_", "_pattern_m", units, pose, fields);
-        append_rotation("camera_quaternion_pattern_xyzw", pose.rotation, fields);
-        append_covariance("camera_covariance_pattern_m_rad", 1, pose.covariance, fields);
-        return fields;
+    const bool is_ros = units == Units::ros;
+    const OutputPose pose = in_units(units, camera, covariance);
+    append_position(prefix, is_ros ? "_pattern_m" : "_mm", units, pose, fields);
+    append_rotation(prefix + (is_ros ? "quaternion_pattern_xyzw" : "quaternion_xyzw"),
+                    pose.rotation, fields);
+    if (is_ros) {
+        append_covariance(prefix + "covariance_pattern_m_rad", 1, pose.covariance, fields);
+    } else {
+        append_covariance(prefix + "covariance_mm_deg", kDegrees, pose.covariance, fields);
     }
-    append_position("camera_", "_mm", units, pose, fields);
-    append_rotation("camera_quaternion_xyzw", pose.rotation, fields);
-    const CameraLean lean = lean_of(pose.rotation);
-    fields.push_back({"camera_tilt_deg", degrees(lean.tilt_rad)});
-    fields.push_back({"camera_azimuth_deg", degrees(lean.azimuth_rad)});
-    fields.push_back({"camera_turn_deg", degrees(lean.turn_rad)});
-    append_covariance("camera_covariance_mm_deg", kDegrees, pose.covariance, fields);
     return fields;
+}
+
+/// Returns the angles of a pose, which are only in lines in mm.
+std::vector<Field> lean_fields(const Quaternion& rotation) {
+    const CameraLean lean = lean_of(rotation);
+    return {{"camera_tilt_deg", degrees(lean.tilt_rad)},
+            {"camera_azimuth_deg", degrees(lean.azimuth_rad)},
+            {"camera_turn_deg", degrees(lean.turn_rad)}};
 }
 
 std::vector<Field> evidence_fields_of(const SpacePose& space) {
@@ -122,12 +128,44 @@ std::vector<Field> sheet_fields_of(const CameraInSpace& camera, Units units) {
     return fields;
 }
 
-std::vector<Field> world_fields_of(const CameraInWorld& world) {
+std::vector<Field> world_fields_of(const std::string& prefix, const CameraInWorld& world) {
     std::vector<Field> fields;
-    append_position("camera_", "_m", Units::ros, {{world.x_m, world.y_m, world.z_m}, {}, {}},
-                    fields);
-    append_rotation("camera_quaternion_world_xyzw", world.rotation, fields);
-    append_covariance("camera_covariance_m_rad", 1, world.covariance, fields);
+    append_position(prefix, "_m", Units::ros, {{world.x_m, world.y_m, world.z_m}, {}, {}}, fields);
+    append_rotation(prefix + "quaternion_world_xyzw", world.rotation, fields);
+    append_covariance(prefix + "covariance_m_rad", 1, world.covariance, fields);
+    return fields;
+}
+
+/// Returns the largest standard deviation of three consecutive coordinates.
+double largest_sigma(const SpaceCovariance& covariance, std::size_t first) {
+    return std::sqrt(std::max({covariance[first][first], covariance[first + 1][first + 1],
+                               covariance[first + 2][first + 2]}));
+}
+
+/// Returns the velocities along the axes of the plane of the track, and the angular velocities
+/// about the axes of the camera.
+std::vector<Field> velocity_fields(const CameraMotion& motion, bool is_in_world, Units units) {
+    const bool is_ros = units == Units::ros;
+    const double length = is_ros ? 1 : 1000;
+    const double angle = is_ros ? 1 : kDegrees;
+    const double down = is_in_world || is_ros ? 1 : -1;
+    const int decimals = is_ros ? 6 : 3;
+    const std::string per_s = is_ros ? "_m_s" : "_mm_s";
+    const std::string turn = is_ros ? "camera_turn_rad_s" : "camera_turn_deg_s";
+    std::vector<Field> fields;
+    for (std::size_t i = 0; i < 3; ++i) {
+        fields.push_back(
+            {std::string("camera_v") + kAxes[i] + per_s,
+             decimal((i == 0 ? 1 : down) * length * motion.velocity_m_s[i], decimals)});
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        fields.push_back(
+            {turn + '_' + kAxes[i], decimal(angle * motion.turn_rad_s[i], decimals), false, turn});
+    }
+    fields.push_back({"camera_sigma_v" + per_s,
+                      decimal(length * largest_sigma(motion.velocity_covariance, 0), decimals)});
+    fields.push_back({is_ros ? "camera_sigma_turn_rad_s" : "camera_sigma_turn_deg_s",
+                      decimal(angle * largest_sigma(motion.velocity_covariance, 3), decimals)});
     return fields;
 }
 
@@ -137,7 +175,10 @@ std::vector<Field> space_fields(const std::optional<SpacePose>& space,
                                 const std::optional<SheetPlace>& place, bool has_sheets,
                                 Units units) {
     const SpacePose pose = space.value_or(SpacePose{});
-    std::vector<Field> fields = if_known(space.has_value(), pattern_fields(pose, units));
+    std::vector<Field> fields =
+        if_known(space.has_value(), pattern_fields("camera_", pose.camera, pose.covariance, units));
+    if (units == Units::mm)
+        append(fields, if_known(space.has_value(), lean_fields(pose.camera.rotation)));
     append(fields, if_known(space.has_value(), evidence_fields_of(pose)));
     append(fields, if_known(pose.second.has_value(),
                             second_fields(pose.second.value_or(SecondPose{}), units)));
@@ -147,8 +188,23 @@ std::vector<Field> space_fields(const std::optional<SpacePose>& space,
     append(fields, if_known(is_on_sheet, sheet_fields_of(on_page, units)));
     const bool is_in_world = is_on_sheet && place->entry->world;
     const WorldPose page = is_in_world ? *place->entry->world : WorldPose{};
+    append(fields, if_known(is_in_world,
+                            world_fields_of("camera_", in_world(on_page, pose.covariance, page))));
+    return fields;
+}
+
+std::vector<Field> space_track_fields(const SpaceTrack& track, bool is_in_world, bool has_sheets,
+                                      Units units) {
+    const CameraMotion motion = motion_of(track).value_or(CameraMotion{});
+    std::vector<Field> fields = {{"camera_verdict", name(track.verdict), true}};
     append(fields,
-           if_known(is_in_world, world_fields_of(in_world(on_page, pose.covariance, page))));
+           if_known(!track.is_lost && !is_in_world,
+                    pattern_fields("camera_track_", track.camera, track.covariance, units)));
+    if (has_sheets) {
+        append(fields, if_known(!track.is_lost && is_in_world,
+                                world_fields_of("camera_track_", motion.pose)));
+    }
+    append(fields, if_known(!track.is_lost, velocity_fields(motion, is_in_world, units)));
     return fields;
 }
 

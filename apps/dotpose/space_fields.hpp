@@ -7,6 +7,7 @@
 
 #include "dotpose/files/sheet_place.hpp"
 #include "dotpose/tools/space_pose.hpp"
+#include "dotpose/tools/space_track.hpp"
 #include "fields.hpp"
 #include "pose_fields.hpp"
 
@@ -18,6 +19,12 @@ namespace dotpose::cli {
 std::vector<Field> space_fields(const std::optional<SpacePose>& space,
                                 const std::optional<SheetPlace>& place, bool has_sheets,
                                 Units units);
+
+/// Returns the fields of the track of a camera in space. If `has_sheets` is true, also returns the
+/// fields of the pose in the world. The pose has no values while the camera is lost, and is either
+/// in the world or in the pattern, according to `is_in_world`.
+std::vector<Field> space_track_fields(const SpaceTrack& track, bool is_in_world, bool has_sheets,
+                                      Units units);
 
 /// Returns true if the brief CSV format contains the field.
 bool is_brief_space_field(const std::string& name);

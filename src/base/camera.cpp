@@ -101,7 +101,8 @@ void require_flat_field(const Camera& camera) {
         "flat_field", "must have 2 or more rows and columns, and not more than the image");
     for (const std::vector<double>& row : camera.flat_field) {
         require(row.size() == columns, "flat_field", "must have rows of the same length");
-        require(std::ranges::all_of(row, [](double b) { return b >= kMinFlatField && b <= 1; }),
+        require(std::all_of(row.begin(), row.end(),
+                            [](double b) { return b >= kMinFlatField && b <= 1; }),
                 "flat_field", fmt::format("must have values from {:g} to 1", kMinFlatField));
     }
 }

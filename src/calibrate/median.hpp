@@ -16,7 +16,7 @@ inline constexpr double kMaxSquaredLength = 16.6;
 /// Returns the upper median. `values` must not be empty.
 inline double upper_median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
+    std::nth_element(values.begin(), middle, values.end());
     return *middle;
 }
 

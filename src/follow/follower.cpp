@@ -15,7 +15,8 @@ Follower::Follower(const FollowerOptions& options)
     : options_(options),
       unplaced_spacing_mm_(options.spacing_mm),
       used_(options.locate),
-      tracker_(options.track) {
+      tracker_(options.track),
+      space_tracker_(options.space_track) {
     if (options.fits_space_pose) require_space_camera();
     if (options.code) codes_ = {*options.code};
     use_flat_field();
@@ -40,9 +41,14 @@ void Follower::set_sheets(std::vector<SheetEntry> sheets) {
     options_.sheets = std::move(sheets);
     // The track and the prediction are in the coordinates of the previous sheets, so a new track
     // begins.
-    tracker_ = Tracker(options_.track);
-    seen_.reset();
+    start_tracks();
     use_sheets();
+}
+
+void Follower::start_tracks() {
+    tracker_ = Tracker(options_.track);
+    space_tracker_ = SpaceTracker(options_.space_track);
+    seen_.reset();
 }
 
 void Follower::use_sheets() {
@@ -89,8 +95,7 @@ void Follower::set_camera(const Camera& camera) {
     options_.camera = camera;
     use_flat_field();
     // The prediction is in the coordinates of the previous lens, so a new track begins.
-    tracker_ = Tracker(options_.track);
-    seen_.reset();
+    start_tracks();
 }
 
 /// Returns the image after the flip and the flat-field correction that the options require.

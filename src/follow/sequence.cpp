@@ -43,10 +43,23 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
     }
     result.located = located(found, is_fix ? found.fix : strict);
     if (result.located.tip) result.located.is_pen_down = contact_.take(*result.located.tip);
+    if (options_.fits_space_pose)
+        result.space_track = track_in_space(result.located, sighting, time_us);
     result.located.reading.fix = result.located.fix;
     result.located.reading.evidence = evidence_;
     if (is_with_prior) result.located.fix.p_wrong_log2 = result.track.p_wrong_log2;
     return result;
+}
+
+/// Updates the track of the camera. A pose in space is used only if the frame has a sighting in the
+/// plane, because the sighting determines the coordinate frame.
+SpaceTrack Follower::track_in_space(const Located& located, const std::optional<Sighting>& sighting,
+                                    std::int64_t time_us) {
+    if (!located.space || !sighting) return space_tracker_.update(time_us);
+    if (!is_in_world_)
+        return space_tracker_.update(
+            dotpose::sighting_of(*located.space, time_us, sighting->plane));
+    return space_tracker_.update(*dotpose::world_sighting(*located.space, *located.place, time_us));
 }
 
 void Follower::remember(const Found& found, const std::optional<Sighting>& sighting) {

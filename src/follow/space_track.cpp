@@ -24,11 +24,15 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector18 = Eigen::Matrix<double, 18, 1>;
 using Matrix18 = Eigen::Matrix<double, 18, 18>;
 
-/// Factors by which a sighting increases or decreases the agility. If the factors were reciprocal,
-/// as in the tracker of the plane, the normalised squared errors of single axes would be up to 1.4
-/// instead of 1 at 200 frames per second (tests/unit/follow/space_track_test.cpp).
-constexpr double kAgilityIncrease = 1.57;
-constexpr double kAgilityDecrease = 1 / 1.5;
+/// Changes of the logarithm of the agility by equal and by opposite signs of innovations. If the
+/// magnitudes were equal, as in the tracker of the plane, the normalised squared errors of single
+/// axes would be up to 1.4 instead of 1 at 200 frames per second
+/// (tests/unit/follow/space_track_test.cpp).
+constexpr double kAgilityIncrease = 0.451;
+constexpr double kAgilityDecrease = -0.405;
+/// Change of the logarithm of the agility, divided by the difference of the square of the
+/// normalised innovation from its mean. `dotpose_tables space_track` shows the effect.
+constexpr double kAgilityGain = 0.2;
 constexpr double kMinAgility = 1e-6;
 /// Innovations above this number of standard deviations are not considered noise.
 constexpr double kSurprise = 4;
@@ -154,18 +158,25 @@ double squared_innovation(const Motion& motion, const SpaceSighting& sighting,
     return innovation.dot(covariance.ldlt().solve(innovation));
 }
 
-/// Adapts the agility to an innovation. If the agility is correct, consecutive innovations have
-/// equal signs as often as opposite signs. Equal signs increase the agility, and opposite signs
-/// decrease it.
-void adapt(Motion& motion, const Vector6& innovation, const Matrix6& covariance) {
+/// Adapts the agility to an innovation by two criteria, which are weighted by the fraction of the
+/// prediction in the variance of the innovation. If the fraction is small, the agility determines
+/// the gain of the filter, and the signs of consecutive innovations show whether the gain is
+/// correct: equal signs are then as frequent as opposite signs. Equal signs increase the agility,
+/// and opposite signs decrease it. If the fraction is large, the gain is about 1 with any agility.
+/// The agility then determines only the covariance of predictions, and the square of the
+/// normalised innovation, whose mean is 1, shows whether this covariance is correct.
+void adapt(Motion& motion, const Vector6& innovation, const Matrix6& covariance,
+           const Matrix6& noise) {
     for (std::size_t i = 0; i < 6; ++i) {
         const auto axis = static_cast<Eigen::Index>(i);
         const double product = innovation[axis] * motion.innovation[i];
+        const double square = innovation[axis] * innovation[axis] / covariance(axis, axis);
+        const double predicted = 1 - noise(axis, axis) / covariance(axis, axis);
         double& agility = motion.agility[i];
-        if (product != 0) agility *= product > 0 ? kAgilityIncrease : kAgilityDecrease;
-        const bool is_surprise =
-            innovation[axis] * innovation[axis] > kSurprise * kSurprise * covariance(axis, axis);
-        agility = is_surprise ? 1 : std::clamp(agility, kMinAgility, 1.0);
+        const double by_sign = product == 0 ? 0 : product > 0 ? kAgilityIncrease : kAgilityDecrease;
+        const double change = (1 - predicted) * by_sign + predicted * kAgilityGain * (square - 1);
+        const bool is_surprise = square > kSurprise * kSurprise;
+        agility = is_surprise ? 1 : std::clamp(agility * std::exp(change), kMinAgility, 1.0);
         motion.innovation[i] = innovation[axis];
     }
 }
@@ -193,8 +204,10 @@ SpaceTrack track_of(const Motion& motion, std::uint32_t plane) {
     track.camera = motion.camera;
     const auto covariance = covariance_of(motion);
     for (std::size_t i = 0; i < 6; ++i) {
-        for (std::size_t j = 0; j < 6; ++j)
+        for (std::size_t j = 0; j < 6; ++j) {
             track.covariance[i][j] = covariance(Eigen::Index(i), Eigen::Index(j));
+            track.velocity_covariance[i][j] = covariance(Eigen::Index(6 + i), Eigen::Index(6 + j));
+        }
     }
     std::copy_n(motion.velocity.begin(), 3, track.velocity_mm_s.begin());
     std::copy_n(motion.velocity.begin() + 3, 3, track.turn_rad_s.begin());
@@ -290,7 +303,7 @@ bool SpaceTracker::take(const SpaceSighting& sighting) {
     const Matrix6 noise = noise_of(sighting);
     const Motion guess = predicted(motion_, sighting.time_us, options_);
     const Matrix6 covariance = covariance_of(guess).topLeftCorner<6, 6>() + noise;
-    adapt(motion_, difference(guess.camera, camera), covariance);
+    adapt(motion_, difference(guess.camera, camera), covariance, noise);
     motion_ = predicted(motion_, sighting.time_us, options_);
     correct(motion_, camera, noise);
     accepted_us_ = sighting.time_us;

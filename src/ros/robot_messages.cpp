@@ -53,6 +53,44 @@ PoseWithCovariance pose_of(const CameraInWorld& camera) {
     return result;
 }
 
+/// Returns the rotation matrix of a unit quaternion.
+std::array<std::array<double, 3>, 3> matrix_of(const dotpose::Quaternion& q) {
+    return {{{1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y - q.w * q.z),
+              2 * (q.x * q.z + q.w * q.y)},
+             {2 * (q.x * q.y + q.w * q.z), 1 - 2 * (q.x * q.x + q.z * q.z),
+              2 * (q.y * q.z - q.w * q.x)},
+             {2 * (q.x * q.z - q.w * q.y), 2 * (q.y * q.z + q.w * q.x),
+              1 - 2 * (q.x * q.x + q.y * q.y)}}};
+}
+
+/// Returns the velocities in the frame of the camera.
+TwistWithCovariance twist_of(const CameraMotion& motion) {
+    const auto rotation = matrix_of(motion.pose.rotation);
+    std::array<std::array<double, 6>, 6> by_velocity{};
+    std::array<double, 3> linear{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        by_velocity[3 + i][3 + i] = 1;
+        for (std::size_t j = 0; j < 3; ++j) {
+            by_velocity[i][j] = rotation[j][i];
+            linear[i] += rotation[j][i] * motion.velocity_m_s[j];
+        }
+    }
+    TwistWithCovariance result;
+    result.twist.linear = {linear[0], linear[1], linear[2]};
+    result.twist.angular = {motion.turn_rad_s[0], motion.turn_rad_s[1], motion.turn_rad_s[2]};
+    for (std::size_t i = 0; i < kSize; ++i) {
+        for (std::size_t j = 0; j < kSize; ++j) {
+            for (std::size_t k = 0; k < kSize; ++k) {
+                for (std::size_t l = 0; l < kSize; ++l) {
+                    result.covariance[i * kSize + j] +=
+                        by_velocity[i][k] * motion.velocity_covariance[k][l] * by_velocity[j][l];
+                }
+            }
+        }
+    }
+    return result;
+}
+
 /// Derivatives of three values with respect to (x, y, yaw, vx, vy, turn).
 using Jacobian = std::array<std::array<double, 6>, 3>;
 
@@ -129,6 +167,8 @@ RobotMessages RobotMessenger::messages(const RobotUpdate& update) {
         const Pose& pose = result.camera->pose.pose;
         transforms.push_back({header, frames_.camera, {pose.position, pose.orientation}});
     }
+    if (update.camera_motion)
+        result.camera_odometry = odometry({stamp, frames_.map}, *update.camera_motion);
     if (!transforms.empty()) result.tf = TFMessage{std::move(transforms)};
     result.status = status({stamp, frames_.base}, update);
     return result;
@@ -152,6 +192,10 @@ Odometry RobotMessenger::odometry(const Header& header, const PlanarMotion& moti
             {pose_of(odom_from_base_),
              covariance_of(turned_covariance(motion, map_from_odom_.yaw_rad))},
             twist_of(motion)};
+}
+
+Odometry RobotMessenger::odometry(const Header& header, const CameraMotion& motion) const {
+    return {header, frames_.camera, pose_of(motion.pose), twist_of(motion)};
 }
 
 DiagnosticArray RobotMessenger::status(const Header& header, const RobotUpdate& update) const {

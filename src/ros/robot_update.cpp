@@ -2,6 +2,7 @@
 // world frame, which is already in metres with y up.
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "dotpose/tools/robot_messages.hpp"
 #include "dotpose/tools/track_names.hpp"
@@ -79,24 +80,32 @@ std::string three_digits(double value) {
     return text.data();
 }
 
+/// Returns the values of a frame with a fix.
+std::vector<KeyValue> fix_facts_of(const Located& located) {
+    const Fix& fix = located.fix;
+    std::vector<KeyValue> facts = {{"dots_used", std::to_string(fix.dots_used)},
+                                   {"attempt", name(fix.attempt)},
+                                   {"p_wrong", three_digits(fix.p_wrong())}};
+    if (located.place) facts.push_back({"sheet", located.place->entry->name});
+    if (!located.space) return facts;
+    facts.push_back({"camera_is_ambiguous", located.space->is_ambiguous() ? "true" : "false"});
+    if (const auto& second = located.space->second)
+        facts.push_back({"camera_second_odds", three_digits(std::exp2(second->odds_log2))});
+    return facts;
+}
+
 std::vector<KeyValue> facts_of(const Followed& followed) {
     const Fix& fix = followed.located.fix;
     std::vector<KeyValue> facts = {{"status", name(fix.status)},
                                    {"events", event_names(followed.track.events)},
                                    {"verdict", name(followed.track.verdict)},
                                    {"dots_seen", std::to_string(fix.dots_seen)}};
-    if (fix.status != Status::ok) return facts;
-    facts.push_back({"dots_used", std::to_string(fix.dots_used)});
-    facts.push_back({"attempt", name(fix.attempt)});
-    facts.push_back({"p_wrong", three_digits(fix.p_wrong())});
-    if (followed.located.place) facts.push_back({"sheet", followed.located.place->entry->name});
-    if (const auto& space = followed.located.space) {
-        facts.push_back({"camera_is_ambiguous", space->is_ambiguous() ? "true" : "false"});
-        if (space->second) {
-            facts.push_back(
-                {"camera_second_odds", three_digits(std::exp2(space->second->odds_log2))});
-        }
+    if (fix.status == Status::ok) {
+        for (KeyValue& fact : fix_facts_of(followed.located))
+            facts.push_back(std::move(fact));
     }
+    if (followed.space_track)
+        facts.push_back({"camera_verdict", name(followed.space_track->verdict)});
     return facts;
 }
 
@@ -110,6 +119,7 @@ RobotUpdate update_of(const Followed& followed, bool is_in_world, std::int64_t t
     update.time_ns = time_ns;
     if (is_ok) update.fix = is_in_world ? fix_in_world(located) : fix_in_pattern(located);
     update.camera = camera_of(located, is_in_world);
+    if (followed.space_track) update.camera_motion = dotpose::motion_of(*followed.space_track);
     if (!track.is_lost) {
         update.motion = motion_of(track.pose, {is_in_world});
         update.plane = track.pose.plane;

@@ -117,6 +117,7 @@ constexpr std::array kRuns = {
     "watch frames --fps 200 --no-window",
     "watch frames --fps 200 --no-window --sheets sheets.json",
     "watch frames --fps 200 --no-window --camera camera.yaml --pose space",
+    "watch frames --fps 200 --no-window --sheets sheets.json --camera camera.yaml --pose space",
     "listen packets.bin",
     "listen packets.bin --sheets sheets.json",
 };

@@ -1,5 +1,6 @@
 // Tests the pose of the camera in space in the messages that `dotpose watch --mqtt` sends, as
 // another program receives them.
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -50,7 +51,13 @@ TEST_F(SpaceState, HasThePoseOfTheCameraInTheWorld) {
     for (std::size_t i = 0; i < received.size(); ++i) {
         const json& pose = received[i]["cameraPose"];
         expect_true_space_pose(i, pose, pose["orientation"], pose["covariance"]);
+        const json& track = received[i]["cameraTrack"];
+        expect_true_space_pose(i, track, track["orientation"], track["covariance"]);
     }
+    // The camera moves along +x of the world, and leans about -y of the image.
+    const json& track = received.back()["cameraTrack"];
+    EXPECT_GT(track["velocity"]["x"], 0.03);
+    EXPECT_NEAR(track["turn"]["y"], -1.5, 0.2);
 }
 
 TEST_F(SpaceState, HasTheAxesOfThePatternWithoutSheets) {
@@ -72,12 +79,18 @@ TEST_F(SpaceState, HasTheAxesOfThePatternWithoutSheets) {
             const double variance_mm2 = line["camera_covariance_mm_deg"][7 * k];
             EXPECT_NEAR(pose["covariance"][7 * k], variance_mm2 * 1e-6, variance_mm2 * 1e-9);
         }
+        const json& track = received[i]["cameraTrack"];
+        EXPECT_NEAR(track["y"], line["camera_track_y_mm"].get<double>() / 1000, 1e-9);
+        EXPECT_NEAR(track["z"], line["camera_track_z_mm"].get<double>() / 1000, 1e-9);
+        EXPECT_NEAR(track["velocity"]["z"], line["camera_vz_mm_s"].get<double>() / 1000, 1e-6);
+        EXPECT_NEAR(track["turn"]["y"],
+                    line["camera_turn_deg_s"][1].get<double>() * std::numbers::pi / 180, 1e-4);
     }
 }
 
 TEST_F(SpaceState, HasNoPoseInSpaceUnlessAskedFor) {
     for (const json& state : states("--code anoto --camera camera.yaml"))
-        EXPECT_FALSE(state.contains("cameraPose"));
+        EXPECT_FALSE(state.contains("cameraPose") || state.contains("cameraTrack"));
 }
 
 }  // namespace

@@ -44,8 +44,9 @@ class Dds : public WatchCommand {
     /// `frames` writes. Returns the messages that the reader received.
     std::vector<json> read_drive(const std::string& frames, const std::string& reliability,
                                  const std::string& options, const std::string& environment = "",
-                                 const std::string& topics = kTopics) {
-        const std::string watch = "'" + test::tool_path() + "' watch - " + kRaw + " " + kTrack +
+                                 const std::string& topics = kTopics,
+                                 const std::string& raw = kRaw) {
+        const std::string watch = "'" + test::tool_path() + "' watch - " + raw + " " + kTrack +
                                   " --units ros --dds --robot anna -o lines " + options;
         // The frames start when the reader reports that it and the writers have discovered each
         // other.
@@ -105,7 +106,10 @@ TEST_F(Dds, HasThePosesInSpaceOfTheCamera) {
     write_space_frames(directory_);
     const auto messages = read_drive(
         "cat space.raw", "reliable", "--dds-reliable --camera camera.yaml --pose space", "",
-        std::string(kTopics) + " /anna/camera_pose geometry_msgs/PoseWithCovarianceStamped");
+        std::string(kTopics) +
+            " /anna/camera_pose geometry_msgs/PoseWithCovarianceStamped /anna/camera_odom "
+            "nav_msgs/Odometry",
+        "--size 320x240 --fps 10");
     expect_true_space_poses(messages);
 }
 

@@ -1,8 +1,5 @@
 #include "convert.hpp"
 
-#include <array>
-#include <limits>
-
 namespace dotpose::c {
 namespace {
 
@@ -19,37 +16,8 @@ PlaneFromImage to_core(const dotpose_plane& p) {
             .lens_q40 = p.lens_q40};
 }
 
-dotpose_plane to_c(const PlaneFromImage& p) {
-    return {p.centre_q8.x,       p.centre_q8.y,       p.at_centre_q16.x, p.at_centre_q16.y,
-            p.du_q24.x,          p.du_q24.y,          p.dv_q24.x,        p.dv_q24.y,
-            p.perspective_q30.x, p.perspective_q30.y, p.lens_q40};
-}
-
-/// Writes the covariance with x and y in a given unit. `unit` is the length of a spacing in this
-/// unit.
-void set_covariance(const Fix& fix, double unit, float (&result)[9]) {
-    const std::array<double, 3> factors{unit, unit, 1};
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) {
-            result[3 * i + j] = static_cast<float>(factors[i] * factors[j] *
-                                                   static_cast<double>(fix.covariance[i][j]));
-        }
-    }
-}
-
-/// Converts and assigns a member of one struct to the corresponding member of another struct.
-template <typename From, typename To>
-void assign(const From& from, To& to) {
-    to = static_cast<To>(from);
-}
-void assign(const Place& from, dotpose_place& to) {
-    c::to_c(from, to);
-}
 void assign(const dotpose_place& from, Place& to) {
     to = c::to_core(from);
-}
-void assign(const PlaneFromImage& from, dotpose_plane& to) {
-    to = to_c(from);
 }
 void assign(const dotpose_plane& from, PlaneFromImage& to) {
     to = to_core(from);
@@ -134,26 +102,6 @@ dotpose_status to_core_ok(const dotpose_fix* given, Fix& fix) {
     if (status != DOTPOSE_OK) return status;
     if (given->status != DOTPOSE_OK) return DOTPOSE_NO_FIX;
     return to_core(given, fix);
-}
-
-void to_c(const Place& place, dotpose_place& result) {
-    result = {place.cell.x, place.cell.y, place.section.u, place.section.v};
-}
-
-void to_c(const Fix& fix, dotpose_fix& result) {
-    const bool is_ok = fix.status == Status::ok;
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    const double mm = fix.spacing_mm();
-    constexpr double spacings = 1;
-    dotpose_fix all{};
-    all.size = result.size;
-#define FIX_STATUS(type, name, member, doc) assign(fix.member, all.name);
-#define FIX_NUMBER(type, name, member, doc) assign(fix.member, all.name);
-#define FIX_EVIDENCE(type, name, is_known, doc) assign(fix.name, all.name);
-#define FIX_VALUE(type, name, value, none, doc) all.name = is_ok ? fix.value : none;
-#define FIX_MATRIX(unit, name, doc) set_covariance(fix, unit, all.name);
-#include "dotpose/fix_fields.def"
-    std::memcpy(&result, &all, all.size);
 }
 
 void to_c(const Prediction& prediction, dotpose_prediction& result) {

@@ -10,6 +10,7 @@
 #include "dotpose/locator_options.hpp"
 #include "dotpose/measured_motion.hpp"
 #include "dotpose/prediction.hpp"
+#include "fix_to_c.hpp"
 
 namespace dotpose::c {
 
@@ -81,9 +82,6 @@ dotpose_status to_core_ok(const dotpose_fix* given, Fix& fix);
 /// predictions made from fixes.
 bool can_move(const Prediction& prediction);
 
-/// Writes a fix. The caller must have checked the size of `result`.
-void to_c(const Fix& fix, dotpose_fix& result);
-void to_c(const Place& place, dotpose_place& result);
 void to_c(const Prediction& prediction, dotpose_prediction& result);
 
 /// Writes the result of an invalid call, and returns its status.

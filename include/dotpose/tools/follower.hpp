@@ -27,6 +27,7 @@
 #include "dotpose/tools/pen.hpp"
 #include "dotpose/tools/print_mapping.hpp"
 #include "dotpose/tools/space_pose.hpp"
+#include "dotpose/tools/space_track.hpp"
 #include "dotpose/track.hpp"
 
 DOTPOSE_BEGIN_EXPORT
@@ -61,6 +62,7 @@ struct FollowerOptions {
     /// Requires the sheets of the map.
     PrintMap print_map;
     TrackOptions track;
+    SpaceTrackOptions space_track;  ///< with `fits_space_pose`
 };
 
 /// The result of a single image.
@@ -103,6 +105,9 @@ struct Followed {
     /// `p_wrong` takes the prior probability of the predicted place into account.
     Located located;
     Track track;
+    /// Track of the camera in space, in the pattern frame, or as in `world_sighting` if the robot
+    /// is tracked in the world. None unless `FollowerOptions::fits_space_pose` is set.
+    std::optional<SpaceTrack> space_track;
 };
 
 /// Converts a fix to a sighting in the world of its sheet, for the Tracker of a robot that drives
@@ -204,6 +209,9 @@ class Follower {
     Found look_in_any_code(const std::optional<Prediction>& expected);
     Found without_neighbours(const Found& found);
     std::optional<Sighting> sighting_of(const Found& found, std::int64_t time_us) const;
+    SpaceTrack track_in_space(const Located& located, const std::optional<Sighting>& sighting,
+                              std::int64_t time_us);
+    void start_tracks();
     void remember(const Found& found, const std::optional<Sighting>& sighting);
 
     FollowerOptions options_;
@@ -221,6 +229,7 @@ class Follower {
     std::vector<KnownRegion> known_;  ///< regions of the sheets
     Locator locator_{DeviceOptions{}};
     Tracker tracker_;
+    SpaceTracker space_tracker_;
     PenContact contact_;
     std::optional<Seen> seen_;  ///< none if there was no fix, or if it is too old for a prediction
 };

@@ -43,19 +43,21 @@ TipPose on_sheet(const TipPose& tip, const SheetEntry& entry);
 
 /// Detects with hysteresis whether a pen touches the paper. A pen on the paper counts as lifted if
 /// its height is at least `kLift_mm` plus three standard deviations. A lifted pen counts as on the
-/// paper again if its height is below `kLift_mm`. Before the first pose, the pen counts as on the
-/// paper.
+/// paper again if its height is below `kLift_mm`.
 class PenContact {
   public:
     /// Height above the nominal plane that uneven paper on a table may cause.
     static constexpr double kLift_mm = 0.05;
+
+    /// `is_down` is the state before the first pose.
+    explicit PenContact(bool is_down = true) : is_down_(is_down) {}
 
     /// Processes the next pose. Returns true if the pen is on the paper.
     bool take(double height_mm, double sigma_mm);
     bool take(const TipPose& tip) { return take(tip.height_mm, tip.sigma_mm(2)); }
 
   private:
-    bool is_down_ = true;
+    bool is_down_;
 };
 
 }  // namespace dotpose

@@ -36,6 +36,7 @@
 #include "dotpose/tools/follower.hpp"
 #include "dotpose/tools/ros_messages.hpp"
 #include "dotpose/tools/space_pose.hpp"
+#include "dotpose/tools/space_track.hpp"
 
 DOTPOSE_BEGIN_EXPORT
 
@@ -79,6 +80,9 @@ struct RobotUpdate {
     /// Pose of the camera in space, in `map`. None if poses in space are not fitted, or if the dots
     /// do not exclude the second pose.
     std::optional<CameraInWorld> camera;
+    /// Motion of the tracked camera in `map`. None if poses in space are not fitted, or while the
+    /// camera is lost.
+    std::optional<CameraMotion> camera_motion;
     std::uint32_t plane = 0;      ///< TrackedPose::plane of the motion; poses in different planes
                                   ///< are unrelated
     bool is_found_again = false;  ///< true if the motion does not continue the previous motion
@@ -110,6 +114,9 @@ struct RobotMessages {
     std::optional<PoseWithCovarianceStamped> pose;  ///< pose of the fix, in `map`
     std::optional<Odometry> odometry;  ///< pose of the track in `odom`, twist in `base_link`
     std::optional<PoseWithCovarianceStamped> camera;  ///< pose of the camera in space, in `map`
+    /// Pose of the tracked camera in `map`, twist in `camera_optical`. None while the camera is
+    /// lost.
+    std::optional<Odometry> camera_odometry;
     /// `map` to `odom` and `odom` to `base_link`, unless the robot is lost, and `map` to
     /// `camera_optical`, if the pose in space is known. None without transforms.
     std::optional<TFMessage> tf;
@@ -128,6 +135,7 @@ class RobotMessenger {
   private:
     void follow(const RobotUpdate& update);
     Odometry odometry(const Header& header, const PlanarMotion& motion) const;
+    Odometry odometry(const Header& header, const CameraMotion& motion) const;
     DiagnosticArray status(const Header& header, const RobotUpdate& update) const;
 
     std::string robot_;

@@ -40,6 +40,13 @@ struct SpaceSighting {
 };
 SpaceSighting sighting_of(const SpacePose& pose, std::int64_t time_us, std::uint32_t plane = 0);
 
+/// Returns the sighting in the world of the sheet that contains `place`, for a camera that moves
+/// over several sheets. The frame is the world frame turned about x by 180 degrees, in mm: y is
+/// down and z is into the paper, as in the pattern. Returns none if the sheet has no place in the
+/// world.
+std::optional<SpaceSighting> world_sighting(const SpacePose& pose, const SheetPlace& place,
+                                            std::int64_t time_us);
+
 /// Assumptions about the motion of the camera, and criteria for accepting sightings.
 struct SpaceTrackOptions {
     /// Standard deviation of the acceleration along each axis. The default is suitable for a hand.
@@ -83,8 +90,22 @@ struct SpaceTrack {
     CameraInSpace camera;
     SpaceCovariance covariance{};  ///< as in SpacePose
     std::array<double, 3> velocity_mm_s{};
-    std::array<double, 3> turn_rad_s{};  ///< angular velocity about the axes of the camera frame
+    std::array<double, 3> turn_rad_s{};     ///< angular velocity about the axes of the camera frame
+    SpaceCovariance velocity_covariance{};  ///< of `velocity_mm_s`, then of `turn_rad_s`
 };
+
+/// Motion of a camera in the world of a sheet file.
+struct CameraMotion {
+    CameraInWorld pose;
+    std::array<double, 3> velocity_m_s{};
+    std::array<double, 3> turn_rad_s{};     ///< about the axes of the camera frame
+    SpaceCovariance velocity_covariance{};  ///< of `velocity_m_s`, then of `turn_rad_s`
+};
+
+/// Converts a track from a frame with y down and z into the paper, in mm, to the frame with y up
+/// and z out of the paper, in metres. This is the world for sightings of `world_sighting`, and the
+/// pattern with y up for sightings in the pattern frame. Returns none while the camera is lost.
+std::optional<CameraMotion> motion_of(const SpaceTrack& track);
 
 /// Implementation details of SpaceTracker: the filter state. Not part of the public API.
 namespace space_track {

@@ -247,10 +247,11 @@ class Finder {
     /// two sequences that make the roll offset equal at both ends of each gap.
     void add_matches() {
         const auto& [a, b, c, d] = lists_;
-        const auto visit_pairs = [&](auto use) {
-            for (std::size_t n = 0; n < c.count(); ++n) {
-                for (std::size_t m = 0; m < d.count(); ++m)
-                    use(newest_[sum_of_keys(c.key(n), d.key(m))],
+        // The captures have new names because clang 14 cannot capture structured bindings.
+        const auto visit_pairs = [&, &third = c, &fourth = d](auto use) {
+            for (std::size_t n = 0; n < third.count(); ++n) {
+                for (std::size_t m = 0; m < fourth.count(); ++m)
+                    use(newest_[sum_of_keys(third.key(n), fourth.key(m))],
                         static_cast<std::uint16_t>(kLastPlaces * n + m));
             }
         };

@@ -94,6 +94,9 @@ class Publisher::Writers {
                     writer_of(participant_, geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc,
                               prefix + "/camera_pose",
                               ros::type_of(ros::PoseWithCovarianceStamped{}).hash, sensor);
+                camera_odometry_ =
+                    writer_of(participant_, nav_msgs_msg_dds__Odometry__desc,
+                              prefix + "/camera_odom", ros::type_of(ros::Odometry{}).hash, sensor);
             }
             odometry_ = writer_of(participant_, nav_msgs_msg_dds__Odometry__desc, prefix + "/odom",
                                   ros::type_of(ros::Odometry{}).hash, sensor);
@@ -119,7 +122,9 @@ class Publisher::Writers {
     void write(const ros::RobotMessages& messages) {
         if (messages.pose) write(pose_, *messages.pose);
         if (messages.camera && camera_ > 0) write(camera_, *messages.camera);
-        if (messages.odometry) write(*messages.odometry);
+        if (messages.odometry) write(odometry_, *messages.odometry);
+        if (messages.camera_odometry && camera_odometry_ > 0)
+            write(camera_odometry_, *messages.camera_odometry);
         if (messages.tf) write(*messages.tf);
         write(messages.status);
         ++unconfirmed_frames_;
@@ -140,11 +145,11 @@ class Publisher::Writers {
                                                                           idl(message.pose)};
         write(writer, &sample);
     }
-    void write(const ros::Odometry& message) {
+    void write(dds_entity_t writer, const ros::Odometry& message) {
         const nav_msgs_msg_dds__Odometry_ sample = {idl(message.header),
                                                     idl(message.child_frame_id), idl(message.pose),
                                                     idl(message.twist)};
-        write(odometry_, &sample);
+        write(writer, &sample);
     }
     void write(const ros::TFMessage& message) { write_transforms(tf_, message); }
     void write_static(const ros::TFMessage& message) { write_transforms(tf_static_, message); }
@@ -180,7 +185,8 @@ class Publisher::Writers {
     /// readers.
     bool wait_for_readers(dds_duration_t max_wait_ns) {
         bool have_all = true;
-        for (const dds_entity_t writer : {pose_, camera_, odometry_, status_, tf_}) {
+        for (const dds_entity_t writer :
+             {pose_, camera_, odometry_, camera_odometry_, status_, tf_}) {
             if (writer == 0) continue;
             const dds_duration_t patience_ns = have_all ? max_wait_ns : 0;
             have_all = dds_wait_for_acks(writer, patience_ns) == DDS_RETCODE_OK && have_all;
@@ -204,6 +210,7 @@ class Publisher::Writers {
     dds_entity_t pose_ = 0;
     dds_entity_t camera_ = 0;  ///< 0 if there are no poses in space
     dds_entity_t odometry_ = 0;
+    dds_entity_t camera_odometry_ = 0;  ///< 0 if there are no poses in space
     dds_entity_t status_ = 0;
     dds_entity_t tf_ = 0;
     dds_entity_t tf_static_ = 0;

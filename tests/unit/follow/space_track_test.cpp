@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "dotpose/tools/print.hpp"
 #include "dotpose/tools/random.hpp"
 
 namespace dotpose {
@@ -153,6 +154,27 @@ TEST_P(SpaceTrackRates, SmoothsWithTrueCovariances) {
 }
 INSTANTIATE_TEST_SUITE_P(FramesPerSecond, SpaceTrackRates, testing::Values(30, 60, 200));
 
+/// With accurate sightings at a low rate, the errors of predictions are those of the motion model.
+/// Their innovations have equal signs for many frames.
+TEST(SpaceTrack, PredictsASmoothMotionWithTrueCovariances) {
+    SpaceTracker tracker;
+    Eye eye(0.05);
+    Tally tracked;
+    Tally predicted;
+    for (int i = 0; i < 1000; ++i) {
+        const double t_s = i / 30.0;
+        const CameraInSpace truth = hand_at(t_s);
+        const auto before = tracker.predict(std::llround(1e6 * t_s));
+        const SpaceTrack& track = tracker.update(eye.look_at(truth, t_s));
+        ASSERT_EQ(track.verdict, SpaceVerdict::accepted) << i;
+        if (i < 60) continue;
+        tracked.add(error_of(track.camera, truth), matrix_of(track.covariance));
+        predicted.add(error_of(before->camera, truth), matrix_of(before->covariance));
+    }
+    tracked.expect_honest();
+    predicted.expect_honest();
+}
+
 TEST(SpaceTrack, HasTheVelocityOfTheCamera) {
     SpaceTracker tracker;
     Eye eye;
@@ -248,6 +270,61 @@ TEST(SpaceTrack, RejectsOutliersAndFollowsAJump) {
         EXPECT_EQ(track.verdict, i == 2 ? SpaceVerdict::accepted : SpaceVerdict::rejected);
     }
     EXPECT_NEAR(tracker.track().camera.x_mm, hand_at(2.02).x_mm + 500, 0.5);
+}
+
+/// The track of a camera over a page that is turned in the world agrees with `in_world`.
+TEST(SpaceTrack, IsInTheWorldOfTheSheet) {
+    SheetEntry entry;
+    entry.sheet = make_sheet({});
+    entry.world = WorldPose{1.5, -0.7, 0.6};
+    const SheetPlace place{&entry};
+    Eye eye;
+    const SpaceSighting seen = eye.look_at(hand_at(0.4), 0);
+    SpacePose pose;
+    pose.camera = seen.camera;
+    pose.covariance = seen.covariance;
+    pose.second = SecondPose{mirrored(seen.camera), -50};
+    SpaceTracker tracker;
+    const auto sighting = world_sighting(pose, place, 5);
+    ASSERT_TRUE(sighting);
+    const auto motion = motion_of(tracker.update(*sighting));
+    ASSERT_TRUE(motion);
+    const CameraInWorld expected =
+        in_world(on_sheet(pose.camera, entry), pose.covariance, *entry.world);
+    EXPECT_NEAR(motion->pose.x_m, expected.x_m, 1e-9);
+    EXPECT_NEAR(motion->pose.y_m, expected.y_m, 1e-9);
+    EXPECT_NEAR(motion->pose.z_m, expected.z_m, 1e-9);
+    EXPECT_NEAR(rotation_of({0, 0, 0, motion->pose.rotation})
+                    .angularDistance(rotation_of({0, 0, 0, expected.rotation})),
+                0, 1e-7);
+    EXPECT_LT((matrix_of(motion->pose.covariance) - matrix_of(expected.covariance)).norm(),
+              1e-9 * matrix_of(expected.covariance).norm());
+    const CameraInWorld second =
+        in_world(on_sheet(pose.second->camera, entry), pose.covariance, *entry.world);
+    EXPECT_NEAR(sighting->second->camera.x_mm, 1000 * second.x_m, 1e-6);
+    entry.world.reset();
+    EXPECT_FALSE(world_sighting(pose, place, 5));
+    EXPECT_FALSE(motion_of(SpaceTrack{}));
+}
+
+TEST(SpaceTrack, HasVelocitiesInTheWorld) {
+    SpaceTracker tracker;
+    Eye eye(0.1);
+    for (int i = 0; i <= 100; ++i) {
+        const CameraInSpace at =
+            camera_of({30 * i / 100.0, 20 * i / 100.0, -kHeight_mm - 10 * i / 100.0},
+                      Quaterniond::Identity());
+        tracker.update(eye.look_at(at, i / 100.0));
+    }
+    const auto motion = motion_of(tracker.track());
+    ASSERT_TRUE(motion);
+    EXPECT_NEAR(motion->velocity_m_s[0], 0.030, 0.002);
+    EXPECT_NEAR(motion->velocity_m_s[1], -0.020, 0.002);  // up
+    EXPECT_NEAR(motion->velocity_m_s[2], 0.010, 0.002);   // away from the paper
+    const SpaceCovariance& mm = tracker.track().velocity_covariance;
+    EXPECT_NEAR(motion->velocity_covariance[0][0], 1e-6 * mm[0][0], 1e-9 * mm[0][0]);
+    EXPECT_NEAR(motion->velocity_covariance[0][1], -1e-6 * mm[0][1], 1e-12);
+    EXPECT_NEAR(motion->velocity_covariance[4][4], mm[4][4], 1e-12);
 }
 
 TEST(SpaceTrack, IsLostAfterAGap) {

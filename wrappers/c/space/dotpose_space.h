@@ -105,6 +105,48 @@ dotpose_status dotpose_space_fit(const dotpose_locator* locator, const dotpose_s
                                  const uint8_t* pixels, int32_t width_px, int32_t height_px,
                                  ptrdiff_t stride_bytes, dotpose_space_pose* pose);
 
+/* A pen that contains the camera: 64 bytes. */
+typedef struct dotpose_space_pen {
+    uint32_t size;    /*  0: set by dotpose_space_pen_init */
+    int32_t reserved; /*  4: zero */
+    /* Place of the tip in the camera frame: tip_mm of the camera file. */
+    double x_mm; /*  8 */
+    double y_mm; /* 16 */
+    double z_mm; /* 24 */
+    /* Measured height of the tip while the pen rests on the paper: tip_rest_mm of the camera
+     * file. */
+    double rest_mm;     /* 32 */
+    double sigma_mm[3]; /* 40: standard deviations of x_mm, y_mm and z_mm */
+} dotpose_space_pen;
+
+/* Sets all members to 0. `bytes` is the caller's sizeof(dotpose_space_pen). */
+dotpose_status dotpose_space_pen_init(dotpose_space_pen* pen, size_t bytes);
+
+/* Place of the tip of a pen in the pattern: 104 bytes. */
+typedef struct dotpose_space_tip {
+    uint32_t size;            /*  0: set by dotpose_space_tip_init */
+    int32_t reserved;         /*  4: zero */
+    double x_mm;              /*  8 */
+    double y_mm;              /* 16 */
+    double height_mm;         /* 24: height above the paper, 0 while the pen rests on the paper */
+    double covariance_mm2[9]; /* 32: covariance of x, y and the height, row by row */
+} dotpose_space_tip;
+
+/* Sets up a tip. `bytes` is the caller's sizeof(dotpose_space_tip). */
+dotpose_status dotpose_space_tip_init(dotpose_space_tip* tip, size_t bytes);
+
+/* Computes the place of the tip from a pose of dotpose_space_fit. The pose should not be ambiguous.
+ * Returns OK, NO_FIX if the pose was not fitted, BAD_VALUE if a member of the pen is not finite, or
+ * another misuse. The tip is only written if the status is OK. */
+dotpose_status dotpose_space_tip_of(const dotpose_space_pose* pose, const dotpose_space_pen* pen,
+                                    dotpose_space_tip* tip);
+
+/* Detects with hysteresis whether the pen touches the paper. `is_down` contains 1 or 0 for the
+ * previous pose, 1 before the first pose, and receives the result. A pen on the paper counts as
+ * lifted if its height is at least 0.05 mm plus three standard deviations, and a lifted pen counts
+ * as on the paper below 0.05 mm. */
+dotpose_status dotpose_space_update_contact(const dotpose_space_tip* tip, int32_t* is_down);
+
 #ifdef __cplusplus
 }
 #endif

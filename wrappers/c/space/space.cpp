@@ -1,33 +1,19 @@
 // Poses in space for C. Exceptions of the C++ library become statuses.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
-#include <new>
 
-#include "../locator.hpp"
+#include "dotpose/tools/pen.hpp"
 #include "dotpose/tools/space_pose.hpp"
 #include "dotpose_space.h"
+#include "structs.hpp"
 
 namespace {
 
 using namespace dotpose;
-
-/// Returns OK if the member `size` has the size of the only version of the struct.
-template <typename Struct>
-dotpose_status check_size(const Struct* given) {
-    if (given == nullptr) return DOTPOSE_NULL_POINTER;
-    return given->size == sizeof(Struct) ? DOTPOSE_OK : DOTPOSE_BAD_SIZE;
-}
-
-/// Zeroes a struct and sets its size.
-template <typename Struct>
-dotpose_status init(Struct* given, std::size_t bytes) {
-    if (given == nullptr) return DOTPOSE_NULL_POINTER;
-    if (bytes != sizeof(Struct)) return DOTPOSE_BAD_SIZE;
-    *given = Struct{};
-    given->size = sizeof(Struct);
-    return DOTPOSE_OK;
-}
+using c::check_size;
+using c::init;
 
 /// Converts a camera. Throws BadArgument for values out of their range.
 Camera camera_of(const dotpose_space_camera& given) {
@@ -76,16 +62,6 @@ void give(const SpacePose& pose, dotpose_space_pose& result) {
     copy(second.rotation, result.second_quaternion_xyzw);
 }
 
-/// Returns OK if the locator stores the dots of its last image. Reads its members directly, because
-/// the shared library of dotpose_c hides its internal functions.
-dotpose_status check_locator(const dotpose_locator* locator) {
-    if (locator == nullptr) return DOTPOSE_NULL_POINTER;
-    if (locator->mark != c::kLocatorMark) return DOTPOSE_NOT_INITIALIZED;
-    const bool has_dots = locator->actions->locate_in_code != nullptr &&
-                          locator->locator->trace().options.show_stages;
-    return has_dots ? DOTPOSE_OK : DOTPOSE_WRONG_KIND;
-}
-
 dotpose_status check_image(const ImageView& image, const dotpose_space_camera& camera) {
     if (image.pixels == nullptr) return DOTPOSE_NULL_POINTER;
     if (image.width_px != camera.width_px || image.height_px != camera.height_px)
@@ -95,7 +71,39 @@ dotpose_status check_image(const ImageView& image, const dotpose_space_camera& c
     return overlaps ? DOTPOSE_BAD_STRIDE : DOTPOSE_OK;
 }
 
+/// Returns position, rotation and covariance of a pose.
+SpacePose to_core(const dotpose_space_pose& given) {
+    SpacePose pose;
+    const double* q = given.quaternion_xyzw;
+    pose.camera = {given.x_mm, given.y_mm, given.z_mm, {q[3], q[0], q[1], q[2]}};
+    const double* next = given.covariance_mm_rad;
+    for (auto& row : pose.covariance) {
+        std::copy_n(next, row.size(), row.begin());
+        next += row.size();
+    }
+    return pose;
+}
+
 }  // namespace
+
+dotpose_status c::fit_space(const dotpose_locator* locator, const dotpose_space_camera* camera,
+                            const ImageView& image, const MapPage* map, dotpose_space_pose* pose) {
+    dotpose_status status = check_locator(locator);
+    if (status == DOTPOSE_OK) status = check_size(camera);
+    if (status == DOTPOSE_OK) status = check_size(pose);
+    if (status == DOTPOSE_OK) status = check_image(image, *camera);
+    if (status != DOTPOSE_OK) return status;
+    return without_exceptions([&] {
+        const Camera view = camera_of(*camera);
+        const Trace trace = locator->locator->trace();
+        if (!trace.fix || trace.fix.spacing_nm <= 0) return DOTPOSE_NO_FIX;
+        const AxisScale print = {camera->print_scale, camera->print_scale};
+        const auto found = space_pose(trace.fix, view, image, trace, print, map);
+        if (!found) return DOTPOSE_TOO_FEW_DOTS;
+        give(*found, *pose);
+        return DOTPOSE_OK;
+    });
+}
 
 extern "C" {
 
@@ -131,25 +139,51 @@ dotpose_status dotpose_space_pose_init(dotpose_space_pose* pose, size_t bytes) {
 dotpose_status dotpose_space_fit(const dotpose_locator* locator, const dotpose_space_camera* camera,
                                  const uint8_t* pixels, int32_t width_px, int32_t height_px,
                                  ptrdiff_t stride_bytes, dotpose_space_pose* pose) {
-    dotpose_status status = check_locator(locator);
-    if (status == DOTPOSE_OK) status = check_size(camera);
-    if (status == DOTPOSE_OK) status = check_size(pose);
-    const ImageView image = {pixels, width_px, height_px, stride_bytes};
-    if (status == DOTPOSE_OK) status = check_image(image, *camera);
+    return c::fit_space(locator, camera, {pixels, width_px, height_px, stride_bytes}, nullptr,
+                        pose);
+}
+
+dotpose_status dotpose_space_pen_init(dotpose_space_pen* pen, size_t bytes) {
+    return init(pen, bytes);
+}
+
+dotpose_status dotpose_space_tip_init(dotpose_space_tip* tip, size_t bytes) {
+    return init(tip, bytes);
+}
+
+dotpose_status dotpose_space_tip_of(const dotpose_space_pose* pose, const dotpose_space_pen* pen,
+                                    dotpose_space_tip* tip) {
+    dotpose_status status = check_size(pose);
+    if (status == DOTPOSE_OK) status = check_size(pen);
+    if (status == DOTPOSE_OK) status = check_size(tip);
     if (status != DOTPOSE_OK) return status;
-    try {
-        const Camera view = camera_of(*camera);
-        const Trace trace = locator->locator->trace();
-        if (!trace.fix || trace.fix.spacing_nm <= 0) return DOTPOSE_NO_FIX;
-        const auto found =
-            space_pose(trace.fix, view, image, trace, {camera->print_scale, camera->print_scale});
-        if (!found) return DOTPOSE_TOO_FEW_DOTS;
-        give(*found, *pose);
+    if (pose->dots <= 0) return DOTPOSE_NO_FIX;
+    const std::array values = {pen->x_mm,        pen->y_mm,        pen->z_mm,       pen->rest_mm,
+                               pen->sigma_mm[0], pen->sigma_mm[1], pen->sigma_mm[2]};
+    const auto is_finite = [](double value) { return std::isfinite(value); };
+    if (!std::all_of(values.begin(), values.end(), is_finite)) return DOTPOSE_BAD_VALUE;
+    return c::without_exceptions([&] {
+        const TipPose found =
+            tip_of(to_core(*pose), PenTip{pen->x_mm, pen->y_mm, pen->z_mm, pen->rest_mm},
+                   {{"tip_x_mm", pen->sigma_mm[0]},
+                    {"tip_y_mm", pen->sigma_mm[1]},
+                    {"tip_z_mm", pen->sigma_mm[2]}});
+        tip->x_mm = found.x_mm;
+        tip->y_mm = found.y_mm;
+        tip->height_mm = found.height_mm;
+        double* next = tip->covariance_mm2;
+        for (const auto& row : found.covariance)
+            next = std::copy(row.begin(), row.end(), next);
         return DOTPOSE_OK;
-    } catch (const std::bad_alloc&) {
-        return DOTPOSE_OUT_OF_MEMORY;
-    } catch (const Error&) {
-        return DOTPOSE_BAD_VALUE;
-    }
+    });
+}
+
+dotpose_status dotpose_space_update_contact(const dotpose_space_tip* tip, int32_t* is_down) {
+    const dotpose_status status = check_size(tip);
+    if (status != DOTPOSE_OK) return status;
+    if (is_down == nullptr) return DOTPOSE_NULL_POINTER;
+    PenContact contact(*is_down != 0);
+    *is_down = contact.take(tip->height_mm, std::sqrt(tip->covariance_mm2[8])) ? 1 : 0;
+    return DOTPOSE_OK;
 }
 }

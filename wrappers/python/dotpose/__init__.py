@@ -64,6 +64,8 @@ try:
         SheetFile,
         SheetPlace,
         SpacePose,
+        SpaceTrack,
+        SpaceTracker,
         SpinCalibration,
         Station,
         Stitching,
@@ -98,7 +100,7 @@ except ModuleNotFoundError as error:
             DriveCalibration Finding Follower LensCalibration Located
             MappedPage OverlayReport PivotCalibration PrintCheck PrintField PrintMap
             PrintMapResult PrintScale Protocol ProtocolResult Sheet SheetEntry SheetFile SheetPlace
-            SpacePose SpinCalibration Station Stitching TipPose WorldPlace
+            SpacePose SpaceTrack SpaceTracker SpinCalibration Station Stitching TipPose WorldPlace
             WorldPose WorldSpacePose
             calibrate calibrate_drive calibrate_pivot calibrate_spin check_print
             make_print_map make_sheet make_sheets overlay print_sheet print_sheets read_image

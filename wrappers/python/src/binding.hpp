@@ -33,6 +33,7 @@ void define_simulate(py::module_& module);
 /// called in this order, for the same reason.
 void define_sheets(py::module_& module);
 void define_space(py::module_& module);
+void define_space_tracker(py::module_& module);
 void define_print_map(py::module_& module);
 void define_follower(py::module_& module);
 void define_files(py::module_& module);

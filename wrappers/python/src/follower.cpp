@@ -25,6 +25,7 @@ struct SeenLocated {
     MapUse map_use = MapUse::no_map;
     int reduced_by = 1;
     std::optional<Track> track;
+    std::optional<SpaceTrack> space_track;
 };
 
 class FollowerOfPython {
@@ -46,6 +47,7 @@ class FollowerOfPython {
         const Followed followed = follower_.follow(view, time_us);
         SeenLocated result = seen(followed.located);
         result.track = followed.track;
+        result.space_track = followed.space_track;
         return result;
     }
 
@@ -138,6 +140,10 @@ void define_follower(py::module_& module) {
             "in view; 'contradicted' if it is of another print; 'no_map' without a map or a fix.")
         .def_readonly("track", &SeenLocated::track,
                       "Track after the image; None from Follower.locate.")
+        .def_readonly("space_track", &SeenLocated::space_track,
+                      "SpaceTrack of the camera after the image, in the pattern frame or, if "
+                      "Follower.is_in_world, in the world with y down, in mm; None from "
+                      "Follower.locate or without space.")
         .def_readonly("reduced_by", &SeenLocated::reduced_by,
                       "Factor by which an image was reduced because it was too large.")
         .def("__bool__", [](const SeenLocated& self) { return self.fix.is_ok(); })

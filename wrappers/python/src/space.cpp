@@ -1,31 +1,14 @@
 // Bindings for SpacePose: poses of cameras in space.
+#include "space.hpp"
+
 #include <fmt/core.h>
 
-#include "binding.hpp"
 #include "dotpose/tools/pen.hpp"
 #include "dotpose/tools/space_pose.hpp"
 #include "sheets.hpp"
 
 namespace dotpose::python {
 namespace {
-
-py::tuple position_of(const CameraInSpace& camera) {
-    return py::make_tuple(camera.x_mm, camera.y_mm, camera.z_mm);
-}
-
-py::tuple tuple_of(const Quaternion& q) {
-    return py::make_tuple(q.x, q.y, q.z, q.w);
-}
-
-py::array_t<double> array_of(const SpaceCovariance& covariance) {
-    py::array_t<double> array({6, 6});
-    auto at = array.mutable_unchecked<2>();
-    for (std::size_t i = 0; i < 6; ++i) {
-        for (std::size_t j = 0; j < 6; ++j)
-            at(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(j)) = covariance[i][j];
-    }
-    return array;
-}
 
 /// Returns the camera's pose in the world, computed from its pose on the page of `entry`, or none
 /// if the page has no pose in the world.

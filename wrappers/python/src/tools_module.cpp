@@ -11,6 +11,7 @@ PYBIND11_MODULE(_tools, module) {
     module.attr("__name__") = "dotpose";
     define_sheets(module);
     define_space(module);
+    define_space_tracker(module);
     define_print_map(module);
     define_follower(module);
     define_files(module);

@@ -87,3 +87,29 @@ def test_a_pose_in_space_needs_a_focal_length():
         dotpose.Follower(camera=camera, space=True)
     with pytest.raises(dotpose.Error, match="camera"):
         dotpose.Follower(space=True)
+
+
+def test_a_tracker_follows_the_camera_in_space():
+    shot, camera = tilted_view()
+    follower = dotpose.Follower(camera=camera, space=True)
+    tracker = dotpose.SpaceTracker(acceleration_mm_s2=3000)
+    assert tracker.track.is_lost and tracker.predict(0) is None
+    start_mm = shot.x_mm
+    for i in range(10):  # 30 mm/s along x, at 50 frames per second
+        shot.x_mm = start_mm + 0.6 * i
+        now = follower.follow(shot.render(), 20_000 * i)
+        track = tracker.update(20_000 * i, now.space)
+        assert track.verdict == "accepted" and track.is_new == (i == 0)
+        # The follower tracks in the same way, with the default options.
+        assert now.space_track.position_mm == pytest.approx(track.position_mm, abs=0.05)
+    assert track.position_mm == pytest.approx(now.space.position_mm, abs=0.05)
+    assert track.velocity_mm_s == pytest.approx((30, 0, 0), abs=3)
+    assert track.turn_rad_s == pytest.approx((0, 0, 0), abs=0.3)
+    assert track.covariance.shape == track.velocity_covariance.shape == (6, 6)
+    ahead = tracker.predict(200_000)
+    assert ahead.position_mm[0] == pytest.approx(track.position_mm[0] + 0.6, abs=0.1)
+    assert ahead.covariance[0, 0] > track.covariance[0, 0]
+    assert tracker.update(1_000_000).is_lost
+    assert follower.locate(shot.render()).space_track is None
+    with pytest.raises(TypeError, match="no option"):
+        dotpose.SpaceTracker(speed=1)

@@ -1,9 +1,13 @@
 // Loads the core module in the variant that the engine supports, and calls its functions.
 import { compile, hasSimd, type Instance, type WasmSource } from "./instance.js";
 
-/** Returns the given module or, by default, the module in the file beside this one. */
-export function coreModule(wasm?: WasmSource): Promise<WebAssembly.Module> {
+/**
+ * Returns the given module or, by default, the module in the file beside this one: the core or, if
+ * `has_space`, the core with poses in space.
+ */
+export function coreModule(wasm?: WasmSource, has_space = false): Promise<WebAssembly.Module> {
     if (wasm !== undefined) return compile(wasm);
+    if (has_space) return compile(new URL("./dotpose-space.wasm", import.meta.url));
     return compile(
         hasSimd()
             ? new URL("./dotpose-simd.wasm", import.meta.url)

@@ -1,6 +1,7 @@
 // The pose computed from one frame, read from a dotpose_fix of wrappers/c/dotpose.h.
 import { fieldsOf, kAt, type FixFields } from "./fix_fields.js";
 import { kCodes, type Cell, type Code, type Section } from "./names.js";
+import type { SpacePose } from "./space.js";
 
 /**
  * The pose computed from one frame, with its evidence. A Fix is plain data that can be posted
@@ -37,6 +38,11 @@ export interface Fix extends FixFields {
      * the option `dots` is set.
      */
     dots: Float32Array | null;
+    /**
+     * Pose of the camera in space. Null without the option `space`, or if the dots do not determine
+     * it.
+     */
+    space: SpacePose | null;
     /** The same fix, bit by bit, as a dotpose_fix of wrappers/c/dotpose.h. */
     bytes: Uint8Array<ArrayBuffer>;
 }
@@ -68,6 +74,7 @@ export function fixOf(bytes: Uint8Array<ArrayBuffer>, context: Context): Fix {
         spacing_mm: int(kAt.spacing_nm) / 1e6,
         spacing_px: int(kAt.spacing_px_q16) / kGrid_q16,
         dots: context.dots,
+        space: null,
         bytes,
     };
 }

@@ -81,11 +81,13 @@ export class Instance {
     }
 
     /**
-     * Reserves memory and returns its address. Must only be used for modules that do not allocate
-     * memory.
+     * Reserves memory and returns its address. A module that allocates memory must export
+     * `aligned_alloc`.
      */
     reserve(bytes: number): number {
         const kAlignment = 64;
+        const allocate = this.#functions["aligned_alloc"];
+        if (allocate !== undefined) return allocate(kAlignment, Math.ceil(bytes / kAlignment) * kAlignment);
         const kPage = 65536;
         const address = Math.ceil(this.#used_bytes / kAlignment) * kAlignment;
         this.#used_bytes = address + bytes;

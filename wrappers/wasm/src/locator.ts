@@ -7,6 +7,7 @@ import { kMotionBytes, writeMotion, type MeasuredMotion } from "./measured_motio
 import { codeNumber, type Code, type KnownRegion } from "./names.js";
 import { newLocator } from "./new_locator.js";
 import { kPredictionBytes, type Prediction } from "./prediction.js";
+import { SpaceFitter, type SpaceCamera } from "./space.js";
 
 /** An 8-bit grey image with dark dots on light paper. Row v begins at `data[v * stride]`. */
 export interface Image {
@@ -51,6 +52,12 @@ export interface LocatorOptions {
     only_sheets?: boolean;
     /** True to include the centres of the dots in the fix. This takes more time. Default: false. */
     dots?: boolean;
+    /**
+     * Intrinsic parameters of the camera, to fit its pose in space to every fix (`Fix.space`). The
+     * locator then uses a larger module, `dotpose-space.wasm`, which takes more time. Its lens is
+     * `lens_k_per_px2`. Default: none.
+     */
+    space?: SpaceCamera;
     /** The core module, as a URL, bytes or a compiled module. Default: the file beside this one. */
     wasm?: WasmSource;
 }
@@ -106,6 +113,7 @@ export class Locator {
     readonly #motion: number;
     readonly #code: number;
     readonly #dots: number;
+    readonly #space: SpaceFitter | null;
     readonly #texts = new Map<number, { status: string; message: string }>();
     #pixels = 0;
     #pixels_bytes = 0;
@@ -119,12 +127,13 @@ export class Locator {
         this.#code = core.reserve(kCodeBytes);
         this.#dots = options.dots ? core.reserve(kMaxDots * kDotBytes + kCountBytes) : 0;
         this.#locator = newLocator(core, options);
+        this.#space = options.space ? new SpaceFitter(core, options.space, options.lens_k_per_px2 ?? 0) : null;
         if (options.sheets?.length) this.#know(options.sheets, options.only_sheets ?? false);
     }
 
     /** Creates a locator. Asynchronous, because the first call loads and compiles the module. */
     static async create(options: LocatorOptions = {}): Promise<Locator> {
-        return new Locator(await Instance.start(await coreModule(options.wasm)), options);
+        return new Locator(await Instance.start(await coreModule(options.wasm, options.space !== undefined)), options);
     }
 
     /**
@@ -140,7 +149,10 @@ export class Locator {
         const frame = [this.#locator, this.#pixels, image.width, image.height, stride];
         if (motion) this.#core.call("dotpose_locate_moved", ...frame, this.#motion, this.#fix);
         else this.#core.call("dotpose_locate", ...frame, this.#predict(prediction), this.#fix);
-        return this.#read();
+        const fix = this.#read();
+        if (fix.ok && this.#space)
+            fix.space = this.#space.fit(this.#locator, this.#pixels, image.width, image.height, stride);
+        return fix;
     }
 
     /** Sets the sheets that may be in view. The module reads them in each frame. */

@@ -19,6 +19,8 @@ const tracker = await Tracker.create({ max_speed_mm_s: 500 });
 const track: Track = tracker.update(10_000, next, motion);
 export const [x_mm, lost]: [number, boolean] = [track.x_mm, track.events.includes("lost")];
 locator.locate(image, { prediction: tracker.predict(20_000) });
+const upright = await Locator.create({ space: { focal_px: 543.5, axis_px: [160, 120] } });
+export const height_mm: number | undefined = upright.locate(image).space?.position_mm[2];
 
 // @ts-expect-error: unknown code
 await Locator.create({ code: "morse" });

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -18,12 +17,10 @@
 #include "dotpose/tools/simulate.hpp"
 #include "dotpose/tools/space_pose.hpp"
 #include "dotpose_space.h"
+#include "space_frame.hpp"
 
 namespace dotpose {
 namespace {
-
-constexpr double kDistance_mm = 25;
-constexpr double kTilt_rad = 20 * std::numbers::pi / 180;
 
 // Programs in other languages rely on the layout in the header.
 static_assert(sizeof(dotpose_space_camera) == 80);
@@ -31,61 +28,8 @@ static_assert(offsetof(dotpose_space_camera, print_scale) == 72);
 static_assert(sizeof(dotpose_space_pose) == 488);
 static_assert(offsetof(dotpose_space_pose, covariance_mm_rad) == 96);
 static_assert(offsetof(dotpose_space_pose, second_quaternion_xyzw) == 424);
-
-struct Destroy {
-    void operator()(dotpose_locator* locator) const { dotpose_locator_destroy(locator); }
-};
-using CLocator = std::unique_ptr<dotpose_locator, Destroy>;
-
-/// A frame of a camera that leans by 20 degrees towards +x.
-class SpaceInC : public testing::Test {
-  protected:
-    void SetUp() override {
-        dotpose::Setup setup;
-        setup.camera.width_px = 320;
-        setup.camera.height_px = 240;
-        setup.camera.working_distance_mm = kDistance_mm;
-        setup.seed = 20;
-        shot_ = draw_shot(setup, 0);
-        shot_.pose.theta_rad = 0;
-        shot_.pose.tilt_y_rad = kTilt_rad;
-        focal_px_ = kDistance_mm / shot_.camera.mm_per_px;
-        image_ = render(shot_);
-        ASSERT_EQ(dotpose_space_camera_init(&camera_, sizeof camera_, 320, 240, focal_px_),
-                  DOTPOSE_OK);
-        ASSERT_EQ(dotpose_space_pose_init(&pose_, sizeof pose_), DOTPOSE_OK);
-        locator_ = make_locator(true);
-    }
-
-    CLocator make_locator(bool for_space, int kind = DOTPOSE_KIND_LARGE) {
-        dotpose_options options;
-        dotpose_options_init(&options, sizeof options);
-        options.code = DOTPOSE_CODE_ANOTO;
-        if (for_space) {
-            EXPECT_EQ(dotpose_space_use_camera(&camera_, &options), DOTPOSE_OK);
-        }
-        dotpose_locator* locator = nullptr;
-        EXPECT_EQ(dotpose_locator_create(kind, &options, &locator), DOTPOSE_OK);
-        return CLocator(locator);
-    }
-
-    dotpose_status locate(dotpose_locator* locator, const GreyImage& image) {
-        dotpose_fix fix;
-        dotpose_fix_init(&fix, sizeof fix);
-        return dotpose_locate(locator, image.pixels.data(), image.width_px, image.height_px,
-                              image.width_px, nullptr, &fix);
-    }
-    dotpose_status fit(const dotpose_locator* locator) {
-        return dotpose_space_fit(locator, &camera_, image_.pixels.data(), 320, 240, 320, &pose_);
-    }
-
-    Shot shot_;
-    GreyImage image_;
-    double focal_px_ = 0;
-    dotpose_space_camera camera_;
-    dotpose_space_pose pose_;
-    CLocator locator_;
-};
+static_assert(sizeof(dotpose_space_pen) == 64);
+static_assert(sizeof(dotpose_space_tip) == 104);
 
 TEST_F(SpaceInC, IsTheTruePose) {
     ASSERT_EQ(locate(locator_.get(), image_), DOTPOSE_OK);
@@ -132,9 +76,7 @@ TEST_F(SpaceInC, HasTheNumbersOfCpp) {
 TEST_F(SpaceInC, IsPrintedByACProgram) {
     const test::TemporaryDirectory folder;
     const std::string frame = (folder.path() / "frame.pgm").string();
-    std::ofstream(frame, std::ios::binary)
-        << "P5\n320 240\n255\n"
-        << std::string(image_.pixels.begin(), image_.pixels.end());
+    write_frame(frame);
     const test::ShellOutcome run = test::run_shell(
         "'" DOTPOSE_SPACE_ONE "' " + std::to_string(focal_px_) + " '" + frame + "' 2>&1");
     ASSERT_EQ(run.exit_code, 0) << run.output;
@@ -165,6 +107,55 @@ TEST_F(SpaceInC, ReportsTheSecondPose) {
     EXPECT_GT(pose_.second_odds, 1e-9);
     EXPECT_LE(pose_.second_odds, 1);
     EXPECT_LT(pose_.second_position_mm[2], 0);
+}
+
+TEST_F(SpaceInC, FindsTheTipOfAPen) {
+    ASSERT_EQ(locate(locator_.get(), image_), DOTPOSE_OK);
+    ASSERT_EQ(fit(locator_.get()), DOTPOSE_OK);
+    dotpose_space_pen pen;
+    ASSERT_EQ(dotpose_space_pen_init(&pen, sizeof pen), DOTPOSE_OK);
+    dotpose_space_tip tip;
+    ASSERT_EQ(dotpose_space_tip_init(&tip, sizeof tip), DOTPOSE_OK);
+    // The optical axis intersects the paper at the pose point, at this distance.
+    pen.z_mm = kDistance_mm;
+    ASSERT_EQ(dotpose_space_tip_of(&pose_, &pen, &tip), DOTPOSE_OK);
+    const double mm = shot_.page.pattern.spacing_mm;
+    EXPECT_NEAR(tip.x_mm, x_grid(shot_.pose) * mm, 0.01);
+    EXPECT_NEAR(tip.y_mm, y_grid(shot_.pose) * mm, 0.01);
+    EXPECT_NEAR(tip.height_mm, 0, 0.03);
+    EXPECT_GT(tip.covariance_mm2[8], 0);
+    std::int32_t is_down = 0;
+    EXPECT_EQ(dotpose_space_update_contact(&tip, &is_down), DOTPOSE_OK);
+    EXPECT_EQ(is_down, 1);
+    // 1 mm above the paper, with an uncertain tip.
+    pen.z_mm -= 1 / std::cos(kTilt_rad);
+    pen.sigma_mm[2] = 0.1;
+    ASSERT_EQ(dotpose_space_tip_of(&pose_, &pen, &tip), DOTPOSE_OK);
+    EXPECT_NEAR(tip.height_mm, 1, 0.03);
+    EXPECT_NEAR(std::sqrt(tip.covariance_mm2[8]), 0.1 * std::cos(kTilt_rad), 0.01);
+    EXPECT_EQ(dotpose_space_update_contact(&tip, &is_down), DOTPOSE_OK);
+    EXPECT_EQ(is_down, 0);
+    // The pen touches the paper at 1 mm, if this is its height at rest.
+    pen.rest_mm = 1;
+    ASSERT_EQ(dotpose_space_tip_of(&pose_, &pen, &tip), DOTPOSE_OK);
+    EXPECT_NEAR(tip.height_mm, 0, 0.03);
+}
+
+TEST_F(SpaceInC, RefusesMisuseOfPens) {
+    dotpose_space_pen pen;
+    dotpose_space_tip tip;
+    EXPECT_EQ(dotpose_space_pen_init(&pen, 8), DOTPOSE_BAD_SIZE);
+    EXPECT_EQ(dotpose_space_tip_init(nullptr, sizeof tip), DOTPOSE_NULL_POINTER);
+    dotpose_space_pen_init(&pen, sizeof pen);
+    dotpose_space_tip_init(&tip, sizeof tip);
+    EXPECT_EQ(dotpose_space_tip_of(&pose_, &pen, &tip), DOTPOSE_NO_FIX);  // nothing was fitted
+    ASSERT_EQ(locate(locator_.get(), image_), DOTPOSE_OK);
+    ASSERT_EQ(fit(locator_.get()), DOTPOSE_OK);
+    EXPECT_EQ(dotpose_space_tip_of(nullptr, &pen, &tip), DOTPOSE_NULL_POINTER);
+    EXPECT_EQ(dotpose_space_tip_of(&pose_, &pen, nullptr), DOTPOSE_NULL_POINTER);
+    pen.x_mm = NAN;
+    EXPECT_EQ(dotpose_space_tip_of(&pose_, &pen, &tip), DOTPOSE_BAD_VALUE);
+    EXPECT_EQ(dotpose_space_update_contact(&tip, nullptr), DOTPOSE_NULL_POINTER);
 }
 
 TEST_F(SpaceInC, RefusesMisuse) {

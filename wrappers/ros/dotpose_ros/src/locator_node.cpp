@@ -98,6 +98,7 @@ class LocatorNode : public rclcpp::Node {
         if (locator_->has_space_pose()) {
             camera_ = create_publisher<geometry_msgs::msg::PoseWithCovarianceStamped>(
                 "~/camera_pose", quality);
+            camera_odometry_ = create_publisher<nav_msgs::msg::Odometry>("~/camera_odom", quality);
         }
         odometry_ = create_publisher<nav_msgs::msg::Odometry>("~/odom", quality);
         if (settings.publishes_tf)
@@ -140,6 +141,8 @@ class LocatorNode : public rclcpp::Node {
         const dotpose::ros::RobotMessages& messages = answer.messages;
         if (messages.pose) pose_->publish(to_ros(*messages.pose));
         if (messages.camera && camera_) camera_->publish(to_ros(*messages.camera));
+        if (messages.camera_odometry && camera_odometry_)
+            camera_odometry_->publish(to_ros(*messages.camera_odometry));
         if (messages.odometry) odometry_->publish(to_ros(*messages.odometry));
         if (messages.tf && tf_) tf_->publish(to_ros(*messages.tf));
         if (!messages.status.status.empty()) status_->publish(to_ros(messages.status));
@@ -152,6 +155,7 @@ class LocatorNode : public rclcpp::Node {
     std::optional<RobotLocator> locator_;
     rclcpp::Publisher<geometry_msgs::msg::PoseWithCovarianceStamped>::SharedPtr pose_;
     rclcpp::Publisher<geometry_msgs::msg::PoseWithCovarianceStamped>::SharedPtr camera_;
+    rclcpp::Publisher<nav_msgs::msg::Odometry>::SharedPtr camera_odometry_;
     rclcpp::Publisher<nav_msgs::msg::Odometry>::SharedPtr odometry_;
     rclcpp::Publisher<tf2_msgs::msg::TFMessage>::SharedPtr tf_;
     rclcpp::Publisher<tf2_msgs::msg::TFMessage>::SharedPtr tf_static_;
