@@ -48,6 +48,8 @@ constexpr Table kTables[] = {
     {"print_map_drive", "How much a map of the print improves a drive",
      tables::print_map_drive_table},
     {"print_map_scale", "Time and memory for a map of many frames", tables::print_map_scale_table},
+    {"print_map_solver", "Time and memory of the solver of print maps for 20,000 frames",
+     tables::print_map_solver_table},
     {"seams", "Whether covariances are right where two sheets are butted", tables::seams_table},
     {"slips", "Whether covariances are right where the sheet is not one plane",
      tables::slips_table},

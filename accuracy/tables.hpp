@@ -21,6 +21,7 @@ bool pens_table(TableRun& run);
 bool print_map_table(TableRun& run);
 bool print_map_drive_table(TableRun& run);
 bool print_map_scale_table(TableRun& run);
+bool print_map_solver_table(TableRun& run);
 bool seams_table(TableRun& run);
 bool slips_table(TableRun& run);
 bool space_table(TableRun& run);

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "dotpose/files/sheet_file.hpp"
@@ -132,6 +134,11 @@ class DriveCamera {
         camera_.height_px = height_px;
     }
 
+    /// Displaces all dots of both sheets by a function of their intersection (Page::shift_mm).
+    void set_shift(std::function<Vec2(Vec2 place_grid)> shift_mm) {
+        shift_mm_ = std::move(shift_mm);
+    }
+
     static Imperfections nominal() {
         Rng rng(2024);
         return draw_imperfections(Preset::nominal, rng);
@@ -191,8 +198,9 @@ class DriveCamera {
         const double speed_mm_s = std::hypot(state.vx_mm_s, state.vy_mm_s);
         imperfections.motion_px = {-speed_mm_s * kExposure_s / camera_.mm_per_px, 0};
         imperfections.graphics = state.has_graphics ? 2 : 0;
-        return render(page_of(sheets_[sheet_index].sheet), camera_, pose_on(sheet_index, state),
-                      imperfections, seed);
+        Page page = page_of(sheets_[sheet_index].sheet);
+        page.shift_mm = shift_mm_;
+        return render(page, camera_, pose_on(sheet_index, state), imperfections, seed);
     }
 
     /// Returns the image of the camera of a lifted robot, which is out of focus and shows no dots.
@@ -207,6 +215,7 @@ class DriveCamera {
     std::vector<SheetEntry> sheets_;
     CameraModel camera_;
     Imperfections base_;
+    std::function<Vec2(Vec2 place_grid)> shift_mm_;
 };
 
 }  // namespace dotpose::test

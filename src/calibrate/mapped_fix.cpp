@@ -1,6 +1,8 @@
 // Mapped fix: fits the pose of a frame to the dots at their mapped places.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -19,9 +21,7 @@ namespace {
 
 using namespace dotpose::calibrate;
 using Eigen::Matrix2d;
-using Eigen::MatrixXd;
 using Eigen::Vector2d;
-using Eigen::VectorXd;
 
 /// A measured dot. Places are in spacings from `Decoding::place`.
 struct MapDot {
@@ -32,9 +32,13 @@ struct MapDot {
 };
 
 /// Terms of the correction: place (2), scale, rotation, displacement, shear (2), perspective (2).
-constexpr int kSimilarityTerms = 5;
 constexpr int kTerms = 9;
+constexpr int kDisplacement = 4;
+constexpr int kShear = 5;
+constexpr int kPerspective = 7;
 constexpr double kReach_px = 100;  ///< unit of pixels in the terms
+using Terms = Eigen::Matrix<double, kTerms, 1>;
+using TermBlock = Eigen::Matrix<double, kTerms, kTerms>;
 
 /// Derivatives of a place on the paper with respect to the terms.
 Eigen::Matrix<double, 2, kTerms> derivatives_at(const FixPlane& plane, const MapDot& dot) {
@@ -46,90 +50,139 @@ Eigen::Matrix<double, 2, kTerms> derivatives_at(const FixPlane& plane, const Map
     return rows;
 }
 
-/// Correction of a plane, by least squares.
+/// Correction of a plane.
 struct Correction {
-    VectorXd terms = VectorXd::Zero(kTerms);
-    MatrixXd covariance = MatrixXd::Zero(kTerms, kTerms);
+    Terms terms = Terms::Zero();
+    TermBlock covariance = TermBlock::Zero();
     double variance = 0;  ///< variance of the residuals, per axis
     int dots = 0;
 };
 
+/// Returns the place of a dot in the map, minus its place in the plane.
+Vector2d residual_of(const FixPlane& plane, const MapDot& dot, double map_weight) {
+    return dot.step + map_weight * dot.offset - plane.place(dot.pixel);
+}
+
 /// Solves the normal equations of the dots whose squared residuals in the previous fit are at most
 /// `limit`.
 Correction correct(const FixPlane& plane, const std::vector<MapDot>& dots, double map_weight,
-                   const VectorXd& last, double limit, const std::vector<int>& used) {
-    const auto count = static_cast<Eigen::Index>(used.size());
-    MatrixXd normal = MatrixXd::Zero(count, count);
-    VectorXd right = VectorXd::Zero(count);
+                   const Terms& last, double limit) {
+    TermBlock normal = TermBlock::Zero();
+    Terms right = Terms::Zero();
     double squares = 0;
     Correction result;
     for (const MapDot& dot : dots) {
-        const auto all = derivatives_at(plane, dot);
-        const Vector2d wanted = dot.step + map_weight * dot.offset - plane.place(dot.pixel);
-        if ((wanted - all * last).squaredNorm() > limit) continue;
-        MatrixXd rows(2, count);
-        for (Eigen::Index k = 0; k < count; ++k)
-            rows.col(k) = all.col(used[static_cast<std::size_t>(k)]);
+        const auto rows = derivatives_at(plane, dot);
+        const Vector2d residual = residual_of(plane, dot, map_weight);
+        if ((residual - rows * last).squaredNorm() > limit) continue;
         normal += rows.transpose() * rows;
-        right += rows.transpose() * wanted;
-        squares += wanted.squaredNorm();
+        right += rows.transpose() * residual;
+        squares += residual.squaredNorm();
         ++result.dots;
     }
-    const MatrixXd inverse = normal.ldlt().solve(MatrixXd::Identity(count, count));
-    const VectorXd solution = inverse * right;
-    const double left = std::max(squares - solution.dot(right), 0.0);
-    result.variance = left / std::max<double>(2.0 * result.dots - static_cast<double>(count), 1);
-    for (Eigen::Index i = 0; i < count; ++i) {
-        const int to = used[static_cast<std::size_t>(i)];
-        result.terms[to] = solution[i];
-        for (Eigen::Index j = 0; j < count; ++j)
-            result.covariance(to, used[static_cast<std::size_t>(j)]) =
-                result.variance * inverse(i, j);
-    }
+    const TermBlock inverse = normal.ldlt().solve(TermBlock::Identity());
+    result.terms = inverse * right;
+    // Lower limit of the variance, far below that of any camera. Keeps the covariance invertible.
+    constexpr double kExact = 1e-12;
+    const double left = squares - result.terms.dot(right);
+    result.variance = std::max(left / std::max<double>(2.0 * result.dots - kTerms, 1), kExact);
+    result.covariance = result.variance * inverse;
     return result;
 }
 
-/// Fits the terms in `used`. Repeats the fit without outliers.
-Correction fit_terms(const FixPlane& plane, const std::vector<MapDot>& dots, double map_weight,
-                     const std::vector<int>& used) {
-    VectorXd last = VectorXd::Zero(kTerms);
-    last[4] = 1.0 / 6;
+/// Fits all terms by least squares. Repeats the fit without outliers.
+Correction fit_terms(const FixPlane& plane, const std::vector<MapDot>& dots, double map_weight) {
+    Terms last = Terms::Zero();
+    last[kDisplacement] = 1.0 / 6;
     Correction result;
     double limit = 0.04;  // initial limit of the squared residual, in spacings^2
     constexpr int kRounds = 4;
     for (int round = 0; round < kRounds; ++round) {
-        result = correct(plane, dots, map_weight, last, limit, used);
+        result = correct(plane, dots, map_weight, last, limit);
         last = result.terms;
         std::vector<double> squares;
         for (const MapDot& dot : dots) {
-            const Vector2d wanted = dot.step + map_weight * dot.offset - plane.place(dot.pixel);
-            squares.push_back((wanted - derivatives_at(plane, dot) * last).squaredNorm());
+            squares.push_back(
+                (residual_of(plane, dot, map_weight) - derivatives_at(plane, dot) * last)
+                    .squaredNorm());
         }
         limit = kMaxSquaredLength * upper_median(std::move(squares)) / kMedianOfSquaredLength;
     }
     return result;
 }
 
-/// Returns true if the two terms from index `first` differ significantly from 0. The limit is high,
-/// because the plane of the fix is already a good estimate, and because each additional term makes
-/// the place less accurate.
-bool are_significant(const Correction& fit, int first) {
-    constexpr double kSignificant = 20;
-    const Vector2d terms = fit.terms.segment<2>(first);
-    const Matrix2d covariance = fit.covariance.block<2, 2>(first, first);
-    return terms.dot(covariance.inverse() * terms) > kSignificant;
+/// Prior of two terms of the view: a mixture of Gaussians with mean 0. The view has no shear and no
+/// perspective if the camera looks straight at the paper.
+struct ViewPrior {
+    struct Kind {
+        double probability;
+        double deviation;  ///< standard deviation of each term
+    };
+    int first;  ///< index of the first term
+    std::array<Kind, 3> kinds;
+};
+/// The priors of `locate` (core/fit/solve_plane.cpp). The perspective is the relative change of the
+/// scale from the centre to the outermost dot.
+constexpr ViewPrior kPerspectivePrior{kPerspective, {{{0.1, 0}, {0.8, 0.01}, {0.1, 0.1}}}};
+constexpr ViewPrior kShearPrior{kShear, {{{0.5, 0}, {0.4, 0.002}, {0.1, 0.03}}}};
+
+/// Replaces two terms with their posterior means, and changes the other terms accordingly.
+/// `present` contains the values of the two terms in the plane. The prior applies to the sums of
+/// `present` and the terms of the correction. `unit` is the unit of the standard deviations.
+void shrink(const ViewPrior& prior, const Vector2d& present, double unit, Correction& fit) {
+    struct Posterior {
+        double distance;  ///< squared Mahalanobis distance of the fitted terms from 0
+        double weight;
+        Vector2d mean;
+        Matrix2d covariance;
+    };
+    const Vector2d fitted = fit.terms.segment<2>(prior.first) + present;
+    const Matrix2d covariance = fit.covariance.block<2, 2>(prior.first, prior.first);
+    std::array<Posterior, 3> kinds;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+        const double deviation = prior.kinds[k].deviation * unit;
+        const Matrix2d all = covariance + deviation * deviation * Matrix2d::Identity();
+        const Matrix2d kept = Matrix2d::Identity() - covariance * all.inverse();
+        kinds[k] = {fitted.dot(all.inverse() * fitted),
+                    prior.kinds[k].probability / std::sqrt(all.determinant()), kept * fitted,
+                    kept * covariance};
+        nearest = std::min(nearest, kinds[k].distance);
+    }
+    double sum = 0;
+    Vector2d mean = Vector2d::Zero();
+    for (Posterior& kind : kinds) {
+        kind.weight *= std::exp((nearest - kind.distance) / 2);
+        sum += kind.weight;
+        mean += kind.weight * kind.mean;
+    }
+    mean /= sum;
+    Matrix2d change = -covariance;
+    for (const Posterior& kind : kinds) {
+        const Vector2d off = kind.mean - mean;
+        change += kind.weight / sum * (kind.covariance + off * off.transpose());
+    }
+    const Eigen::Matrix<double, kTerms, 2> gain =
+        fit.covariance.middleCols<2>(prior.first) * covariance.inverse();
+    fit.terms += gain * (mean - fitted);
+    fit.covariance += gain * change * gain.transpose();
 }
 
-/// Fits place, scale, rotation and displacement. Also fits shear and perspective if they are
-/// significant.
-Correction fit_correction(const FixPlane& plane, const std::vector<MapDot>& dots,
-                          double map_weight) {
-    const Correction full = fit_terms(plane, dots, map_weight, {0, 1, 2, 3, 4, 5, 6, 7, 8});
-    std::vector<int> used = {0, 1, 2, 3, 4};
-    for (const int first : {kSimilarityTerms, kSimilarityTerms + 2}) {
-        if (are_significant(full, first)) used.insert(used.end(), {first, first + 1});
-    }
-    return used.size() == kTerms ? full : fit_terms(plane, dots, map_weight, used);
+/// Shrinks perspective and shear to their posterior means. Without the shrinkage, each of them
+/// would make the place less accurate. The plane of the fix contains the terms that its own dots
+/// determined without the map, so their errors are larger than those of the terms here.
+void shrink_view(const FixPlane& plane, const std::vector<MapDot>& dots, Correction& fit) {
+    double reach_px = 1;
+    for (const MapDot& dot : dots)
+        reach_px = std::max(reach_px, dot.pixel.norm());
+    shrink(kPerspectivePrior, -plane.perspective * kReach_px, kReach_px / reach_px, fit);
+    // The shear of the plane is the traceless part of the symmetric factor in its polar
+    // decomposition.
+    const Matrix2d square = plane.linear * plane.linear.transpose();
+    const double root = std::sqrt(square.determinant());
+    const Matrix2d stretch = square + root * Matrix2d::Identity();
+    shrink(kShearPrior,
+           Vector2d(stretch(0, 0) - stretch(1, 1), 2 * stretch(0, 1)) / stretch.trace(), 1, fit);
 }
 
 /// Returns the image point, relative to the centre of the plane, that the plane maps to the place
@@ -203,10 +256,11 @@ MappedFix with_print_map(const Fix& fix, const PrintMap& map, const Trace& trace
                         Vector2d(dot.step.x, dot.step.y), Vector2d(dx(dot.symbol), dy(dot.symbol)),
                         offset});
     }
-    const Correction with_map = fit_correction(plane, dots, 1);
-    const Correction without = fit_correction(plane, dots, 0);
+    Correction with_map = fit_terms(plane, dots, 1);
+    const Correction without = fit_terms(plane, dots, 0);
     if (!is_same_print(with_map.variance, without.variance, mapped.noise))
         return {fix, MapUse::contradicted};
+    shrink_view(plane, dots, with_map);
     MappedFix result{fix, MapUse::used};
     write_fix(plane, with_map, trace, result.fix);
     return result;

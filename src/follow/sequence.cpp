@@ -103,7 +103,7 @@ Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
         const CodeReading reading = locator(options).locate_in_code(image);
         return by_camera_file(reading.fix, {}, reading);
     }
-    Fix fix = expected ? locator(options).locate(image, *expected) : locator(options).locate(image);
+    Fix fix = locate_near(image, options, expected);
     auto place = find_sheet(options_.sheets, options.code, fix);
     // A prediction keeps the fix on the same page, but another page may now be at the image centre.
     // If the image centre is on no known page, the image is therefore located again without the
@@ -114,6 +114,20 @@ Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
         place = find_sheet(options_.sheets, options.code, fix);
     }
     return by_camera_file(fix, place, {fix, options.code, {}});
+}
+
+/// Locates an image, with the prediction if there is one. The tracked attempt measures dots in
+/// small windows at their nominal places, so jitter of a dot biases its measured centre. If this
+/// bias matters, because a print map removes the jitter, the prediction is only used for images
+/// that have no fix without it.
+Fix Follower::locate_near(ImageView image, const DeviceOptions& options,
+                          const std::optional<Prediction>& expected) {
+    const bool needs_exact_centres = !options_.print_map.pages.empty();
+    if (!expected || needs_exact_centres) {
+        const Fix fix = locator(options).locate(image);
+        if (!expected || fix.status == Status::ok) return fix;
+    }
+    return locator(options).locate(image, *expected);
 }
 
 Follower::Found Follower::look_in_any_code(const std::optional<Prediction>& expected) {

@@ -206,6 +206,8 @@ class Follower {
     Found find(int max_p_wrong_log2, const std::optional<Prediction>& expected);
     Found look(ImageView image, const DeviceOptions& options,
                const std::optional<Prediction>& expected);
+    Fix locate_near(ImageView image, const DeviceOptions& options,
+                    const std::optional<Prediction>& expected);
     Found look_in_any_code(const std::optional<Prediction>& expected);
     Found without_neighbours(const Found& found);
     std::optional<Sighting> sighting_of(const Found& found, std::int64_t time_us) const;

@@ -116,6 +116,31 @@ TEST_F(PrintMapping, UsesTheViewOfACameraFile) {
     EXPECT_LE(test.with.absolute_um(), 0.2);
 }
 
+/// The tracked attempt measures dots in windows at their nominal places, so it would pull the
+/// centres of dots with jitter towards these places. Fixes of a sequence must be as exact as those
+/// of single images.
+TEST_F(PrintMapping, FollowsAsExactlyAsItLocates) {
+    FollowerOptions options;
+    options.sheets = {print_->entry()};
+    options.print_map = map_->map;
+    Follower follower(options);
+    Follower single(options);
+    const double um = 1000 * print_->entry().sheet.pattern.spacing_mm;
+    constexpr int kTests = 40;
+    double squares = 0;
+    for (int i = 0; i < kTests; ++i) {
+        const double way_mm = 0.25 * i;
+        const GreyImage image = print_->frame({{10 + way_mm, 12 + way_mm / 2}, 0.3 + 0.01 * i},
+                                              scramble(static_cast<std::uint64_t>(700 + i)));
+        const Located followed = follower.follow(image.view(), i * 5000).located;
+        const Located located = single.locate(image);
+        ASSERT_EQ(followed.map_use, MapUse::used);
+        squares += std::pow(um * (followed.fix.x_grid() - located.fix.x_grid()), 2) +
+                   std::pow(um * (followed.fix.y_grid() - located.fix.y_grid()), 2);
+    }
+    EXPECT_LT(std::sqrt(squares / (2 * kTests)), 0.02);
+}
+
 TEST_F(PrintMapping, ConvergesInFewIterations) {
     const MappedPrint large({.side_mm = 60});
     // The first rounds would need hundreds of iterations without a preconditioner for deformations
