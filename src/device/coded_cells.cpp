@@ -16,7 +16,7 @@ void lay_tracked_lines(CodeVariant code, Tracking& tracking) {
         std::array<std::uint8_t, kMaxComparedLines> rolls;
         code::follow_rolls(code, position, code::roll_from(code, position, section, cross), rolls);
         for (std::size_t i = 0; i < rolls.size(); ++i)
-            lines[i] = {code::kMainWords[rolls[i]], 0, 0};
+            lines[i].code = code::kMainWords[rolls[i]];
     };
     lay(corner.cell.x, corner.section.u, corner.cell.y, tracking.lines.first(kMaxComparedLines));
     lay(corner.cell.y, corner.section.v, corner.cell.x, tracking.lines.last(kMaxComparedLines));

@@ -8,7 +8,7 @@
 namespace dotpose::core {
 
 /// Sets the coded bits of each column and row from `Tracking::corner`, which must contain the place
-/// of cell (0, 0). Marks all dots as not read.
+/// of cell (0, 0). Does not change the bits that were read.
 void lay_tracked_lines(CodeVariant code, Tracking& tracking);
 
 inline ComparedLine& column_of(const Tracking& tracking, int i) {

@@ -14,7 +14,7 @@ bool lay_dot_pixels(Tracking& tracking) {
             // The four pixels in which a dot is read must be inside the square around the
             // intersection. Because of rounding, the offset of the first of these pixels differs
             // from the displacement by at most 3/4 of a pixel.
-            if (!is_within(displaced_q16, tracking.half_px * 65536 - 49153)) return false;
+            if (!is_within(displaced_q16, kHalf_px * 65536 - 49153)) return false;
             const FixedVec place_q16 = in_pixel_q16 + displaced_q16;
             tracking.dot_pixels[quarter][s] = static_cast<std::int16_t>(
                 (place_q16.y >> 16) * tracking.stride_px + (place_q16.x >> 16));
@@ -23,25 +23,12 @@ bool lay_dot_pixels(Tracking& tracking) {
     return true;
 }
 
-namespace {
-
-/// Not inlined, because only fine grids call this function, and the code for other grids would then
-/// have fewer registers.
-DOTPOSE_NOINLINE bool measure_fine_square(const Tracking& tracking, FixedVec intersection_q16,
-                                          std::int32_t level, NearDot& dot) {
-    return measure_square<kFineHalf_px>(tracking, intersection_q16, level, dot);
-}
-
-}  // namespace
-
 bool measure_around(const Tracking& tracking, FixedVec intersection_q16, NearDot& dot) {
     const FixedVec pixel = pixel_at(intersection_q16);
-    if (!is_kept(tracking, pixel, tracking.half_px)) return false;
+    if (!is_kept(tracking, pixel, kHalf_px)) return false;
     const std::int32_t paper = paper_around(tracking, kept_row(tracking, pixel.y) + pixel.x);
     const std::int32_t level = paper - ((paper * tracking.cut_q8) >> 8);
     if (paper == 0) return false;
-    if (tracking.half_px != kHalf_px)
-        return measure_fine_square(tracking, intersection_q16, level, dot);
     return measure_square<kHalf_px>(tracking, intersection_q16, level, dot);
 }
 

@@ -15,11 +15,10 @@
 namespace dotpose::core {
 
 /// Half sides of the squares in which dots are read, in px. A square with the half side n has 2 n +
-/// 1 px per side. The squares of kHalf_px and kFineHalf_px are around an intersection and contain
-/// the dot at any of its four places. kHalf_px is for spacings of 7 to 13 px, and kFineHalf_px is
-/// for smaller spacings. The square of kDotHalf_px is around the centre of a dot.
+/// 1 px per side. The square of kHalf_px is around an intersection and contains the dot at any of
+/// its four places, at spacings of 7 to 13 px. The square of kDotHalf_px is around the centre of a
+/// dot.
 inline constexpr int kHalf_px = 4;
-inline constexpr int kFineHalf_px = 2;
 inline constexpr int kDotHalf_px = 2;
 
 /// Returns the pixel nearest to a place.
@@ -41,7 +40,7 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
                                                         const std::uint8_t* at) {
     const std::uint8_t* const top = at + tracking.corner_offset;
     const std::uint8_t* const bottom = top + tracking.corners_apart;
-    const int side_px = 2 * tracking.half_px;
+    constexpr int side_px = 2 * kHalf_px;
     return (top[0] + top[side_px] + bottom[0] + bottom[side_px]) >> 2;
 }
 

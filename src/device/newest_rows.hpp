@@ -5,6 +5,10 @@
 
 namespace dotpose::core {
 
+/// Number of the newest rows that are still needed after the dots in the stored rows were read: two
+/// squares of `kHalf_px` overlap in nine rows, and dots may extend one row further.
+inline constexpr int kRowsNeeded = 11;
+
 /// Returns the stride of stored rows, in bytes: the width rounded up to whole 32-bit words.
 constexpr int stride_of(int width_px) {
     return (width_px + 3) & ~3;
@@ -15,7 +19,7 @@ constexpr int stride_of(int width_px) {
 void keep_row(const std::uint8_t* pixels, Tracking& tracking);
 
 /// If the memory does not have room for `rows` more rows, discards all but the newest
-/// `Tracking::rows_needed` rows.
+/// kRowsNeeded rows.
 void make_room(int rows, Tracking& tracking);
 
 /// Returns row v of the image, which must be stored. Consecutive rows are one stride apart.

@@ -4,6 +4,8 @@
 
 #include "core/decode/upright.hpp"
 #include "core/decode/window.hpp"
+#include "device/fine_dots.hpp"
+#include "device/fine_grid.hpp"
 #include "device/hard_block.hpp"
 #include "device/sheet_odds.hpp"
 #include "device/sheet_search.hpp"
@@ -40,8 +42,12 @@ bool verify(const DeviceOptions& options, DeviceWorkspace& w) {
                             options.integrity, w.fix);
 }
 
+int fit_grid(const DeviceOptions& options, DeviceWorkspace& w) {
+    return fit_fine_grid(options.code, w.tracking, w.pattern_from_image, w.fix.displacement_q16);
+}
+
 }  // namespace
 
-constinit const SheetFunctions kSheetFunctions{read, verify};
+constinit const SheetFunctions kSheetFunctions{read, verify, find_fine_dots, fit_grid};
 
 }  // namespace dotpose::core

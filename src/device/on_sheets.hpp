@@ -6,6 +6,7 @@
 namespace dotpose::core {
 
 struct DeviceWorkspace;
+struct Tracking;
 
 /// Functions for known sheets. DeviceWorkspace calls them through a pointer, so that a program
 /// without known sheets does not contain them.
@@ -17,6 +18,12 @@ struct SheetFunctions {
     /// Returns true if the predicted place of a tracked frame is on the known sheets and its bits
     /// make it certain (see `is_certain_place`).
     bool (*verify)(const DeviceOptions& options, DeviceWorkspace& w);
+    /// Finds the dots of a fine grid in the rows of a tracked frame (see `find_fine_dots`). Only
+    /// locators that know sheets track fine grids.
+    void (*find_dots)(Tracking& tracking);
+    /// Fits a fine grid and reads its bits (see `fit_fine_grid`). If the result is not 0, sets
+    /// `pattern_from_image` and the displacement of the fix.
+    int (*fit_grid)(const DeviceOptions& options, DeviceWorkspace& w);
 };
 extern const SheetFunctions kSheetFunctions;
 

@@ -96,11 +96,10 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     tracking.last_cell = kMaxComparedLines / 2 + cells - 1;
     tracking.stride_px = stride_of(tracking.width_px);
     tracking.rows_kept = static_cast<int>(tracking.rows.size()) / tracking.stride_px;
-    tracking.half_px = spacing_q8 < kFine_px * 256 ? kFineHalf_px : kHalf_px;
-    tracking.corner_offset = -tracking.half_px * (tracking.stride_px + 1);
-    tracking.corners_apart = 2 * tracking.half_px * tracking.stride_px;
-    tracking.rows_needed = 2 * tracking.half_px + 3;
-    if (2 * tracking.rows_needed + kRowsAtOnce > tracking.rows_kept) return false;
+    tracking.is_fine = spacing_q8 < kFine_px * 256;
+    tracking.corner_offset = -kHalf_px * (tracking.stride_px + 1);
+    tracking.corners_apart = 2 * kHalf_px * tracking.stride_px;
+    if (2 * kRowsNeeded + kRowsAtOnce > tracking.rows_kept) return false;
     // If the memory has room for all rows, the error of the prediction is measured from the whole
     // frame. Otherwise, it is measured from rows with a height of 13/4 spacings. At least 5/2
     // spacings are needed.
@@ -147,10 +146,11 @@ void set_displacement(std::int32_t displacement_q12, Tracking& tracking) {
     }
 }
 
-Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, Tracking& tracking) {
+Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, PlaneFromImage& plane,
+                           Tracking& tracking) {
     if (!is_sane(prediction)) return Status::not_tracked;
     const FixedVec centre_q8{(tracking.width_px - 1) * 128, (tracking.height_px - 1) * 128};
-    const PlaneFromImage plane = tangent(prediction.pattern_from_image, centre_q8);
+    plane = tangent(prediction.pattern_from_image, centre_q8);
     // Cell (kMaxComparedLines / 2, kMaxComparedLines / 2) is in the middle of the image.
     const FixedVec at = plane.at_centre_q16;
     const FixedVec first{(at.x >> 16) - kMaxComparedLines / 2,
@@ -164,6 +164,7 @@ Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, Track
         static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(squared(along))) >> 8);
     if (!lay_out_memory(spacing_q8, tracking)) return Status::not_tracked;
     tracking.cells.origin_q16.y -= tracking.rows_above * 65536;
+    plane.at_centre_q16 = at_q16;
     tracking.du_q20 = {plane.du_q24.x >> 4, plane.du_q24.y >> 4};
     tracking.dv_q20 = {plane.dv_q24.x >> 4, plane.dv_q24.y >> 4};
     tracking.spacing_q8 = spacing_q8;

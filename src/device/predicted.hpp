@@ -12,7 +12,7 @@ namespace dotpose::core {
 /// Number of rows that are collected before the dots in them are read.
 inline constexpr int kRowsAtOnce = 12;
 
-/// Sets the corner, the cells, and the members of `tracking` that depend on the spacing. The memory
+/// Sets the plane, relative to cell (0, 0), the corner, the cells, and the members of `tracking` that depend on the spacing. The memory
 /// and the image size must already be set. The image must have at most 4096 px per side. The
 /// prediction may have any values. Returns not_tracked in each of these cases:
 /// - a value of the prediction is out of range,
@@ -20,7 +20,8 @@ inline constexpr int kRowsAtOnce = 12;
 /// - the cells are not nearly square,
 /// - the memory is too small,
 /// - the part of the image whose cells fit in the memory is too small.
-Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, Tracking& tracking);
+Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, PlaneFromImage& plane,
+                           Tracking& tracking);
 
 /// Index, along both axes, of the cell near the middle of the image.
 inline constexpr int kMiddleCell = kMaxComparedLines / 2;

@@ -28,16 +28,13 @@ TrackedView view_of(const Tracking& tracking) {
     for (const FixedVec displaced : tracking.displaced_q16)
         displaced_q16 = std::max(displaced_q16, larger_component(displaced));
     // The square around the pixel of an intersection must be in the image.
-    const int half_px = tracking.half_px;
     // The centre of a dot is rounded to a pixel, and kDotHalf_px pixels on each side of this pixel
-    // must also be in the image. This does not apply to fine grids, whose dots are read even if
-    // they cannot be measured.
-    const std::int32_t of_dot_q16 =
-        half_px == kHalf_px ? kDotHalf_px * 65536 - 32768 + displaced_q16 : 0;
-    const std::int32_t min_q16 = std::max<std::int32_t>(half_px * 65536, of_dot_q16);
+    // must also be in the image.
+    const std::int32_t of_dot_q16 = kDotHalf_px * 65536 - 32768 + displaced_q16;
+    const std::int32_t min_q16 = std::max<std::int32_t>(kHalf_px * 65536, of_dot_q16);
     const auto extent_q16 = [&](int side_px) {
         const std::int32_t end_q16 =
-            std::min<std::int32_t>((side_px - half_px) * 65536, (side_px - 1) * 65536 - of_dot_q16);
+            std::min<std::int32_t>((side_px - kHalf_px) * 65536, (side_px - 1) * 65536 - of_dot_q16);
         return static_cast<std::uint32_t>(end_q16 - min_q16);
     };
     return {{min_q16 + tracking.left_out_px * 65536, min_q16},
@@ -103,7 +100,6 @@ DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& r
     const auto symbol = static_cast<std::size_t>(read.symbol());
     const FixedVec place_q16 = row.next_q16 + tracking.displaced_q16[symbol];
     const FixedVec pixel = pixel_at(place_q16);
-    if (tracking.half_px == kFineHalf_px && !is_kept(tracking, pixel, kDotHalf_px)) return;
     const std::uint8_t* const first =
         kept_row(tracking, pixel.y - kDotHalf_px) + pixel.x - kDotHalf_px;
     const DarkSums sums = dark_sums<kDotHalf_px>(first, tracking.stride_px, read.level());
@@ -145,7 +141,7 @@ void read_ready_dots(Tracking& tracking) {
     // row must be stored. After the last row of the image this does not apply, because all pixels
     // of visible dots are inside the image.
     const int ahead = tracking.rows_taken == tracking.height_px ? 1 : 2;
-    const std::int32_t ready_q16 = (tracking.rows_taken - ahead - tracking.half_px) * 65536 + 32767;
+    const std::int32_t ready_q16 = (tracking.rows_taken - ahead - kHalf_px) * 65536 + 32767;
     TrackedRow* row = &tracking.grid_rows[static_cast<std::size_t>(tracking.first_cell)];
     for (int j = tracking.first_cell; j <= tracking.last_cell; ++j, ++row) {
         while (row->next_q16.y <= ready_q16) {

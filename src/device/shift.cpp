@@ -12,8 +12,6 @@
 namespace dotpose::core {
 
 Shifts::Shifts(const Tracking& tracking) {
-    const bool is_fine = tracking.half_px == kFineHalf_px;
-    step_px_ = is_fine ? 1 : 2;
     // Only dots within two spacings of the middle column are used, because a rotation relative to
     // the prediction changes the sums over these dots only slightly.
     const int half = 4 * tracking.spacing_q8 >> 9;
@@ -22,18 +20,17 @@ Shifts::Shifts(const Tracking& tracking) {
     // sideways by this distance. The search range includes this movement.
     const int sideways_px = 18 * ((tracking.height_px - rows_) / 2) >> 8;
     const auto steps = [&](int reach_px) {
-        return std::min((reach_px + step_px_ - 1) / step_px_, kMaxSteps);
+        return std::min((reach_px + kStep_px - 1) / kStep_px, kMaxSteps);
     };
     steps_ = {steps(tracking.reach_px + sideways_px), steps(tracking.reach_px)};
     // Minimum distance of dots from the left and the right edge of the image: the largest shift,
     // plus half a spacing for the displacement of dots.
-    const int margin = step_px_ * steps_.x + (tracking.spacing_q8 >> 9) + 1;
+    const int margin = kStep_px * steps_.x + (tracking.spacing_q8 >> 9) + 1;
     left_ = std::max(tracking.width_px / 2 - half, margin);
     right_ = std::min(tracking.width_px / 2 + half, tracking.width_px - margin);
     measure_paper(tracking);
-    // Pixels below this level count as dark. In fine grids the level is close to the paper level,
-    // because dots are pale and hardly larger than a pixel.
-    cut_ = paper_ - paper_ / (is_fine ? 16 : 4);
+    // Pixels below this level count as dark.
+    cut_ = paper_ - paper_ / 4;
     add_dots(tracking);
     divide_by_dots();
 }
@@ -59,7 +56,7 @@ void Shifts::measure_paper(const Tracking& tracking) {
 }
 
 void Shifts::add_dots(const Tracking& tracking) {
-    const int reach = step_px_ * steps_.y;
+    const int reach = kStep_px * steps_.y;
     // Maximum distance of the visited cells from the middle cell, in cells along each axis. At any
     // rotation of the grid, the visited cells contain every dot that is within two spacings of the
     // middle column of the image, and that is in the first rows or can be moved into them by a
@@ -86,15 +83,15 @@ void Shifts::add_dots(const Tracking& tracking) {
 }
 
 void Shifts::add_dot(const Tracking& tracking, int u, int v) {
-    const int left = u - step_px_ * steps_.x;
-    int row = v - step_px_ * steps_.y;
-    for (int y = 0; y <= 2 * steps_.y; ++y, row += step_px_) {
+    const int left = u - kStep_px * steps_.x;
+    int row = v - kStep_px * steps_.y;
+    for (int y = 0; y <= 2 * steps_.y; ++y, row += kStep_px) {
         if (static_cast<unsigned>(row) >= static_cast<unsigned>(rows_)) continue;
         ++dots_[static_cast<std::size_t>(y)];
         const std::uint8_t* pixel = kept_row(tracking, row) + left;
         std::uint16_t* sum = row_of(y);
         for (const std::uint16_t* end = sum + 2 * steps_.x + 1; sum != end;
-             ++sum, pixel += step_px_) {
+             ++sum, pixel += kStep_px) {
             const int darkness = cut_ - *pixel;
             if (darkness >= 0) *sum = static_cast<std::uint16_t>(*sum + darkness);
         }
@@ -139,7 +136,7 @@ bool Shifts::next(FixedVec& shift_q8) {
         }
     }
     if (best == 0) return false;
-    const int step_q8 = step_px_ * 256;
+    const int step_q8 = kStep_px * 256;
     // Interpolates the maximum between the steps, using the neighbours on both sides.
     const auto between = [step_q8](int before, int here, int after) {
         return (after - before) * step_q8 / std::max(before + here + after, 1);

@@ -28,6 +28,8 @@ class Shifts {
     int depth() const { return depth_; }
 
   private:
+    /// Distance between sampled pixels. Less than half the diameter of a dot.
+    static constexpr int kStep_px = 2;
     /// Maximum number of steps in each direction from the middle of the search range.
     static constexpr int kMaxSteps = 8;
     static constexpr int kMaxPerSide = 2 * kMaxSteps + 1;
@@ -41,7 +43,6 @@ class Shifts {
     std::uint16_t* row_of(int y) { return sums_.data() + (y + 1) * kPerRow + 1; }
     void forget_around(FixedVec at);
 
-    int step_px_ = 0;  ///< distance between sampled pixels; less than half the diameter of a dot
     int left_ = 0;
     int right_ = 0;
     int rows_ = 0;

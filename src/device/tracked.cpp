@@ -6,6 +6,7 @@
 #include "core/steps.hpp"
 #include "device/coded_cells.hpp"
 #include "device/near_dot.hpp"
+#include "device/fine_dots.hpp"
 #include "device/newest_rows.hpp"
 #include "device/predicted.hpp"
 #include "device/read_dots.hpp"
@@ -33,7 +34,7 @@ Status settle(Tracking& tracking) {
         // The mass of dots is not known until `find_turn` measures it. Until then, the threshold is
         // midway between paper and ink, and the range of masses is wide.
         tracking.cut_q8 = 128 * shifts.depth() / paper;
-        tracking.min_mass = tracking.half_px == kFineHalf_px ? paper / 16 : paper / 8 + 16;
+        tracking.min_mass = paper / 8 + 16;
         tracking.max_mass = INT16_MAX;
         if (find_turn(tracking)) return Status::ok;
     }
@@ -42,6 +43,13 @@ Status settle(Tracking& tracking) {
 
 Status read_rows(DeviceWorkspace& w) {
     Tracking& t = w.tracking;
+    if (t.is_fine) {
+        if (t.rows_taken - t.first_kept == t.rows_kept || t.rows_taken == t.height_px) {
+            w.on_sheets->find_dots(t);
+            make_room(kRowsAtOnce, t);
+        }
+        return Status::ok;
+    }
     if (t.rows_taken < t.first_rows) return Status::ok;
     if (t.rows_taken == t.first_rows) {
         const Status status = settle(t);
@@ -67,16 +75,30 @@ Status verify_place(const DeviceOptions& options, DeviceWorkspace& w) {
     return verify_tracked(options.code, t.lines, t.corner, options.integrity, w.decoding, w.fix);
 }
 
-/// Verifies the place with the bits of the dots, and fits the pose. Error: not_tracked.
-Status confirm(const DeviceOptions& options, DeviceWorkspace& w) {
+/// Verifies the place with the bits of the dots, and fits the plane. Returns the number of dots in
+/// the fit, or 0 if the frame is not tracked.
+int verify_and_fit(const DeviceOptions& options, DeviceWorkspace& w) {
     Tracking& t = w.tracking;
-    if (t.status != Status::ok) return t.status;
+    if (t.is_fine) {
+        const int used = w.on_sheets->fit_grid(options, w);
+        w.fix.dots_seen = dots_seen(t);
+        w.decoding.place = t.corner;
+        return used > 0 && verify_place(options, w) == Status::ok ? used : 0;
+    }
     w.fix.dots_seen = dots_seen(t);
     w.decoding.place = t.corner;
-    if (verify_place(options, w) != Status::ok) return Status::not_tracked;
-    w.fix.dots_used = fit_tracked_pose(t, w.pattern_from_image, w.fix.displacement_q16);
-    if (w.fix.dots_used == 0) return Status::not_tracked;
+    if (verify_place(options, w) != Status::ok) return 0;
+    const int used = fit_tracked_pose(t, w.pattern_from_image, w.fix.displacement_q16);
     w.pattern_from_image.centre_q8.y += t.rows_above * 256;
+    return used;
+}
+
+/// Verifies the place, and writes the pose. Error: not_tracked.
+Status confirm(const DeviceOptions& options, DeviceWorkspace& w) {
+    const Tracking& t = w.tracking;
+    if (t.status != Status::ok) return t.status;
+    w.fix.dots_used = verify_and_fit(options, w);
+    if (w.fix.dots_used == 0) return Status::not_tracked;
     write_affine_pose(w.pattern_from_image, reference_q8(w.pattern_from_image.centre_q8, options),
                       options.code, t.corner, w.fix);
     return Status::ok;
@@ -96,14 +118,17 @@ Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& op
     t.min_side_px = w.min_side_px;
     t.dots_measured = 0;
     t.offset_q8 = {};
+    t.next_reading = kFirstFineRow;
     // Frames with lens distortion are not tracked, but located without the prediction.
-    t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.code, t)
+    t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.code,
+                                                             w.pattern_from_image, t)
                                        : Status::not_tracked;
     // A workspace that keeps every stage is used on a processor that is fast enough to locate the
     // whole frame without the prediction. This is more accurate than tracking only the middle of
     // the frame.
     if (w.keeps_every_stage && t.left_out_px > 0) t.status = Status::not_tracked;
     t.rows_taken = -t.rows_above;
+    std::fill(t.lines.begin(), t.lines.end(), ComparedLine{});
     if (t.status == Status::ok) lay_tracked_lines(options.code, t);
     return w.fix.status = t.status;
 }

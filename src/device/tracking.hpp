@@ -54,6 +54,13 @@ struct TrackedView {
     }
 };
 
+/// A dot of a fine grid. The coordinates are relative to the middle of the image, in 2^-8 px.
+struct FineDot {
+    std::int16_t x_q8;
+    std::int16_t y_q8;
+    std::int16_t mass;
+};
+
 /// A frame whose dots are measured at their predicted places while its rows arrive. If the frame
 /// contains too many cells, only its middle is tracked. All stages then use this part as the image.
 struct Tracking {
@@ -67,7 +74,6 @@ struct Tracking {
     int rows_taken = 0;
     int first_kept = 0;  ///< index of the first stored image row
     int stride_px = 0;
-    int half_px = 0;  ///< see kHalf_px
     /// Offsets in the square around an intersection, in bytes. `corner_offset` is the offset from
     /// the middle pixel to the upper left corner. `corners_apart` is the offset from an upper to a
     /// lower corner.
@@ -91,6 +97,9 @@ struct Tracking {
     std::int16_t min_side_px = 0;  ///< minimum width and height of the tracked part
     std::int16_t left_out_px = 0;  ///< number of columns to the left of the tracked part
     std::int16_t rows_above = 0;   ///< number of rows above the tracked part
+    /// True if the spacing is too small to read dots around their predicted places. The frame is
+    /// then tracked by device/fine_dots and device/fine_grid.
+    bool is_fine = false;
     CellMap cells;
     /// Derivatives of the pattern point with respect to the image coordinates u and v, in 2^-20
     /// spacings per px.
@@ -98,16 +107,16 @@ struct Tracking {
     FixedVec dv_q20;
     std::int32_t displacement_q12 = 0;
     int rows_kept = 0;     ///< number of rows for which there is memory
-    int rows_needed = 0;   ///< number of newest rows still needed after dots were read; less than
-                           ///< half of rows_kept
     int first_rows = 0;    ///< number of first rows in which the prediction error is measured
-    int next_reading = 0;  ///< value of rows_taken at which dots are read next
+    int next_reading = 0;  ///< value of rows_taken at which dots are read next; in fine grids, the
+                           ///< next row in which dots are searched
     int reach_px = 0;  ///< maximum position error that the search covers, in px at the image centre
     Place corner;      ///< place of cell (0, 0) in the code
     int first_cell = 0;  ///< first cell, along each axis, that may be in view
     int last_cell = 0;
     std::span<TrackedRow> grid_rows;
     TrackedView view;
+    std::span<FineDot> fine_dots;  ///< the first `dots_measured` are those of a fine grid
 };
 
 }  // namespace dotpose::core

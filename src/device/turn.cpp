@@ -132,7 +132,7 @@ void Rounds::recentre(FixedVec middle) {
 void Rounds::measure(int i, int j) {
     const FixedVec at_q16 = place_q16(tracking_.cells, i, j);
     // Skips cells outside the first rows, such as most cells of the outer rings.
-    if (!is_kept(tracking_, pixel_at(at_q16), tracking_.half_px)) return;
+    if (!is_kept(tracking_, pixel_at(at_q16), kHalf_px)) return;
     NearDot dot;
     if (!measure_around(tracking_, at_q16, dot)) return;
     ++seen_;

@@ -119,6 +119,7 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
         tracking.rows = tracked.rows;
         tracking.lines = tracked.lines;
         tracking.grid_rows = memory_of<TrackedDots>(dot_memory_).grid_rows;
+        tracking.fine_dots = memory_of<FineDotMemory>(dot_memory_).dots;
         open.max_runs = kCapacity.max_runs;
     }
     DeviceWorkspaceOf(const DeviceWorkspaceOf&) = delete;
@@ -160,6 +161,9 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
     };
     struct TrackedDots {
         std::array<TrackedRow, kMaxComparedLines> grid_rows;
+    };
+    struct FineDotMemory {
+        std::array<FineDot, kCapacity.dots> dots;
     };
 
     template <typename Stages, std::size_t Size>

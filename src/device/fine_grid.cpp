@@ -1,0 +1,284 @@
+#include "device/fine_grid.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/math/fixed.hpp"
+#include "device/affine_fit_int32.hpp"
+#include "device/coded_cells.hpp"
+#include "device/predicted.hpp"
+
+namespace dotpose::core {
+namespace {
+
+constexpr int kMinDots = 12;
+constexpr std::int32_t kOneCell_q24 = 1 << 24;
+/// Maximum distance of a dot from its fitted place along each axis: an eighth of the spacing.
+constexpr std::int32_t kMaxOffset_q24 = kOneCell_q24 / 8;
+
+/// Mean phase of coordinates in their cells. Instead of cosine and sine, uses triangle waves, which
+/// need neither a table nor a multiplication.
+class MeanPhase {
+  public:
+    /// Adds a coordinate, in 2^-8 cells.
+    void add(std::int32_t coordinate_q8) {
+        constexpr int kQuarter_q8 = 64;
+        cosine_ += kQuarter_q8 - magnitude<int>(static_cast<std::int8_t>(coordinate_q8));
+        sine_ += kQuarter_q8 - magnitude<int>(static_cast<std::int8_t>(coordinate_q8 - kQuarter_q8));
+    }
+    /// Returns the phase, in 2^-8 cells.
+    int q8() const {
+        const int size = std::max(magnitude(cosine_) + magnitude(sine_), 1);
+        const int part = 64 * sine_ / size;
+        if (cosine_ >= 0) return part;
+        return (sine_ >= 0 ? 128 : -128) - part;
+    }
+
+  private:
+    int cosine_ = 0;
+    int sine_ = 0;
+};
+
+/// Phases along one axis, separately for the two halves of the view on both sides of the middle. A
+/// turn of the grid moves the dots of the two halves in opposite directions.
+class PhasesOfAxis {
+  public:
+    /// Adds a dot. `across_q8` is its distance from the middle on the other axis, in 2^-8 cells.
+    void add(std::int32_t coordinate_q8, std::int32_t across_q8) {
+        halves_[across_q8 < 0 ? 0 : 1].add(coordinate_q8);
+        across_q8_ += magnitude(across_q8);
+    }
+    struct Line {
+        int shift_q8;             ///< phase in the middle, in 2^-8 cells
+        std::int32_t slope_q16;  ///< change of the phase per cell across
+    };
+    Line fit(int dots) const {
+        const int first_q8 = halves_[0].q8();
+        const int rise_q8 = static_cast<std::int8_t>(halves_[1].q8() - first_q8);
+        // The middles of the halves are twice the mean distance apart.
+        return {static_cast<std::int8_t>(first_q8 + rise_q8 / 2),
+                (rise_q8 * dots * (1 << 15)) / std::max<std::int32_t>(across_q8_, 1)};
+    }
+
+  private:
+    std::array<MeanPhase, 2> halves_;
+    std::int32_t across_q8_ = 0;
+};
+
+/// The place of a dot relative to its intersection, in 2^-24 cells, and its symbol.
+struct ReadDot {
+    FixedVec cell;
+    FixedVec from_intersection_q24;
+    Symbol symbol;
+};
+
+class FineGrid {
+  public:
+    FineGrid(Tracking& tracking, PlaneFromImage& plane)
+        : tracking_(tracking), plane_(plane), displacement_q24_(tracking.displacement_q12 << 12) {
+        take_slopes();
+        for (const FineDot& dot : dots())
+            mass_ += dot.mass;
+    }
+
+    /// Shifts and turns the plane by the phases of the dots near the middle.
+    void fit_phases();
+    /// Fits the plane to the offsets of all dots from their places. Returns the number of dots in
+    /// the fit, or 0 if the dots do not determine a plane.
+    int fit();
+    /// Reads the bits of all dots. Until the code is compared, ComparedLine::wrong contains the
+    /// bits themselves.
+    void read();
+    /// Returns the phases at the middle, in 2^-8 cells.
+    FixedVec phase_q8() const { return phase_q8_; }
+    std::int32_t displacement_q16() const { return displacement_q24_ >> 8; }
+
+  private:
+    void take_slopes() {
+        du_q16_ = {plane_.du_q24.x >> 8, plane_.du_q24.y >> 8};
+        dv_q16_ = {plane_.dv_q24.x >> 8, plane_.dv_q24.y >> 8};
+    }
+    FixedVec from_middle_q24(const FineDot& dot) const {
+        return {du_q16_.x * dot.x_q8 + dv_q16_.x * dot.y_q8,
+                du_q16_.y * dot.x_q8 + dv_q16_.y * dot.y_q8};
+    }
+    /// Returns true if the mass of a dot is near the mean mass.
+    bool is_plausible(const FineDot& dot) const {
+        const int relative = dot.mass * tracking_.dots_measured;
+        return 8 * relative >= 3 * mass_ && 2 * relative <= 5 * mass_;
+    }
+    ReadDot read(const FineDot& dot) const;
+    std::span<const FineDot> dots() const {
+        return tracking_.fine_dots.first(static_cast<std::size_t>(tracking_.dots_measured));
+    }
+
+    Tracking& tracking_;
+    PlaneFromImage& plane_;
+    std::int32_t mass_ = 0;  ///< sum of the masses of all dots
+    FixedVec du_q16_;
+    FixedVec dv_q16_;
+    FixedVec phase_q8_;
+    std::int32_t displacement_q24_;
+};
+
+void FineGrid::fit_phases() {
+    PhasesOfAxis along_x;
+    PhasesOfAxis along_y;
+    const FixedVec middle_q8{plane_.at_centre_q16.x >> 8,
+                             plane_.at_centre_q16.y >> 8};
+    // Farther dots may be off by more than half a spacing, because of the error of the turn.
+    constexpr std::int32_t kNear_q8 = 7 * 128;
+    int count = 0;
+    for (const FineDot& dot : dots()) {
+        const FixedVec p_q24 = from_middle_q24(dot);
+        const FixedVec p_q8{p_q24.x >> 16, p_q24.y >> 16};
+        if (!is_within(p_q8, kNear_q8) || !is_plausible(dot)) continue;
+        ++count;
+        along_x.add(middle_q8.x + p_q8.x, p_q8.y);
+        along_y.add(middle_q8.y + p_q8.y, p_q8.x);
+    }
+    const PhasesOfAxis::Line x = along_x.fit(count);
+    const PhasesOfAxis::Line y = along_y.fit(count);
+    phase_q8_ = {x.shift_q8, y.shift_q8};
+    plane_.at_centre_q16 = plane_.at_centre_q16 - FixedVec{x.shift_q8 * 256, y.shift_q8 * 256};
+    const std::int32_t turn_q12 = (y.slope_q16 - x.slope_q16) >> 5;
+    const auto turn_back = [turn_q12](FixedVec& slope_q24) {
+        slope_q24 = slope_q24 + FixedVec{(slope_q24.y >> 12) * turn_q12,
+                                         -(slope_q24.x >> 12) * turn_q12};
+    };
+    turn_back(plane_.du_q24);
+    turn_back(plane_.dv_q24);
+    take_slopes();
+}
+
+ReadDot FineGrid::read(const FineDot& dot) const {
+    const FixedVec at_q16 = plane_.at_centre_q16;
+    const FixedVec p_q24 =
+        from_middle_q24(dot) + FixedVec{at_q16.x * 256, at_q16.y * 256};
+    const FixedVec cell{(p_q24.x + kOneCell_q24 / 2) >> 24, (p_q24.y + kOneCell_q24 / 2) >> 24};
+    const FixedVec from_q24 = p_q24 - FixedVec{cell.x * kOneCell_q24, cell.y * kOneCell_q24};
+    return {cell, from_q24,
+            symbol_of({from_q24.y - from_q24.x, from_q24.y + from_q24.x})};
+}
+
+int FineGrid::fit() {
+    constexpr int kTargetBits = 14;
+    AffineFitInt32 fit;
+    std::int32_t displacement_q16 = 0;
+    for (const FineDot& dot : dots()) {
+        if (!is_plausible(dot)) continue;
+        const ReadDot read_dot = read(dot);
+        const FixedVec from_q24 = read_dot.from_intersection_q24;
+        const FixedVec direction{dx(read_dot.symbol), dy(read_dot.symbol)};
+        const FixedVec offset_q24 = from_q24 - FixedVec{direction.x * displacement_q24_,
+                                                        direction.y * displacement_q24_};
+        if (!is_within(offset_q24, kMaxOffset_q24)) continue;
+        fit.add({dot.x_q8 >> 5, dot.y_q8 >> 5},
+                {offset_q24.x >> (24 - kTargetBits), offset_q24.y >> (24 - kTargetBits)});
+        displacement_q16 += (from_q24.x * direction.x + from_q24.y * direction.y) >> 8;
+    }
+    if (fit.count() < kMinDots) return 0;
+    PlaneFromImage offsets;
+    if (!fit.solve(kTargetBits, offsets)) return 0;
+    displacement_q24_ = displacement_q16 / fit.count() * 256;
+    plane_.at_centre_q16 = plane_.at_centre_q16 - offsets.at_centre_q16;
+    plane_.du_q24 = plane_.du_q24 - offsets.du_q24;
+    plane_.dv_q24 = plane_.dv_q24 - offsets.dv_q24;
+    take_slopes();
+    return fit.count();
+}
+
+void FineGrid::read() {
+    const auto is_in = [&](int cell) {
+        return cell >= tracking_.first_cell && cell <= tracking_.last_cell;
+    };
+    for (const FineDot& dot : dots()) {
+        if (!is_plausible(dot)) continue;
+        const auto [cell, from_q24, symbol] = read(dot);
+        // The bits are unclear if the dot is nearly as far from two of its four places.
+        const std::int32_t difference_q24 = magnitude(from_q24.x) - magnitude(from_q24.y);
+        if (magnitude(difference_q24) < displacement_q24_ / 4 || !is_in(cell.x) || !is_in(cell.y))
+            continue;
+        ComparedLine& column = column_of(tracking_, cell.x);
+        ComparedLine& row = row_of(tracking_, cell.y);
+        const auto s = static_cast<std::uint32_t>(symbol);
+        column.seen |= std::uint32_t{1} << cell.y;
+        row.seen |= std::uint32_t{1} << cell.x;
+        column.wrong |= (s & 1) << cell.y;
+        row.wrong |= (s >> 1) << cell.x;
+    }
+}
+
+/// Returns the bits of the code in a line of one axis, for a place that is `line_shift` lines and
+/// `cell_shift` cells further. Each shift is at most one.
+std::uint32_t code_at(std::span<const ComparedLine> lines, int line, int line_shift,
+                      int cell_shift) {
+    const std::uint32_t bits = lines[static_cast<std::size_t>(line + line_shift)].code;
+    return cell_shift >= 0 ? bits >> cell_shift : bits << 1;
+}
+
+struct BitCount {
+    int seen = 0;
+    int wrong = 0;
+
+    /// Compares the bits of an axis with the code at a shift.
+    void add(const Tracking& tracking, std::span<const ComparedLine> lines, int line_shift,
+             int cell_shift) {
+        for (int line = tracking.first_cell; line <= tracking.last_cell; ++line) {
+            const ComparedLine& read = lines[static_cast<std::size_t>(line)];
+            if (read.seen == 0) continue;
+            const std::uint32_t code = code_at(lines, line, line_shift, cell_shift);
+            seen += bits_in(read.seen);
+            wrong += bits_in((code ^ read.wrong) & read.seen);
+        }
+    }
+};
+
+/// Returns true if at least three quarters of the bits agree with the code at a shift.
+bool agrees(const Tracking& tracking, FixedVec shift) {
+    BitCount count;
+    count.add(tracking, tracking.lines.first(kMaxComparedLines), shift.x, shift.y);
+    count.add(tracking, tracking.lines.last(kMaxComparedLines), shift.y, shift.x);
+    return 4 * count.wrong <= count.seen;
+}
+
+/// Moves the corner to the place whose code agrees with the bits, and marks the bits that contradict
+/// the code there. The place is at most one cell from the predicted place along each axis. Returns
+/// false if there is no such place. `phase_q8` is the shift of the grid relative to the prediction.
+bool find_place(FixedVec phase_q8, CodeVariant code, Tracking& tracking) {
+    // If the phase is at least this number of cells, the shift of the pattern may also be the phase
+    // minus or plus one cell. Its magnitude is then at most 3/5 of a cell.
+    constexpr int kLarge_q8 = 256 * 2 / 5;
+    const auto other = [](int phase) {
+        return magnitude(phase) < kLarge_q8 ? 0 : phase > 0 ? 1 : -1;
+    };
+    const FixedVec far{other(phase_q8.x), other(phase_q8.y)};
+    for (const FixedVec shift : {FixedVec{}, FixedVec{far.x, 0}, FixedVec{0, far.y}, far}) {
+        if (!agrees(tracking, shift)) continue;
+        if (shift != FixedVec{}) {
+            tracking.corner = moved(code, tracking.corner, shift.x, shift.y);
+            lay_tracked_lines(code, tracking);
+        }
+        for (ComparedLine& line : tracking.lines)
+            line.wrong = (line.wrong ^ line.code) & line.seen;
+        return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+int fit_fine_grid(CodeVariant code, Tracking& tracking, PlaneFromImage& plane,
+                  std::int32_t& displacement_q16) {
+    if (tracking.dots_measured < kMinDots) return 0;
+    FineGrid grid(tracking, plane);
+    grid.fit_phases();
+    if (grid.fit() == 0) return 0;
+    grid.read();
+    if (!find_place(grid.phase_q8(), code, tracking)) return 0;
+    const int used = grid.fit();
+    displacement_q16 = grid.displacement_q16();
+    return used;
+}
+
+}  // namespace dotpose::core
