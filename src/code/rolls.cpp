@@ -48,4 +48,17 @@ void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
     }
 }
 
+RollsAhead::RollsAhead(CodeVariant code, std::uint32_t position) {
+    // As in `roll`, but without the contributions of the places, which `at` adds.
+    const std::uint32_t lines = modulo_sections(position) + 4 * kSections;
+    std::uint32_t sum = kMinDelta * lines;
+    const Basis& sequences = basis(code);
+    for (std::size_t k = 0; k < here_.size(); ++k) {
+        const std::uint32_t place = sequences[k].place_of(position);
+        sum += (lines - place) * sequences[k].period_roll;
+        here_[k] = sequences[k].rolls + place;
+    }
+    sum_ = modulo_sections(sum);
+}
+
 }  // namespace dotpose::code

@@ -3,9 +3,11 @@
 // `roll_from` for each line.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
+#include "code/tables.hpp"
 #include "dotpose/code.hpp"
 
 namespace dotpose::code {
@@ -22,5 +24,23 @@ int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, st
 /// The range may extend beyond the last position, because the roll differences are periodic.
 void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls);
+
+/// The rolls of consecutive lines in section 0, computed one by one. Unlike `follow_rolls`, does not
+/// compute rolls that are not needed.
+class RollsAhead {
+  public:
+    RollsAhead(CodeVariant code, std::uint32_t position);
+
+    /// Returns the roll of the line `position` + i plus `added`, modulo 63. Requires i < kLinesAhead
+    /// and added < 63.
+    std::uint32_t at(std::uint32_t i, std::uint32_t added) const {
+        return short_modulo_sections(sum_ + added + here_[0][i] + here_[1][i] + here_[2][i] +
+                                     here_[3][i] + kMinDelta * i);
+    }
+
+  private:
+    std::array<const std::uint8_t*, 4> here_;
+    std::uint32_t sum_;
+};
 
 }  // namespace dotpose::code

@@ -1,7 +1,10 @@
 #include "device/fine_dots.hpp"
 
+#include <algorithm>
+
 #include "core/detect/inverses.hpp"
 #include "core/kernels/portable/dark_sums.hpp"
+#include "core/noinline.hpp"
 #include "device/newest_rows.hpp"
 
 namespace dotpose::core {
@@ -9,10 +12,9 @@ namespace {
 
 /// Half side of the square in which a dot is measured, in px. No other dot reaches its corners.
 constexpr int kHalf_px = 2;
-/// Distance between a pixel and the pixel with which it is compared first, in px. No two dots of a
-/// row of pixels are at this distance, so a dot is darker than this pixel.
-constexpr int kBeside_px = 3;
-
+/// Size of the parts of the image in which the paper level is estimated, in px.
+constexpr int kPartWidth_px = 16;
+constexpr int kPartHeight_px = 4;
 /// Minimum mass, for which `Inverse` is exact enough.
 constexpr int kMinMass = 16;
 
@@ -53,15 +55,37 @@ void add_dot(const std::uint8_t* at, int u, int v, Tracking& tracking) {
         from_middle(v, tracking.height_px, offset_q8.y), static_cast<std::int16_t>(sums.mass)};
 }
 
-/// Adds the dots whose darkest pixels are in row `v`, from column `u` to the column before `end`.
-/// Pixels are compared first with the pixel at the distance `beside`.
-void search(int u, int end, int beside, int v, Tracking& tracking) {
-    const std::uint8_t* const row = kept_row(tracking, v);
+/// Returns the mean of every fourth pixel in four rows. At most an eighth of the pixels are dark, so
+/// the mean is little below the paper level.
+int sampled_mean(const std::uint8_t* row, int stride) {
+    int sum = 0;
+    for (int v = 0; v < 4; ++v, row += stride)
+        sum += row[0] + row[4] + row[8] + row[12];
+    return sum >> 4;
+}
+
+/// Returns the next pixel below `level`, or `end`. Not inlined, because the caller would then need
+/// more registers than small processors have.
+DOTPOSE_NOINLINE const std::uint8_t* next_dark(const std::uint8_t* at, const std::uint8_t* end,
+                                               int level) {
+#pragma GCC unroll 4
+    for (; at != end; ++at) {
+        if (*at < level) break;
+    }
+    return at;
+}
+
+/// Adds the dots whose darkest pixels are in a part of the image, which begins at (u, v).
+void search_part(int u, int v, int width_px, int height_px, Tracking& tracking) {
     const int stride = tracking.stride_px;
-    const std::uint8_t* at = row + u;
-    for (const std::uint8_t* const last = row + end; at != last; ++at) {
-        if (at[0] < paper_edge(at[beside]) && is_darkest(at, stride))
-            add_dot(at, static_cast<int>(at - row), v, tracking);
+    const int sampled_u = std::min(u, tracking.width_px - tracking.left_out_px - kPartWidth_px);
+    const int level = paper_edge(sampled_mean(kept_row(tracking, v - 1) + sampled_u, stride));
+    const std::uint8_t* row = kept_row(tracking, v) + u;
+    for (const int end_v = v + height_px; v < end_v; ++v, row += stride) {
+        const std::uint8_t* const end = row + width_px;
+        for (const std::uint8_t* at = row; (at = next_dark(at, end, level)) != end; ++at) {
+            if (is_darkest(at, stride)) add_dot(at, u + static_cast<int>(at - row), v, tracking);
+        }
     }
 }
 
@@ -70,13 +94,13 @@ void search(int u, int end, int beside, int v, Tracking& tracking) {
 void find_fine_dots(Tracking& tracking) {
     const int first = tracking.left_out_px + kHalf_px;
     const int end = tracking.width_px - tracking.left_out_px - kHalf_px;
-    const int middle = tracking.width_px / 2;
-    int v = tracking.next_reading;
-    for (; v + kHalf_px < tracking.rows_taken; ++v) {
-        search(first, middle, kBeside_px, v, tracking);
-        search(middle, end, -kBeside_px, v, tracking);
+    const int end_v = tracking.rows_taken - kHalf_px;
+    for (int& v = tracking.next_reading; v < end_v;) {
+        const int height_px = std::min(kPartHeight_px, end_v - v);
+        for (int u = first; u < end; u += kPartWidth_px)
+            search_part(u, v, std::min(kPartWidth_px, end - u), height_px, tracking);
+        v += height_px;
     }
-    tracking.next_reading = v;
 }
 
 }  // namespace dotpose::core

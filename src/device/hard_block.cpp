@@ -57,10 +57,13 @@ int HardLines::wrong_with(const std::uint8_t* rolls, std::uint32_t added, int li
 
 int HardLines::wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added,
                         int limit) const {
-    std::array<std::uint8_t, kMaxComparedLines> rolls;
-    code::follow_rolls(code, position, dotpose::roll(code, position),
-                       std::span(rolls).first(static_cast<std::size_t>(count)));
-    return wrong_with(rolls.data(), added, limit);
+    const code::RollsAhead rolls(code, position);
+    int wrong = 0;
+    const HardLine* line = first;
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(count) && wrong <= limit;
+         ++i, line += step)
+        wrong += line->wrong_at(rolls.at(i, added));
+    return wrong;
 }
 
 HardBlock::HardBlock(const Grid& grid, const GridRegion& region)

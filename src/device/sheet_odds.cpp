@@ -61,14 +61,17 @@ class OddsOfOthers {
              i < range.count; i += kSections) {
             const std::uint32_t position = range.first + i;
             if (is_same_section && position == other.position) continue;
-            const int lost = other.lines.wrong_at(code_, position, added, kMaxBits) - other.wrong;
+            // Counts no more wrong bits than necessary. With fewer wrong bits, the odds are larger.
+            const int lost =
+                other.lines.wrong_at(code_, position, added, other.wrong + kMaxLost) - other.wrong;
             log2_q8_ = add_log2(log2_q8_, -lost * odds_per_bit_q8_);
         }
     }
     int log2_q8() const { return log2_q8_; }
 
   private:
-    static constexpr int kMaxBits = kMaxComparedLines * kMaxComparedLines;
+    /// At more than this number of additional wrong bits, odds are negligible.
+    static constexpr int kMaxLost = 11;
     CodeVariant code_;
     int odds_per_bit_q8_;
     int log2_q8_ = kNever_q8;

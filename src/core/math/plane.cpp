@@ -84,6 +84,7 @@ PlaneFromImage affine_tangent(const PlaneFromImage& plane, FixedVec image_point_
 }
 
 PlaneFromImage tangent(const PlaneFromImage& plane, FixedVec image_point_q8) {
+    if (is_affine(plane)) return affine_tangent(plane, image_point_q8);
     PlaneFromImage result;
     result.centre_q8 = image_point_q8;
     result.at_centre_q16 = plane_point_q16(plane, image_point_q8);
