@@ -65,7 +65,7 @@ class PhasesOfAxis {
     std::int32_t across_q8_ = 0;
 };
 
-/// The place of a dot relative to its intersection, in 2^-24 cells, and its symbol.
+/// The cell of a dot, and the place of the dot relative to its intersection, in 2^-24 cells.
 struct ReadDot {
     FixedVec cell;
     FixedVec from_intersection_q24;
@@ -77,62 +77,80 @@ class FineGrid {
     FineGrid(Tracking& tracking, PlaneFromImage& plane)
         : tracking_(tracking), plane_(plane), displacement_q24_(tracking.displacement_q12 << 12) {
         take_slopes();
-        for (const FineDot& dot : dots())
-            mass_ += dot.mass;
+        leave_out_dirt();
     }
 
+    int dots() const { return tracking_.dots_measured; }
     /// Shifts and turns the plane by the phases of the dots near the middle.
     void fit_phases();
-    /// Fits the plane to the offsets of all dots from their places. Returns the number of dots in
-    /// the fit, or 0 if the dots do not determine a plane.
-    int fit();
-    /// Reads the bits of all dots. Until the code is compared, ComparedLine::wrong contains the
-    /// bits themselves.
-    void read();
+    /// Fits the plane roughly to the offsets of dots from their places.
+    void fit_roughly();
+    /// Reads the bits of all dots, and fits the plane. Until the code is compared,
+    /// ComparedLine::wrong contains the bits themselves. Returns the number of dots in the fit, or
+    /// 0 if the dots do not determine a plane.
+    int read_and_fit();
+
     /// Returns the phases at the middle, in 2^-8 cells.
     FixedVec phase_q8() const { return phase_q8_; }
     std::int32_t displacement_q16() const { return displacement_q24_ >> 8; }
 
   private:
+    std::span<const FineDot> all() const {
+        return tracking_.fine_dots.first(static_cast<std::size_t>(dots()));
+    }
+    /// Removes the dots whose masses are far from the mean mass.
+    void leave_out_dirt();
     void take_slopes() {
         du_q16_ = {plane_.du_q24.x >> 8, plane_.du_q24.y >> 8};
         dv_q16_ = {plane_.dv_q24.x >> 8, plane_.dv_q24.y >> 8};
+        at_q24_ = {plane_.at_centre_q16.x * 256, plane_.at_centre_q16.y * 256};
     }
     FixedVec from_middle_q24(const FineDot& dot) const {
         return {du_q16_.x * dot.x_q8 + dv_q16_.x * dot.y_q8,
                 du_q16_.y * dot.x_q8 + dv_q16_.y * dot.y_q8};
     }
-    /// Returns true if the mass of a dot is near the mean mass.
-    bool is_plausible(const FineDot& dot) const {
-        const int relative = dot.mass * tracking_.dots_measured;
-        return 8 * relative >= 3 * mass_ && 2 * relative <= 5 * mass_;
-    }
     ReadDot read(const FineDot& dot) const;
-    std::span<const FineDot> dots() const {
-        return tracking_.fine_dots.first(static_cast<std::size_t>(tracking_.dots_measured));
+    /// Returns the offset of a dot from its place.
+    FixedVec offset_q24(const ReadDot& dot) const {
+        return dot.from_intersection_q24 - FixedVec{dx(dot.symbol) * displacement_q24_,
+                                                    dy(dot.symbol) * displacement_q24_};
     }
+    void note(const ReadDot& dot);
 
     Tracking& tracking_;
     PlaneFromImage& plane_;
-    std::int32_t mass_ = 0;  ///< sum of the masses of all dots
     FixedVec du_q16_;
     FixedVec dv_q16_;
+    FixedVec at_q24_;
     FixedVec phase_q8_;
     std::int32_t displacement_q24_;
 };
 
+void FineGrid::leave_out_dirt() {
+    std::int32_t mass = 0;
+    for (const FineDot& dot : all())
+        mass += dot.mass;
+    const std::int32_t mean = mass / std::max(dots(), 1);
+    const std::int32_t min_mass = mean * 3 / 8;
+    const std::int32_t max_mass = mean * 5 / 2;
+    FineDot* kept = tracking_.fine_dots.data();
+    for (const FineDot& dot : all()) {
+        if (dot.mass >= min_mass && dot.mass <= max_mass) *kept++ = dot;
+    }
+    tracking_.dots_measured = static_cast<int>(kept - tracking_.fine_dots.data());
+}
+
 void FineGrid::fit_phases() {
     PhasesOfAxis along_x;
     PhasesOfAxis along_y;
-    const FixedVec middle_q8{plane_.at_centre_q16.x >> 8,
-                             plane_.at_centre_q16.y >> 8};
+    const FixedVec middle_q8{at_q24_.x >> 16, at_q24_.y >> 16};
     // Farther dots may be off by more than half a spacing, because of the error of the turn.
     constexpr std::int32_t kNear_q8 = 7 * 128;
     int count = 0;
-    for (const FineDot& dot : dots()) {
+    for (const FineDot& dot : all()) {
         const FixedVec p_q24 = from_middle_q24(dot);
         const FixedVec p_q8{p_q24.x >> 16, p_q24.y >> 16};
-        if (!is_within(p_q8, kNear_q8) || !is_plausible(dot)) continue;
+        if (!is_within(p_q8, kNear_q8)) continue;
         ++count;
         along_x.add(middle_q8.x + p_q8.x, p_q8.y);
         along_y.add(middle_q8.y + p_q8.y, p_q8.x);
@@ -152,61 +170,100 @@ void FineGrid::fit_phases() {
 }
 
 ReadDot FineGrid::read(const FineDot& dot) const {
-    const FixedVec at_q16 = plane_.at_centre_q16;
-    const FixedVec p_q24 =
-        from_middle_q24(dot) + FixedVec{at_q16.x * 256, at_q16.y * 256};
-    const FixedVec cell{(p_q24.x + kOneCell_q24 / 2) >> 24, (p_q24.y + kOneCell_q24 / 2) >> 24};
-    const FixedVec from_q24 = p_q24 - FixedVec{cell.x * kOneCell_q24, cell.y * kOneCell_q24};
-    return {cell, from_q24,
+    constexpr std::int32_t kHalf_q24 = kOneCell_q24 / 2;
+    const FixedVec p_q24 = from_middle_q24(dot) + at_q24_ + FixedVec{kHalf_q24, kHalf_q24};
+    const FixedVec from_q24{(p_q24.x & (kOneCell_q24 - 1)) - kHalf_q24,
+                            (p_q24.y & (kOneCell_q24 - 1)) - kHalf_q24};
+    return {{p_q24.x >> 24, p_q24.y >> 24},
+            from_q24,
             symbol_of({from_q24.y - from_q24.x, from_q24.y + from_q24.x})};
 }
 
-int FineGrid::fit() {
-    constexpr int kTargetBits = 14;
-    AffineFitInt32 fit;
-    std::int32_t displacement_q16 = 0;
-    for (const FineDot& dot : dots()) {
-        if (!is_plausible(dot)) continue;
-        const ReadDot read_dot = read(dot);
-        const FixedVec from_q24 = read_dot.from_intersection_q24;
-        const FixedVec direction{dx(read_dot.symbol), dy(read_dot.symbol)};
-        const FixedVec offset_q24 = from_q24 - FixedVec{direction.x * displacement_q24_,
-                                                        direction.y * displacement_q24_};
-        if (!is_within(offset_q24, kMaxOffset_q24)) continue;
-        fit.add({dot.x_q8 >> 5, dot.y_q8 >> 5},
-                {offset_q24.x >> (24 - kTargetBits), offset_q24.y >> (24 - kTargetBits)});
-        displacement_q16 += (from_q24.x * direction.x + from_q24.y * direction.y) >> 8;
+void FineGrid::fit_roughly() {
+    // Sums of the offsets in 2^-10 cells, and of their products with the coordinates in 1/4 px.
+    FixedVec offset;
+    FixedVec of_x;
+    FixedVec of_y;
+    std::int32_t xx = 0;
+    std::int32_t yy = 0;
+    std::int32_t count = 0;
+    for (const FineDot& dot : all()) {
+        const FixedVec off_q24 = offset_q24(read(dot));
+        if (!is_within(off_q24, kMaxOffset_q24)) continue;
+        const FixedVec off{off_q24.x >> 14, off_q24.y >> 14};
+        const std::int32_t x = dot.x_q8 >> 6;
+        const std::int32_t y = dot.y_q8 >> 6;
+        ++count;
+        offset = offset + off;
+        of_x = of_x + FixedVec{off.x * x, off.y * x};
+        of_y = of_y + FixedVec{off.x * y, off.y * y};
+        xx += x * x;
+        yy += y * y;
     }
-    if (fit.count() < kMinDots) return 0;
+    if (count < kMinDots) return;
+    // The means of x, y and x y are neglected, because the middle of the dots is near the middle of
+    // the image. `read_and_fit` corrects the remaining error.
+    const auto slope_q24 = [](FixedVec products, std::int32_t squares) {
+        const std::int32_t divisor = std::max<std::int32_t>(squares >> 10, 1);
+        return FixedVec{products.x * 64 / divisor, products.y * 64 / divisor};
+    };
+    plane_.at_centre_q16 =
+        plane_.at_centre_q16 - FixedVec{offset.x * 64 / count, offset.y * 64 / count};
+    plane_.du_q24 = plane_.du_q24 - slope_q24(of_x, xx);
+    plane_.dv_q24 = plane_.dv_q24 - slope_q24(of_y, yy);
+    take_slopes();
+}
+
+/// Notes the bits of a dot, unless it is nearly as far from two of its four places.
+void FineGrid::note(const ReadDot& dot) {
+    const auto [cell, from_q24, symbol] = dot;
+    const auto is_in = [&](int index) {
+        return index >= tracking_.first_cell && index <= tracking_.last_cell;
+    };
+    const std::int32_t difference_q24 = magnitude(from_q24.x) - magnitude(from_q24.y);
+    if (magnitude(difference_q24) < displacement_q24_ / 4 || !is_in(cell.x) || !is_in(cell.y))
+        return;
+    ComparedLine& column = column_of(tracking_, cell.x);
+    ComparedLine& row = row_of(tracking_, cell.y);
+    const auto s = static_cast<std::uint32_t>(symbol);
+    column.seen |= std::uint32_t{1} << cell.y;
+    column.wrong |= (s & 1) << cell.y;
+    row.seen |= std::uint32_t{1} << cell.x;
+    row.wrong |= (s >> 1) << cell.x;
+}
+
+int FineGrid::read_and_fit() {
+    // Coordinates are below 2^10 in 1/8 px, and offsets at most 2^11. The sums over 2^9 dots are
+    // therefore at most 2^30.
+    constexpr int kTargetBits = 14;
+    AffineFitInt32::Products<std::int32_t> sums;
+    FixedVec p_sum;
+    FixedVec target_sum;
+    std::int32_t count = 0;
+    std::int32_t displacement_q16 = 0;
+    for (const FineDot& dot : all()) {
+        const ReadDot read_dot = read(dot);
+        note(read_dot);
+        const FixedVec off_q24 = offset_q24(read_dot);
+        if (!is_within(off_q24, kMaxOffset_q24)) continue;
+        const FixedVec p{dot.x_q8 >> 5, dot.y_q8 >> 5};
+        const FixedVec target{off_q24.x >> (24 - kTargetBits), off_q24.y >> (24 - kTargetBits)};
+        ++count;
+        p_sum = p_sum + p;
+        target_sum = target_sum + target;
+        sums.add(p, p, target);
+        displacement_q16 +=
+            larger_component(read_dot.from_intersection_q24) >> 8;
+    }
+    if (count < kMinDots) return 0;
+    displacement_q24_ = displacement_q16 / count * 256;
     PlaneFromImage offsets;
+    AffineFitInt32 fit(count, p_sum, target_sum, sums);
     if (!fit.solve(kTargetBits, offsets)) return 0;
-    displacement_q24_ = displacement_q16 / fit.count() * 256;
     plane_.at_centre_q16 = plane_.at_centre_q16 - offsets.at_centre_q16;
     plane_.du_q24 = plane_.du_q24 - offsets.du_q24;
     plane_.dv_q24 = plane_.dv_q24 - offsets.dv_q24;
-    take_slopes();
-    return fit.count();
-}
-
-void FineGrid::read() {
-    const auto is_in = [&](int cell) {
-        return cell >= tracking_.first_cell && cell <= tracking_.last_cell;
-    };
-    for (const FineDot& dot : dots()) {
-        if (!is_plausible(dot)) continue;
-        const auto [cell, from_q24, symbol] = read(dot);
-        // The bits are unclear if the dot is nearly as far from two of its four places.
-        const std::int32_t difference_q24 = magnitude(from_q24.x) - magnitude(from_q24.y);
-        if (magnitude(difference_q24) < displacement_q24_ / 4 || !is_in(cell.x) || !is_in(cell.y))
-            continue;
-        ComparedLine& column = column_of(tracking_, cell.x);
-        ComparedLine& row = row_of(tracking_, cell.y);
-        const auto s = static_cast<std::uint32_t>(symbol);
-        column.seen |= std::uint32_t{1} << cell.y;
-        row.seen |= std::uint32_t{1} << cell.x;
-        column.wrong |= (s & 1) << cell.y;
-        row.wrong |= (s >> 1) << cell.x;
-    }
+    return count;
 }
 
 /// Returns the bits of the code in a line of one axis, for a place that is `line_shift` lines and
@@ -270,15 +327,13 @@ bool find_place(FixedVec phase_q8, CodeVariant code, Tracking& tracking) {
 
 int fit_fine_grid(CodeVariant code, Tracking& tracking, PlaneFromImage& plane,
                   std::int32_t& displacement_q16) {
-    if (tracking.dots_measured < kMinDots) return 0;
     FineGrid grid(tracking, plane);
+    if (grid.dots() < kMinDots) return 0;
     grid.fit_phases();
-    if (grid.fit() == 0) return 0;
-    grid.read();
-    if (!find_place(grid.phase_q8(), code, tracking)) return 0;
-    const int used = grid.fit();
+    grid.fit_roughly();
+    const int used = grid.read_and_fit();
     displacement_q16 = grid.displacement_q16();
-    return used;
+    return used > 0 && find_place(grid.phase_q8(), code, tracking) ? used : 0;
 }
 
 }  // namespace dotpose::core
