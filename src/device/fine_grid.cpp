@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/math/fixed.hpp"
+#include "core/noinline.hpp"
 #include "device/affine_fit_int32.hpp"
 #include "device/coded_cells.hpp"
 #include "device/predicted.hpp"
@@ -126,7 +127,7 @@ class FineGrid {
     std::int32_t displacement_q24_;
 };
 
-void FineGrid::leave_out_dirt() {
+DOTPOSE_NOINLINE void FineGrid::leave_out_dirt() {
     std::int32_t mass = 0;
     for (const FineDot& dot : all())
         mass += dot.mass;
@@ -135,12 +136,16 @@ void FineGrid::leave_out_dirt() {
     const std::int32_t max_mass = mean * 5 / 2;
     FineDot* kept = tracking_.fine_dots.data();
     for (const FineDot& dot : all()) {
-        if (dot.mass >= min_mass && dot.mass <= max_mass) *kept++ = dot;
+        if (dot.mass < min_mass || dot.mass > max_mass) continue;
+        // A copy of the struct would be a call of `memcpy` on small processors.
+        kept->x_q8 = dot.x_q8;
+        kept->y_q8 = dot.y_q8;
+        ++kept;
     }
     tracking_.dots_measured = static_cast<int>(kept - tracking_.fine_dots.data());
 }
 
-void FineGrid::fit_phases() {
+DOTPOSE_NOINLINE void FineGrid::fit_phases() {
     PhasesOfAxis along_x;
     PhasesOfAxis along_y;
     const FixedVec middle_q8{at_q24_.x >> 16, at_q24_.y >> 16};
@@ -179,7 +184,7 @@ ReadDot FineGrid::read(const FineDot& dot) const {
             symbol_of({from_q24.y - from_q24.x, from_q24.y + from_q24.x})};
 }
 
-void FineGrid::fit_roughly() {
+DOTPOSE_NOINLINE void FineGrid::fit_roughly() {
     // Sums of the offsets in 2^-10 cells, and of their products with the coordinates in 1/4 px.
     FixedVec offset;
     FixedVec of_x;
@@ -215,7 +220,7 @@ void FineGrid::fit_roughly() {
 }
 
 /// Notes the bits of a dot, unless it is nearly as far from two of its four places.
-void FineGrid::note(const ReadDot& dot) {
+DOTPOSE_NOINLINE void FineGrid::note(const ReadDot& dot) {
     const auto [cell, from_q24, symbol] = dot;
     const auto is_in = [&](int index) {
         return index >= tracking_.first_cell && index <= tracking_.last_cell;
@@ -232,7 +237,7 @@ void FineGrid::note(const ReadDot& dot) {
     row.wrong |= (s >> 1) << cell.x;
 }
 
-int FineGrid::read_and_fit() {
+DOTPOSE_NOINLINE int FineGrid::read_and_fit() {
     // Coordinates are below 2^10 in 1/8 px, and offsets at most 2^11. The sums over 2^9 dots are
     // therefore at most 2^30.
     constexpr int kTargetBits = 14;
@@ -302,7 +307,7 @@ bool agrees(const Tracking& tracking, FixedVec shift) {
 /// Moves the corner to the place whose code agrees with the bits, and marks the bits that contradict
 /// the code there. The place is at most one cell from the predicted place along each axis. Returns
 /// false if there is no such place. `phase_q8` is the shift of the grid relative to the prediction.
-bool find_place(FixedVec phase_q8, CodeVariant code, Tracking& tracking) {
+DOTPOSE_NOINLINE bool find_place(FixedVec phase_q8, CodeVariant code, Tracking& tracking) {
     // If the phase is at least this number of cells, the shift of the pattern may also be the phase
     // minus or plus one cell. Its magnitude is then at most 3/5 of a cell.
     constexpr int kLarge_q8 = 256 * 2 / 5;

@@ -43,7 +43,9 @@ std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_acros
 class OddsOfOthers {
   public:
     OddsOfOthers(CodeVariant code, int odds_per_bit_q8)
-        : code_(code), odds_per_bit_q8_(odds_per_bit_q8) {}
+        : code_(code),
+          odds_per_bit_q8_(odds_per_bit_q8),
+          max_lost_(kNegligible_q8 / odds_per_bit_q8) {}
 
     /// Adds the alternatives in a region that have the same lines as the given place on one axis.
     /// `same` contains the lines of this axis at the given place, and `other` those of the other
@@ -63,17 +65,18 @@ class OddsOfOthers {
             if (is_same_section && position == other.position) continue;
             // Counts no more wrong bits than necessary. With fewer wrong bits, the odds are larger.
             const int lost =
-                other.lines.wrong_at(code_, position, added, other.wrong + kMaxLost) - other.wrong;
+                other.lines.wrong_at(code_, position, added, other.wrong + max_lost_) - other.wrong;
             log2_q8_ = add_log2(log2_q8_, -lost * odds_per_bit_q8_);
         }
     }
     int log2_q8() const { return log2_q8_; }
 
   private:
-    /// At more than this number of additional wrong bits, odds are negligible.
-    static constexpr int kMaxLost = 11;
+    /// Odds below 2^-48 are negligible.
+    static constexpr int kNegligible_q8 = 48 * 256;
     CodeVariant code_;
     int odds_per_bit_q8_;
+    int max_lost_;  ///< with more additional wrong bits, odds are negligible
     int log2_q8_ = kNever_q8;
 };
 
