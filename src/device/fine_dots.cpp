@@ -30,8 +30,9 @@ bool is_darkest(const std::uint8_t* at, int stride) {
     const int here = *at;
     const std::uint8_t* const above = at - stride;
     const std::uint8_t* const below = at + stride;
-    return here <= at[-1] && here < at[1] && here <= above[0] && here < below[0] &&
-           here <= above[-1] && here <= above[1] && here < below[-1] && here < below[1];
+    // The search meets most dots first at their upper edges, so the lower pixels are compared first.
+    return here < below[0] && here < at[1] && here < below[1] && here < below[-1] &&
+           here <= at[-1] && here <= above[0] && here <= above[1] && here <= above[-1];
 }
 
 /// Measures the dot around its darkest pixel.
@@ -68,10 +69,14 @@ int sampled_mean(const std::uint8_t* row, int stride) {
 /// more registers than small processors have.
 DOTPOSE_NOINLINE const std::uint8_t* next_dark(const std::uint8_t* at, const std::uint8_t* end,
                                                int level) {
-#pragma GCC unroll 4
-    for (; at != end; ++at) {
-        if (*at < level) break;
+    for (; end - at >= 4; at += 4) {
+        if (at[0] < level) return at;
+        if (at[1] < level) return at + 1;
+        if (at[2] < level) return at + 2;
+        if (at[3] < level) return at + 3;
     }
+    while (at != end && *at >= level)
+        ++at;
     return at;
 }
 

@@ -35,20 +35,29 @@ bool is_sane(const Prediction& prediction) {
            prediction.displacement_q16 <= kMaxDisplacement_q16;
 }
 
-/// Sets `cells` to the inverse of a plane. `at_q16` is the plane point at the image centre relative
-/// to cell (0, 0), in 2^-16 spacings. `finest_px` is the minimum spacing. Returns false if the
-/// spacing of the cells cannot be tracked, or if the cells are not nearly square.
-bool invert(const PlaneFromImage& plane, FixedVec at_q16, int finest_px, CellMap& cells) {
+constexpr std::int64_t kOne_q24 = 1 << 24;
+
+/// Returns the determinant of a plane in 1/px^2, in units of 2^-24. Returns 0 if the spacing of the
+/// cells cannot be tracked, or if the cells are not nearly square. `finest_px` is the minimum
+/// spacing.
+std::int32_t trackable_determinant_q24(const PlaneFromImage& plane, int finest_px) {
     const FixedVec du = plane.du_q24;
     const FixedVec dv = plane.dv_q24;
     const std::int64_t det_q24 = cross(du, dv) >> 24;
-    constexpr std::int64_t kOne_q24 = 1 << 24;
     if (det_q24 < kOne_q24 / (kCoarsest_px * kCoarsest_px) ||
         det_q24 > kOne_q24 / (finest_px * finest_px))
-        return false;
+        return 0;
     const std::int64_t skew_q24 = dot(du, dv) >> 24;
     const std::int64_t stretch_q24 = (squared(du) - squared(dv)) >> 24;
-    if (4 * magnitude(skew_q24) > det_q24 || 4 * magnitude(stretch_q24) > det_q24) return false;
+    if (4 * magnitude(skew_q24) > det_q24 || 4 * magnitude(stretch_q24) > det_q24) return 0;
+    return static_cast<std::int32_t>(det_q24);
+}
+
+/// Sets `cells` to the inverse of a plane with the determinant `det_q24`.
+void invert(const PlaneFromImage& plane, std::int32_t det_q24, CellMap& cells) {
+    const FixedVec at_q16 = plane.at_centre_q16;
+    const FixedVec du = plane.du_q24;
+    const FixedVec dv = plane.dv_q24;
     const auto step_q16 = [&](std::int32_t a_q24) {
         return short_quotient(std::int64_t{a_q24} << 16, det_q24);
     };
@@ -61,7 +70,6 @@ bool invert(const PlaneFromImage& plane, FixedVec at_q16, int finest_px, CellMap
     };
     cells.origin_q16 = {origin_q16(plane.centre_q8.x, cells.along_x_q16.x, cells.along_y_q16.x),
                         origin_q16(plane.centre_q8.y, cells.along_x_q16.y, cells.along_y_q16.y)};
-    return true;
 }
 
 /// Crops the edges of a frame until the memory has room for its cells. Returns the maximum distance
@@ -96,7 +104,6 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     tracking.last_cell = kMaxComparedLines / 2 + cells - 1;
     tracking.stride_px = stride_of(tracking.width_px);
     tracking.rows_kept = static_cast<int>(tracking.rows.size()) / tracking.stride_px;
-    tracking.is_fine = spacing_q8 < kFine_px * 256;
     tracking.corner_offset = -kHalf_px * (tracking.stride_px + 1);
     tracking.corners_apart = 2 * kHalf_px * tracking.stride_px;
     if (2 * kRowsNeeded + kRowsAtOnce > tracking.rows_kept) return false;
@@ -117,6 +124,30 @@ int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     const auto shift_q16 =
         static_cast<std::int32_t>(std::clamp<std::int64_t>(wanted_q16, 0, 65536 * 3 / 5));
     return ((shift_q16 >> 8) * spacing_q8) >> 16;
+}
+
+/// Returns the spacing of a fine grid, whose cells have an area of 1 / `det_q24`.
+std::int32_t fine_spacing_q8(std::int32_t det_q24) {
+    return static_cast<std::int32_t>(
+        square_root(UINT32_MAX / static_cast<std::uint32_t>(det_q24 >> 8)));
+}
+
+/// Sets the cells, and the members that depend on them, for a grid that is not fine. Returns false
+/// if `lay_out_memory` returns false.
+bool lay_cells(const Prediction& prediction, const PlaneFromImage& plane, std::int32_t det_q24,
+               Tracking& tracking) {
+    invert(plane, det_q24, tracking.cells);
+    const FixedVec along = tracking.cells.along_x_q16;
+    const auto spacing_q8 =
+        static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(squared(along))) >> 8);
+    if (!lay_out_memory(spacing_q8, tracking)) return false;
+    tracking.cells.origin_q16.y -= tracking.rows_above * 65536;
+    tracking.du_q20 = {plane.du_q24.x >> 4, plane.du_q24.y >> 4};
+    tracking.dv_q20 = {plane.dv_q24.x >> 4, plane.dv_q24.y >> 4};
+    tracking.spacing_q8 = spacing_q8;
+    tracking.reach_px = reach_px(prediction, spacing_q8);
+    set_displacement(prediction.displacement_q16 >> 4, tracking);
+    return true;
 }
 
 }  // namespace
@@ -158,19 +189,16 @@ Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, Plane
     tracking.corner = moved(code, prediction.place, first.x, first.y);
     const FixedVec at_q16{at.x - first.x * 65536, at.y - first.y * 65536};
     const int finest_px = tracking.min_side_px < kMinFrameSide_px ? kFinest_px : kFine_px;
-    if (!invert(plane, at_q16, finest_px, tracking.cells)) return Status::not_tracked;
-    const FixedVec along = tracking.cells.along_x_q16;
-    const auto spacing_q8 =
-        static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(squared(along))) >> 8);
-    if (!lay_out_memory(spacing_q8, tracking)) return Status::not_tracked;
-    tracking.cells.origin_q16.y -= tracking.rows_above * 65536;
+    const std::int32_t det_q24 = trackable_determinant_q24(plane, finest_px);
+    if (det_q24 == 0) return Status::not_tracked;
     plane.at_centre_q16 = at_q16;
-    tracking.du_q20 = {plane.du_q24.x >> 4, plane.du_q24.y >> 4};
-    tracking.dv_q20 = {plane.dv_q24.x >> 4, plane.dv_q24.y >> 4};
-    tracking.spacing_q8 = spacing_q8;
-    tracking.reach_px = reach_px(prediction, spacing_q8);
-    set_displacement(prediction.displacement_q16 >> 4, tracking);
-    return Status::ok;
+    tracking.is_fine = det_q24 > kOne_q24 / (kFine_px * kFine_px);
+    if (tracking.is_fine) {
+        tracking.displacement_q12 = prediction.displacement_q16 >> 4;
+        return lay_out_memory(fine_spacing_q8(det_q24), tracking) ? Status::ok
+                                                                  : Status::not_tracked;
+    }
+    return lay_cells(prediction, plane, det_q24, tracking) ? Status::ok : Status::not_tracked;
 }
 
 }  // namespace dotpose::core
