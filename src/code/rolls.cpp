@@ -48,17 +48,26 @@ void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
     }
 }
 
-RollsAhead::RollsAhead(CodeVariant code, std::uint32_t position) {
-    // As in `roll`, but without the contributions of the places, which `at` adds.
-    const std::uint32_t lines = modulo_sections(position) + 4 * kSections;
-    std::uint32_t sum = kMinDelta * lines;
-    const Basis& sequences = basis(code);
+// The rolls are computed as in `roll`, but without the contributions of the places, which `at` adds.
+RollsAhead::RollsAhead(CodeVariant code, std::uint32_t position)
+    : sequences_(basis(code)),
+      lines_(modulo_sections(position) + 4 * kSections),
+      sum_(kMinDelta * lines_) {
+    for (std::size_t k = 0; k < here_.size(); ++k)
+        add(sequences_[k], k, sequences_[k].place_of(position));
+    sum_ = modulo_sections(sum_);
+}
+
+void RollsAhead::advance() {
+    sum_ = kMinDelta * lines_;
     for (std::size_t k = 0; k < here_.size(); ++k) {
-        const std::uint32_t place = sequences[k].place_of(position);
-        sum += (lines - place) * sequences[k].period_roll;
-        here_[k] = sequences[k].rolls + place;
+        const Secondary& sequence = sequences_[k];
+        auto place = static_cast<std::uint32_t>(here_[k] - sequence.rolls) + kSections;
+        while (place >= sequence.length)
+            place -= sequence.length;
+        add(sequence, k, place);
     }
-    sum_ = modulo_sections(sum);
+    sum_ = modulo_sections(sum_);
 }
 
 }  // namespace dotpose::code

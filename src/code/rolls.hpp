@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "code/basis.hpp"
 #include "code/tables.hpp"
 #include "dotpose/code.hpp"
 
@@ -31,6 +32,8 @@ class RollsAhead {
   public:
     RollsAhead(CodeVariant code, std::uint32_t position);
 
+    /// Moves the position by 63 lines. Faster than the constructor.
+    void advance();
     /// Returns the roll of the line `position` + i plus `added`, modulo 63. Requires i < kLinesAhead
     /// and added < 63.
     std::uint32_t at(std::uint32_t i, std::uint32_t added) const {
@@ -39,7 +42,15 @@ class RollsAhead {
     }
 
   private:
+    /// Sets the place in a sequence, and adds the roll of the periods before this place to `sum_`.
+    void add(const Secondary& sequence, std::size_t k, std::uint32_t place) {
+        here_[k] = sequence.rolls + place;
+        sum_ += (lines_ - place) * sequence.period_roll;
+    }
+
+    const Basis& sequences_;
     std::array<const std::uint8_t*, 4> here_;
+    std::uint32_t lines_;  ///< congruent to the position modulo 63, and larger than any place
     std::uint32_t sum_;
 };
 

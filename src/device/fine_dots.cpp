@@ -26,7 +26,7 @@ constexpr int paper_edge(int paper) {
 
 /// Returns true if no pixel around `at` is darker. Of several equally dark pixels, only the last
 /// one counts.
-bool is_darkest(const std::uint8_t* at, int stride) {
+DOTPOSE_NOINLINE bool is_darkest(const std::uint8_t* at, int stride) {
     const int here = *at;
     const std::uint8_t* const above = at - stride;
     const std::uint8_t* const below = at + stride;
@@ -36,7 +36,7 @@ bool is_darkest(const std::uint8_t* at, int stride) {
 }
 
 /// Measures the dot around its darkest pixel.
-void add_dot(const std::uint8_t* at, int u, int v, Tracking& tracking) {
+DOTPOSE_NOINLINE void add_dot(const std::uint8_t* at, int u, int v, Tracking& tracking) {
     const int stride = tracking.stride_px;
     const std::uint8_t* const first = at - kHalf_px * (stride + 1);
     const std::uint8_t* const last = first + 2 * kHalf_px * stride;

@@ -222,8 +222,10 @@ DOTPOSE_NOINLINE void FineGrid::fit_roughly() {
 /// Notes the bits of a dot, unless it is nearly as far from two of its four places.
 DOTPOSE_NOINLINE void FineGrid::note(const ReadDot& dot) {
     const auto [cell, from_q24, symbol] = dot;
-    const auto is_in = [&](int index) {
-        return index >= tracking_.first_cell && index <= tracking_.last_cell;
+    const int first = tracking_.first_cell;
+    const auto last = static_cast<unsigned>(tracking_.last_cell - first);
+    const auto is_in = [first, last](int index) {
+        return static_cast<unsigned>(index - first) <= last;
     };
     const std::int32_t difference_q24 = magnitude(from_q24.x) - magnitude(from_q24.y);
     if (magnitude(difference_q24) < displacement_q24_ / 4 || !is_in(cell.x) || !is_in(cell.y))
@@ -321,8 +323,10 @@ DOTPOSE_NOINLINE bool find_place(FixedVec phase_q8, CodeVariant code, Tracking& 
             tracking.corner = moved(code, tracking.corner, shift.x, shift.y);
             lay_tracked_lines(code, tracking);
         }
-        for (ComparedLine& line : tracking.lines)
-            line.wrong = (line.wrong ^ line.code) & line.seen;
+        for (int i = tracking.first_cell; i <= tracking.last_cell; ++i) {
+            for (ComparedLine* line : {&column_of(tracking, i), &row_of(tracking, i)})
+                line->wrong = (line->wrong ^ line->code) & line->seen;
+        }
         return true;
     }
     return false;

@@ -1,7 +1,5 @@
 #include "device/hard_block.hpp"
 
-#include "code/rolls.hpp"
-
 namespace dotpose::core {
 namespace {
 
@@ -55,14 +53,15 @@ int HardLines::wrong_with(const std::uint8_t* rolls, std::uint32_t added, int li
     return wrong;
 }
 
-int HardLines::wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added,
-                        int limit) const {
-    const code::RollsAhead rolls(code, position);
+int HardLines::wrong_at(const code::RollsAhead& rolls, std::uint32_t added, int limit) const {
+    // The lines at the edges of a rotated view have few bits, so the count begins after them.
+    const int begin = count / 4;
     int wrong = 0;
-    const HardLine* line = first;
-    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(count) && wrong <= limit;
-         ++i, line += step)
-        wrong += line->wrong_at(rolls.at(i, added));
+    int i = begin;
+    do {
+        wrong += (*this)[i].wrong_at(rolls.at(static_cast<std::uint32_t>(i), added));
+        if (++i == count) i = 0;
+    } while (i != begin && wrong <= limit);
     return wrong;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "code/rolls.hpp"
 #include "code/tables.hpp"
 #include "core/decode/grid.hpp"
 #include "core/decode/lines.hpp"
@@ -37,10 +38,14 @@ struct HardLines {
     /// added`, modulo 63, of the main sequence. If this number exceeds `limit`, may stop counting
     /// early, with a result that also exceeds `limit`.
     int wrong_with(const std::uint8_t* rolls, std::uint32_t added, int limit) const;
-    /// Returns the number of bits that contradict the code if the first line is at `position` and
-    /// the roll of each line is its roll in section 0 plus `added`, modulo 63. If this number
-    /// exceeds `limit`, may stop counting early, with a result that also exceeds `limit`.
-    int wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added, int limit) const;
+    /// Returns the number of bits that contradict the code if the roll of each line is its roll in
+    /// section 0, which is in `rolls`, plus `added`, modulo 63. If this number exceeds `limit`, may
+    /// stop counting early, with a result that also exceeds `limit`.
+    int wrong_at(const code::RollsAhead& rolls, std::uint32_t added, int limit) const;
+    /// The same for lines of which the first is at `position`.
+    int wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added, int limit) const {
+        return wrong_at(code::RollsAhead(code, position), added, limit);
+    }
 };
 
 /// The bits of a block in all four orientations. Only the block and the block turned by 180 degrees

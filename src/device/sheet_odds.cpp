@@ -59,13 +59,14 @@ class OddsOfOthers {
             added_to_rolls(same.section, other.position) + kSections - same_section);
         const std::uint32_t first_class = code::modulo_sections(range.first);
         const std::uint32_t added = added_to_rolls(section, same.position);
-        for (std::uint32_t i = code::modulo_sections(wanted_class + kSections - first_class);
-             i < range.count; i += kSections) {
+        std::uint32_t i = code::modulo_sections(wanted_class + kSections - first_class);
+        code::RollsAhead rolls(code_, range.first + i);
+        for (; i < range.count; i += kSections, rolls.advance()) {
             const std::uint32_t position = range.first + i;
             if (is_same_section && position == other.position) continue;
             // Counts no more wrong bits than necessary. With fewer wrong bits, the odds are larger.
             const int lost =
-                other.lines.wrong_at(code_, position, added, other.wrong + max_lost_) - other.wrong;
+                other.lines.wrong_at(rolls, added, other.wrong + max_lost_) - other.wrong;
             log2_q8_ = add_log2(log2_q8_, -lost * odds_per_bit_q8_);
         }
     }
