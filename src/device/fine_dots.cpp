@@ -14,7 +14,7 @@ namespace {
 constexpr int kHalf_px = 2;
 /// Size of the parts of the image in which the paper level is estimated, in px.
 constexpr int kPartWidth_px = 16;
-constexpr int kPartHeight_px = 4;
+constexpr int kPartHeight_px = 8;
 /// Minimum mass, for which `Inverse` is exact enough.
 constexpr int kMinMass = 16;
 
@@ -56,11 +56,11 @@ DOTPOSE_NOINLINE void add_dot(const std::uint8_t* at, int u, int v, Tracking& tr
         from_middle(v, tracking.height_px, offset_q8.y), static_cast<std::int16_t>(sums.mass)};
 }
 
-/// Returns the mean of every fourth pixel in four rows. At most an eighth of the pixels are dark, so
+/// Returns the mean of every fourth pixel in every second row of a part. At most an eighth of the pixels are dark, so
 /// the mean is little below the paper level.
 int sampled_mean(const std::uint8_t* row, int stride) {
     int sum = 0;
-    for (int v = 0; v < 4; ++v, row += stride)
+    for (int v = 0; v < kPartHeight_px; v += 2, row += 2 * stride)
         sum += row[0] + row[4] + row[8] + row[12];
     return sum >> 4;
 }
@@ -84,7 +84,8 @@ DOTPOSE_NOINLINE const std::uint8_t* next_dark(const std::uint8_t* at, const std
 void search_part(int u, int v, int width_px, int height_px, Tracking& tracking) {
     const int stride = tracking.stride_px;
     const int sampled_u = std::min(u, tracking.width_px - tracking.left_out_px - kPartWidth_px);
-    const int level = paper_edge(sampled_mean(kept_row(tracking, v - 1) + sampled_u, stride));
+    const int sampled_v = std::min(v, tracking.rows_taken - kPartHeight_px);
+    const int level = paper_edge(sampled_mean(kept_row(tracking, sampled_v) + sampled_u, stride));
     const std::uint8_t* row = kept_row(tracking, v) + u;
     for (const int end_v = v + height_px; v < end_v; ++v, row += stride) {
         const std::uint8_t* const end = row + width_px;

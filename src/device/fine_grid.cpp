@@ -5,8 +5,8 @@
 
 #include "core/math/fixed.hpp"
 #include "core/noinline.hpp"
-#include "device/affine_fit_int32.hpp"
 #include "device/coded_cells.hpp"
+#include "device/offset_fit.hpp"
 #include "device/predicted.hpp"
 
 namespace dotpose::core {
@@ -185,38 +185,12 @@ ReadDot FineGrid::read(const FineDot& dot) const {
 }
 
 DOTPOSE_NOINLINE void FineGrid::fit_roughly() {
-    // Sums of the offsets in 2^-10 cells, and of their products with the coordinates in 1/4 px.
-    FixedVec offset;
-    FixedVec of_x;
-    FixedVec of_y;
-    std::int32_t xx = 0;
-    std::int32_t yy = 0;
-    std::int32_t count = 0;
+    OffsetFit fit;
     for (const FineDot& dot : all()) {
         const FixedVec off_q24 = offset_q24(read(dot));
-        if (!is_within(off_q24, kMaxOffset_q24)) continue;
-        const FixedVec off{off_q24.x >> 14, off_q24.y >> 14};
-        const std::int32_t x = dot.x_q8 >> 6;
-        const std::int32_t y = dot.y_q8 >> 6;
-        ++count;
-        offset = offset + off;
-        of_x = of_x + FixedVec{off.x * x, off.y * x};
-        of_y = of_y + FixedVec{off.x * y, off.y * y};
-        xx += x * x;
-        yy += y * y;
+        if (is_within(off_q24, kMaxOffset_q24)) fit.add(dot, off_q24);
     }
-    if (count < kMinDots) return;
-    // The means of x, y and x y are neglected, because the middle of the dots is near the middle of
-    // the image. `read_and_fit` corrects the remaining error.
-    const auto slope_q24 = [](FixedVec products, std::int32_t squares) {
-        const std::int32_t divisor = std::max<std::int32_t>(squares >> 10, 1);
-        return FixedVec{products.x * 64 / divisor, products.y * 64 / divisor};
-    };
-    plane_.at_centre_q16 =
-        plane_.at_centre_q16 - FixedVec{offset.x * 64 / count, offset.y * 64 / count};
-    plane_.du_q24 = plane_.du_q24 - slope_q24(of_x, xx);
-    plane_.dv_q24 = plane_.dv_q24 - slope_q24(of_y, yy);
-    take_slopes();
+    if (fit.count() >= kMinDots && fit.correct(plane_)) take_slopes();
 }
 
 /// Notes the bits of a dot, unless it is nearly as far from two of its four places.
@@ -240,37 +214,19 @@ DOTPOSE_NOINLINE void FineGrid::note(const ReadDot& dot) {
 }
 
 DOTPOSE_NOINLINE int FineGrid::read_and_fit() {
-    // Coordinates are below 2^10 in 1/8 px, and offsets at most 2^11. The sums over 2^9 dots are
-    // therefore at most 2^30.
-    constexpr int kTargetBits = 14;
-    AffineFitInt32::Products<std::int32_t> sums;
-    FixedVec p_sum;
-    FixedVec target_sum;
-    std::int32_t count = 0;
+    OffsetFit fit;
     std::int32_t displacement_q16 = 0;
     for (const FineDot& dot : all()) {
         const ReadDot read_dot = read(dot);
         note(read_dot);
         const FixedVec off_q24 = offset_q24(read_dot);
         if (!is_within(off_q24, kMaxOffset_q24)) continue;
-        const FixedVec p{dot.x_q8 >> 5, dot.y_q8 >> 5};
-        const FixedVec target{off_q24.x >> (24 - kTargetBits), off_q24.y >> (24 - kTargetBits)};
-        ++count;
-        p_sum = p_sum + p;
-        target_sum = target_sum + target;
-        sums.add(p, p, target);
-        displacement_q16 +=
-            larger_component(read_dot.from_intersection_q24) >> 8;
+        fit.add(dot, off_q24);
+        displacement_q16 += larger_component(read_dot.from_intersection_q24) >> 8;
     }
-    if (count < kMinDots) return 0;
-    displacement_q24_ = displacement_q16 / count * 256;
-    PlaneFromImage offsets;
-    AffineFitInt32 fit(count, p_sum, target_sum, sums);
-    if (!fit.solve(kTargetBits, offsets)) return 0;
-    plane_.at_centre_q16 = plane_.at_centre_q16 - offsets.at_centre_q16;
-    plane_.du_q24 = plane_.du_q24 - offsets.du_q24;
-    plane_.dv_q24 = plane_.dv_q24 - offsets.dv_q24;
-    return count;
+    if (fit.count() < kMinDots || !fit.correct(plane_)) return 0;
+    displacement_q24_ = displacement_q16 / fit.count() * 256;
+    return fit.count();
 }
 
 /// Returns the bits of the code in a line of one axis, for a place that is `line_shift` lines and

@@ -47,8 +47,10 @@ std::int32_t trackable_determinant_q24(const PlaneFromImage& plane, int finest_p
     if (det_q24 < kOne_q24 / (kCoarsest_px * kCoarsest_px) ||
         det_q24 > kOne_q24 / (finest_px * finest_px))
         return 0;
-    const std::int64_t skew_q24 = dot(du, dv) >> 24;
-    const std::int64_t stretch_q24 = (squared(du) - squared(dv)) >> 24;
+    const FixedVec x{du.x >> 8, dv.x >> 8};
+    const FixedVec y{du.y >> 8, dv.y >> 8};
+    const std::int32_t skew_q24 = (x.x * x.y + y.x * y.y) >> 8;
+    const std::int32_t stretch_q24 = (x.x * x.x + y.x * y.x - x.y * x.y - y.y * y.y) >> 8;
     if (4 * magnitude(skew_q24) > det_q24 || 4 * magnitude(stretch_q24) > det_q24) return 0;
     return static_cast<std::int32_t>(det_q24);
 }

@@ -1,0 +1,45 @@
+// Offset fit: corrects a plane by the offsets of dots from their places, in 32-bit arithmetic.
+#pragma once
+
+#include "core/math/fixed.hpp"
+#include "device/tracking.hpp"
+#include "dotpose/geometry.hpp"
+
+namespace dotpose::core {
+
+/// Least-squares fit of the offsets as an affine function of the image. The relative error of the
+/// fitted offsets is about 2^-12, which is enough because the offsets are small.
+class OffsetFit {
+  public:
+    /// Adds a dot, and its offset in 2^-24 cells. Offsets are at most 2^21, which is an eighth of a
+    /// cell, so the sums over 2^9 dots are at most 2^27.
+    [[gnu::always_inline]] void add(const FineDot& dot, FixedVec offset_q24) {
+        const FixedVec r{offset_q24.x >> 12, offset_q24.y >> 12};
+        const FixedVec p{dot.x_q8 >> 6, dot.y_q8 >> 6};
+        ++count_;
+        p_ = p_ + p;
+        r_ = r_ + r;
+        xx_ += p.x * p.x;
+        xy_ += p.x * p.y;
+        yy_ += p.y * p.y;
+        of_x_ = of_x_ + FixedVec{p.x * r.x, p.x * r.y};
+        of_y_ = of_y_ + FixedVec{p.y * r.x, p.y * r.y};
+    }
+    int count() const { return count_; }
+    /// Subtracts the fitted offsets from a plane whose centre is the middle of the image. Requires
+    /// a dot. Returns false and leaves the plane unchanged if the dots are nearly collinear.
+    bool correct(PlaneFromImage& plane) const;
+
+  private:
+    std::int32_t count_ = 0;
+    // Coordinates p = (x, y) are in 1/4 px, and offsets r in 2^-12 cells.
+    FixedVec p_;
+    FixedVec r_;
+    std::int32_t xx_ = 0;
+    std::int32_t xy_ = 0;
+    std::int32_t yy_ = 0;
+    FixedVec of_x_;
+    FixedVec of_y_;
+};
+
+}  // namespace dotpose::core
