@@ -174,7 +174,7 @@ DOTPOSE_NOINLINE void FineGrid::fit_phases() {
     take_slopes();
 }
 
-ReadDot FineGrid::read(const FineDot& dot) const {
+[[gnu::always_inline]] inline ReadDot FineGrid::read(const FineDot& dot) const {
     constexpr std::int32_t kHalf_q24 = kOneCell_q24 / 2;
     const FixedVec p_q24 = from_middle_q24(dot) + at_q24_ + FixedVec{kHalf_q24, kHalf_q24};
     const FixedVec from_q24{(p_q24.x & (kOneCell_q24 - 1)) - kHalf_q24,
@@ -185,12 +185,15 @@ ReadDot FineGrid::read(const FineDot& dot) const {
 }
 
 DOTPOSE_NOINLINE void FineGrid::fit_roughly() {
+    // Every second dot is enough, because the scatter of the dots is much smaller than their
+    // displacement.
     OffsetFit fit;
-    for (const FineDot& dot : all()) {
+    for (std::size_t i = 0; i < all().size(); i += 2) {
+        const FineDot& dot = all()[i];
         const FixedVec off_q24 = offset_q24(read(dot));
         if (is_within(off_q24, kMaxOffset_q24)) fit.add(dot, off_q24);
     }
-    if (fit.count() >= kMinDots && fit.correct(plane_)) take_slopes();
+    if (fit.count() >= kMinDots / 2 && fit.correct(plane_)) take_slopes();
 }
 
 /// Notes the bits of a dot, unless it is nearly as far from two of its four places.
@@ -237,29 +240,25 @@ std::uint32_t code_at(std::span<const ComparedLine> lines, int line, int line_sh
     return cell_shift >= 0 ? bits >> cell_shift : bits << 1;
 }
 
-struct BitCount {
-    int seen = 0;
+/// Returns the number of bits of an axis that contradict the code at a shift.
+int wrong_bits(const Tracking& tracking, std::span<const ComparedLine> lines, int line_shift,
+               int cell_shift) {
     int wrong = 0;
-
-    /// Compares the bits of an axis with the code at a shift.
-    void add(const Tracking& tracking, std::span<const ComparedLine> lines, int line_shift,
-             int cell_shift) {
-        for (int line = tracking.first_cell; line <= tracking.last_cell; ++line) {
-            const ComparedLine& read = lines[static_cast<std::size_t>(line)];
-            if (read.seen == 0) continue;
-            const std::uint32_t code = code_at(lines, line, line_shift, cell_shift);
-            seen += bits_in(read.seen);
-            wrong += bits_in((code ^ read.wrong) & read.seen);
-        }
+    for (int line = tracking.first_cell; line <= tracking.last_cell; ++line) {
+        const ComparedLine& read = lines[static_cast<std::size_t>(line)];
+        if (read.seen == 0) continue;
+        const std::uint32_t code = code_at(lines, line, line_shift, cell_shift);
+        wrong += bits_in((code ^ read.wrong) & read.seen);
     }
-};
+    return wrong;
+}
 
-/// Returns true if at least three quarters of the bits agree with the code at a shift.
+/// Returns true if at most a quarter of the bits of all dots contradict the code at a shift.
 bool agrees(const Tracking& tracking, FixedVec shift) {
-    BitCount count;
-    count.add(tracking, tracking.lines.first(kMaxComparedLines), shift.x, shift.y);
-    count.add(tracking, tracking.lines.last(kMaxComparedLines), shift.y, shift.x);
-    return 4 * count.wrong <= count.seen;
+    const int wrong =
+        wrong_bits(tracking, tracking.lines.first(kMaxComparedLines), shift.x, shift.y) +
+        wrong_bits(tracking, tracking.lines.last(kMaxComparedLines), shift.y, shift.x);
+    return 2 * wrong <= tracking.dots_measured;
 }
 
 /// Moves the corner to the place whose code agrees with the bits, and marks the bits that contradict

@@ -43,14 +43,13 @@ Status settle(Tracking& tracking) {
 
 Status read_rows(DeviceWorkspace& w) {
     Tracking& t = w.tracking;
+    if (t.rows_taken < t.first_rows) return Status::ok;
     if (t.is_fine) {
-        if (t.rows_taken - t.first_kept == t.rows_kept || t.rows_taken == t.height_px) {
-            w.on_sheets->find_dots(t);
-            make_room(kRowsAtOnce, t);
-        }
+        w.on_sheets->find_dots(t);
+        make_room(kRowsAtOnce, t);
+        t.first_rows = std::min(t.rows_taken + kRowsAtOnce, t.height_px);
         return Status::ok;
     }
-    if (t.rows_taken < t.first_rows) return Status::ok;
     if (t.rows_taken == t.first_rows) {
         const Status status = settle(t);
         if (status != Status::ok) return status;
