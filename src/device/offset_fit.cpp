@@ -18,15 +18,20 @@ int excess_bits(std::int32_t magnitude) {
 }  // namespace
 
 bool OffsetFit::correct(PlaneFromImage& plane) const {
-    // Moves the origin to the mean of the dots, rounded to 1/4 px. The slopes and the mean offset
-    // then hardly depend on each other.
+    // Moves the origin to the mean of the dots, truncated to 1/4 px, and subtracts the mean offset.
+    // The slopes and the mean offset then hardly depend on each other.
     const FixedVec mean{p_.x / count_, p_.y / count_};
     const FixedVec rest{p_.x - count_ * mean.x, p_.y - count_ * mean.y};
     const std::int32_t xx = xx_ - mean.x * (p_.x + rest.x);
     const std::int32_t xy = xy_ - mean.x * p_.y - mean.y * rest.x;
     const std::int32_t yy = yy_ - mean.y * (p_.y + rest.y);
-    const FixedVec of_x = of_x_ - FixedVec{mean.x * r_.x, mean.x * r_.y};
-    const FixedVec of_y = of_y_ - FixedVec{mean.y * r_.x, mean.y * r_.y};
+    const FixedVec offset_q16{r_.x * 16 / count_, r_.y * 16 / count_};
+    const auto moved = [&](FixedVec sum, std::int32_t a_mean, std::int32_t a_rest) {
+        return sum - FixedVec{a_mean * r_.x + (a_rest * offset_q16.x >> 4),
+                              a_mean * r_.y + (a_rest * offset_q16.y >> 4)};
+    };
+    const FixedVec of_x = moved(of_x_, mean.x, rest.x);
+    const FixedVec of_y = moved(of_y_, mean.y, rest.y);
 
     const int excess = excess_bits(std::max(xx, yy));
     const std::int32_t a = xx >> excess;
@@ -52,12 +57,13 @@ bool OffsetFit::correct(PlaneFromImage& plane) const {
     };
     const FixedVec of_i = slopes(of_x.x, of_y.x);
     const FixedVec of_j = slopes(of_x.y, of_y.y);
-    const auto at_centre_q16 = [&](std::int32_t sum, FixedVec slope) {
+    const auto at_centre_q16 = [&](std::int32_t there_q16, FixedVec slope) {
         // `add` rounds each offset down, by half a unit on average.
-        return sum * 16 / count_ + 8 - ((slope.x * mean.x + slope.y * mean.y) >> 10);
+        return there_q16 + 8 - ((slope.x * mean.x + slope.y * mean.y) >> 10);
     };
     plane.at_centre_q16 =
-        plane.at_centre_q16 - FixedVec{at_centre_q16(r_.x, of_i), at_centre_q16(r_.y, of_j)};
+        plane.at_centre_q16 - FixedVec{at_centre_q16(offset_q16.x, of_i),
+                                        at_centre_q16(offset_q16.y, of_j)};
     plane.du_q24 = plane.du_q24 - FixedVec{of_i.x, of_j.x};
     plane.dv_q24 = plane.dv_q24 - FixedVec{of_i.y, of_j.y};
     return true;

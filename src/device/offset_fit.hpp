@@ -8,7 +8,7 @@
 namespace dotpose::core {
 
 /// Least-squares fit of the offsets as an affine function of the image. The relative error of the
-/// fitted offsets is about 2^-12, which is enough because the offsets are small.
+/// fitted offsets is about 1 %, which is enough because the offsets are small.
 class OffsetFit {
   public:
     /// Adds a dot, and its offset in 2^-24 cells. Offsets are at most 2^21, which is an eighth of a

@@ -57,6 +57,25 @@ TEST(FollowRolls, AreTheRollsOfEachPosition) {
     }
 }
 
+TEST(RollsAhead, AreTheRollsOfEachPosition) {
+    std::mt19937 rng(kSeed);
+    for (int i = 0; i < 300; ++i) {
+        const CodeVariant code = kCodeVariants[static_cast<std::size_t>(i % 3)];
+        std::uint32_t position = random_place(rng).cell.x / 2;
+        const auto added = static_cast<std::uint32_t>(i % kSections);
+        code::RollsAhead rolls(code, position);
+        for (int moves = 0; moves < 12; ++moves) {
+            for (std::uint32_t line = 0; line < 64; line += 7) {
+                const auto expected =
+                    (static_cast<std::uint32_t>(roll(code, position + line)) + added) % kSections;
+                ASSERT_EQ(rolls.at(line, added), expected) << moves << ", " << line;
+            }
+            rolls.advance();
+            position += kSections;
+        }
+    }
+}
+
 TEST(FollowRolls, CountFromTheFirstRollGiven) {
     std::mt19937 rng(kSeed);
     for (int first = 0; first < 63; ++first) {

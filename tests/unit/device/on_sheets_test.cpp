@@ -1,6 +1,7 @@
 // Tests device locators with known sheets on small frames.
 #include "device/on_sheets.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -143,7 +144,44 @@ TEST_F(MouseSensor, LocatesAndTracksFineGrids) {
         EXPECT_LT(distance(fix, shot), 0.1) << i;
     }
     EXPECT_GE(located, 30);
-    EXPECT_GE(2 * found, located);
+    EXPECT_GE(20 * found, 19 * located);
+}
+
+TEST_F(MouseSensor, TracksFramesWithMoreRowsThanTheMemory) {
+    know(OtherSheets::impossible);
+    int found = 0;
+    for (std::uint64_t i = 0; i < 20; ++i) {
+        Shot shot = shot_on(kSheet, 36, 5.5, i);
+        const Fix before = locator_.locate(render(shot).view());
+        if (before.status != Status::ok) continue;
+        shot.camera.height_px = 60;
+        Prediction prediction = disturbed(before, 36);
+        prediction.pattern_from_image.centre_q8.y += 12 * 256;
+        const Fix fix = tracked(render(shot), prediction);
+        if (fix.status != Status::ok) continue;
+        ++found;
+        EXPECT_LT(distance(fix, shot), 0.1) << i;
+        EXPECT_GT(fix.dots_used, before.dots_used + 8) << i;
+    }
+    EXPECT_GE(found, 9);
+}
+
+TEST_F(MouseSensor, FollowsNoWrongPrediction) {
+    know(OtherSheets::impossible);
+    for (std::uint64_t i = 0; i < 20; ++i) {
+        const GreyImage image = render(shot_on(kSheet, 36, 5.5, i));
+        const Fix before = locator_.locate(image.view());
+        if (before.status != Status::ok) continue;
+        Prediction wrong = disturbed(before, 36);
+        wrong.place = moved(CodeVariant::anoto, wrong.place, i % 2 == 0 ? 2 : 0, i % 2 == 0 ? 0 : -3);
+        EXPECT_EQ(tracked(image, wrong).status, Status::not_tracked) << i;
+        GreyImage other = image;
+        for (std::uint8_t& grey : other.pixels)
+            grey = static_cast<std::uint8_t>(rng_.below(256));
+        EXPECT_EQ(tracked(other, disturbed(before, 36)).status, Status::not_tracked) << i;
+        std::ranges::fill(other.pixels, std::uint8_t{0});
+        EXPECT_EQ(tracked(other, disturbed(before, 36)).status, Status::not_tracked) << i;
+    }
 }
 
 TEST_F(MouseSensor, InvalidRegionsKeepThePreviousRegions) {

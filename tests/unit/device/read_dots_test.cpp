@@ -27,7 +27,6 @@ TEST(ReadDots, LooksAtAllCellsInView) {
         tracking.width_px = 188;
         tracking.height_px = 120;
         tracking.stride_px = 188;
-        tracking.half_px = core::kHalf_px;
         tracking.first_cell = 2;
         tracking.last_cell = 29;
         const double angle = round < 4 ? round * std::numbers::pi / 2
