@@ -48,7 +48,8 @@ void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
     }
 }
 
-// The rolls are computed as in `roll`, but without the contributions of the places, which `at` adds.
+// The rolls are computed as in `roll`, but without the contributions of the places, which `at`
+// adds.
 RollsAhead::RollsAhead(CodeVariant code, std::uint32_t position)
     : sequences_(basis(code)),
       lines_(modulo_sections(position) + 4 * kSections),

@@ -26,16 +26,16 @@ int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, st
 void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls);
 
-/// The rolls of consecutive lines in section 0, computed one by one. Unlike `follow_rolls`, does not
-/// compute rolls that are not needed.
+/// The rolls of consecutive lines in section 0, computed one by one. Unlike `follow_rolls`, does
+/// not compute rolls that are not needed.
 class RollsAhead {
   public:
     RollsAhead(CodeVariant code, std::uint32_t position);
 
     /// Moves the position by 63 lines. Faster than the constructor.
     void advance();
-    /// Returns the roll of the line `position` + i plus `added`, modulo 63. Requires i < kLinesAhead
-    /// and added < 63.
+    /// Returns the roll of the line `position` + i plus `added`, modulo 63. Requires i <
+    /// kLinesAhead and added < 63.
     std::uint32_t at(std::uint32_t i, std::uint32_t added) const {
         return short_modulo_sections(sum_ + added + here_[0][i] + here_[1][i] + here_[2][i] +
                                      here_[3][i] + kMinDelta * i);

@@ -30,7 +30,8 @@ DOTPOSE_NOINLINE bool is_darkest(const std::uint8_t* at, int stride) {
     const int here = *at;
     const std::uint8_t* const above = at - stride;
     const std::uint8_t* const below = at + stride;
-    // The search meets most dots first at their upper edges, so the lower pixels are compared first.
+    // The search meets most dots first at their upper edges, so the lower pixels are compared
+    // first.
     return here < below[0] && here < at[1] && here < below[1] && here < below[-1] &&
            here <= at[-1] && here <= above[0] && here <= above[1] && here <= above[-1];
 }
@@ -56,8 +57,8 @@ DOTPOSE_NOINLINE void add_dot(const std::uint8_t* at, int u, int v, Tracking& tr
         from_middle(v, tracking.height_px, offset_q8.y), static_cast<std::int16_t>(sums.mass)};
 }
 
-/// Returns the mean of every fourth pixel in every second row of a part. At most an eighth of the pixels are dark, so
-/// the mean is little below the paper level.
+/// Returns the mean of every fourth pixel in every second row of a part. At most an eighth of the
+/// pixels are dark, so the mean is little below the paper level.
 int sampled_mean(const std::uint8_t* row, int stride) {
     int sum = 0;
     for (int v = 0; v < kPartHeight_px; v += 2, row += 2 * stride)

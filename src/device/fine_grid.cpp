@@ -25,7 +25,8 @@ class MeanPhase {
     void add(std::int32_t coordinate_q8) {
         constexpr int kQuarter_q8 = 64;
         cosine_ += kQuarter_q8 - magnitude<int>(static_cast<std::int8_t>(coordinate_q8));
-        sine_ += kQuarter_q8 - magnitude<int>(static_cast<std::int8_t>(coordinate_q8 - kQuarter_q8));
+        sine_ +=
+            kQuarter_q8 - magnitude<int>(static_cast<std::int8_t>(coordinate_q8 - kQuarter_q8));
     }
     /// Returns the phase, in 2^-8 cells.
     int q8() const {
@@ -50,7 +51,7 @@ class PhasesOfAxis {
         across_q8_ += magnitude(across_q8);
     }
     struct Line {
-        int shift_q8;             ///< phase in the middle, in 2^-8 cells
+        int shift_q8;            ///< phase in the middle, in 2^-8 cells
         std::int32_t slope_q16;  ///< change of the phase per cell across
     };
     Line fit(int dots) const {
@@ -113,8 +114,8 @@ class FineGrid {
     ReadDot read(const FineDot& dot) const;
     /// Returns the offset of a dot from its place.
     FixedVec offset_q24(const ReadDot& dot) const {
-        return dot.from_intersection_q24 - FixedVec{dx(dot.symbol) * displacement_q24_,
-                                                    dy(dot.symbol) * displacement_q24_};
+        return dot.from_intersection_q24 -
+               FixedVec{dx(dot.symbol) * displacement_q24_, dy(dot.symbol) * displacement_q24_};
     }
     void note(const ReadDot& dot);
 
@@ -166,8 +167,8 @@ DOTPOSE_NOINLINE void FineGrid::fit_phases() {
     plane_.at_centre_q16 = plane_.at_centre_q16 - FixedVec{x.shift_q8 * 256, y.shift_q8 * 256};
     const std::int32_t turn_q12 = (y.slope_q16 - x.slope_q16) >> 5;
     const auto turn_back = [turn_q12](FixedVec& slope_q24) {
-        slope_q24 = slope_q24 + FixedVec{(slope_q24.y >> 12) * turn_q12,
-                                         -(slope_q24.x >> 12) * turn_q12};
+        slope_q24 =
+            slope_q24 + FixedVec{(slope_q24.y >> 12) * turn_q12, -(slope_q24.x >> 12) * turn_q12};
     };
     turn_back(plane_.du_q24);
     turn_back(plane_.dv_q24);
@@ -261,9 +262,10 @@ bool agrees(const Tracking& tracking, FixedVec shift) {
     return 2 * wrong <= tracking.dots_measured;
 }
 
-/// Moves the corner to the place whose code agrees with the bits, and marks the bits that contradict
-/// the code there. The place is at most one cell from the predicted place along each axis. Returns
-/// false if there is no such place. `phase_q8` is the shift of the grid relative to the prediction.
+/// Moves the corner to the place whose code agrees with the bits, and marks the bits that
+/// contradict the code there. The place is at most one cell from the predicted place along each
+/// axis. Returns false if there is no such place. `phase_q8` is the shift of the grid relative to
+/// the prediction.
 DOTPOSE_NOINLINE bool find_place(FixedVec phase_q8, CodeVariant code, Tracking& tracking) {
     // If the phase is at least this number of cells, the shift of the pattern may also be the phase
     // minus or plus one cell. Its magnitude is then at most 3/5 of a cell.

@@ -61,9 +61,8 @@ bool OffsetFit::correct(PlaneFromImage& plane) const {
         // `add` rounds each offset down, by half a unit on average.
         return there_q16 + 8 - ((slope.x * mean.x + slope.y * mean.y) >> 10);
     };
-    plane.at_centre_q16 =
-        plane.at_centre_q16 - FixedVec{at_centre_q16(offset_q16.x, of_i),
-                                        at_centre_q16(offset_q16.y, of_j)};
+    plane.at_centre_q16 = plane.at_centre_q16 - FixedVec{at_centre_q16(offset_q16.x, of_i),
+                                                         at_centre_q16(offset_q16.y, of_j)};
     plane.du_q24 = plane.du_q24 - FixedVec{of_i.x, of_j.x};
     plane.dv_q24 = plane.dv_q24 - FixedVec{of_i.y, of_j.y};
     return true;

@@ -12,9 +12,10 @@ namespace dotpose::core {
 /// Number of rows that are collected before the dots in them are read.
 inline constexpr int kRowsAtOnce = 12;
 
-/// Sets the plane, relative to cell (0, 0), the corner, the cells, and the members of `tracking` that depend on the spacing. The memory
-/// and the image size must already be set. The image must have at most 4096 px per side. The
-/// prediction may have any values. Returns not_tracked in each of these cases:
+/// Sets the plane, relative to cell (0, 0), the corner, the cells, and the members of `tracking`
+/// that depend on the spacing. The memory and the image size must already be set. The image must
+/// have at most 4096 px per side. The prediction may have any values. Returns not_tracked in each
+/// of these cases:
 /// - a value of the prediction is out of range,
 /// - the spacing is not 7 to 13 px (5 to 13 px if sheets are known),
 /// - the cells are not nearly square,

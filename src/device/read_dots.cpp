@@ -33,8 +33,8 @@ TrackedView view_of(const Tracking& tracking) {
     const std::int32_t of_dot_q16 = kDotHalf_px * 65536 - 32768 + displaced_q16;
     const std::int32_t min_q16 = std::max<std::int32_t>(kHalf_px * 65536, of_dot_q16);
     const auto extent_q16 = [&](int side_px) {
-        const std::int32_t end_q16 =
-            std::min<std::int32_t>((side_px - kHalf_px) * 65536, (side_px - 1) * 65536 - of_dot_q16);
+        const std::int32_t end_q16 = std::min<std::int32_t>((side_px - kHalf_px) * 65536,
+                                                            (side_px - 1) * 65536 - of_dot_q16);
         return static_cast<std::uint32_t>(end_q16 - min_q16);
     };
     return {{min_q16 + tracking.left_out_px * 65536, min_q16},

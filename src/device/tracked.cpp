@@ -5,8 +5,8 @@
 #include "core/pose/subgrid.hpp"
 #include "core/steps.hpp"
 #include "device/coded_cells.hpp"
-#include "device/near_dot.hpp"
 #include "device/fine_dots.hpp"
+#include "device/near_dot.hpp"
 #include "device/newest_rows.hpp"
 #include "device/predicted.hpp"
 #include "device/read_dots.hpp"
@@ -119,9 +119,9 @@ Status begin_device_tracked(int width_px, int height_px, const DeviceOptions& op
     t.offset_q8 = {};
     t.next_reading = kFirstFineRow;
     // Frames with lens distortion are not tracked, but located without the prediction.
-    t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.code,
-                                                             w.pattern_from_image, t)
-                                       : Status::not_tracked;
+    t.status = options.lens.k_q40 == 0
+                   ? lay_predicted_cells(prediction, options.code, w.pattern_from_image, t)
+                   : Status::not_tracked;
     // A workspace that keeps every stage is used on a processor that is fast enough to locate the
     // whole frame without the prediction. This is more accurate than tracking only the middle of
     // the frame.

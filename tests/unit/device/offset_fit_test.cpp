@@ -30,7 +30,8 @@ TEST(OffsetFit, RemovesAffineOffsets) {
                                           rng.uniform(-slope, slope), rng.uniform(-slope, slope)};
         OffsetFit fit;
         for (int i = 0; i < dots; ++i) {
-            const FineDot dot = dot_at(rng.uniform(-half_px, half_px / 2), rng.uniform(-half_px, half_px));
+            const FineDot dot =
+                dot_at(rng.uniform(-half_px, half_px / 2), rng.uniform(-half_px, half_px));
             const double x = dot.x_q8 / 256.0;
             const double y = dot.y_q8 / 256.0;
             fit.add(dot, {static_cast<std::int32_t>(

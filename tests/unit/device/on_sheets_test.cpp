@@ -173,7 +173,8 @@ TEST_F(MouseSensor, FollowsNoWrongPrediction) {
         const Fix before = locator_.locate(image.view());
         if (before.status != Status::ok) continue;
         Prediction wrong = disturbed(before, 36);
-        wrong.place = moved(CodeVariant::anoto, wrong.place, i % 2 == 0 ? 2 : 0, i % 2 == 0 ? 0 : -3);
+        wrong.place =
+            moved(CodeVariant::anoto, wrong.place, i % 2 == 0 ? 2 : 0, i % 2 == 0 ? 0 : -3);
         EXPECT_EQ(tracked(image, wrong).status, Status::not_tracked) << i;
         GreyImage other = image;
         for (std::uint8_t& grey : other.pixels)
