@@ -5,8 +5,8 @@
 
 namespace dotpose::core {
 
-/// Number of the newest rows that are still needed after the dots in the stored rows were read: two
-/// squares of `kHalf_px` overlap in nine rows, and dots may extend one row further.
+/// Number of the newest rows that are still needed after the dots in the stored rows were read: the
+/// rows of a square around an intersection (see `kHalf_px`), and one row above and below it.
 inline constexpr int kRowsNeeded = 11;
 
 /// Returns the stride of stored rows, in bytes: the width rounded up to whole 32-bit words.

@@ -41,6 +41,7 @@ Status settle(Tracking& tracking) {
     return Status::not_tracked;
 }
 
+/// Reads the dots in the rows that were received. Error: not_tracked.
 Status read_rows(DeviceWorkspace& w) {
     Tracking& t = w.tracking;
     if (t.rows_taken < t.first_rows) return Status::ok;
@@ -78,15 +79,12 @@ Status verify_place(const DeviceOptions& options, DeviceWorkspace& w) {
 /// the fit, or 0 if the frame is not tracked.
 int verify_and_fit(const DeviceOptions& options, DeviceWorkspace& w) {
     Tracking& t = w.tracking;
-    if (t.is_fine) {
-        const int used = w.on_sheets->fit_grid(options, w);
-        w.fix.dots_seen = dots_seen(t);
-        w.decoding.place = t.corner;
-        return used > 0 && verify_place(options, w) == Status::ok ? used : 0;
-    }
+    const int in_fine_grid = t.is_fine ? w.on_sheets->fit_grid(options, w) : 0;
     w.fix.dots_seen = dots_seen(t);
     w.decoding.place = t.corner;
+    if (t.is_fine && in_fine_grid == 0) return 0;
     if (verify_place(options, w) != Status::ok) return 0;
+    if (t.is_fine) return in_fine_grid;
     const int used = fit_tracked_pose(t, w.pattern_from_image, w.fix.displacement_q16);
     w.pattern_from_image.centre_q8.y += t.rows_above * 256;
     return used;

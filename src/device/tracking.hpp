@@ -106,8 +106,10 @@ struct Tracking {
     FixedVec du_q20;
     FixedVec dv_q20;
     std::int32_t displacement_q12 = 0;
-    int rows_kept = 0;     ///< number of rows for which there is memory
-    int first_rows = 0;    ///< number of first rows in which the prediction error is measured
+    int rows_kept = 0;  ///< number of rows for which there is memory
+    /// Number of first rows in which the prediction error is measured. In fine grids, value of
+    /// rows_taken at which dots are searched next.
+    int first_rows = 0;
     int next_reading = 0;  ///< value of rows_taken at which dots are read next; in fine grids, the
                            ///< next row in which dots are searched
     int reach_px = 0;  ///< maximum position error that the search covers, in px at the image centre

@@ -147,6 +147,24 @@ TEST_F(MouseSensor, LocatesAndTracksFineGrids) {
     EXPECT_GE(20 * found, 19 * located);
 }
 
+TEST_F(MouseSensor, DesktopsTrackTheSameFramesWithTheEffortOfDevices) {
+    know(OtherSheets::impossible);
+    DeviceOptions as_device = options();
+    as_device.effort = Effort::device;
+    Locator desktop(as_device);
+    ASSERT_EQ(desktop.set_known({&kSheet, 1}, OtherSheets::impossible), Status::ok);
+    const GreyImage image = render(shot_on(kSheet, 36, 5.5, 0));
+    const Fix before = locator_.locate(image.view());
+    ASSERT_EQ(before.status, Status::ok);
+    const Prediction prediction = disturbed(before, 36);
+    const Fix fix = tracked(image, prediction);
+    const Fix on_desktop = desktop.locate(image.view(), prediction);
+    EXPECT_EQ(fix.status, Status::ok);
+    EXPECT_EQ(on_desktop.attempt, Attempt::tracked);
+    EXPECT_EQ(on_desktop.theta_bam, fix.theta_bam);
+    EXPECT_EQ(on_desktop.x_grid(), fix.x_grid());
+}
+
 TEST_F(MouseSensor, TracksFramesWithMoreRowsThanTheMemory) {
     know(OtherSheets::impossible);
     int found = 0;
