@@ -38,8 +38,8 @@ bool is_sane(const Prediction& prediction) {
 constexpr std::int64_t kOne_q24 = 1 << 24;
 
 /// Returns the determinant of a plane in 1/px^2, in units of 2^-24. Returns 0 if the spacing of the
-/// cells cannot be tracked, or if the cells are not nearly square. `finest_px` is the minimum
-/// spacing.
+/// cells cannot be tracked, or if the cells are sheared or stretched too much. `finest_px` is the
+/// minimum spacing.
 std::int32_t trackable_determinant_q24(const PlaneFromImage& plane, int finest_px) {
     const FixedVec du = plane.du_q24;
     const FixedVec dv = plane.dv_q24;
@@ -47,11 +47,12 @@ std::int32_t trackable_determinant_q24(const PlaneFromImage& plane, int finest_p
     if (det_q24 < kOne_q24 / (kCoarsest_px * kCoarsest_px) ||
         det_q24 > kOne_q24 / (finest_px * finest_px))
         return 0;
+    // Motion during the readout of a rolling shutter shears and stretches the cells.
     const FixedVec x{du.x >> 8, dv.x >> 8};
     const FixedVec y{du.y >> 8, dv.y >> 8};
     const std::int32_t skew_q24 = (x.x * x.y + y.x * y.y) >> 8;
     const std::int32_t stretch_q24 = (x.x * x.x + y.x * y.x - x.y * x.y - y.y * y.y) >> 8;
-    if (4 * magnitude(skew_q24) > det_q24 || 4 * magnitude(stretch_q24) > det_q24) return 0;
+    if (magnitude(skew_q24) > det_q24 || magnitude(stretch_q24) > det_q24) return 0;
     return static_cast<std::int32_t>(det_q24);
 }
 

@@ -18,7 +18,7 @@ inline constexpr int kRowsAtOnce = 12;
 /// of these cases:
 /// - a value of the prediction is out of range,
 /// - the spacing is not 7 to 13 px (5 to 13 px if sheets are known),
-/// - the cells are not nearly square,
+/// - the cells are sheared or stretched by much more than half,
 /// - the memory is too small,
 /// - the part of the image whose cells fit in the memory is too small.
 Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, PlaneFromImage& plane,

@@ -111,6 +111,28 @@ TEST_F(DeviceTracked, GoesOnFromItsOwnFixes) {
     }
 }
 
+TEST_F(DeviceTracked, FollowsTheShearOfRollingShutters) {
+    Locator desktop;
+    int predicted = 0;
+    int found = 0;
+    for (std::uint64_t i = 0; i < 40; ++i) {
+        // The scene moves by 30 % of the image height during the readout.
+        Shot shot = shot_of(i);
+        const double direction = rng_.uniform(-std::numbers::pi, std::numbers::pi);
+        shot.camera.readout_px = {36 * std::cos(direction), 36 * std::sin(direction)};
+        const Fix before = desktop.locate(render(shot).view());
+        if (before.status != Status::ok) continue;
+        ++predicted;
+        shot.seed += 1'000'000;
+        const Fix fix = tracked(render(shot), disturbed(Prediction::like(before), 0.2, 1));
+        if (fix.status != Status::ok) continue;
+        ++found;
+        EXPECT_LT(std::hypot(x_off(fix, shot), y_off(fix, shot)), 0.01) << i;
+    }
+    EXPECT_GE(predicted, 35);
+    EXPECT_GE(2 * found, predicted);
+}
+
 TEST_F(DeviceTracked, LocatesAfreshWhatItRefuses) {
     const Shot shot = shot_of(4);
     const GreyImage image = render(shot);
