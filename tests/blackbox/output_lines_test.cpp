@@ -155,6 +155,9 @@ TEST_F(OutputLines, HaveTheSameNamesInCsv) {
             for (const std::string& key : keys) {
                 if (key == "section") {
                     EXPECT_THAT(columns, Contains("section_v"));
+                } else if (key == "camera_turn_deg_s" || key == "camera_turn_rad_s") {
+                    EXPECT_THAT(columns, Contains(key + "_x")) << arguments;
+                    EXPECT_THAT(columns, Contains(key + "_z")) << arguments;
                 } else if (key.find("quaternion") != std::string::npos) {
                     EXPECT_THAT(columns, Contains(key + "_w")) << arguments;
                 } else if (key.find("camera_covariance") != std::string::npos) {
