@@ -135,9 +135,12 @@ bool print_map_drive_table(TableRun& run) {
                                 errors->pages[0].absolute_um(), errors->pages[1].absolute_um(),
                                 errors->all.raw_deg());
         }
-        if (print.wave_mm == 0) is_right &= with.all.raw_um() <= kMaxError_um;
-        is_right &=
-            with.absolute_um() <= std::min(kMaxError_um, kMaxAbsoluteError * without.absolute_um());
+        if (print.wave_mm == 0) {
+            is_right &= with.all.raw_um() <= kMaxError_um;
+        } else {
+            is_right &= with.absolute_um() <=
+                        std::min(kMaxError_um, kMaxAbsoluteError * without.absolute_um());
+        }
     }
     run.print_block("print-map-drive", text);
     run.update_document();

@@ -136,14 +136,14 @@ bool Shifts::next(FixedVec& shift_q8) {
         }
     }
     if (best == 0) return false;
-    const int step_q8 = kStep_px * 256;
+    constexpr int kStep_q8 = kStep_px * 256;
     // Interpolates the maximum between the steps, using the neighbours on both sides.
-    const auto between = [step_q8](int before, int here, int after) {
-        return (after - before) * step_q8 / std::max(before + here + after, 1);
+    const auto between = [](int before, int here, int after) {
+        return (after - before) * kStep_q8 / std::max(before + here + after, 1);
     };
     const std::uint16_t* const here = row_of(at.y) + at.x;
-    shift_q8 = {(at.x - steps_.x) * step_q8 + between(here[-1], here[0], here[1]),
-                (at.y - steps_.y) * step_q8 + between(here[-kPerRow], here[0], here[kPerRow])};
+    shift_q8 = {(at.x - steps_.x) * kStep_q8 + between(here[-1], here[0], here[1]),
+                (at.y - steps_.y) * kStep_q8 + between(here[-kPerRow], here[0], here[kPerRow])};
     depth_ = paper_ - cut_ + here[0];
     forget_around(at);
     return true;
