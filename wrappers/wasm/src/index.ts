@@ -29,6 +29,6 @@ export {
 } from "./names.js";
 export { kDisplacements, patternBits, type PatternPart } from "./pattern.js";
 export { type Prediction } from "./prediction.js";
-export { type PoseInSpace, type SpaceCamera, type SpacePose } from "./space.js";
+export { type PoseInSpace, type SecondPose, type SpaceCamera, type SpacePose } from "./space.js";
 export { Tracker, type Track, type TrackOptions } from "./tracker.js";
 export { WorkerLocator, type Located } from "./worker_locator.js";

@@ -45,8 +45,14 @@ export interface SpacePose extends PoseInSpace {
     residual_px: number;
     /** True if the dots do not exclude the second pose. */
     is_ambiguous: boolean;
-    /** The second pose that explains the view, with its odds. Null if there is none. */
-    second: (PoseInSpace & { odds: number }) | null;
+    /** The second pose that explains the view. Null if there is none. */
+    second: SecondPose | null;
+}
+
+/** The second pose that explains the view of a plane. */
+export interface SecondPose extends PoseInSpace {
+    /** Odds of this pose against the first one. */
+    odds: number;
 }
 
 /** Sizes of the structs, and offsets of their members. */
