@@ -1,5 +1,5 @@
-// Measures processor time and memory of the solver of print maps (docs/print-map.md). The dots of
-// an A4 page in frames of 640 x 480 px are computed without images, because images of so many
+// Measures processor time and memory of the solver of print maps (docs/print-map.md). The frames of
+// 640 x 480 px show an A4 page. Their dots are computed directly, because rendering images of all
 // frames would take hours.
 //
 //   dotpose_tables print_map_solver [--frames N]
@@ -17,7 +17,7 @@
 #include <sys/resource.h>
 
 #include "../tests/mapped_print.hpp"
-#include "calibrate/map_solver.hpp"
+#include "calibrate/map_start.hpp"
 #include "tables.hpp"
 
 namespace dotpose::tables {
@@ -39,20 +39,6 @@ struct SolverInput {
     MapSolution start;  ///< with approximate poses of the frames
     double reach_mm = 0;
 };
-
-MapGrid grid_of_page(const Sheet& sheet) {
-    MapGrid grid{sheet.columns, sheet.rows, Vector2d::Constant(sheet.pattern.spacing_mm), {}};
-    const Place first{sheet.origin, sheet.pattern.section};
-    for (int j = 0; j < sheet.rows; ++j) {
-        for (int i = 0; i < sheet.columns; ++i) {
-            const Place place = moved(sheet.pattern.code, first, i, j);
-            const Symbol symbol = symbol_at(sheet.pattern.code, place.cell, place.section);
-            grid.directions.push_back(
-                {static_cast<std::int8_t>(dx(symbol)), static_cast<std::int8_t>(dy(symbol))});
-        }
-    }
-    return grid;
-}
 
 /// Adds a frame with the dots in its view, and an approximate pose.
 void add_frame(const test::MappedPrint::Pose& pose, Vector2d half_view_mm, Rng& rng,
@@ -91,7 +77,7 @@ SolverInput simulated_input(std::uint64_t frames) {
     const test::MappedPrint print(
         {.side_mm = 210, .height_mm = 297, .width_px = 640, .height_px = 480});
     SolverInput input;
-    input.grid = grid_of_page(print.entry().sheet);
+    input.grid = calibrate::grid_of(print.entry());
     Rng rng(5);
     for (std::size_t i = 0; i < input.grid.dots(); ++i) {
         const Vector2d at = input.grid.place_mm(i);

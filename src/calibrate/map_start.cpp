@@ -12,6 +12,7 @@
 #include "calibrate/map_geometry.hpp"
 #include "calibrate/median.hpp"
 #include "calibrate/similarity.hpp"
+#include "dotpose/code.hpp"
 
 namespace dotpose::calibrate {
 namespace {
@@ -65,6 +66,25 @@ bool differ(const std::vector<FixPlane>& views, const FixPlane& typical) {
 }
 
 }  // namespace
+
+MapGrid grid_of(const SheetEntry& entry) {
+    const Sheet& sheet = entry.sheet;
+    MapGrid grid{
+        sheet.columns,
+        sheet.rows,
+        sheet.pattern.spacing_mm * Eigen::Vector2d(entry.print_scale_x, entry.print_scale_y),
+        {}};
+    const Place first{sheet.origin, sheet.pattern.section};
+    for (int j = 0; j < sheet.rows; ++j) {
+        for (int i = 0; i < sheet.columns; ++i) {
+            const Place place = moved(sheet.pattern.code, first, i, j);
+            const Symbol symbol = symbol_at(sheet.pattern.code, place.cell, place.section);
+            grid.directions.push_back(
+                {static_cast<std::int8_t>(dx(symbol)), static_cast<std::int8_t>(dy(symbol))});
+        }
+    }
+    return grid;
+}
 
 bool add_sighting(const Fix& fix, const Trace& trace, const MapPage& page, std::size_t min_dots,
                   std::vector<MapSighting>& frames, std::vector<MapObservation>& observations) {

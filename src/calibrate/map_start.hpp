@@ -1,4 +1,4 @@
-// Map start: collects the dots of the frames of a page, and computes approximate poses.
+// Map start: collects the dots of a page and of its frames, and computes approximate poses.
 #pragma once
 
 #include <optional>
@@ -7,10 +7,14 @@
 #include "calibrate/map_solver.hpp"
 #include "dotpose/files/camera.hpp"
 #include "dotpose/files/print_map.hpp"
+#include "dotpose/files/sheet_file.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/trace.hpp"
 
 namespace dotpose::calibrate {
+
+/// Returns the dots of a page at their nominal places, scaled by the print scales of the sheet.
+MapGrid grid_of(const SheetEntry& entry);
 
 /// A frame of a page, with its view from the fix.
 struct MapSighting {

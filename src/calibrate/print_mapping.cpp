@@ -24,25 +24,6 @@ constexpr std::size_t kMinDots = 20;
 /// same print.
 constexpr double kSamePrint = 0.8;
 
-MapGrid grid_of(const SheetEntry& entry) {
-    const Sheet& sheet = entry.sheet;
-    MapGrid grid{
-        sheet.columns,
-        sheet.rows,
-        sheet.pattern.spacing_mm * Eigen::Vector2d(entry.print_scale_x, entry.print_scale_y),
-        {}};
-    const Place first{sheet.origin, sheet.pattern.section};
-    for (int j = 0; j < sheet.rows; ++j) {
-        for (int i = 0; i < sheet.columns; ++i) {
-            const Place place = moved(sheet.pattern.code, first, i, j);
-            const Symbol symbol = symbol_at(sheet.pattern.code, place.cell, place.section);
-            grid.directions.push_back(
-                {static_cast<std::int8_t>(dx(symbol)), static_cast<std::int8_t>(dy(symbol))});
-        }
-    }
-    return grid;
-}
-
 MapPage empty_page(const SheetEntry& entry) {
     const Sheet& sheet = entry.sheet;
     MapPage page;

@@ -268,10 +268,6 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
     }
 }
 
-}  // namespace
-
-namespace {
-
 /// Returns true if the image contains so few cells that their bits may suffice only together with
 /// those of dots cut by the image border.
 bool needs_cut_dots(const Frame& frame, const Hypothesis& hypothesis) {
@@ -313,26 +309,29 @@ bool are_too_few_cells(const Frame& frame, int count) {
 
 Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvidence& evidence,
                      Measurement& measurement, Fix& fix) {
-    if (needs_cut_dots(frame, hypothesis)) {
-        hypothesis.reads_cut_dots = true;
-        const Confirmation result =
-            measure_and_compare(frame, hypothesis, evidence, measurement, fix);
-        if (result == Confirmation::ok || result == Confirmation::too_few_bits) return result;
-        hypothesis.reads_cut_dots = false;
-    }
-    if (hypothesis.is_predicted && can_sample_directly(hypothesis)) {
+    const auto measure = [&] {
+        return measure_and_compare(frame, hypothesis, evidence, measurement, fix);
+    };
+    // Measures the dots with a property of the hypothesis set. Returns nullopt if the result is
+    // rejected.
+    const auto measure_with = [&](bool Hypothesis::*property) -> std::optional<Confirmation> {
         std::optional<OtherCodes> before;
         if (evidence.others != nullptr) before = *evidence.others;
-        hypothesis.is_exact = true;
-        const Confirmation exact =
-            measure_and_compare(frame, hypothesis, evidence, measurement, fix);
-        if (exact == Confirmation::ok || exact == Confirmation::too_few_bits) return exact;
-        hypothesis.is_exact = false;
-        if (before)
-            *evidence.others =
-                *before;  // a rejected attempt provides no evidence about other codes
+        hypothesis.*property = true;
+        const Confirmation result = measure();
+        if (result == Confirmation::ok || result == Confirmation::too_few_bits) return result;
+        hypothesis.*property = false;
+        // A rejected attempt provides no evidence about other codes.
+        if (before) *evidence.others = *before;
+        return {};
+    };
+    if (needs_cut_dots(frame, hypothesis)) {
+        if (const auto result = measure_with(&Hypothesis::reads_cut_dots)) return *result;
     }
-    return measure_and_compare(frame, hypothesis, evidence, measurement, fix);
+    if (hypothesis.is_predicted && can_sample_directly(hypothesis)) {
+        if (const auto result = measure_with(&Hypothesis::is_exact)) return *result;
+    }
+    return measure();
 }
 
 }  // namespace dotpose::core

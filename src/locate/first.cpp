@@ -120,24 +120,25 @@ class PatchSearch {
         tries_left_ = tuned::kMaxTries;
         for (const DotTiles tiles : {DotTiles::median, DotTiles::pale}) {
             dot_tiles_ = tiles;
-            if (search_patches() == Confirmation::ok) return Confirmation::ok;
+            if (search_patches()) return Confirmation::ok;
         }
         return tries_left_ < tuned::kMaxTries ? Confirmation::uncertain : Confirmation::implausible;
     }
 
     /// Searches adjacent patches that cover the image. The patches grow from round to round.
-    Confirmation search_patches() {
+    /// Returns true if a hypothesis is confirmed.
+    bool search_patches() {
         const ImageView& image = frame_.image;
         for (const int scale : {1, 2, 4}) {
             const int width = kPatchWidth_px * scale;
             const int height = kPatchHeight_px * scale;
             for (int v = height / 2; v < image.height_px + height / 2; v += height) {
                 for (int u = width / 2; u < image.width_px + width / 2; u += width) {
-                    if (search_around({u, v}, scale) == Confirmation::ok) return Confirmation::ok;
+                    if (search_around({u, v}, scale) == Confirmation::ok) return true;
                 }
             }
         }
-        return Confirmation::implausible;
+        return false;
     }
 
     /// Searches a patch around an image point. If there is no hypothesis and the dots are densest
