@@ -59,19 +59,13 @@ struct AxisPlace {
     std::uint8_t cross;
 };
 
-/// Moves a place by `distance` positions. Not inlined, because the function is called twice and
-/// most of its code is rarely executed.
-[[gnu::noinline]] AxisPlace moved(CodeVariant code, AxisPlace place, std::int32_t distance) {
-    const std::int64_t target = std::int64_t{place.position} + distance;
+/// Returns the place that `target` is congruent to, for a target outside [0, L), where L =
+/// kPositionsPerAxis. Not inlined, because it is rarely called.
+[[gnu::noinline]] AxisPlace wrapped(CodeVariant code, AxisPlace place, std::int64_t target) {
+    // Along x, the rolls of columns p and p + L differ by roll(L), so the column section changes by
+    // roll(L). Each row continues L cells farther along the main sequence, so the row section
+    // changes by L modulo 63. Along y, the same holds with columns and rows exchanged.
     const bool is_before = target < 0;
-    if (!is_before && target < kPositionsPerAxis) {
-        place.position = static_cast<std::uint32_t>(target);
-        return place;
-    }
-    // The target is outside [0, L), where L = kPositionsPerAxis. Along x, the rolls of columns p
-    // and p + L differ by roll(L), so the column section changes by roll(L). Each row continues L
-    // cells farther along the main sequence, so the row section changes by L modulo 63. Along y,
-    // the same holds with columns and rows exchanged.
     const auto shifted = [&](int section, int by) {
         const int sum = section + (is_before ? kSections - by : by);
         return static_cast<std::uint8_t>(sum % kSections);
@@ -80,6 +74,14 @@ struct AxisPlace {
     place.cross = shifted(place.cross, kPositionsPerAxis % kSections);
     const std::int64_t period = kPositionsPerAxis;
     place.position = static_cast<std::uint32_t>(is_before ? target + period : target - period);
+    return place;
+}
+
+/// Moves a place by `distance` positions.
+AxisPlace moved(CodeVariant code, AxisPlace place, std::int32_t distance) {
+    const std::int64_t target = std::int64_t{place.position} + distance;
+    if (target < 0 || target >= kPositionsPerAxis) return wrapped(code, place, target);
+    place.position = static_cast<std::uint32_t>(target);
     return place;
 }
 

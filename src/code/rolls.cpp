@@ -48,6 +48,20 @@ void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
     }
 }
 
+void follow_rolls(CodeVariant code, std::uint32_t position, int section, std::uint32_t cross,
+                  std::span<std::uint8_t> rolls) {
+    const std::uint32_t added =
+        modulo_sections(static_cast<std::uint32_t>(section) + modulo_sections(cross));
+    while (!rolls.empty()) {
+        const RollsAhead ahead(code, position);
+        const std::size_t count = std::min(rolls.size(), kLinesAhead);
+        for (std::size_t i = 0; i < count; ++i)
+            rolls[i] = static_cast<std::uint8_t>(ahead.at(static_cast<std::uint32_t>(i), added));
+        rolls = rolls.subspan(count);
+        position += static_cast<std::uint32_t>(count);
+    }
+}
+
 // The rolls are computed as in `roll`, but without the contributions of the places, which `at`
 // adds.
 RollsAhead::RollsAhead(CodeVariant code, std::uint32_t position)

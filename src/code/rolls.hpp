@@ -26,6 +26,11 @@ int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, st
 void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls);
 
+/// The same for the lines of a section, whose first bits are at the position `cross` of the other
+/// axis.
+void follow_rolls(CodeVariant code, std::uint32_t position, int section, std::uint32_t cross,
+                  std::span<std::uint8_t> rolls);
+
 /// The rolls of consecutive lines in section 0, computed one by one. Unlike `follow_rolls`, does
 /// not compute rolls that are not needed.
 class RollsAhead {

@@ -50,7 +50,7 @@ void follow_code(CodeVariant code, const Place& place, const RollMemory& memory,
     const Place corner = moved(code, place, view.first_column, view.first_row);
     const auto follow = [&](std::uint32_t position, int section, std::uint32_t cross, int count,
                             std::span<std::uint8_t> rolls) {
-        code::follow_rolls(code, position, code::roll_from(code, position, section, cross),
+        code::follow_rolls(code, position, section, cross,
                            rolls.first(static_cast<std::size_t>(count)));
     };
     follow(corner.cell.x, corner.section.u, corner.cell.y, view.columns, memory.columns);

@@ -12,7 +12,7 @@ Nominal::Nominal(const Grid& grid, CodeVariant code, const Decoding& decoding)
     const Place corner = moved(code, decoding.place, first_.x, first_.y);
     const auto follow = [&](std::uint32_t position, int section, std::uint32_t cross, int count,
                             std::array<std::uint8_t, kMaxGridSide>& indices) {
-        code::follow_rolls(code, position, code::roll_from(code, position, section, cross),
+        code::follow_rolls(code, position, section, cross,
                            std::span(indices).first(static_cast<std::size_t>(count)));
     };
     follow(corner.cell.x, corner.section.u, corner.cell.y, std::max(a.x, b.x) - first_.x + 1,

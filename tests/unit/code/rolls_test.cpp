@@ -57,6 +57,21 @@ TEST(FollowRolls, AreTheRollsOfEachPosition) {
     }
 }
 
+TEST(FollowRolls, AreTheRollsOfEachLineOfASection) {
+    std::mt19937 rng(kSeed);
+    for (int i = 0; i < 300; ++i) {
+        const CodeVariant code = kCodeVariants[static_cast<std::size_t>(i % 3)];
+        const Place place = random_place(rng);
+        const auto [x, y] = place.cell;
+        std::vector<std::uint8_t> columns(200, 99);
+        code::follow_rolls(code, x / 2, place.section.u, y, columns);
+        for (std::uint32_t line = 0; line < columns.size(); ++line) {
+            ASSERT_EQ(columns[line], code::roll_from(code, x / 2 + line, place.section.u, y))
+                << describe(code, place) << ", " << line;
+        }
+    }
+}
+
 TEST(RollsAhead, AreTheRollsOfEachPosition) {
     std::mt19937 rng(kSeed);
     for (int i = 0; i < 300; ++i) {

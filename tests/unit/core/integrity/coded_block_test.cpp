@@ -27,9 +27,7 @@ struct Seen {
         const Place corner = moved(CodeVariant::anoto, place, kFirst, kFirst);
         const auto follow = [](std::uint32_t position, int section, std::uint32_t cross,
                                std::span<std::uint8_t> rolls) {
-            code::follow_rolls(CodeVariant::anoto, position,
-                               code::roll_from(CodeVariant::anoto, position, section, cross),
-                               rolls);
+            code::follow_rolls(CodeVariant::anoto, position, section, cross, rolls);
         };
         follow(corner.cell.x, corner.section.u, corner.cell.y, column_rolls);
         follow(corner.cell.y, corner.section.v, corner.cell.x, row_rolls);
