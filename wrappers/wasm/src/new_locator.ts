@@ -21,7 +21,7 @@ export function newLocator(core: Instance, options: LocatorOptions): number {
     const set = (name: keyof typeof kOptionOffsets, value: number) =>
         view.setInt32(kOptionOffsets[name], value, true);
     set("code", code === "auto" ? kDetectCode : codeNumber(code));
-    set("show_stages", options.dots || options.space ? 1 : 0);
+    set("show_stages", options.dots || options.space || options.print_map ? 1 : 0);
     set("effort", attempts);
     for (const name of Object.keys(kDoubleOffsets) as (keyof typeof kDoubleOffsets)[]) {
         const value = options[name];

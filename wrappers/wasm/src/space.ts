@@ -1,6 +1,7 @@
 // Poses of the camera in space, fitted by wrappers/c/space/dotpose_space.h.
 import { callOk } from "./core.js";
 import type { Instance } from "./instance.js";
+import type { PrintMap } from "./print_map.js";
 
 /** Intrinsic parameters of the camera, as in a camera file of `dotpose calibrate`. */
 export interface SpaceCamera {
@@ -58,7 +59,16 @@ export interface SecondPose extends PoseInSpace {
 /** Sizes of the structs, and offsets of their members. */
 const kCameraBytes = 80;
 const kPoseBytes = 488;
+const kUseBytes = 4;
 const kCameraAt = { axis_u_px: 32, axis_v_px: 40, lens_k_per_px2: 48, print_scale: 72 };
+
+/** An image in the memory of the module. */
+export interface StoredImage {
+    pixels: number;
+    width: number;
+    height: number;
+    stride: number;
+}
 
 /** Fits poses in space to the images that a locator located. */
 export class SpaceFitter {
@@ -67,6 +77,7 @@ export class SpaceFitter {
     readonly #lens_k_per_px2: number;
     readonly #camera: number;
     readonly #pose: number;
+    readonly #use: number;
 
     /** Throws RangeError for invalid parameters. */
     constructor(core: Instance, given: SpaceCamera, lens_k_per_px2: number) {
@@ -80,12 +91,17 @@ export class SpaceFitter {
         this.#lens_k_per_px2 = lens_k_per_px2;
         this.#camera = core.reserve(kCameraBytes);
         this.#pose = core.reserve(kPoseBytes);
+        this.#use = core.reserve(kUseBytes);
     }
 
-    /** Returns the pose of the camera, or null if the dots do not determine it. */
-    fit(locator: number, pixels: number, width: number, height: number, stride: number): SpacePose | null {
+    /**
+     * Returns the pose of the camera, or null if the dots do not determine it. `map` corrected the
+     * fix of the image.
+     */
+    fit(locator: number, image: StoredImage, map: PrintMap | null): SpacePose | null {
         const core = this.#core;
         const { focal_px, axis_px, print_scale } = this.#given;
+        const { pixels, width, height, stride } = image;
         callOk(core, "dotpose_space_camera_init", this.#camera, kCameraBytes, width, height, focal_px);
         const camera = core.view(this.#camera, kCameraBytes);
         const set = (offset: number, value: number | undefined) => {
@@ -96,8 +112,10 @@ export class SpaceFitter {
         set(kCameraAt.lens_k_per_px2, this.#lens_k_per_px2);
         set(kCameraAt.print_scale, print_scale);
         callOk(core, "dotpose_space_pose_init", this.#pose, kPoseBytes);
-        const image = [pixels, width, height, stride];
-        const status = core.call("dotpose_space_fit", locator, this.#camera, ...image, this.#pose);
+        const view = [locator, this.#camera, pixels, width, height, stride, this.#pose];
+        const status = map
+            ? core.call("dotpose_print_map_fit_space", map.address, ...view, this.#use)
+            : core.call("dotpose_space_fit", ...view);
         return status === 0 ? poseOf(core.view(this.#pose, kPoseBytes)) : null;
     }
 }

@@ -1,22 +1,15 @@
-// Tests the packed and installed package in Node. Environment variables: DOTPOSE_PACKAGE is the
-// folder in which the package is installed, DOTPOSE_GOLDEN the folder of the golden files, and
-// DOTPOSE_TOOL the path of the command-line tool.
+// Tests the packed and installed package in Node. The environment variable DOTPOSE_GOLDEN is the
+// folder of the golden files.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { before, describe, test } from "node:test";
-import { pathToFileURL } from "node:url";
 import { inflateSync } from "node:zlib";
 import { compareSet, kSets } from "./golden.mjs";
+import { dotpose, kTool, resolve, Tools, url } from "./installed.mjs";
 
-const kTool = process.env.DOTPOSE_TOOL;
-const resolve = createRequire(join(process.env.DOTPOSE_PACKAGE, "package.json")).resolve;
-const url = (name) => pathToFileURL(resolve(name));
-const dotpose = await import(url("dotpose"));
-const { Tools } = await import(url("dotpose/tools"));
 const { Locator, Tracker } = dotpose;
 
 /** A frame with a known pose. */
