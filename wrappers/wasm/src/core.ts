@@ -23,3 +23,16 @@ export function callOk(core: Instance, name: string, ...args: (number | bigint)[
     const status = core.call(name, ...args);
     if (status !== 0) throw new RangeError(core.text(core.call("dotpose_status_message", status)));
 }
+
+/**
+ * Calls a function of dotpose-space.wasm. Exceptions of the C++ library end the instance with a trap
+ * and leave their message in the module. Throws RangeError with this message.
+ */
+export function callSpace(core: Instance, name: string, ...args: number[]): number {
+    try {
+        return core.call(name, ...args);
+    } catch (trap) {
+        const message = core.text(core.call("dotpose_space_error"));
+        throw message === "" ? trap : new RangeError(message);
+    }
+}

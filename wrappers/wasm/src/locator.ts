@@ -38,6 +38,10 @@ export interface LocatorOptions {
      */
     lens_k_per_px2?: number;
     /**
+     * Distortion centre minus the image centre, to the right and down. Default: 0, 0.
+     */
+    lens_centre_offset_px?: readonly [number, number];
+    /**
      * Number of attempts. If 2, a frame that the first attempt cannot locate is filtered and
      * located again. Default: 2.
      */
@@ -56,7 +60,7 @@ export interface LocatorOptions {
     /**
      * Intrinsic parameters of the camera, to fit its pose in space to every fix (`Fix.space`). The
      * locator then uses a larger module, `dotpose-space.wasm`, which takes more time. Its lens is
-     * `lens_k_per_px2`. Default: none.
+     * `lens_k_per_px2` about `lens_centre_offset_px`. Default: none.
      */
     space?: SpaceCamera;
     /**
@@ -137,7 +141,7 @@ export class Locator {
         this.#dots = options.dots ? core.reserve(kMaxDots * kDotBytes + kCountBytes) : 0;
         this.#locator = newLocator(core, options);
         this.#map = options.print_map ? new PrintMap(core, options.print_map) : null;
-        this.#space = options.space ? new SpaceFitter(core, options.space, options.lens_k_per_px2 ?? 0) : null;
+        this.#space = options.space ? new SpaceFitter(core, options.space, options) : null;
         if (options.sheets?.length) this.#know(options.sheets, options.only_sheets ?? false);
     }
 

@@ -8,6 +8,7 @@ import { codeNumber } from "./names.js";
 const kOptionsBytes = 96;
 const kOptionOffsets = { code: 4, effort: 8, show_stages: 88 };
 const kDoubleOffsets = { spacing_mm: 16, lens_k_per_px2: 24, max_p_wrong: 64 };
+const kLensCentreOffset = 32;
 const kPointerBytes = 4;
 const kDetectCode = -1;
 
@@ -27,6 +28,7 @@ export function newLocator(core: Instance, options: LocatorOptions): number {
         const value = options[name];
         if (value !== undefined) view.setFloat64(kDoubleOffsets[name], value, true);
     }
+    options.lens_centre_offset_px?.forEach((px, axis) => view.setFloat64(kLensCentreOffset + 8 * axis, px, true));
     const bytes = core.call("dotpose_large_bytes");
     const memory = core.reserve(bytes);
     const pointer = core.reserve(kPointerBytes);

@@ -1,5 +1,5 @@
 // Maps of the print, applied by wrappers/c/space/dotpose_print_map.h.
-import { callOk } from "./core.js";
+import { callOk, callSpace } from "./core.js";
 import type { Instance } from "./instance.js";
 import { kMapUses, type MapUse } from "./names.js";
 
@@ -18,16 +18,11 @@ export class PrintMap {
         this.#core = core;
         this.#use = core.reserve(kUseBytes);
         const copy = core.reserve(bytes.length);
-        if (copy === 0) throw new RangeError(`a print map of ${bytes.length} bytes does not fit into the memory`);
+        if (copy === 0) throw new RangeError("the print map does not fit into the memory");
         core.bytes(copy, bytes.length).set(bytes);
         const pointer = core.reserve(kPointerBytes);
-        try {
-            callOk(core, "dotpose_print_map_create", copy, bytes.length, pointer);
-        } catch (error) {
-            // An exception of the C++ library is a trap, which leaves its message in the module.
-            const message = core.text(core.call("dotpose_space_error"));
-            throw message === "" ? error : new RangeError(`the print map: ${message}`);
-        }
+        const status = callSpace(core, "dotpose_print_map_create", copy, bytes.length, pointer);
+        if (status !== 0) throw new RangeError("the print map does not fit into the memory");
         core.call("free", copy);
         this.address = core.view(pointer, kPointerBytes).getUint32(0, true);
     }

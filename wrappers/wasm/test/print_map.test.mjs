@@ -148,19 +148,19 @@ describe("print map", () => {
     test("files that are not a map are refused with the reason", async () => {
         const refused = (bytes, message) =>
             assert.rejects(dotpose.Locator.create({ print_map: bytes }), { name: "RangeError", message });
-        await refused(new Uint8Array(0), "the print map: it is not a print map of dotpose");
+        await refused(new Uint8Array(0), "it is not a print map of dotpose");
         await refused(print_map.slice(0, 1000), /its checksum is wrong; make the map again/);
         const damaged = print_map.slice();
         damaged[500] ^= 1;
         await refused(damaged, /its checksum is wrong/);
         const newer = print_map.slice();
         newer[8] = 2;
-        await refused(newer, "the print map: it has version 2, and this program reads version 1");
+        await refused(newer, "it has version 2, and this program reads version 1");
         // The number of dots of the page is 2^32, which does not fit into the integers of the module.
         const huge = print_map.slice();
         const columns = kColumnsAt("page");
         new DataView(huge.buffer).setUint32(columns, 65536, true);
         new DataView(huge.buffer).setUint32(columns + 4, 65536, true);
-        await refused(withSum(huge), "the print map: a page is too large");
+        await refused(withSum(huge), "a page is too large");
     });
 });
