@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -131,6 +132,14 @@ nlohmann::json camera_json(const CameraReport& camera) {
     }
     if (camera.refused.back() > 0) refused[name(Status::other)] = camera.refused.back();
     return {{"rate_hz", camera.rate_hz}, {"frames", camera.frames}, {"refused", refused}};
+}
+
+/// Returns height and tilt of a camera. In a world, z points out of the paper and the optical axis
+/// into it; without a world, z points into the paper.
+nlohmann::json space_json(const CameraInWorld& camera) {
+    const double tilt_rad = lean_of(camera.rotation).tilt_rad;
+    return {{"height_mm", rounded(std::abs(camera.z_m) * kMm_per_m, 1000)},
+            {"tilt_deg", rounded(std::min(tilt_rad, std::numbers::pi - tilt_rad) * kDegrees, 100)}};
 }
 
 nlohmann::json alert_json(const RobotAlert& alert) {
@@ -282,6 +291,8 @@ std::string robot_value(const FleetSnapshot& snapshot, const FleetState& fleet, 
     value["repeated"] = robot.counts.repeated;
     if (robot.newest.is_localized) value["deviation_mm"] = robot.newest.deviation_m * kMm_per_m;
     if (robot.camera) value["camera"] = camera_json(*robot.camera);
+    if (robot.newest.is_localized && robot.newest.camera_pose)
+        value["space"] = space_json(*robot.newest.camera_pose);
     nlohmann::json path = nlohmann::json::array();
     for (const draw::Point& point : fleet.path_mm(name)) {
         path.push_back(rounded(point.x, 100));

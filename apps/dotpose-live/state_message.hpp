@@ -84,7 +84,8 @@ struct RobotState {
     double vx_m_s = 0;
     double vy_m_s = 0;
     double omega_rad_s = 0;
-    /// Pose of the camera in space, with the axes of x and y. Not parsed.
+    /// Pose of the camera in space, with the axes of x and y. In a parsed message, the pose is that
+    /// of the tracked camera if there is one, and has no covariance.
     std::optional<CameraInWorld> camera_pose;
     /// Motion of the tracked camera, with the axes of x and y. Not parsed.
     std::optional<CameraMotion> camera_track;

@@ -91,6 +91,31 @@ std::optional<CameraReport> camera_in(const object& message) {
     return camera;
 }
 
+/// Returns a unit quaternion.
+Quaternion rotation_in(const object& values) {
+    constexpr double kMaxError = 1e-3;
+    const Quaternion q{bounded(values, "w", 1), bounded(values, "x", 1), bounded(values, "y", 1),
+                       bounded(values, "z", 1)};
+    const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    if (!(std::abs(norm - 1) <= kMaxError)) throw OutOfRange();
+    return {q.w / norm, q.x / norm, q.y / norm, q.z / norm};
+}
+
+/// Returns the pose of the tracked camera or, if there is none, the pose of the camera in the
+/// newest frame. Returns none if the message contains neither.
+std::optional<CameraInWorld> camera_pose_in(const object& message, double max_m) {
+    object values;
+    if (message["cameraTrack"].get(values) != simdjson::SUCCESS &&
+        message["cameraPose"].get(values) != simdjson::SUCCESS)
+        return std::nullopt;
+    CameraInWorld pose;
+    pose.x_m = bounded(values, "x", max_m);
+    pose.y_m = bounded(values, "y", max_m);
+    pose.z_m = bounded(values, "z", max_m);
+    pose.rotation = rotation_in(values["orientation"].get_object());
+    return pose;
+}
+
 std::int64_t time_in(const object& message) {
     const auto sent_us = parse_timestamp(message["timestamp"].get_string());
     if (!sent_us) throw OutOfRange();
@@ -120,6 +145,7 @@ RobotState state_in(const object& message) {
     state.vx_m_s = bounded(velocity, "vx", kMax_m_s);
     state.vy_m_s = bounded(velocity, "vy", kMax_m_s);
     state.omega_rad_s = bounded(velocity, "omega", kMax_rad);
+    state.camera_pose = camera_pose_in(message, kMax_m);
     return state;
 }
 

@@ -1,15 +1,10 @@
-// Reads and writes print maps.
+// Parses print maps, and writes them as bytes.
 #include "dotpose/files/print_map.hpp"
 
-#include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
 #include <concepts>
 
 #include <fmt/core.h>
-
-#include "files/input_file.hpp"
 
 namespace dotpose {
 namespace {
@@ -43,8 +38,9 @@ void append(std::string& bytes, Number number) {
         bytes += static_cast<char>(number >> (8 * i) & 0xFF);
 }
 
+// The standard library of emscripten has no std::bit_cast.
 void append(std::string& bytes, double number) {
-    append(bytes, std::bit_cast<std::uint64_t>(number));
+    append(bytes, __builtin_bit_cast(std::uint64_t, number));
 }
 
 /// Takes numbers from the front of a text. Throws Error at the end of the text.
@@ -68,7 +64,7 @@ class Bytes {
         }
         return number;
     }
-    double real() { return std::bit_cast<double>(number<std::uint64_t>()); }
+    double real() { return __builtin_bit_cast(double, number<std::uint64_t>()); }
     bool is_empty() const { return text_.empty(); }
 
   private:
@@ -89,6 +85,13 @@ std::string fault_of(const MapPage& page) {
         !is_length(page.noise, 1) || !is_length(page.jitter, 1))
         return "a spacing or a standard deviation out of range";
     return {};
+}
+
+/// Returns the number of dots of a page. Throws Error if a file cannot contain this number of dots.
+/// In WebAssembly, the product may not fit into the 32 bits of `std::size_t`.
+std::size_t dots_of(std::uint64_t columns, std::uint64_t rows) {
+    if (columns * rows > kMaxMapBytes) throw Error("a page is too large");
+    return static_cast<std::size_t>(columns * rows);
 }
 
 MapPage parse_page(Bytes& bytes) {
@@ -113,7 +116,7 @@ MapPage parse_page(Bytes& bytes) {
     if (const std::string fault = fault_of(page); !fault.empty())
         throw Error(fmt::format("a page has {}", fault));
     // Takes all bytes before the vectors are allocated, because the numbers may be wrong.
-    const std::size_t dots = std::size_t{columns} * rows;
+    const std::size_t dots = dots_of(columns, rows);
     Bytes offsets(bytes.take(4 * dots));
     const std::string_view views = bytes.take(dots);
     page.offsets.resize(dots);
@@ -126,7 +129,7 @@ MapPage parse_page(Bytes& bytes) {
 }
 
 void append_page(const MapPage& page, std::string& bytes) {
-    const std::size_t dots = std::size_t(page.columns) * std::size_t(page.rows);
+    const std::uint64_t dots = std::uint64_t(page.columns) * std::uint64_t(page.rows);
     const std::string fault = fault_of(page);
     if (!fault.empty() || page.name.size() > kMaxName || page.offsets.size() != dots ||
         page.views.size() != dots)
@@ -151,22 +154,13 @@ void append_page(const MapPage& page, std::string& bytes) {
     bytes.append(page.views.begin(), page.views.end());
 }
 
-/// Returns true if the map of a page is of this sheet.
-bool is_page(const MapPage& page, const SheetEntry& entry) {
-    const Sheet& sheet = entry.sheet;
-    return page.code == sheet.pattern.code && page.section == sheet.pattern.section &&
-           page.origin == sheet.origin && page.columns == sheet.columns &&
-           page.rows == sheet.rows &&
-           std::abs(page.spacing_mm / sheet.pattern.spacing_mm - 1) < 1e-9;
-}
-
 }  // namespace
 
 const MapPage* find_page(const PrintMap& map, CodeVariant code, const Place& place) {
-    const auto page = std::ranges::find_if(map.pages, [&](const MapPage& candidate) {
-        return candidate.code == code && candidate.index_of(place);
-    });
-    return page == map.pages.end() ? nullptr : &*page;
+    for (const MapPage& page : map.pages) {
+        if (page.code == code && page.index_of(place)) return &page;
+    }
+    return nullptr;
 }
 
 PrintMap parse_print_map(std::string_view text) {
@@ -192,16 +186,6 @@ PrintMap parse_print_map(std::string_view text) {
     return map;
 }
 
-PrintMap read_print_map(const std::filesystem::path& path) {
-    const auto text = files::text_of(path, kMaxMapBytes);
-    if (!text) throw Error(fmt::format("{} does not exist", path.string()));
-    try {
-        return parse_print_map(*text);
-    } catch (const Error& error) {
-        throw Error(fmt::format("{}: {}", path.string(), error.what()));
-    }
-}
-
 std::string print_map_bytes(const PrintMap& map) {
     std::string bytes(kMagic);
     append(bytes, kVersion);
@@ -210,17 +194,6 @@ std::string print_map_bytes(const PrintMap& map) {
         append_page(page, bytes);
     append(bytes, crc32_of(bytes));
     return bytes;
-}
-
-void require_pages(const PrintMap& map, std::span<const SheetEntry> sheets) {
-    for (const MapPage& page : map.pages) {
-        if (std::ranges::any_of(sheets, [&](const auto& entry) { return is_page(page, entry); }))
-            continue;
-        throw Error(
-            fmt::format("the print map is of page '{}', which is not in the sheet file with the "
-                        "same code, region and spacing: make a map of the pages of this file",
-                        page.name));
-    }
 }
 
 }  // namespace dotpose

@@ -86,6 +86,8 @@ class Robot {
         this.place = { map: "hall", sheet: "", y_m: 0.1, ...place };
         this.number = 0;
         this.is_lost = false;
+        /** Further members of localized states. */
+        this.more = {};
         const connection = `uagv/v2/dotpose/${name}/connection`;
         const will = JSON.stringify({ headerId: 0, timestamp: new Date().toISOString(), connectionState: "CONNECTIONBROKEN" });
         this.run = run(
@@ -103,7 +105,7 @@ class Robot {
         const agvPosition = { mapId: map, x: x_m, y: y_m, theta: 0, deviationRange: 1e-6 };
         const state = this.is_lost
             ? { ...common, state: "lost", reason: "too_few_dots" }
-            : { ...common, state: "moving", agvPosition, velocity: { vx: 0.1, vy: 0, omega: 0 } };
+            : { ...common, state: "moving", agvPosition, velocity: { vx: 0.1, vy: 0, omega: 0 }, ...this.more };
         this.run.program.stdin.write(`${JSON.stringify(state)}\n`);
     }
     silence() {
@@ -339,6 +341,36 @@ test("the graph of a robot that sends rarely has no gaps", async () => {
     await page.click("#fleet-stored-form button[type=submit]");
     await page.waitForSelector("#fleet-stored-figure", { state: "visible" });
     assert.equal(await emptyShare(page), 0);
+    await page.close();
+    await stop();
+});
+
+test("the chosen robot has height and tilt of its camera", async () => {
+    const [anna, bert, carl] = ["anna", "bert", "carl"].map((name, i) => new Robot(name, { y_m: 0.1 * i }));
+    // The camera looks down, and is turned about the y axis of the world. Its track is preferred to the newest frame.
+    const camera = (z, tilt_deg) => {
+        const half = (tilt_deg * Math.PI) / 360;
+        return { x: 0.1, y: 0, z, orientation: { x: Math.cos(half), y: 0, z: -Math.sin(half), w: 0 } };
+    };
+    anna.more = { cameraPose: camera(0.03, 5), cameraTrack: camera(0.0235, 20) };
+    carl.more = { cameraPose: { ...camera(0.03, 5), orientation: { x: 0, y: 0, z: 0, w: 0 } } };
+    const { url, stop } = await fleet();
+    const { page } = await open(browser.context, url);
+    const shows = (text) => page.waitForFunction((wanted) => document.getElementById("fleet-robot-space").textContent === wanted, text);
+    await untilState(page, "anna", "moving");
+    await page.click("#fleet-rows button:text-is('anna')");
+    await shows("23.500 mm high, tilted by 20.00°");
+    assert.equal(await page.isVisible("#fleet-robot-in-space"), true);
+    anna.more = { cameraPose: camera(0.03, 5) };
+    await shows("30.000 mm high, tilted by 5.00°");
+    await audit(page);
+    anna.is_lost = true;
+    await shows("–");
+    await untilState(page, "bert", "moving");
+    await page.click("#fleet-rows button:text-is('bert')");
+    await page.waitForFunction(() => document.getElementById("fleet-robot-name").textContent === "bert");
+    assert.equal(await page.isHidden("#fleet-robot-in-space"), true);
+    assert.equal(await rowOf(page, "carl"), undefined, "a rotation that is none is refused");
     await page.close();
     await stop();
 });

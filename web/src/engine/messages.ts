@@ -1,8 +1,22 @@
 // Messages between the page and the worker. They are plain data that can be posted.
 import type { Cell, Code, Fix, LocatorOptions, Section } from "dotpose";
 
+/** Intrinsic parameters of a camera. */
+export interface PageCamera {
+    /** Size of the images; null if any size is possible. The optical axis is then through the image centre. */
+    size_px: readonly [number, number] | null;
+    focal_px: readonly [number, number];
+    axis_px: readonly [number, number];
+    lens_k_per_px2: number;
+    /** Distortion centre. */
+    centre_px: readonly [number, number];
+}
+
 /** Options of the locator that the page sets. */
-export type ReadOptions = Pick<LocatorOptions, "code" | "sheets" | "only_sheets">;
+export interface ReadOptions extends Pick<LocatorOptions, "code" | "sheets" | "only_sheets"> {
+    /** The camera whose pose in space is wanted. It is not used for images of another size. */
+    camera?: PageCamera | null;
+}
 
 /** Part of the code that is printed on a page, and the size of the page. */
 export interface Sheet {

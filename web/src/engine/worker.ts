@@ -1,6 +1,7 @@
 // The worker runs the locator, the simulated camera and the loop over camera frames, which keeps
 // the page responsive.
-import { Locator, patternBits, type Fix, type Image } from "dotpose";
+import { Locator, patternBits, type Fix, type Image, type LocatorOptions } from "dotpose";
+import { fitsCamera } from "./camera_size.js";
 import { cellsInView } from "./cells.js";
 import { lumaByCanvas, lumaOfFrame } from "./luma.js";
 import { measureQuality } from "./quality.js";
@@ -16,11 +17,25 @@ const port = self as unknown as {
 let current: { key: string; locator: Promise<Locator> } | undefined;
 let previous: Fix | null = null;
 
-/** Returns a locator with the given options. Creates another one if the options have changed. */
-function locatorWith(options: ReadOptions): Promise<Locator> {
-    const key = JSON.stringify(options);
+/** Returns the options of a locator for images of this size. */
+function locatorOptions({ camera, ...options }: ReadOptions, width: number, height: number): LocatorOptions {
+    if (!camera || !fitsCamera(camera, width, height)) return options;
+    if (!camera.size_px) return { ...options, space: { focal_px: camera.focal_px } };
+    const [u, v] = camera.centre_px;
+    return {
+        ...options,
+        lens_k_per_px2: camera.lens_k_per_px2,
+        lens_centre_offset_px: [u - (width - 1) / 2, v - (height - 1) / 2],
+        space: { focal_px: camera.focal_px, axis_px: camera.axis_px },
+    };
+}
+
+/** Returns a locator for an image. Creates another one if the options have changed. */
+function locatorFor({ width, height }: Image, options: ReadOptions): Promise<Locator> {
+    const used = locatorOptions(options, width, height);
+    const key = JSON.stringify(used);
     if (current?.key !== key) {
-        current = { key, locator: Locator.create({ ...options, dots: true }) };
+        current = { key, locator: Locator.create({ ...used, dots: true }) };
         previous = null;
     }
     return current.locator;
@@ -32,7 +47,7 @@ async function read(
     options: ReadOptions,
     time_s: number,
 ): Promise<Reading> {
-    const locator = await locatorWith(options);
+    const locator = await locatorFor(image, options);
     const begin = performance.now();
     const fix = locator.locate(image, { prediction: previous });
     const locate_ms = performance.now() - begin;

@@ -91,6 +91,8 @@ export interface Robot extends Row {
     repeated: number;
     deviation_mm?: number;
     camera?: { rate_hz: number; frames: number; refused: Record<string, number> };
+    /** Pose of the camera in space. Missing while the robot is lost, and if its program does not find the pose. */
+    space?: { height_mm: number; tilt_deg: number };
     /** x and y alternately. */
     path_mm: number[];
     /** Newest first. */

@@ -12,6 +12,11 @@ function refusedText({ camera }: Robot): string {
     return `${refused.map(([reason, count]) => `${count} ${reason.replaceAll("_", " ")}`).join(", ")}, of ${camera.frames}`;
 }
 
+function spaceText({ space }: Robot): string {
+    if (space === undefined) return kNothing;
+    return `${space.height_mm.toFixed(3)} mm high, tilted by ${space.tilt_deg.toFixed(2)}°`;
+}
+
 export function eventItem(event: Alert, ...name: (string | Node)[]): HTMLLIElement {
     const item = make("li", {}, make("time", { textContent: time(event.time_us) }), ...name, make("span", { textContent: change(event) }));
     item.className = event.state;
@@ -51,6 +56,7 @@ export class RobotPanel {
     choose(id: number | null, reveal = false): void {
         this.#id = id;
         this.#reveals = reveal;
+        element("fleet-robot-in-space", HTMLElement).hidden = true;
         if (id === null) this.take(null);
         this.#connection.ask("robot", this.request());
     }
@@ -85,7 +91,9 @@ export class RobotPanel {
             "fleet-robot-missed": robot.missed === undefined ? kNothing : String(robot.missed),
             "fleet-robot-camera": number(robot.camera?.rate_hz, 1),
             "fleet-robot-refused": refusedText(robot),
+            "fleet-robot-space": spaceText(robot),
         });
+        if (robot.space) element("fleet-robot-in-space", HTMLElement).hidden = false;
         element("fleet-find", HTMLButtonElement).disabled = robot.map === undefined;
         const text = JSON.stringify([robot.id, robot.events]);
         if (text === this.#listed) return;

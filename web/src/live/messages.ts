@@ -1,6 +1,7 @@
 // Values of the topics of `dotpose watch --web` (docs/web.md). apps/dotpose-live/web_view.cpp writes
 // them.
 import type { DrawnFrame } from "../draw/frame.js";
+import type { Quaternion } from "../page/lean.js";
 
 type Pair = readonly [number, number];
 
@@ -43,9 +44,14 @@ export interface Line {
     track_sigma_mm?: number | null;
     // Keys of `--pose space`.
     camera_z_mm?: number | null;
-    camera_tilt_deg?: number | null;
-    camera_azimuth_deg?: number | null;
-    camera_turn_deg?: number | null;
+    camera_quaternion_xyzw?: Quaternion | null;
+    camera_covariance_mm_deg?: number[] | null;
+    camera_track_z_mm?: number | null;
+    camera_track_quaternion_xyzw?: Quaternion | null;
+    camera_track_covariance_mm_deg?: number[] | null;
+    camera_track_z_m?: number | null;
+    camera_track_quaternion_world_xyzw?: Quaternion | null;
+    camera_track_covariance_m_rad?: number[] | null;
 }
 
 export interface State {

@@ -1,47 +1,33 @@
-// The pose of the camera in space: numbers, and a drawing of the camera over the sheet.
-import { element, show } from "../page/dom.js";
+// The pose of the camera in space, from the keys of `--pose space`.
+import { fromWorld, type Quaternion, type SpacePose } from "../page/lean.js";
+import { SpacePanel, type ShownPose } from "../page/space_panel.js";
 import type { Line } from "./messages.js";
 
-/** Points of the drawing in live.html: the point on the paper, and the centre of the view from above. */
-const kPaper = { x: 50, y: 88 };
-const kAbove = { x: 150, y: 50 };
-const kRadius = 40;
+const kDegrees = 180 / Math.PI;
 
-function turned(id: string, angle_deg: number, centre: { x: number; y: number }): void {
-    const transform = `rotate(${angle_deg.toFixed(2)} ${centre.x} ${centre.y})`;
-    element(id, SVGElement).setAttribute("transform", transform);
+/** Returns a pose of a line, whose covariance has degrees; null if the line does not contain the pose. */
+function poseOf(z_mm?: number | null, quaternion?: Quaternion | null, covariance?: number[] | null): SpacePose | null {
+    if (typeof z_mm !== "number" || !quaternion || !covariance) return null;
+    const inRad = covariance.map((value, i) => value / ((i % 6 < 3 ? 1 : kDegrees) * (i < 18 ? 1 : kDegrees)));
+    return { height_mm: -z_mm, quaternion_xyzw: quaternion, covariance: inRad };
 }
 
-/**
- * Draws the camera. Angles of SVG are clockwise on the screen, as azimuth and turn are on the paper. The view
- * from above has the axes of the paper. The view from the side is in the plane in which the camera leans.
- */
-function draw(tilt_deg: number, azimuth_deg: number, turn_deg: number): void {
-    turned("live-space-side", tilt_deg, kPaper);
-    turned("live-space-lean", azimuth_deg, kAbove);
-    turned("live-space-turn", turn_deg, kAbove);
-    const length = kRadius * Math.sin((tilt_deg * Math.PI) / 180);
-    element("live-space-arrow", SVGElement).setAttribute("x2", (kAbove.x + length).toFixed(2));
-    element("live-space-tip", SVGElement).setAttribute("cx", (kAbove.x + length).toFixed(2));
-}
-
-/** Shows the pose of a line with the keys of `--pose space`. Without these keys, the panel is hidden. */
-export function showSpace(line: Line): void {
-    const panel = element("live-space", HTMLElement);
-    if (line.camera_z_mm !== undefined && line.camera_z_mm !== null) panel.hidden = false;
-    if (panel.hidden) return;
-    const is_known = typeof line.camera_z_mm === "number";
-    panel.classList.toggle("unknown", !is_known);
-    if (!is_known) {
-        show({ "live-height": "–", "live-tilt": "–", "live-azimuth": "–", "live-turn": "–" });
-        return;
+/** Returns the tracked pose, or the pose of the frame if the camera is not tracked. */
+function shownPose(line: Line): ShownPose {
+    const { camera_track_z_m: z_m, camera_track_quaternion_world_xyzw: quaternion } = line;
+    if (typeof z_m === "number" && quaternion) {
+        const pose = fromWorld(z_m, quaternion, line.camera_track_covariance_m_rad!);
+        return { pose, source: "tracked", is_in_world: true };
     }
-    const [tilt_deg, azimuth_deg, turn_deg] = [line.camera_tilt_deg!, line.camera_azimuth_deg!, line.camera_turn_deg!];
-    show({
-        "live-height": `${(-line.camera_z_mm!).toFixed(3)} mm`,
-        "live-tilt": `${tilt_deg.toFixed(2)}°`,
-        "live-azimuth": `${azimuth_deg.toFixed(1)}°`,
-        "live-turn": `${turn_deg.toFixed(2)}°`,
-    });
-    draw(tilt_deg, azimuth_deg, turn_deg);
+    const tracked = poseOf(line.camera_track_z_mm, line.camera_track_quaternion_xyzw, line.camera_track_covariance_mm_deg);
+    if (tracked) return { pose: tracked, source: "tracked", is_in_world: false };
+    const pose = poseOf(line.camera_z_mm, line.camera_quaternion_xyzw, line.camera_covariance_mm_deg);
+    return { pose, source: pose ? "of this frame" : "", is_in_world: false };
+}
+
+const panel = new SpacePanel("live");
+
+/** Shows the pose of a line. Without `--pose space`, the panel is hidden. */
+export function showSpace(line: Line): void {
+    panel.show(shownPose(line));
 }

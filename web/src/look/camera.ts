@@ -12,11 +12,11 @@ const kForced = new URLSearchParams(location.search).get("luma");
 
 /**
  * Starts the camera `device`. If it is empty, starts any camera, preferably the back camera of a
- * phone.
+ * phone. `size_px` is the preferred size of its images.
  */
-export async function openCamera(device: string): Promise<MediaStream> {
+export async function openCamera(device: string, size_px: readonly [number, number]): Promise<MediaStream> {
     const which = device === "" ? { facingMode: { ideal: "environment" } } : { deviceId: { exact: device } };
-    const video = { ...which, width: { ideal: 1280 }, height: { ideal: 720 } };
+    const video = { ...which, width: { ideal: size_px[0] }, height: { ideal: size_px[1] } };
     return navigator.mediaDevices.getUserMedia({ video, audio: false });
 }
 

@@ -48,6 +48,8 @@ const y_mm = ({ fix }: Reading) => fix.y_mm;
 const onSheet = ({ sheet, reading }: Frame) => (sheet ? pageFromPattern(sheet.layout, reading.fix) : null);
 const theta_deg = ({ fix }: Reading) => fix.theta_rad * kDegrees;
 
+const inDegrees = (rad: number | undefined) => (rad === undefined ? "" : (rad * kDegrees).toFixed(6));
+
 /** Columns of a line. For frames without a fix, only the columns with `always` have values. */
 const kColumns: readonly Column[] = [
     ["schema", () => 1, true],
@@ -77,6 +79,13 @@ const kColumns: readonly Column[] = [
     ["sheet", ({ sheet }) => (sheet ? withoutCommas(sheet.name) : "")],
     ["x_sheet_mm", (frame) => onSheet(frame)?.x_mm.toFixed(6) ?? ""],
     ["y_sheet_mm", (frame) => onSheet(frame)?.y_mm.toFixed(6) ?? ""],
+    ["camera_x_mm", ({ reading }) => reading.fix.space?.position_mm[0].toFixed(6) ?? ""],
+    ["camera_y_mm", ({ reading }) => reading.fix.space?.position_mm[1].toFixed(6) ?? ""],
+    ["camera_z_mm", ({ reading }) => reading.fix.space?.position_mm[2].toFixed(6) ?? ""],
+    ["camera_tilt_deg", ({ reading }) => inDegrees(reading.fix.space?.tilt_rad)],
+    ["camera_azimuth_deg", ({ reading }) => inDegrees(reading.fix.space?.azimuth_rad)],
+    ["camera_turn_deg", ({ reading }) => inDegrees(reading.fix.space?.turn_rad)],
+    ["camera_is_ambiguous", ({ reading }) => String(reading.fix.space?.is_ambiguous ?? "")],
     ["state", ({ reading }) => (reading.fix.ok ? "moving" : "lost"), true],
     ["events", eventOf, true],
     ["verdict", ({ reading }) => (reading.fix.ok ? "accepted" : "none"), true],

@@ -17,6 +17,7 @@ import { Log } from "./log.js";
 import { Rate } from "./rate.js";
 import { showReading } from "./readout.js";
 import { SheetControls } from "./sheet_controls.js";
+import { SpaceControls } from "./space_controls.js";
 
 const kMaxPathPoints = 3000;
 
@@ -37,6 +38,7 @@ export class LookView implements View {
     #last: Reading | undefined;
     #path: Point_mm[] = [];
     readonly #sheets = new SheetControls(() => this.#readAgain(), (text) => this.#say(text));
+    readonly #space = new SpaceControls(() => this.#readAgain(), (text) => this.#say(text));
     /** The known sheet of the newest fix. */
     #sheet: KnownSheet | null = null;
 
@@ -77,7 +79,7 @@ export class LookView implements View {
 
     get #options(): ReadOptions {
         const code = element("look-code", HTMLSelectElement).value as Code | "auto";
-        return { code, ...this.#sheets.options };
+        return { code, ...this.#sheets.options, camera: this.#space.camera };
     }
 
     async #open(device: string): Promise<void> {
@@ -85,7 +87,7 @@ export class LookView implements View {
         this.#is_opening = true;
         try {
             if (!navigator.mediaDevices) throw new Error("cameras need https or localhost");
-            const stream = await openCamera(device);
+            const stream = await openCamera(device, this.#space.camera?.size_px ?? [1280, 720]);
             this.#is_still = false;
             this.#camera = new CameraFrames(this.#engine, stream);
             this.#rate.restart();
@@ -165,6 +167,7 @@ export class LookView implements View {
         this.#log.add(reading, this.#sheet);
         this.redraw();
         showReading(reading, this.#sheet);
+        this.#space.showReading(reading);
         this.#showHint(reading);
         this.#showCounts(path);
         if (path !== null && !this.#is_frozen) requestAnimationFrame(() => this.#camera?.next());
@@ -191,7 +194,8 @@ export class LookView implements View {
     }
 
     #showHint(reading: Reading): void {
-        const hint = hintOf(reading, this.#sheets.contextOf(this.#sheet));
+        const complaint = this.#space.complaintOf(reading);
+        const hint = complaint ? { text: complaint, good: false } : hintOf(reading, this.#sheets.contextOf(this.#sheet));
         const box = element("look-hint", HTMLElement);
         box.hidden = hint === null;
         box.classList.toggle("good", hint?.good ?? false);

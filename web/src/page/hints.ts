@@ -64,6 +64,8 @@ export function hintOf(reading: Reading, { is_on_unknown, only_sheets }: SheetCo
     const { fix } = reading;
     if (!fix.ok) return { text: `${hintOfFailure(reading, only_sheets)} (${fix.message})`, good: false };
     if (is_on_unknown) return { text: "Located, but on no known sheet. Is this the right sheet?", good: false };
+    if (fix.space?.is_ambiguous)
+        return { text: "Located, but two tilts explain these dots. Show more of the sheet, or move closer.", good: false };
     if (fix.surface !== "even") return { text: "Located, but the paper is not flat here.", good: true };
     if (fix.spacing_px < kMinSpacing_px) return { text: "Located. Moving closer increases the accuracy.", good: true };
     if (fix.spacing_px > kMaxSpacing_px) return { text: "Located. Moving away shows more dots.", good: true };

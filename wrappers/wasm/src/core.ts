@@ -3,7 +3,7 @@ import { compile, hasSimd, type Instance, type WasmSource } from "./instance.js"
 
 /**
  * Returns the given module or, by default, the module in the file beside this one: the core or, if
- * `has_space`, the core with poses in space.
+ * `has_space`, the core with poses in space and print maps.
  */
 export function coreModule(wasm?: WasmSource, has_space = false): Promise<WebAssembly.Module> {
     if (wasm !== undefined) return compile(wasm);
@@ -22,4 +22,17 @@ export function coreModule(wasm?: WasmSource, has_space = false): Promise<WebAss
 export function callOk(core: Instance, name: string, ...args: (number | bigint)[]): void {
     const status = core.call(name, ...args);
     if (status !== 0) throw new RangeError(core.text(core.call("dotpose_status_message", status)));
+}
+
+/**
+ * Calls a function of dotpose-space.wasm. Exceptions of the C++ library end the instance with a trap
+ * and leave their message in the module. Throws RangeError with this message.
+ */
+export function callSpace(core: Instance, name: string, ...args: number[]): number {
+    try {
+        return core.call(name, ...args);
+    } catch (trap) {
+        const message = core.text(core.call("dotpose_space_error"));
+        throw message === "" ? trap : new RangeError(message);
+    }
 }

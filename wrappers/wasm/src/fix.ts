@@ -1,6 +1,6 @@
 // The pose computed from one frame, read from a dotpose_fix of wrappers/c/dotpose.h.
 import { fieldsOf, kAt, type FixFields } from "./fix_fields.js";
-import { kCodes, type Cell, type Code, type Section } from "./names.js";
+import { kCodes, type Cell, type Code, type MapUse, type Section } from "./names.js";
 import type { SpacePose } from "./space.js";
 
 /**
@@ -43,6 +43,8 @@ export interface Fix extends FixFields {
      * it.
      */
     space: SpacePose | null;
+    /** How the option `print_map` was used. Always "no_map" without the option. */
+    map_use: MapUse;
     /** The same fix, bit by bit, as a dotpose_fix of wrappers/c/dotpose.h. */
     bytes: Uint8Array<ArrayBuffer>;
 }
@@ -53,6 +55,7 @@ export interface Context {
     message: string;
     code: number;
     dots: Float32Array | null;
+    map_use: MapUse;
 }
 
 const kGrid_q16 = 65536;
@@ -75,6 +78,7 @@ export function fixOf(bytes: Uint8Array<ArrayBuffer>, context: Context): Fix {
         spacing_px: int(kAt.spacing_px_q16) / kGrid_q16,
         dots: context.dots,
         space: null,
+        map_use: context.map_use,
         bytes,
     };
 }

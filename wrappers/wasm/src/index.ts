@@ -13,6 +13,7 @@ export { type MeasuredMotion } from "./measured_motion.js";
 export {
     kAttempts,
     kCodes,
+    kMapUses,
     kPriors,
     kSurfaces,
     kTrackEvents,
@@ -21,6 +22,7 @@ export {
     type Cell,
     type Code,
     type KnownRegion,
+    type MapUse,
     type Prior,
     type Section,
     type Surface,

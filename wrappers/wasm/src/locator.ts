@@ -4,9 +4,10 @@ import { fixOf, type Fix } from "./fix.js";
 import { kAt, kFixBytes } from "./fix_fields.js";
 import { Instance, type WasmSource } from "./instance.js";
 import { kMotionBytes, writeMotion, type MeasuredMotion } from "./measured_motion.js";
-import { codeNumber, type Code, type KnownRegion } from "./names.js";
+import { codeNumber, type Code, type KnownRegion, type MapUse } from "./names.js";
 import { newLocator } from "./new_locator.js";
 import { kPredictionBytes, type Prediction } from "./prediction.js";
+import { PrintMap } from "./print_map.js";
 import { SpaceFitter, type SpaceCamera } from "./space.js";
 
 /** An 8-bit grey image with dark dots on light paper. Row v begins at `data[v * stride]`. */
@@ -37,6 +38,10 @@ export interface LocatorOptions {
      */
     lens_k_per_px2?: number;
     /**
+     * Distortion centre minus the image centre, to the right and down. Default: 0, 0.
+     */
+    lens_centre_offset_px?: readonly [number, number];
+    /**
      * Number of attempts. If 2, a frame that the first attempt cannot locate is filtered and
      * located again. Default: 2.
      */
@@ -55,9 +60,16 @@ export interface LocatorOptions {
     /**
      * Intrinsic parameters of the camera, to fit its pose in space to every fix (`Fix.space`). The
      * locator then uses a larger module, `dotpose-space.wasm`, which takes more time. Its lens is
-     * `lens_k_per_px2`. Default: none.
+     * `lens_k_per_px2` about `lens_centre_offset_px`. Default: none.
      */
     space?: SpaceCamera;
+    /**
+     * Contents of a print map file, from `dotpose calibrate --print-map`. Fixes and poses in space
+     * on its pages are corrected (`Fix.map_use`). Locate without predictions for the highest
+     * accuracy: a tracked frame measures the dots in windows at their nominal places. The locator
+     * then uses the same larger module as with `space`. Default: none.
+     */
+    print_map?: Uint8Array;
     /** The core module, as a URL, bytes or a compiled module. Default: the file beside this one. */
     wasm?: WasmSource;
 }
@@ -113,6 +125,7 @@ export class Locator {
     readonly #motion: number;
     readonly #code: number;
     readonly #dots: number;
+    readonly #map: PrintMap | null;
     readonly #space: SpaceFitter | null;
     readonly #texts = new Map<number, { status: string; message: string }>();
     #pixels = 0;
@@ -127,13 +140,15 @@ export class Locator {
         this.#code = core.reserve(kCodeBytes);
         this.#dots = options.dots ? core.reserve(kMaxDots * kDotBytes + kCountBytes) : 0;
         this.#locator = newLocator(core, options);
-        this.#space = options.space ? new SpaceFitter(core, options.space, options.lens_k_per_px2 ?? 0) : null;
+        this.#map = options.print_map ? new PrintMap(core, options.print_map) : null;
+        this.#space = options.space ? new SpaceFitter(core, options.space, options) : null;
         if (options.sheets?.length) this.#know(options.sheets, options.only_sheets ?? false);
     }
 
     /** Creates a locator. Asynchronous, because the first call loads and compiles the module. */
     static async create(options: LocatorOptions = {}): Promise<Locator> {
-        return new Locator(await Instance.start(await coreModule(options.wasm, options.space !== undefined)), options);
+        const needs_space = options.space !== undefined || options.print_map !== undefined;
+        return new Locator(await Instance.start(await coreModule(options.wasm, needs_space)), options);
     }
 
     /**
@@ -147,11 +162,15 @@ export class Locator {
         if (motion) writeMotion(motion, this.#core.view(this.#motion, kMotionBytes));
         const stride = this.#write(image);
         const frame = [this.#locator, this.#pixels, image.width, image.height, stride];
-        if (motion) this.#core.call("dotpose_locate_moved", ...frame, this.#motion, this.#fix);
-        else this.#core.call("dotpose_locate", ...frame, this.#predict(prediction), this.#fix);
-        const fix = this.#read();
-        if (fix.ok && this.#space)
-            fix.space = this.#space.fit(this.#locator, this.#pixels, image.width, image.height, stride);
+        const status = motion
+            ? this.#core.call("dotpose_locate_moved", ...frame, this.#motion, this.#fix)
+            : this.#core.call("dotpose_locate", ...frame, this.#predict(prediction), this.#fix);
+        const map_use = (status === 0 && this.#map?.correct(this.#locator, this.#fix)) || "no_map";
+        const fix = this.#read(map_use);
+        if (fix.ok && this.#space) {
+            const stored = { pixels: this.#pixels, width: image.width, height: image.height, stride };
+            fix.space = this.#space.fit(this.#locator, stored, map_use === "used" ? this.#map : null);
+        }
         return fix;
     }
 
@@ -223,7 +242,7 @@ export class Locator {
         return this.#core.view(this.#code, kCodeBytes).getInt32(0, true);
     }
 
-    #read(): Fix {
+    #read(map_use: MapUse): Fix {
         const core = this.#core;
         const bytes = core.bytes(this.#fix, kFixBytes).slice();
         const status = core.view(this.#fix, kFixBytes).getInt32(kAt.status, true);
@@ -231,6 +250,7 @@ export class Locator {
             ...this.#textsOf(status),
             code: this.#codeRead(),
             dots: this.#dots === 0 ? null : this.#readDots(),
+            map_use,
         });
     }
 

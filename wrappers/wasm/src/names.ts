@@ -27,6 +27,15 @@ export const kPriors = ["plane", "sheets", "only_sheets"] as const;
 /** Places that were considered possible when `p_wrong` was computed. */
 export type Prior = (typeof kPriors)[number];
 
+/** All values of `MapUse`, indexed by their numbers in C. */
+export const kMapUses = ["no_map", "used", "not_covered", "contradicted"] as const;
+/**
+ * Use of a print map: `no_map` without a map of the page in view, `used` if the fix is corrected,
+ * `not_covered` if the map contains too few of the dots in view, and `contradicted` if the map is
+ * of another print.
+ */
+export type MapUse = (typeof kMapUses)[number];
+
 /** All values of `Verdict`, indexed by their numbers in C. */
 export const kVerdicts = ["none", "accepted", "with_prior", "gated", "too_weak"] as const;
 /** Verdict of a tracker on the fix of a frame; `none` means that there was no fix. */

@@ -8,6 +8,7 @@ import { codeNumber } from "./names.js";
 const kOptionsBytes = 96;
 const kOptionOffsets = { code: 4, effort: 8, show_stages: 88 };
 const kDoubleOffsets = { spacing_mm: 16, lens_k_per_px2: 24, max_p_wrong: 64 };
+const kLensCentreOffset = 32;
 const kPointerBytes = 4;
 const kDetectCode = -1;
 
@@ -21,12 +22,13 @@ export function newLocator(core: Instance, options: LocatorOptions): number {
     const set = (name: keyof typeof kOptionOffsets, value: number) =>
         view.setInt32(kOptionOffsets[name], value, true);
     set("code", code === "auto" ? kDetectCode : codeNumber(code));
-    set("show_stages", options.dots || options.space ? 1 : 0);
+    set("show_stages", options.dots || options.space || options.print_map ? 1 : 0);
     set("effort", attempts);
     for (const name of Object.keys(kDoubleOffsets) as (keyof typeof kDoubleOffsets)[]) {
         const value = options[name];
         if (value !== undefined) view.setFloat64(kDoubleOffsets[name], value, true);
     }
+    options.lens_centre_offset_px?.forEach((px, axis) => view.setFloat64(kLensCentreOffset + 8 * axis, px, true));
     const bytes = core.call("dotpose_large_bytes");
     const memory = core.reserve(bytes);
     const pointer = core.reserve(kPointerBytes);

@@ -1,11 +1,16 @@
 // Poses of the camera in space, fitted by wrappers/c/space/dotpose_space.h.
-import { callOk } from "./core.js";
+import { callOk, callSpace } from "./core.js";
 import type { Instance } from "./instance.js";
+import type { LocatorOptions } from "./locator.js";
+import type { PrintMap } from "./print_map.js";
 
 /** Intrinsic parameters of the camera, as in a camera file of `dotpose calibrate`. */
 export interface SpaceCamera {
-    /** Focal length in px, from 1 to 1,000,000. */
-    focal_px: number;
+    /**
+     * Focal length in px, from 1 to 1,000,000. If the pixels are not square: the focal lengths along
+     * the image x and y axes.
+     */
+    focal_px: number | readonly [number, number];
     /** Pixel on the optical axis, without distortion. Default: the image centre. */
     axis_px?: readonly [number, number];
     /** Printed length divided by the nominal length of the sheet, from 0.1 to 10. Default: 1. */
@@ -58,48 +63,73 @@ export interface SecondPose extends PoseInSpace {
 /** Sizes of the structs, and offsets of their members. */
 const kCameraBytes = 80;
 const kPoseBytes = 488;
-const kCameraAt = { axis_u_px: 32, axis_v_px: 40, lens_k_per_px2: 48, print_scale: 72 };
+const kUseBytes = 4;
+const kCameraAt = { focal_u_px: 16, axis_u_px: 32, lens_k_per_px2: 48, lens_centre_u_px: 56, print_scale: 72 };
+
+/** The lens of a camera, as in the options of a locator. */
+export type Lens = Pick<LocatorOptions, "lens_k_per_px2" | "lens_centre_offset_px">;
+
+/** An image in the memory of the module. */
+export interface StoredImage {
+    pixels: number;
+    width: number;
+    height: number;
+    stride: number;
+}
 
 /** Fits poses in space to the images that a locator located. */
 export class SpaceFitter {
     readonly #core: Instance;
     readonly #given: SpaceCamera;
-    readonly #lens_k_per_px2: number;
+    readonly #lens: Lens;
     readonly #camera: number;
     readonly #pose: number;
+    readonly #use: number;
 
     /** Throws RangeError for invalid parameters. */
-    constructor(core: Instance, given: SpaceCamera, lens_k_per_px2: number) {
-        const { focal_px, axis_px = [0, 0], print_scale = 1 } = given;
-        // The module cannot throw exceptions, so invalid values must not reach it.
-        if (!(focal_px >= 1 && focal_px <= 1e6)) throw new RangeError("focal_px must be from 1 to 1,000,000");
+    constructor(core: Instance, given: SpaceCamera, lens: Lens) {
+        const { axis_px = [0, 0], print_scale = 1 } = given;
+        if (!focalOf(given).every((px) => px >= 1 && px <= 1e6)) throw new RangeError("focal_px must be from 1 to 1,000,000");
         if (!axis_px.every((px) => Math.abs(px) <= 1e4)) throw new RangeError("axis_px must be within 10,000 px");
         if (!(print_scale > 0.1 && print_scale < 10)) throw new RangeError("print_scale must be from 0.1 to 10");
         this.#core = core;
         this.#given = given;
-        this.#lens_k_per_px2 = lens_k_per_px2;
+        this.#lens = lens;
         this.#camera = core.reserve(kCameraBytes);
         this.#pose = core.reserve(kPoseBytes);
+        this.#use = core.reserve(kUseBytes);
     }
 
-    /** Returns the pose of the camera, or null if the dots do not determine it. */
-    fit(locator: number, pixels: number, width: number, height: number, stride: number): SpacePose | null {
+    /**
+     * Returns the pose of the camera, or null if the dots do not determine it. `map` corrected the
+     * fix of the image.
+     */
+    fit(locator: number, image: StoredImage, map: PrintMap | null): SpacePose | null {
         const core = this.#core;
-        const { focal_px, axis_px, print_scale } = this.#given;
-        callOk(core, "dotpose_space_camera_init", this.#camera, kCameraBytes, width, height, focal_px);
+        const { pixels, width, height, stride } = image;
+        const focal_px = focalOf(this.#given);
+        callOk(core, "dotpose_space_camera_init", this.#camera, kCameraBytes, width, height, focal_px[0]);
         const camera = core.view(this.#camera, kCameraBytes);
-        const set = (offset: number, value: number | undefined) => {
-            if (value !== undefined) camera.setFloat64(offset, value, true);
-        };
-        set(kCameraAt.axis_u_px, axis_px?.[0]);
-        set(kCameraAt.axis_v_px, axis_px?.[1]);
-        set(kCameraAt.lens_k_per_px2, this.#lens_k_per_px2);
-        set(kCameraAt.print_scale, print_scale);
+        const { lens_k_per_px2 = 0, lens_centre_offset_px: offset = [0, 0] } = this.#lens;
+        const set = (at: keyof typeof kCameraAt, values: readonly number[]) =>
+            values.forEach((value, i) => camera.setFloat64(kCameraAt[at] + 8 * i, value, true));
+        set("focal_u_px", focal_px);
+        set("axis_u_px", this.#given.axis_px ?? []);
+        set("lens_k_per_px2", [lens_k_per_px2]);
+        set("lens_centre_u_px", [(width - 1) / 2 + offset[0], (height - 1) / 2 + offset[1]]);
+        set("print_scale", [this.#given.print_scale ?? 1]);
         callOk(core, "dotpose_space_pose_init", this.#pose, kPoseBytes);
-        const image = [pixels, width, height, stride];
-        const status = core.call("dotpose_space_fit", locator, this.#camera, ...image, this.#pose);
+        const view = [locator, this.#camera, pixels, width, height, stride, this.#pose];
+        const status = map
+            ? callSpace(core, "dotpose_print_map_fit_space", map.address, ...view, this.#use)
+            : callSpace(core, "dotpose_space_fit", ...view);
         return status === 0 ? poseOf(core.view(this.#pose, kPoseBytes)) : null;
     }
+}
+
+/** Returns the focal lengths along the image x and y axes. */
+function focalOf({ focal_px }: SpaceCamera): readonly [number, number] {
+    return typeof focal_px === "number" ? [focal_px, focal_px] : focal_px;
 }
 
 /** Reads a dotpose_space_pose. */

@@ -1,22 +1,15 @@
-// Tests the packed and installed package in Node. Environment variables: DOTPOSE_PACKAGE is the
-// folder in which the package is installed, DOTPOSE_GOLDEN the folder of the golden files, and
-// DOTPOSE_TOOL the path of the command-line tool.
+// Tests the packed and installed package in Node. The environment variable DOTPOSE_GOLDEN is the
+// folder of the golden files.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { before, describe, test } from "node:test";
-import { pathToFileURL } from "node:url";
 import { inflateSync } from "node:zlib";
 import { compareSet, kSets } from "./golden.mjs";
+import { dotpose, kTool, resolve, Tools, url } from "./installed.mjs";
 
-const kTool = process.env.DOTPOSE_TOOL;
-const resolve = createRequire(join(process.env.DOTPOSE_PACKAGE, "package.json")).resolve;
-const url = (name) => pathToFileURL(resolve(name));
-const dotpose = await import(url("dotpose"));
-const { Tools } = await import(url("dotpose/tools"));
 const { Locator, Tracker } = dotpose;
 
 /** A frame with a known pose. */
@@ -61,44 +54,6 @@ describe("Locator", () => {
         assert.equal(fix.covariance.length, 9);
         assert.ok(fix.covariance[0] > 0 && fix.covariance[0] < 1e-4);
         assert.equal(fix.dots, null);
-    });
-
-    test("fits the pose of the camera in space", async () => {
-        const [distance_mm, tilt_rad] = [25, 0.3];
-        const camera = { width_px: 320, height_px: 240, mm_per_px: 0.046, working_distance_mm: distance_mm };
-        const pose = { x_mm: 560, y_mm: 1070, tilt_y_rad: tilt_rad };
-        const image = tools.render({ ...kScene, camera, pose, imperfections: { noise_sigma: 2, blur_sigma_px: 0.6 } });
-        const locator = await Locator.create({ space: { focal_px: distance_mm / camera.mm_per_px } });
-        for (let i = 0; i < 3; ++i) {
-            const { space } = locator.locate(image);
-            // The optical axis intersects the paper at the pose point, and the camera leans towards +x.
-            const truth = [560 + distance_mm * Math.sin(tilt_rad), 1070, -distance_mm * Math.cos(tilt_rad)];
-            space.position_mm.forEach((mm, axis) => assert.ok(Math.abs(mm - truth[axis]) < 0.03, `${axis}: ${mm}`));
-            const [x, y, z, w] = space.quaternion_xyzw;
-            assert.ok(Math.abs(y + Math.sin(tilt_rad / 2)) < 0.002 && Math.abs(Math.hypot(x, y, z, w) - 1) < 1e-9);
-            assert.ok(Math.abs(space.tilt_rad - tilt_rad) < 0.003 && Math.abs(space.azimuth_rad) < 0.01);
-            assert.equal(space.covariance.length, 36);
-            assert.ok(space.covariance[14] > 0 && space.covariance[14] < 1e-3);
-            assert.ok(space.dots > 500 && space.residual_px < 0.5);
-            assert.equal(space.is_ambiguous, false);
-        }
-        const blank = { data: new Uint8Array(320 * 240).fill(200), width: 320, height: 240 };
-        assert.equal(locator.locate(blank).space, null);
-        assert.equal((await Locator.create()).locate(image).space, null);
-        // Twice the scale doubles all distances from the origin of the pattern.
-        const twice = await Locator.create({ space: { focal_px: distance_mm / 0.046, print_scale: 2 } });
-        assert.ok(Math.abs(twice.locate(image).space.position_mm[2] + 2 * distance_mm * Math.cos(tilt_rad)) < 0.06);
-    });
-
-    test("the module of poses in space has the same fixes", async () => {
-        const image = tools.render(kScene);
-        const locator = await Locator.create({ space: { focal_px: 350 } });
-        assert.deepEqual(locator.locate(image).bytes, (await Locator.create()).locate(image).bytes);
-    });
-
-    test("refuses cameras that cannot exist", async () => {
-        for (const space of [{ focal_px: 0 }, { focal_px: NaN }, { focal_px: 300, print_scale: 0 }, { focal_px: 300, axis_px: [NaN, 0] }])
-            await assert.rejects(Locator.create({ space }), RangeError, JSON.stringify(space));
     });
 
     test("reads other codes, alone and by itself", async () => {

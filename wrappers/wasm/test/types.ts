@@ -1,5 +1,6 @@
 // Compiled against the installed package to check its types.
-import { Locator, patternBits, Tracker, WorkerLocator, type Fix, type KnownRegion, type MeasuredMotion, type Track } from "dotpose";
+import { Locator, patternBits, Tracker, WorkerLocator } from "dotpose";
+import type { Fix, KnownRegion, MapUse, MeasuredMotion, Track } from "dotpose";
 import { Tools, type Scene } from "dotpose/tools";
 
 const scene: Scene = { pose: { x_mm: 1, y_mm: 2 }, imperfections: { noise_sigma: 2 } };
@@ -21,6 +22,8 @@ export const [x_mm, lost]: [number, boolean] = [track.x_mm, track.events.include
 locator.locate(image, { prediction: tracker.predict(20_000) });
 const upright = await Locator.create({ space: { focal_px: 543.5, axis_px: [160, 120] } });
 export const height_mm: number | undefined = upright.locate(image).space?.position_mm[2];
+const mapped = await Locator.create({ print_map: new Uint8Array(await new Blob().arrayBuffer()) });
+export const use: MapUse = mapped.locate(image).map_use;
 
 // @ts-expect-error: unknown code
 await Locator.create({ code: "morse" });
