@@ -20,9 +20,10 @@ std::vector<Field> space_fields(const std::optional<SpacePose>& space,
                                 const std::optional<SheetPlace>& place, bool has_sheets,
                                 Units units);
 
-/// Returns the fields of the track of a camera in space. If `has_sheets` is true, also returns the
-/// fields of the pose in the world. The pose has no values while the camera is lost, and is either
-/// in the world or in the pattern, according to `is_in_world`.
+/// Returns the fields of the track of a camera in space. The fields of the pose in the pattern are
+/// always contained, and those of the pose in the world if `has_sheets` is true. Only the fields of
+/// one of the two poses have values, according to `is_in_world`. While the camera is lost, neither
+/// has.
 std::vector<Field> space_track_fields(const SpaceTrack& track, bool is_in_world, bool has_sheets,
                                       Units units);
 

@@ -143,7 +143,7 @@ class Run {
         [this.#frames, this.#next] = [frames, 0];
     }
 
-    /** Writes the next frame, unless a busy machine has not read the ones before. */
+    /** Writes the next frame, unless the program has not yet read the previous ones, for example on a busy machine. */
     #write() {
         if (this.#reads && this.#frames.length > 0 && this.program.stdin.writableLength === 0) this.program.stdin.write(this.#frames[this.#next++ % this.#frames.length]);
     }
@@ -295,7 +295,7 @@ test("the page keeps the mount of the file that it replaces", async () => {
     }
 });
 
-/** Takes pictures for docs/web.md if the environment names the folder DOTPOSE_PICTURES. */
+/** Takes pictures for docs/web.md if the environment variable DOTPOSE_PICTURES names a folder. */
 async function picture(page, name) {
     if (process.env.DOTPOSE_PICTURES) await takeForms(page, process.env.DOTPOSE_PICTURES, name);
 }

@@ -104,7 +104,7 @@ test("the page shows the frame, the map, refusals and recordings", async () => {
         assert.match((await shownPose(page)).x_name, /<b>table<\/b>/);
         assert.match(await page.textContent("#live-refused"), /none/);
         assert.equal(await page.textContent("#live-advice"), "The newest frame was located.");
-        // A frame without faults needs no other light and no other focus.
+        // For a good frame, the page does not advise to change the light or the focus.
         assert.equal(await page.textContent("#live-picture-advice"), "The picture is bright and sharp enough.");
         assert.ok(Number.parseInt(await page.textContent("#live-contrast-text"), 10) > 60);
 

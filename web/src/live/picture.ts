@@ -19,8 +19,8 @@ const kMeasured_ms = 4000;
 class Meter {
     readonly #canvas = new OffscreenCanvas(1, 1);
     /**
-     * The steepest edges so far, which show by how much the focus can be improved. They are not compared relative to the
-     * contrast, because the noise of a frame without dots would count as sharp.
+     * Maximum steepness of edges so far. The steepness of a frame is compared with it, to show how far the focus can be
+     * improved. The sharpness is not suitable for this, because it is large for the noise of a frame without dots.
      */
     #best = 0;
 

@@ -1,5 +1,6 @@
-// The runtime of the module dotpose-space.wasm, which is the core with poses in space. JavaScript
-// checks all arguments, so no function throws. An exception would end the instance with a trap.
+// Runtime functions of the module dotpose-space.wasm, which is the core with poses in space. No
+// function throws, because JavaScript checks all arguments. An exception would end the instance
+// with a trap.
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -19,8 +20,8 @@ void __wasi_proc_exit(std::uint32_t) {
     __builtin_trap();
 }
 
-// Called when the memory has grown. The loader recreates its views after each call. The function
-// exists only to avoid an import.
+// Called when the memory has grown. Does nothing, because the loader recreates its views after each
+// call. Without this definition, the module would import the function.
 void emscripten_notify_memory_growth(std::size_t) {}
 
 }  // extern "C"

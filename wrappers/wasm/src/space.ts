@@ -51,7 +51,7 @@ export interface SpacePose extends PoseInSpace {
 
 /** The second pose that explains the view of a plane. */
 export interface SecondPose extends PoseInSpace {
-    /** Odds of this pose against the first one. */
+    /** Odds of this pose relative to the first one. */
     odds: number;
 }
 
