@@ -43,7 +43,8 @@ Vec2 feed_wave(double wave_mm, Vec2 place_grid) {
     return {0.1 * wave_mm * std::cos(phase), wave_mm * std::sin(phase)};
 }
 
-/// Returns a state anywhere in the rectangle around the figure eight, at any angle.
+/// Returns a state with a random position in the rectangle around the figure eight, and a random
+/// angle.
 test::DriveState state_in_area(std::uint64_t index) {
     Rng rng(500, index);
     test::DriveState state;

@@ -243,7 +243,7 @@ export class FleetMap {
             if (this.#copies() !== copied) this.#is_ground_old = true;
             this.#requestFrame();
         }
-        // The next positions are requested after these are on the screen.
+        // Waits until these positions are on the screen before the next ones are requested.
         await new Promise(requestAnimationFrame);
     }
 

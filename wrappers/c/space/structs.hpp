@@ -1,4 +1,4 @@
-// Functions that check the arguments of the functions of dotpose_c_space.
+// Checks of arguments that the functions of dotpose_c_space have in common.
 #pragma once
 
 #include <cstddef>
