@@ -126,7 +126,7 @@ test("the page shows the frame, the map, refusals and recordings", async () => {
 test("frames without a sheet do not count as sharp", async () => {
     dotpose("simulate", "-o", join(folder, "still"), "--frames", "1", "--size", "320x240", "--mm-per-px", "0.03", "--seed", "3");
     const still = readFileSync(join(folder, "still", "frame_000000.pgm")).subarray(-320 * 240);
-    // A dark table with a faint texture.
+    // The frame shows a dark table with a faint texture.
     const table = Buffer.from(still.map((_, i) => (i % 16 < 8 ? 36 : 40)));
     const run = await watchSource(["-", "--size", "320x240", "--fps", "10"], ["--code", "anoto"]);
     let shown = table;

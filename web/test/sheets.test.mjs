@@ -295,7 +295,7 @@ test("changes by other programs appear, and conflicts lose nothing", async () =>
         assert.match(answer.message, /'shelf' was changed by someone else/);
         assert.deepEqual(placeOf("shelf"), { x_mm: 333, y_mm: 44, yaw_deg: 5 });
 
-        // What was typed before the change is refused once, and saved when the user insists.
+        // Values that were typed before the change are refused once, and saved if the user saves them again.
         await save(page, "place");
         await message(page, /^Refused: 'shelf' was changed by someone else/);
         assert.deepEqual(placeOf("shelf"), { x_mm: 333, y_mm: 44, yaw_deg: 5 });
