@@ -400,7 +400,7 @@ test("the page says why there is no result", async () => {
         await page.click("#calibration-save");
         await page.waitForFunction(problemIs, "cannot create");
         assert.match(await page.textContent("#calibration-title"), /: result$/);
-        // The result is not lost: it is saved when the folder is there again.
+        // The result is not lost. It can be saved after the folder has been created again.
         mkdirSync(join(folder, "gone"));
         await page.click("#calibration-save");
         await page.waitForFunction(titleIs, ": saved");

@@ -110,7 +110,7 @@ export class Picture {
         this.#times_ms.push(now_ms);
         while (now_ms - this.#times_ms[0]! > kMeasured_ms) this.#times_ms.shift();
         const passed_s = (now_ms - this.#times_ms[0]!) / 1000;
-        // Two frames that wait at the beginning arrive together.
+        // The rate is not shown in the first second, because two frames that wait at the beginning arrive together.
         const rate_hz = passed_s > 1 ? (this.#times_ms.length - 1) / passed_s : 0;
         show({ "live-frame-rate": rate_hz > 0 ? `shown: ${rate_hz.toFixed(0)} frames/s` : "" });
         if (this.#topic !== kLarge || now_ms - this.#times_ms[0]! < kMeasured_ms / 2 || rate_hz >= kMinRate_hz) return;

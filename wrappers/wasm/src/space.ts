@@ -8,7 +8,7 @@ export interface SpaceCamera {
     focal_px: number;
     /** Pixel on the optical axis, without distortion. Default: the image centre. */
     axis_px?: readonly [number, number];
-    /** Printed length divided by the nominal length of the sheet, from 0.1 to 10. Default: 1. */
+    /** Printed length divided by the nominal length of the sheet, above 0.1 and below 10. Default: 1. */
     print_scale?: number;
 }
 
