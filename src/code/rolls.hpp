@@ -26,8 +26,8 @@ int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, st
 void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls);
 
-/// Sets rolls[i] to the roll of line `position` + i of a section. `cross` is the position of the first
-/// bits of the lines on the other axis.
+/// Sets rolls[i] to the roll of line `position` + i of a section. `cross` is the position of the
+/// first bits of the lines on the other axis.
 void follow_rolls(CodeVariant code, std::uint32_t position, int section, std::uint32_t cross,
                   std::span<std::uint8_t> rolls);
 
