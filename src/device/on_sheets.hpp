@@ -1,4 +1,4 @@
-// Reads the bits of a frame as a place on a known sheet.
+// On sheets: finds and verifies places on known sheets for a DeviceLocator.
 #pragma once
 
 #include "dotpose/device_options.hpp"

@@ -19,8 +19,9 @@ bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int w
 /// Selects the tile of a patch whose darkness is used as the contrast of its dots.
 enum class DotTiles : std::uint8_t {
     median,  ///< the tile of median darkness among the tiles with contrast
-    pale,    ///< a pale tile, for patches in which most tiles contain graphics. Blurred dots are
-             ///< paler than graphics of the same ink.
+    /// A pale tile, for patches in which most tiles contain graphics. Blurred dots are paler than
+    /// graphics of the same ink.
+    pale,
 };
 
 /// Measures the typical dot contrast in a smoothed patch. Computes each tile's threshold from this

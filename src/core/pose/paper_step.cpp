@@ -297,8 +297,8 @@ class Search {
     /// Returns the log likelihood ratio between separate planes and one plane for the whole sheet.
     /// Both parts have a separate plane, because the plane of the whole sheet may fit neither of
     /// them. If its own plane explains the part beyond the line worse than random places do, the
-    /// log odds of this part are 0. If its own plane explains the part here worse than the plane of
-    /// the whole sheet does, this part adds nothing.
+    /// log odds of this part are 0. If its own plane explains the part on this side worse than the
+    /// plane of the whole sheet does, this part adds nothing.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));
