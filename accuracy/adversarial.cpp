@@ -69,7 +69,7 @@ struct AdversaryTally {
     }
 };
 
-/// Whether the options of the frame contain the code variant, or the locator detects it.
+/// Source of the code variant: the options of the frame, or detection by the locator.
 enum class Code : std::uint8_t { given, automatic };
 
 /// Locates a frame. Stores a detected code variant in the options of the frame.

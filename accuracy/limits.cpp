@@ -24,8 +24,8 @@ namespace {
 /// Minimum number of frames of a condition, unless --frames is smaller.
 constexpr std::uint64_t kMinFrames = 4;
 
-/// Returns the number of frames that have together as many pixels as `frames` images of 320 x 240,
-/// clamped to [kMinFrames, `frames`].
+/// Returns the number of frames that together have the same number of pixels as `frames` images of
+/// 320 x 240, clamped to [kMinFrames, `frames`].
 int frames_of(const CameraModel& camera, std::uint64_t frames) {
     constexpr std::uint64_t kFull_px = 320 * 240;
     const std::uint64_t area_px =

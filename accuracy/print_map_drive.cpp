@@ -1,12 +1,12 @@
 // Measures how much a map of the print improves a drive (docs/print-map.md). The drive is that of
 // `dotpose_tables drive`, on a print with jitter, and on a print with jitter and a feed wave. The
-// map is made of other frames. They cover the whole rectangle around the path, because a map of the
-// narrow band along the path would be bent.
+// map is made from other frames, which cover the whole rectangle around the path, because a map of
+// only the narrow band along the path would be bent.
 //
 //   dotpose_tables print_map_drive [--frames N] [--update DOCUMENT]
 //
 // The exit status is 1 if an error with the map exceeds 0.12 µm, or if an absolute error with the
-// map exceeds a fifth of the absolute error without.
+// map exceeds a fifth of the absolute error without it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,14 +36,15 @@ struct DrivePrint {
 constexpr std::array kDrivePrints = {DrivePrint{"jitter of 10 µm", 0},
                                      DrivePrint{"jitter of 10 µm, feed wave of 40 µm", 0.040}};
 
-/// Returns the displacement of a dot by the feed wave. The wave is along y, every 50 mm. A tenth of
-/// its amplitude is along x.
+/// Returns the displacement of a dot by the feed wave. The wave has a period of 50 mm along y. Its
+/// amplitude is `wave_mm` along y and a tenth of this along x.
 Vec2 feed_wave(double wave_mm, Vec2 place_grid) {
     const double phase = 2 * std::numbers::pi * place_grid.y * kDefaultSpacing_mm / 50;
     return {0.1 * wave_mm * std::cos(phase), wave_mm * std::sin(phase)};
 }
 
-/// Returns a state anywhere in the rectangle around the figure eight, at any angle.
+/// Returns a state with a random position in the rectangle around the figure eight, and a random
+/// angle.
 test::DriveState state_in_area(std::uint64_t index) {
     Rng rng(500, index);
     test::DriveState state;
@@ -64,7 +65,8 @@ PrintMapResult map_of_area(const test::DriveCamera& camera, std::uint64_t frames
     return mapping.solve();
 }
 
-/// Errors of the positions of single frames of a drive, without the smoothing of the tracker.
+/// Errors of the positions that are measured in the single frames of a drive, without the filter of
+/// the tracker.
 struct RawErrors {
     test::DriveErrors all;
     std::array<test::PlaceErrors, 2> pages;  ///< of the left and the right page
@@ -87,7 +89,7 @@ struct RawErrors {
         pages[located.place->entry->name == "left" ? 0 : 1].add(
             {truth.x_mm, truth.y_mm}, {off.x_mm, off.y_mm}, {}, located.fix);
     }
-    /// Returns the absolute error, as rms of both pages.
+    /// Returns the rms of the absolute errors on both pages.
     double absolute_um() const {
         double squares = 0;
         double count = 0;
@@ -126,8 +128,9 @@ bool print_map_drive_table(TableRun& run) {
         const RawErrors without = drive_with(camera, {});
         const RawErrors with = drive_with(camera, map_of_area(camera, frames).map);
         for (const auto& [name, errors] : {std::pair{"without", &without}, {"with", &with}}) {
-            // Frames do not determine the mean place, scale and turn of a page. A wave changes them
-            // by microns, so they are not errors of its map.
+            // With a wave, the error relative to the nominal page is not shown. A wave changes the
+            // mean place, scale and turn of the page by several µm, and a map cannot correct this,
+            // because the frames do not determine the mean place, scale and turn.
             const std::string all =
                 print.wave_mm > 0 ? "-" : fmt::format("{:.3f}", errors->all.raw_um());
             text += fmt::format("| {} | {} | {} | {} | {} | {:.3f} | {:.3f} | {:.4f} |\n",

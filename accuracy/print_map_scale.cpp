@@ -1,10 +1,10 @@
-// Measures processor time and memory for the map of an A4 page from many frames of 640 x 480 px
-// (docs/print-map.md).
+// Measures the processor time and the memory for the map of an A4 page from many frames of 640 x
+// 480 px (docs/print-map.md).
 //
 //   dotpose_tables print_map_scale [--frames N] [--threads N]
 //
-// The processor time is the sum over all threads, so it hardly depends on other work of the
-// machine. The exit status is 1 if the map does not correct all of 50 other frames.
+// The processor time is the sum over all threads, so other programs on the machine hardly affect
+// it. The exit status is 1 if the map does not correct all of 50 other frames.
 #include <algorithm>
 #include <ctime>
 #include <thread>

@@ -1,12 +1,12 @@
-// Measures processor time and memory of the solver of print maps (docs/print-map.md). The frames of
-// 640 x 480 px show an A4 page. Their dots are computed directly, because rendering images of all
-// frames would take hours.
+// Measures the processor time and the memory of the solver of print maps (docs/print-map.md), for
+// frames of 640 x 480 px that show an A4 page. The dots of the frames are computed directly,
+// because rendering all images would take hours.
 //
 //   dotpose_tables print_map_solver [--frames N]
 //
-// The processor time is the sum over all threads, so it hardly depends on other work of the
-// machine. The exit status is 1 if the solver takes more than 5 minutes on two cores or more than
-// 2 GB.
+// The processor time is the sum over all threads, so other programs on the machine hardly affect
+// it. The exit status is 1 if the solver takes more than 10 minutes, which are 5 minutes on two
+// cores, or uses more than 2 GB of memory.
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -29,14 +29,14 @@ using calibrate::MapObservation;
 using calibrate::MapSolution;
 using Eigen::Vector2d;
 
-constexpr double kDotNoise_mm = 0.00137;  ///< of a dot in a nominal frame
+constexpr double kDotNoise_mm = 0.00137;  ///< standard deviation per axis, in a nominal frame
 
-/// A page with known offsets, and the dots of its frames.
+/// A page whose dots have known offsets, and the dots that each frame of the page shows.
 struct SolverInput {
     MapGrid grid;
-    std::vector<Vector2d> offsets_mm;  ///< the truth
+    std::vector<Vector2d> offsets_mm;  ///< true offsets of the dots
     std::vector<MapObservation> observations;
-    MapSolution start;  ///< with approximate poses of the frames
+    MapSolution start;  ///< contains approximate poses of the frames
     double reach_mm = 0;
 };
 
@@ -95,7 +95,8 @@ SolverInput simulated_input(std::uint64_t frames) {
     return input;
 }
 
-/// Returns the rms error of the offsets per axis, in µm, without the mean place, turn and scale.
+/// Returns the rms error of the offsets per axis, in µm. Errors of the place, turn and scale of the
+/// whole page are not included, because frames do not determine them.
 double offset_error_um(const SolverInput& input, const MapSolution& solution) {
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Vector4d right = Eigen::Vector4d::Zero();

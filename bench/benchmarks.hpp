@@ -92,7 +92,7 @@ struct TiltTimes {
     int by_first_attempt = 0;  ///< number of frames located by the first attempt
     double median_us = 0;
 };
-/// Locates frames of tilted cameras. Throws Error if a fix is wrong.
+/// Measures the times to locate frames of tilted cameras. Throws Error if a fix is wrong.
 std::vector<TiltTimes> time_tilted_frames(bool is_quick);
 std::string tilt_table(const std::vector<TiltTimes>& times);
 
@@ -108,7 +108,7 @@ struct SmallTimes {
     double median_us = 0;
     double longest_us = 0;
 };
-/// Locates small frames. Throws Error if a fix is wrong.
+/// Measures the times to locate small frames. Throws Error if a fix is wrong.
 std::vector<SmallTimes> time_small_frames(bool is_quick);
 std::string small_table(const std::vector<SmallTimes>& times);
 

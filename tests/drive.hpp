@@ -42,7 +42,7 @@ struct DrivePlan {
     double graphics_end = 3.0;
     double second_lift = 3.4;
     double second_put_down = 3.55;  ///< put down a little to the side
-    double stop = 4.5;              ///< beginning of the final rest. The robot slows down before it
+    double stop = 4.5;  ///< beginning of the final rest, before which the robot slows down
     double end = 5.5;
     /// Maximum speed, which is reached in the middle of the path. 0 for a robot that does not move.
     double speed_mm_s = 300;

@@ -106,7 +106,7 @@ inline void expect_true_camera_odometry(const std::vector<nlohmann::json>& odome
         (true_space_position(last) - true_space_position(last - 1)) * kSpaceFps;
     const Eigen::Vector3d seen_m_s = true_space_rotation(last) * vector_of(twist["linear"]);
     EXPECT_LT((seen_m_s - velocity_m_s).norm(), 0.15 * velocity_m_s.norm());
-    // The camera leans about the y axis of the world, which is -y of the image.
+    // The camera rotates about the y axis of the world, which is -y of the image.
     const double turn_rad_s = (kSpaceTilts_rad[last] - kSpaceTilts_rad[last - 1]) * kSpaceFps;
     EXPECT_LT((vector_of(twist["angular"]) - Eigen::Vector3d(0, -turn_rad_s, 0)).norm(), 0.2);
     for (std::size_t i = 0; i < 6; ++i)

@@ -21,7 +21,8 @@ constexpr std::chrono::milliseconds kOfferPeriod = 50ms;
 /// Maximum number of waiting jobs. If this number is reached, further commands of a page are
 /// ignored.
 constexpr std::size_t kMaxJobs = 8;
-/// Number of consecutive frames without a fix after which the page says so.
+/// Number of consecutive frames without a fix after which the advice is to keep the camera over the
+/// dots.
 constexpr int kManyLost = 10;
 
 constexpr std::array<const char*, 5> kSteps = {"lens", "spin", "drive", "readout", "pivot"};

@@ -1,4 +1,5 @@
-/// Calibrates a lens in a second thread, so new frames of the camera can be shown meanwhile.
+/// Calibrates a lens in a second thread, so new frames of the camera can be shown during the
+/// calibration.
 #pragma once
 
 #include <atomic>

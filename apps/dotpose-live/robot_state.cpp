@@ -46,7 +46,8 @@ std::optional<CameraInWorld> camera_pose_of(const Reading& reading) {
     return with_y_down(in_world(space->camera, space->covariance, WorldPose{}));
 }
 
-/// Returns the motion of the tracked camera, with the axes of the track of the robot.
+/// Returns the motion of the tracked camera, with the same coordinate axes as the track of the
+/// robot.
 std::optional<CameraMotion> camera_track_of(const Reading& reading) {
     if (!reading.space_track) return std::nullopt;
     auto motion = motion_of(*reading.space_track);

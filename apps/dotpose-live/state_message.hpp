@@ -70,11 +70,11 @@ struct RobotState {
     std::uint64_t header_id = 0;  ///< sequence number of the message
     std::int64_t sent_us = 0;     ///< microseconds since 1970, system clock of the sender
     std::string state = "lost";   ///< lost, moving or stationary
-    /// Why the robot is lost: the name of the Status of its newest frame, or kNoPlace. Empty if the
-    /// robot is not lost or the reason is unknown.
+    /// Reason why the robot is lost: the name of the Status of its newest frame, or kNoPlace. Empty
+    /// if the robot is not lost or the reason is unknown.
     std::string reason;
     std::string sheet;                   ///< name of the sheet in view, or empty if unknown
-    std::optional<CameraReport> camera;  ///< contained in about one state per second
+    std::optional<CameraReport> camera;  ///< sent about once per second
     bool is_localized = false;           ///< true if the members below are valid
     std::string map_id;                  ///< name of the map, the plane of x and y
     double x_m = 0;
@@ -84,10 +84,14 @@ struct RobotState {
     double vx_m_s = 0;
     double vy_m_s = 0;
     double omega_rad_s = 0;
+<<<<<<< HEAD
     /// Pose of the camera in space, with the axes of x and y. In a parsed message, the pose is that
     /// of the tracked camera if there is one, and has no covariance.
+=======
+    /// Pose of the camera in space, with the same axes as x and y. `parse_state` does not set it.
+>>>>>>> reader
     std::optional<CameraInWorld> camera_pose;
-    /// Motion of the tracked camera, with the axes of x and y. Not parsed.
+    /// Motion of the tracked camera, with the same axes as x and y. `parse_state` does not set it.
     std::optional<CameraMotion> camera_track;
 };
 

@@ -172,7 +172,8 @@ simdjson::dom::parser make_parser() {
 /// Returns `read(message)`, or none if the message is invalid.
 template <typename Read>
 auto parsed(std::string_view json, const Read& read) -> std::optional<decltype(read(object()))> {
-    // A robot is removed with an empty message, which has no address that can be copied from.
+    // A robot is removed with an empty message. Its data pointer may be null, and the parser must
+    // not copy from a null pointer.
     if (json.empty()) return std::nullopt;
     thread_local simdjson::dom::parser parser = make_parser();
     try {

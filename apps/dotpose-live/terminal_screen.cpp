@@ -13,8 +13,8 @@
 namespace dotpose::cli {
 namespace {
 
-// Control sequences of ECMA-48 and xterm.
-// Alternate screen, hidden cursor, no wrapping.
+// Control sequences of ECMA-48 and xterm. kEnter selects the alternate screen, hides the cursor and
+// disables line wrapping. kLeave reverses this.
 constexpr const char* kEnter = "\033[?1049h\033[?25l\033[?7l";
 constexpr const char* kLeave = "\033[?7h\033[?25h\033[?1049l";
 constexpr std::string_view kTopLeft = "\033[H";

@@ -114,7 +114,7 @@ void add_track_options(Command& command, TrackOptions& track, SpaceTrackOptions&
         ->check(require_positive);
     command
         .add_option("--camera-acceleration", space_track.acceleration_mm_s2,
-                    "Maximum usual acceleration of the camera in space, with --pose space")
+                    "Usual acceleration of the camera along an axis, with --pose space")
         ->type_name("MM/S^2")
         ->capture_default_str()
         ->check(require_positive);

@@ -47,7 +47,7 @@ class WebView {
     /// outlive the view.
     WebView(WebOptions options, const Follower& follower);
 
-    /// Sends a frame to the clients that are ready, and obeys their commands.
+    /// Sends a frame to the clients that are ready, and executes their commands.
     void take(const capture::Frame& frame, const Reading& reading, const WatchTally& tally,
               const PathMemory& path, const SourceState& source);
 

@@ -20,7 +20,7 @@ struct PrintMapArguments {
 };
 
 /// Reads all frames, and writes or updates the map. After Ctrl-C, no more frames are read, and the
-/// map is made of those read so far. Prints a report.
+/// map is made from the frames read so far. Prints a report.
 void make_print_map(const PrintMapArguments& arguments);
 
 }  // namespace dotpose::cli

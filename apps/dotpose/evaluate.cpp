@@ -295,8 +295,7 @@ int evaluate_protocol(const EvaluateArguments& arguments) {
 int run(EvaluateArguments& arguments) {
     const bool writes = arguments.sweep || arguments.protocol;
     const bool has_sources = arguments.sources.is_given();
-    // --preset is a job of its own only without --sweep and --protocol, for which it sets the
-    // conditions.
+    // With --sweep or --protocol, --preset sets the conditions. Otherwise, it is a job of its own.
     const int jobs = static_cast<int>(has_sources) + static_cast<int>(arguments.sweep.has_value()) +
                      static_cast<int>(arguments.protocol) +
                      static_cast<int>(arguments.preset && !writes);

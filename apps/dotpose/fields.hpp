@@ -23,7 +23,7 @@ struct Field {
     /// Name of the JSON array that contains the field. Adjacent fields with the same name form one
     /// array. In CSV, each field is a column.
     std::string array = {};
-    /// Whether JSON contains null if `text` is empty. Otherwise, JSON omits the empty field.
+    /// True if JSON contains null for an empty field. Otherwise, JSON omits the field.
     bool is_null_if_empty = false;
 };
 

@@ -97,9 +97,9 @@ struct SpaceColumns {
 constexpr SpaceColumns kSpaceInWorld = {"m", "quaternion_world_xyzw", "covariance_m_rad", 1};
 constexpr SpaceColumns kSpaceInPattern = {"mm", "quaternion_xyzw", "covariance_mm_deg", kRadians};
 
-/// Returns a pose of the camera in space, in the world or, if `is_in_world` is false, in the
-/// pattern frame with y up. Returns none if the row has no such pose. All column names begin with
-/// `prefix`.
+/// Reads a pose of the camera in space from the columns whose names begin with `prefix`. The pose
+/// is in the world or, if `is_in_world` is false, in the pattern frame with y up. Returns none if
+/// the row does not contain the pose.
 std::optional<CameraInWorld> space_pose_in(const LogCells& row, const std::string& prefix,
                                            bool is_in_world) {
     const SpaceColumns& columns = is_in_world ? kSpaceInWorld : kSpaceInPattern;
@@ -125,8 +125,8 @@ std::optional<CameraInWorld> space_pose_in(const LogCells& row, const std::strin
                     WorldPose{});
 }
 
-/// Returns the pose of the camera in space from the frame alone. Returns none if it is unknown or
-/// ambiguous.
+/// Returns the pose of the camera in space that was fitted to the frame alone. Returns none if it
+/// is unknown or ambiguous.
 std::optional<CameraInWorld> camera_in(const LogCells& row, bool is_in_world) {
     if (row.text("camera_is_ambiguous") != "false") return std::nullopt;
     return space_pose_in(row, "camera_", is_in_world);

@@ -24,8 +24,8 @@ std::optional<PlanePose> pose_of(const PosePacket& packet, double spacing_mm, Un
 /// the values along x and y.
 Field deviation_field(const PosePacket& packet, double spacing_mm, Units units) {
     const double sigma_mm = packet.deviation_q12 * spacing_mm / 4096;
-    // The value 255 stands for an unknown deviation and for all deviations that are too large for
-    // the packet.
+    // The value 255 represents an unknown deviation, and all deviations that are too large for the
+    // packet.
     const bool is_known = packet.status == Status::ok && packet.deviation_q12 < 255;
     if (units == Units::ros) return {"sigma_m", is_known ? metres(sigma_mm) : ""};
     return {"sigma_mm", is_known ? decimal(sigma_mm, 6) : ""};

@@ -110,7 +110,7 @@ struct RunStatistics {
     std::map<std::string, std::int64_t> without_fix;  ///< number of frames by status
     std::map<std::string, std::int64_t> events;       ///< number of events by name
     std::map<std::string, std::int64_t> verdicts;
-    std::int64_t gaps = 0;  ///< number of gaps. A gap is a sequence of frames without a fix
+    std::int64_t gaps = 0;  ///< number of gaps, which are sequences of frames without a fix
     double longest_gap_s = 0;
     double stationary_s = 0;
     double distance_mm = 0;      ///< length of the path without jumps

@@ -79,7 +79,8 @@ std::vector<Field> if_known(bool is_known, std::vector<Field> fields) {
     return fields;
 }
 
-/// Returns position, rotation and covariance in the pattern. All names begin with `prefix`.
+/// Returns the position, rotation and covariance of a pose in the pattern. The names of the fields
+/// begin with `prefix`.
 std::vector<Field> pattern_fields(const std::string& prefix, const CameraInSpace& camera,
                                   const SpaceCovariance& covariance, Units units) {
     std::vector<Field> fields;
@@ -96,7 +97,7 @@ std::vector<Field> pattern_fields(const std::string& prefix, const CameraInSpace
     return fields;
 }
 
-/// Returns the angles of a pose, which are only in lines in mm.
+/// Returns the tilt, azimuth and turn of a pose, which are only output with `Units::mm`.
 std::vector<Field> lean_fields(const Quaternion& rotation) {
     const CameraLean lean = lean_of(rotation);
     return {{"camera_tilt_deg", degrees(lean.tilt_rad)},
@@ -136,13 +137,13 @@ std::vector<Field> world_fields_of(const std::string& prefix, const CameraInWorl
     return fields;
 }
 
-/// Returns the largest standard deviation of three consecutive coordinates.
+/// Returns the largest standard deviation of the three coordinates from `first` on.
 double largest_sigma(const SpaceCovariance& covariance, std::size_t first) {
     return std::sqrt(std::max({covariance[first][first], covariance[first + 1][first + 1],
                                covariance[first + 2][first + 2]}));
 }
 
-/// Returns the velocities along the axes of the plane of the track, and the angular velocities
+/// Returns the velocities along the axes of the world or the pattern, and the angular velocities
 /// about the axes of the camera.
 std::vector<Field> velocity_fields(const CameraMotion& motion, bool is_in_world, Units units) {
     const bool is_ros = units == Units::ros;

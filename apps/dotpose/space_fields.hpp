@@ -20,9 +20,10 @@ std::vector<Field> space_fields(const std::optional<SpacePose>& space,
                                 const std::optional<SheetPlace>& place, bool has_sheets,
                                 Units units);
 
-/// Returns the fields of the track of a camera in space. If `has_sheets` is true, also returns the
-/// fields of the pose in the world. The pose has no values while the camera is lost, and is either
-/// in the world or in the pattern, according to `is_in_world`.
+/// Returns the fields of the track of a camera in space. Fields of the pose in the world are only
+/// contained if `has_sheets` is true. If `is_in_world` is true, the fields of the pose in the
+/// pattern are empty. Otherwise, those of the pose in the world are empty. While the camera is
+/// lost, only the verdict has a value.
 std::vector<Field> space_track_fields(const SpaceTrack& track, bool is_in_world, bool has_sheets,
                                       Units units);
 

@@ -10,7 +10,7 @@
 
 namespace dotpose::calibrate {
 
-/// How the camera is held over the paper.
+/// Arrangement of the camera over the paper.
 enum class Stand {
     ideal,    ///< camera perpendicular to the paper, at one height, without lens distortion
     mounted,  ///< same height and tilt in all frames

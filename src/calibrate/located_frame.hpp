@@ -35,7 +35,7 @@ std::vector<LocatedDot> dots_read(const Trace& trace);
 struct LocatedFrame {
     int index = 0;                  ///< index of the frame in the series
     Place place;                    ///< place of step (0, 0)
-    std::vector<LocatedDot> dots;   ///< dots of the code
+    std::vector<LocatedDot> dots;   ///< dots that belong to the pattern
     std::vector<PixelPoint> blobs;  ///< all blobs with the size of a dot
     double dot_width = 0;           ///< width of the dots at half their darkness, in spacings
     double spacing_px = 0;

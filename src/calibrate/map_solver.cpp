@@ -119,7 +119,7 @@ FreeView measure_frame(const MapGrid& grid, const MapSolution& solution, const M
     return free_view(block, right, frame, own / (2 * static_cast<double>(frame.count)));
 }
 
-/// Computes the statistics, then marks the outliers anew: observations whose squared residual
+/// Computes the statistics, then marks the outliers again: observations whose squared residual
 /// exceeds `limit` times the typical variance per axis.
 Statistics measure(const MapGrid& grid, double limit, MapSolution& solution,
                    std::vector<MapObservation>& observations) {

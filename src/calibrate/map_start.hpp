@@ -1,4 +1,5 @@
-// Map start: collects the dots of a page and of its frames, and computes approximate poses.
+// Map start: collects the dots of a page and of its frames, and computes approximate poses of the
+// frames.
 #pragma once
 
 #include <optional>

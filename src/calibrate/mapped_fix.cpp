@@ -50,7 +50,7 @@ Eigen::Matrix<double, 2, kTerms> derivatives_at(const FixPlane& plane, const Map
     return rows;
 }
 
-/// Correction of a plane.
+/// Correction of a plane, fitted to dots.
 struct Correction {
     Terms terms = Terms::Zero();
     TermBlock covariance = TermBlock::Zero();
@@ -58,7 +58,7 @@ struct Correction {
     int dots = 0;
 };
 
-/// Returns the place of a dot in the map, minus its place in the plane.
+/// Returns the place of a dot according to the map, minus its place according to the plane.
 Vector2d residual_of(const FixPlane& plane, const MapDot& dot, double map_weight) {
     return dot.step + map_weight * dot.offset - plane.place(dot.pixel);
 }
@@ -82,7 +82,8 @@ Correction correct(const FixPlane& plane, const std::vector<MapDot>& dots, doubl
     }
     const TermBlock inverse = normal.ldlt().solve(TermBlock::Identity());
     result.terms = inverse * right;
-    // Lower limit of the variance, far below that of any camera. Keeps the covariance invertible.
+    // Lower limit of the variance, which keeps the covariance invertible. The variance of any real
+    // camera is much larger.
     constexpr double kExact = 1e-12;
     const double left = squares - result.terms.dot(right);
     result.variance = std::max(left / std::max<double>(2.0 * result.dots - kTerms, 1), kExact);
@@ -90,7 +91,7 @@ Correction correct(const FixPlane& plane, const std::vector<MapDot>& dots, doubl
     return result;
 }
 
-/// Fits all terms by least squares. Repeats the fit without outliers.
+/// Fits all terms by least squares, and repeats the fit without outliers.
 Correction fit_terms(const FixPlane& plane, const std::vector<MapDot>& dots, double map_weight) {
     Terms last = Terms::Zero();
     last[kDisplacement] = 1.0 / 6;
@@ -111,8 +112,8 @@ Correction fit_terms(const FixPlane& plane, const std::vector<MapDot>& dots, dou
     return result;
 }
 
-/// Prior of two terms of the view: a mixture of Gaussians with mean 0. The view has no shear and no
-/// perspective if the camera looks straight at the paper.
+/// Prior of the two terms of the shear or of the perspective: a mixture of Gaussians with mean 0.
+/// Both terms are 0 if the camera looks straight at the paper.
 struct ViewPrior {
     struct Kind {
         double probability;
@@ -121,14 +122,15 @@ struct ViewPrior {
     int first;  ///< index of the first term
     std::array<Kind, 3> kinds;
 };
-/// The priors of `locate` (core/fit/solve_plane.cpp). The perspective is the relative change of the
-/// scale from the centre to the outermost dot.
+/// The priors are those of `locate` (core/fit/solve_plane.cpp). The unit of the perspective is the
+/// relative change of the scale from the centre to the outermost dot.
 constexpr ViewPrior kPerspectivePrior{kPerspective, {{{0.1, 0}, {0.8, 0.01}, {0.1, 0.1}}}};
 constexpr ViewPrior kShearPrior{kShear, {{{0.5, 0}, {0.4, 0.002}, {0.1, 0.03}}}};
 
 /// Replaces two terms with their posterior means, and changes the other terms accordingly.
-/// `present` contains the values of the two terms in the plane. The prior applies to the sums of
-/// `present` and the terms of the correction. `unit` is the unit of the standard deviations.
+/// `present` contains the values of the two terms in the plane. The prior applies to the corrected
+/// values, which are the sums of `present` and the terms of the correction. `unit` is the unit of
+/// the standard deviations of the prior.
 void shrink(const ViewPrior& prior, const Vector2d& present, double unit, Correction& fit) {
     struct Posterior {
         double distance;  ///< squared Mahalanobis distance of the fitted terms from 0
@@ -168,9 +170,9 @@ void shrink(const ViewPrior& prior, const Vector2d& present, double unit, Correc
     fit.covariance += gain * change * gain.transpose();
 }
 
-/// Shrinks perspective and shear to their posterior means. Without the shrinkage, each of them
-/// would make the place less accurate. The plane of the fix contains the terms that its own dots
-/// determined without the map, so their errors are larger than those of the terms here.
+/// Shrinks perspective and shear to their posterior means. Without the shrinkage, the noise of
+/// these terms would make the place less accurate. The terms that the plane of the fix already
+/// contains cannot replace them, because they were fitted without the map and have larger errors.
 void shrink_view(const FixPlane& plane, const std::vector<MapDot>& dots, Correction& fit) {
     double reach_px = 1;
     for (const MapDot& dot : dots)

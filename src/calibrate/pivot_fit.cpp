@@ -156,7 +156,7 @@ double pivot_angle_rad(const std::vector<PivotView>& views) {
     Matrix3d mean = Matrix3d::Zero();
     for (const PivotView& view : views)
         mean += view.rotation / static_cast<double>(views.size());
-    // Mean square of the difference between each rotation and the mean rotation.
+    // Mean of (R - mean)' (R - mean) over all rotations R.
     const Matrix3d spread = Matrix3d::Identity() - mean.transpose() * mean;
     const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(spread, Eigen::EigenvaluesOnly);
     return std::sqrt(std::max(solver.eigenvalues()[0], 0.0));

@@ -20,7 +20,7 @@ namespace {
 constexpr double kRobust_sigmas = 4;
 /// Standard deviation of parameters that must not change.
 constexpr double kPinned = 1e-7;
-/// Prior relative standard deviation of the scale of a camera relative to the sheets.
+/// Prior standard deviation of the scale of a camera, as a fraction of this scale.
 constexpr double kCameraPrior = 0.03;
 /// Prior standard deviation of the aspect and the skew of a camera whose file does not contain
 /// them. The standard deviation is small, because the pixels of sensors are square.

@@ -13,7 +13,7 @@ namespace dotpose::calibrate {
 struct SpaceDot {
     /// Undistorted pixel minus the pixel on the optical axis.
     Eigen::Vector2d pixel;
-    Eigen::Vector2d intersection_mm;  ///< place of its intersection on the paper
+    Eigen::Vector2d intersection_mm;  ///< place of the dot's intersection on the paper
     Eigen::Vector2d direction_mm;     ///< shift of the dot for a displacement of 1 spacing
     /// Covariance of the measured pixel, up to a common factor of all dots.
     Eigen::Matrix2d centre_covariance = Eigen::Matrix2d::Identity();

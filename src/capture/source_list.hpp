@@ -18,10 +18,10 @@ class SourceList : public FrameSource {
     /// after the last source.
     SourceList(std::function<std::optional<std::string>()> next_name, SourceOptions options);
 
-    /// Opens the first source, so that its rate is available before the first frame. Optional,
-    /// because `next` also opens the source. Returns false if there are no names. Throws Error if
-    /// the source does not exist or cannot be read, and BadArgument if the size of raw frames is
-    /// missing.
+    /// Opens the first source, so that its rate is available before the first frame. This call is
+    /// optional, because `next` also opens the source. Returns false if there are no names. Throws
+    /// Error if the source does not exist or cannot be read, and BadArgument if the size of raw
+    /// frames is missing.
     bool open();
 
     /// Gets the next frame of all sources. Throws Error if a source fails, but the following call

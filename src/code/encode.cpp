@@ -59,8 +59,8 @@ struct AxisPlace {
     std::uint8_t cross;
 };
 
-/// Returns the place that `target` is congruent to, for a target outside [0, L), where L =
-/// kPositionsPerAxis. Not inlined, because it is rarely called.
+/// Returns the place of the position `target`, which is outside [0, L), where L =
+/// kPositionsPerAxis. Not inlined, because the function is rarely called.
 [[gnu::noinline]] AxisPlace wrapped(CodeVariant code, AxisPlace place, std::int64_t target) {
     // Along x, the rolls of columns p and p + L differ by roll(L), so the column section changes by
     // roll(L). Each row continues L cells farther along the main sequence, so the row section

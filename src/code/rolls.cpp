@@ -62,8 +62,8 @@ void follow_rolls(CodeVariant code, std::uint32_t position, int section, std::ui
     }
 }
 
-// The rolls are computed as in `roll`, but without the contributions of the places, which `at`
-// adds.
+// Computes `sum_` as `roll` computes a roll, but without the contributions of the places in the
+// sequences, which `at` adds.
 RollsAhead::RollsAhead(CodeVariant code, std::uint32_t position)
     : sequences_(basis(code)),
       lines_(modulo_sections(position) + 4 * kSections),

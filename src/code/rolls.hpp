@@ -26,18 +26,18 @@ int roll_further(CodeVariant read, CodeVariant other, std::uint32_t position, st
 void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls);
 
-/// The same for the lines of a section, whose first bits are at the position `cross` of the other
-/// axis.
+/// Sets rolls[i] to the roll of line `position` + i of a section. `cross` is the position of the
+/// first bits of the lines on the other axis.
 void follow_rolls(CodeVariant code, std::uint32_t position, int section, std::uint32_t cross,
                   std::span<std::uint8_t> rolls);
 
-/// The rolls of consecutive lines in section 0, computed one by one. Unlike `follow_rolls`, does
-/// not compute rolls that are not needed.
+/// Computes the rolls of consecutive lines in section 0 on demand. `follow_rolls` computes all of
+/// them, which takes longer if few are needed.
 class RollsAhead {
   public:
     RollsAhead(CodeVariant code, std::uint32_t position);
 
-    /// Moves the position by 63 lines. Faster than the constructor.
+    /// Advances the position by 63 lines. This is faster than making a new object.
     void advance();
     /// Returns the roll of the line `position` + i plus `added`, modulo 63. Requires i <
     /// kLinesAhead and added < 63.
@@ -47,7 +47,8 @@ class RollsAhead {
     }
 
   private:
-    /// Sets the place in a sequence, and adds the roll of the periods before this place to `sum_`.
+    /// Sets the place in sequence k. Adds the roll of the whole periods of the sequence before this
+    /// place to `sum_`.
     void add(const Secondary& sequence, std::size_t k, std::uint32_t place) {
         here_[k] = sequence.rolls + place;
         sum_ += (lines_ - place) * sequence.period_roll;

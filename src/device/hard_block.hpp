@@ -39,10 +39,10 @@ struct HardLines {
     /// early, with a result that also exceeds `limit`.
     int wrong_with(const std::uint8_t* rolls, std::uint32_t added, int limit) const;
     /// Returns the number of bits that contradict the code if the roll of each line is its roll in
-    /// section 0, which is in `rolls`, plus `added`, modulo 63. If this number exceeds `limit`, may
-    /// stop counting early, with a result that also exceeds `limit`.
+    /// section 0, from `rolls`, plus `added`, modulo 63. If this number exceeds `limit`, may stop
+    /// counting early, with a result that also exceeds `limit`.
     int wrong_at(const code::RollsAhead& rolls, std::uint32_t added, int limit) const;
-    /// Returns the same number for adjacent lines. `position` is the position of the first line.
+    /// Variant of `wrong_at` that computes the rolls. `position` is the position of the first line.
     int wrong_at(CodeVariant code, std::uint32_t position, std::uint32_t added, int limit) const {
         return wrong_at(code::RollsAhead(code, position), added, limit);
     }

@@ -6,7 +6,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of bits of the sums that are multiplied with each other.
+/// Number of bits to which sums are reduced before they are multiplied with each other.
 constexpr int kBits = 14;
 
 /// Returns the number of bits by which a number must be shifted right to fit in kBits bits.

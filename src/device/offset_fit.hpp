@@ -7,12 +7,12 @@
 
 namespace dotpose::core {
 
-/// Least-squares fit of the offsets as an affine function of the image. The relative error of the
-/// fitted offsets is about 1 %, which is enough because the offsets are small.
+/// Least-squares fit of an affine function of the image coordinates to the offsets. Rounding causes
+/// a relative error of about 1 %, which is acceptable because the offsets are small.
 class OffsetFit {
   public:
-    /// Adds a dot, and its offset in 2^-24 cells. Offsets are at most 2^21, which is an eighth of a
-    /// cell, so the sums over 2^9 dots are at most 2^27.
+    /// Adds a dot and its offset, in 2^-24 cells. The offset must be at most 2^21, an eighth of a
+    /// cell, along each axis. The sums over 2^9 dots are then at most 2^27.
     [[gnu::always_inline]] void add(const FineDot& dot, FixedVec offset_q24) {
         const FixedVec r{offset_q24.x >> 12, offset_q24.y >> 12};
         const FixedVec p{dot.x_q8 >> 6, dot.y_q8 >> 6};
@@ -27,7 +27,8 @@ class OffsetFit {
     }
     int count() const { return count_; }
     /// Subtracts the fitted offsets from a plane whose centre is the middle of the image. Requires
-    /// a dot. Returns false and leaves the plane unchanged if the dots are nearly collinear.
+    /// at least one dot. Returns false and leaves the plane unchanged if the dots are nearly
+    /// collinear.
     bool correct(PlaneFromImage& plane) const;
 
   private:

@@ -1,4 +1,4 @@
-// Reads the bits of a frame as a place on a known sheet.
+// On sheets: finds and verifies places on known sheets for a DeviceLocator.
 #pragma once
 
 #include "dotpose/device_options.hpp"
@@ -21,8 +21,8 @@ struct SheetFunctions {
     /// Finds the dots of a fine grid in the rows of a tracked frame (see `find_fine_dots`). Only
     /// locators that know sheets track fine grids.
     void (*find_dots)(Tracking& tracking);
-    /// Fits a fine grid and reads its bits (see `fit_fine_grid`). If the result is not 0, sets
-    /// `pattern_from_image` and the displacement of the fix.
+    /// Fits a fine grid and reads its bits. Returns the result of `fit_fine_grid`. If it is not 0,
+    /// also sets `pattern_from_image` and the displacement of the fix.
     int (*fit_grid)(const DeviceOptions& options, DeviceWorkspace& w);
 };
 extern const SheetFunctions kSheetFunctions;

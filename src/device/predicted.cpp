@@ -129,14 +129,15 @@ int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     return ((shift_q16 >> 8) * spacing_q8) >> 16;
 }
 
-/// Returns the spacing of a fine grid, whose cells have an area of 1 / `det_q24`.
+/// Returns the spacing of a fine grid: the square root of the area of a cell, which is the
+/// reciprocal of the determinant.
 std::int32_t fine_spacing_q8(std::int32_t det_q24) {
     return static_cast<std::int32_t>(
         square_root(UINT32_MAX / static_cast<std::uint32_t>(det_q24 >> 8)));
 }
 
-/// Sets the cells, and the members that depend on them, for a grid that is not fine. Returns false
-/// if `lay_out_memory` returns false.
+/// Sets the cells of a grid that is not fine, and the members that depend on them. Returns false in
+/// the same cases as `lay_out_memory`.
 bool lay_cells(const Prediction& prediction, const PlaneFromImage& plane, std::int32_t det_q24,
                Tracking& tracking) {
     invert(plane, det_q24, tracking.cells);

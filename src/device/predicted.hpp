@@ -12,13 +12,14 @@ namespace dotpose::core {
 /// Number of rows that are collected before the dots in them are read.
 inline constexpr int kRowsAtOnce = 12;
 
-/// Sets the plane, relative to cell (0, 0), the corner, the cells, and the members of `tracking`
-/// that depend on the spacing. The memory and the image size must already be set. The image must
-/// have at most 4096 px per side. The prediction may have any values. Returns not_tracked in each
-/// of these cases:
+/// Sets `plane`, relative to cell (0, 0). In `tracking`, sets the corner, the cells, and the
+/// members that depend on the spacing. The memory and the image size must already be set. The image
+/// must have at most 4096 px per side. The prediction may have any values. Returns not_tracked in
+/// each of these cases:
 /// - a value of the prediction is out of range,
 /// - the spacing is not 7 to 13 px (5 to 13 px if sheets are known),
-/// - the cells are sheared or stretched by much more than half,
+/// - the angle between the grid axes is less than 45 degrees, or the spacing along one axis is more
+///   than about 1.6 times the spacing along the other,
 /// - the memory is too small,
 /// - the part of the image whose cells fit in the memory is too small.
 Status lay_predicted_cells(const Prediction& prediction, CodeVariant code, PlaneFromImage& plane,

@@ -64,7 +64,8 @@ class OddsOfOthers {
         for (; i < range.count; i += kSections, rolls.advance()) {
             const std::uint32_t position = range.first + i;
             if (is_same_section && position == other.position) continue;
-            // Counts no more wrong bits than necessary. With fewer wrong bits, the odds are larger.
+            // Stops counting wrong bits once the odds are negligible. Wrong bits that are not
+            // counted only make the odds larger, so the sum remains an upper bound.
             const int lost =
                 other.lines.wrong_at(rolls, added, other.wrong + max_lost_) - other.wrong;
             log2_q8_ = add_log2(log2_q8_, -lost * odds_per_bit_q8_);
@@ -73,11 +74,11 @@ class OddsOfOthers {
     int log2_q8() const { return log2_q8_; }
 
   private:
-    /// Odds below 2^-48 are negligible.
+    /// Odds below 2^-48 count as negligible.
     static constexpr int kNegligible_q8 = 48 * 256;
     CodeVariant code_;
     int odds_per_bit_q8_;
-    int max_lost_;  ///< with more additional wrong bits, odds are negligible
+    int max_lost_;  ///< number of additional wrong bits above which odds are negligible
     int log2_q8_ = kNever_q8;
 };
 

@@ -17,11 +17,12 @@ struct SheetPlace {
     std::array<int, 2> wrong{};  ///< numbers of x bits and of y bits that contradict the place
 };
 
-/// Finds the place and the orientation of the block on the regions of `code`. Tries a few pairs of
-/// adjacent lines, one after another, and tests only places at which all bits of a pair agree with
-/// the code. Of the places that at most `max_wrong` bits of both axes together contradict, returns
-/// the one with the fewest such bits for the first pair that has any. Returns nullopt if no pair
-/// has such a place. Ignores regions in other codes.
+/// Finds the place and the orientation of the block on the regions of `code`. Ignores regions in
+/// other codes. Tries a few pairs of adjacent lines, one after another. For each pair, tests only
+/// the places at which all bits of the pair agree with the code. A tested place is accepted if at
+/// most `max_wrong` bits of both axes together contradict it. Stops at the first pair that has
+/// accepted places, and returns the one with the fewest contradicting bits. Returns nullopt if no
+/// pair has an accepted place.
 std::optional<SheetPlace> find_on_sheets(const HardBlock& block, CodeVariant code,
                                          std::span<const KnownRegion> regions, int max_wrong);
 

@@ -107,18 +107,18 @@ struct Tracking {
     FixedVec dv_q20;
     std::int32_t displacement_q12 = 0;
     int rows_kept = 0;  ///< number of rows for which there is memory
-    /// Number of first rows in which the prediction error is measured. In fine grids, value of
-    /// rows_taken at which dots are searched next.
+    /// Number of first rows in which the prediction error is measured. In fine grids, the value of
+    /// rows_taken at which the next search for dots begins.
     int first_rows = 0;
     int next_reading = 0;  ///< value of rows_taken at which dots are read next; in fine grids, the
-                           ///< next row in which dots are searched
+                           ///< first row of the next search for dots
     int reach_px = 0;  ///< maximum position error that the search covers, in px at the image centre
     Place corner;      ///< place of cell (0, 0) in the code
     int first_cell = 0;  ///< first cell, along each axis, that may be in view
     int last_cell = 0;
     std::span<TrackedRow> grid_rows;
     TrackedView view;
-    std::span<FineDot> fine_dots;  ///< the first `dots_measured` are those of a fine grid
+    std::span<FineDot> fine_dots;  ///< dots of a fine grid; the first `dots_measured` are valid
 };
 
 }  // namespace dotpose::core

@@ -117,9 +117,9 @@ Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
 }
 
 /// Locates an image, with the prediction if there is one. The tracked attempt measures dots in
-/// small windows at their nominal places, so jitter of a dot biases its measured centre. If this
-/// bias matters, because a print map removes the jitter, the prediction is only used for images
-/// that have no fix without it.
+/// small windows at their nominal places, so the measured centre of a displaced dot is biased
+/// towards its nominal place. This bias matters with a print map, which contains the displacements.
+/// The prediction is then only used for images that have no fix without it.
 Fix Follower::locate_near(ImageView image, const DeviceOptions& options,
                           const std::optional<Prediction>& expected) {
     const bool needs_exact_centres = !options_.print_map.pages.empty();

@@ -24,14 +24,14 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector18 = Eigen::Matrix<double, 18, 1>;
 using Matrix18 = Eigen::Matrix<double, 18, 18>;
 
-/// Changes of the logarithm of the agility by equal and by opposite signs of innovations. If the
-/// magnitudes were equal, as in the tracker of the plane, the normalised squared errors of single
-/// axes would be up to 1.4 instead of 1 at 200 frames per second
+/// Changes of the logarithm of the agility after consecutive innovations with equal and with
+/// opposite signs. If the magnitudes were equal, as in the tracker of the plane, the normalised
+/// squared errors of single axes would be up to 1.4 instead of 1 at 200 frames per second
 /// (tests/unit/follow/space_track_test.cpp).
 constexpr double kAgilityIncrease = 0.451;
 constexpr double kAgilityDecrease = -0.405;
-/// Change of the logarithm of the agility, divided by the difference of the square of the
-/// normalised innovation from its mean. `dotpose_tables space_track` shows the effect.
+/// Change of the logarithm of the agility for each unit by which the squared normalised innovation
+/// exceeds its mean, which is 1. `dotpose_tables space_track` shows the effect.
 constexpr double kAgilityGain = 0.2;
 constexpr double kMinAgility = 1e-6;
 /// Innovations above this number of standard deviations are not considered noise.
@@ -158,12 +158,12 @@ double squared_innovation(const Motion& motion, const SpaceSighting& sighting,
     return innovation.dot(covariance.ldlt().solve(innovation));
 }
 
-/// Adapts the agility to an innovation by two criteria, which are weighted by the fraction of the
-/// prediction in the variance of the innovation. If the fraction is small, the agility determines
-/// the gain of the filter, and the signs of consecutive innovations show whether the gain is
-/// correct: equal signs are then as frequent as opposite signs. Equal signs increase the agility,
-/// and opposite signs decrease it. If the fraction is large, the gain is about 1 with any agility.
-/// The agility then determines only the covariance of predictions, and the square of the
+/// Adapts the agility to an innovation by two criteria. Their weights depend on the fraction of the
+/// innovation's variance that is due to the prediction. If this fraction is small, the agility
+/// determines the gain of the filter, and the signs of consecutive innovations show whether the
+/// gain is correct: equal signs are then as frequent as opposite signs. Equal signs increase the
+/// agility, and opposite signs decrease it. If the fraction is large, the gain is about 1 with any
+/// agility. The agility then determines only the covariance of predictions, and the square of the
 /// normalised innovation, whose mean is 1, shows whether this covariance is correct.
 void adapt(Motion& motion, const Vector6& innovation, const Matrix6& covariance,
            const Matrix6& noise) {

@@ -312,8 +312,8 @@ Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvide
     const auto measure = [&] {
         return measure_and_compare(frame, hypothesis, evidence, measurement, fix);
     };
-    // Measures the dots with a property of the hypothesis set. Returns nullopt if the result is
-    // rejected.
+    // Sets a property of the hypothesis, and measures its dots. If the result is rejected, resets
+    // the property and returns nullopt.
     const auto measure_with = [&](bool Hypothesis::*property) -> std::optional<Confirmation> {
         std::optional<OtherCodes> before;
         if (evidence.others != nullptr) before = *evidence.others;

@@ -66,8 +66,8 @@ Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvide
                      Measurement& measurement, Fix& fix);
 
 /// Returns true if a position cannot be certain from `count` cells, even if all their bits are
-/// clear and agree with the code. The bits of so few cells could agree with some position by
-/// chance. Returns false if sheets are known, because they need fewer cells.
+/// clear and agree with the code. So few bits may agree with a position by chance. Returns false if
+/// sheets are known, because they need fewer cells.
 bool are_too_few_cells(const Frame& frame, int count);
 
 /// Returns true if the residual of a fix is at least kRough_px and at least kRough spacings. A

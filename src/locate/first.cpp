@@ -89,7 +89,8 @@ class PatchSearch {
         view.is_skewed = is_skewed;
         PatchGrid grid;
         if (!find_grid(frame_.kernels, patch_, view, grid)) return Confirmation::implausible;
-        // Scattered dots may form a skewed grid of any spacing.
+        // The spacing of a skewed grid is not reliable, because scattered dots may form such a grid
+        // with any spacing.
         measurement_.shows_too_few_cells = !is_skewed && shows_too_few_cells(grid.grid_from_image);
         if (measurement_.shows_too_few_cells) return Confirmation::implausible;
         auto hypothesis = read_grid(patch_, grid, middle_of(patch_, frame_.image), evidence_);
@@ -104,8 +105,8 @@ class PatchSearch {
     }
 
     /// Returns true if the patch is the whole image, and a grid with the spacing of the given grid
-    /// has too few cells in this image for a certain position. Bits of earlier frames may add to
-    /// those of these cells.
+    /// has too few cells in this image for a certain position. Returns false if the frame is part
+    /// of a series, because the bits of earlier frames may then be added.
     bool shows_too_few_cells(const FloatPlane& grid_from_image) const {
         if (!is_whole_image(patch_, frame_.image) || evidence_.earlier.is_in_series()) return false;
         const float border = 2 * tuning::confirm::kBeyondBorder;

@@ -28,8 +28,8 @@ Extent extent(float min, float max, int room) {
 void limit_to_image(const Frame& frame, const Hypothesis& hypothesis, CellsInView& view) {
     const float spacing = spacing_px(hypothesis.pattern_from_image);
     if (hypothesis.reads_cut_dots) {
-        // A list that depended on the expected dots would prefer dots that agree with the
-        // hypothesis.
+        // The list must not depend on the expected dots. Otherwise, it would favour cells that
+        // agree with the hypothesis.
         view.limits_intersections = true;
         view.margin_px = -tuning::confirm::kBeyondBorder * spacing;
         return;

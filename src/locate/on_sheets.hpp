@@ -12,8 +12,8 @@
 
 namespace dotpose::core {
 
-/// Returns true if the decoded region may be in view. If only known sheets are possible, this is
-/// the case if the region is at least partly on one of them. Otherwise, it is always the case.
+/// Returns false if only known sheets are possible, and no part of the decoded region is on one of
+/// them. Otherwise, returns true.
 bool is_possible(CodeVariant code, const Decoding& decoding, const KnownSheets& known);
 
 /// Returns the most likely place of a block on the known sheets. Returns nullopt if there is none,

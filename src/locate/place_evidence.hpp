@@ -26,7 +26,7 @@ struct PlaceEvidence {
     const KnownSheets& known;
     EarlierBits& earlier;
     std::span<ScoredLine> line_scores;  ///< memory for the scores of the lines of a block
-    OtherCodes* others;  ///< receives the odds of the other codes. Null if they are not requested
+    OtherCodes* others;  ///< receives the odds of the other codes; null if not requested
 };
 
 /// A quarter turn of a block, and the place of cell (0, 0) of the turned block.

@@ -41,8 +41,8 @@ float max_rad_per_row(const ImageView& image) {
                     tuned::kMaxFall / (static_cast<float>(image.width_px) / 2));
 }
 
-/// Returns by how many px a rotation of 1 rad per row moves the dots in the corners of an area
-/// around the image centre.
+/// Returns the distance, in px, by which a rotation of 1 rad per row moves the dots in the corners
+/// of an area around the image centre.
 float corner_px_per_turn(int width_px, int height_px) {
     const float half_width = static_cast<float>(width_px) / 2;
     const float half_height = static_cast<float>(height_px) / 2;

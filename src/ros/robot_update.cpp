@@ -80,7 +80,7 @@ std::string three_digits(double value) {
     return text.data();
 }
 
-/// Returns the values of a frame with a fix.
+/// Returns the additional values of a frame with a fix, for the diagnostics.
 std::vector<KeyValue> fix_facts_of(const Located& located) {
     const Fix& fix = located.fix;
     std::vector<KeyValue> facts = {{"dots_used", std::to_string(fix.dots_used)},

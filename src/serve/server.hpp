@@ -76,7 +76,7 @@ class Server {
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
-    /// Adds a topic before `start`.
+    /// Adds a topic. Must be called before `start`.
     Topic& add_topic(const std::string& name, Format format);
 
     /// Starts the thread. Throws Error if the server cannot listen.

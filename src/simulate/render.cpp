@@ -89,7 +89,7 @@ void check(const Page& page, const CameraModel& camera, const CameraPose& pose,
     require(within(i.fixed_pattern, 0, 1000), "the fixed pattern must be 0 to 1000 grey levels");
     require(within(i.jitter_mm, 0, pattern.spacing_mm), "the jitter must be 0 to 1 spacing");
     require(i.sub_pixels == 0 || i.sub_pixels == 2 || i.sub_pixels == 4 || i.sub_pixels == 8,
-            "the sub-pixels must be 0, 2, 4 or 8");
+            "`sub_pixels` must be 0, 2, 4 or 8");
     require(within(i.dirt_blobs, 0, 1e6) && within(i.graphics, 0, 1e6),
             "counts must be 0 to a million");
 }

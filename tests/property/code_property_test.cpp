@@ -89,7 +89,7 @@ std::string check_turned(const Draw& draw, const Grid& upright) {
             return "a turned window was not refused";
         }
         if (status == Status::ok && !shows(draw.code, place, seen)) {
-            return "a turned window was put where it does not stand";
+            return "a turned window was located at a place with other symbols";
         }
     }
     for (int i = draw.quarter_turns; i < 4; ++i)

@@ -7,14 +7,14 @@ const kAxe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.m
 
 /** Requires that axe finds no violation, and that nothing is wider than the screen. */
 export async function audit(page) {
-    // Scripts of the test are not bound by the content security policy of the page.
+    // The content security policy of the page does not restrict the scripts of the test.
     await page.evaluate(kAxe);
     const { violations } = await page.evaluate(() => globalThis.axe.run());
     assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes[0].html]), []);
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= page.viewportSize().width);
 }
 
-/** Requires the same in both colour schemes, on a desktop and on phones. The page keeps its size and its scheme. */
+/** Audits the page in both colour schemes, on a desktop and on phones. */
 export async function requireAccessible(page) {
     const size = page.viewportSize();
     for (const colorScheme of ["dark", "light"]) {

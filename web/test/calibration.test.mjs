@@ -143,7 +143,7 @@ class Run {
         [this.#frames, this.#next] = [frames, 0];
     }
 
-    /** Writes the next frame, unless a busy machine has not read the ones before. */
+    /** Writes the next frame, unless the program has not yet read the previous ones, for example on a busy machine. */
     #write() {
         if (this.#reads && this.#frames.length > 0 && this.program.stdin.writableLength === 0) this.program.stdin.write(this.#frames[this.#next++ % this.#frames.length]);
     }
@@ -295,7 +295,7 @@ test("the page keeps the mount of the file that it replaces", async () => {
     }
 });
 
-/** Takes pictures for docs/web.md if the environment names the folder DOTPOSE_PICTURES. */
+/** Takes pictures for docs/web.md if the environment variable DOTPOSE_PICTURES names a folder. */
 async function picture(page, name) {
     if (process.env.DOTPOSE_PICTURES) await takeForms(page, process.env.DOTPOSE_PICTURES, name);
 }
@@ -400,7 +400,7 @@ test("the page says why there is no result", async () => {
         await page.click("#calibration-save");
         await page.waitForFunction(problemIs, "cannot create");
         assert.match(await page.textContent("#calibration-title"), /: result$/);
-        // The result is not lost: it is saved when the folder is there again.
+        // The result is not lost. It can be saved after the folder has been created again.
         mkdirSync(join(folder, "gone"));
         await page.click("#calibration-save");
         await page.waitForFunction(titleIs, ": saved");

@@ -104,7 +104,7 @@ test("the page shows the frame, the map, refusals and recordings", async () => {
         assert.match((await shownPose(page)).x_name, /<b>table<\/b>/);
         assert.match(await page.textContent("#live-refused"), /none/);
         assert.equal(await page.textContent("#live-advice"), "The newest frame was located.");
-        // A frame without faults needs no other light and no other focus.
+        // For a good frame, the page does not advise to change the light or the focus.
         assert.equal(await page.textContent("#live-picture-advice"), "The picture is bright and sharp enough.");
         assert.ok(Number.parseInt(await page.textContent("#live-contrast-text"), 10) > 60);
 
@@ -126,7 +126,7 @@ test("the page shows the frame, the map, refusals and recordings", async () => {
 test("frames without a sheet do not count as sharp", async () => {
     dotpose("simulate", "-o", join(folder, "still"), "--frames", "1", "--size", "320x240", "--mm-per-px", "0.03", "--seed", "3");
     const still = readFileSync(join(folder, "still", "frame_000000.pgm")).subarray(-320 * 240);
-    // A dark table with a faint texture.
+    // The frame shows a dark table with a faint texture.
     const table = Buffer.from(still.map((_, i) => (i % 16 < 8 ? 36 : 40)));
     const run = await watchSource(["-", "--size", "320x240", "--fps", "10"], ["--code", "anoto"]);
     let shown = table;

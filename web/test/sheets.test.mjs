@@ -1,5 +1,5 @@
-// Tests the view of the sheets in the page of `dotpose watch --web`. The command line checks what is
-// written to the sheet file, and changes the file meanwhile.
+// Tests the view of the sheets in the page of `dotpose watch --web`. The command-line tool checks what is written to
+// the sheet file, and also changes the file.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
 import { copyFileSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -285,7 +285,7 @@ test("changes by other programs appear, and conflicts lose nothing", async () =>
         dotpose("sheets", "place", "shelf", "--sheets", file, "--x", "333", "--y", "44", "--yaw", "5");
         const list = page.locator("#sheets-list tr", { hasText: "shelf" });
         await list.getByText("333.0, 44.0 mm, 5.0°").waitFor();
-        // A number that is being typed stays, and the others are renewed.
+        // A number that is being typed stays, and the other numbers are updated.
         assert.equal(await page.inputValue("#place-x"), "777");
         assert.equal(await page.inputValue("#place-y"), "44");
 
@@ -295,7 +295,7 @@ test("changes by other programs appear, and conflicts lose nothing", async () =>
         assert.match(answer.message, /'shelf' was changed by someone else/);
         assert.deepEqual(placeOf("shelf"), { x_mm: 333, y_mm: 44, yaw_deg: 5 });
 
-        // What was typed before the change is refused once, and saved when the user insists.
+        // Values that were typed before the change are refused once, and saved if the user saves them again.
         await save(page, "place");
         await message(page, /^Refused: 'shelf' was changed by someone else/);
         assert.deepEqual(placeOf("shelf"), { x_mm: 333, y_mm: 44, yaw_deg: 5 });

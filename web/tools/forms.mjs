@@ -21,7 +21,7 @@ function reduce(from, to) {
 
 /**
  * Takes a picture of a page on a desktop and on a phone, in both colour schemes: NAME-light.png, NAME-dark.png,
- * NAME-phone.png and NAME-phone-dark.png. `ready` waits until the page shows what the picture shall show.
+ * NAME-phone.png and NAME-phone-dark.png. Before each picture, `ready` is called to prepare the page.
  */
 export async function takeForms(page, folder, name, { ready = () => undefined, fullPhone = true } = {}) {
     const before = page.viewportSize();

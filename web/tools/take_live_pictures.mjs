@@ -108,7 +108,7 @@ const kParts = {
         const { page } = await open(browser.context, /the page is at (\S+)/.exec(fleet.messages)[1]);
         await page.click("#fleet-rows button:text-is('robot7')");
         await page.waitForSelector("#fleet-stored", { state: "visible" });
-        // The map shows the whole track again after the size of the page has changed.
+        // The size of the page has changed. The map shows the whole track again after the form is submitted.
         const ready = async () => {
             await page.click("#fleet-stored-form button[type=submit]");
             await page.waitForSelector("#fleet-stored-figure", { state: "visible" });

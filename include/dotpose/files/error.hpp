@@ -18,7 +18,7 @@ class Error : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Thrown if an argument is invalid, whatever the state of files and devices is, for example a
+/// Thrown if an argument is invalid, regardless of the state of files and devices, for example a
 /// margin wider than the page or an unknown paper size. `what()` contains the wrong value and the
 /// permitted values.
 class BadArgument : public Error {

@@ -105,8 +105,9 @@ struct Followed {
     /// `p_wrong` takes the prior probability of the predicted place into account.
     Located located;
     Track track;
-    /// Track of the camera in space, in the pattern frame, or as in `world_sighting` if the robot
-    /// is tracked in the world. None unless `FollowerOptions::fits_space_pose` is set.
+    /// Track of the camera in space. It is in the frame of `world_sighting` if the robot is tracked
+    /// in the world, and otherwise in the pattern frame. None unless
+    /// `FollowerOptions::fits_space_pose` is set.
     std::optional<SpaceTrack> space_track;
 };
 

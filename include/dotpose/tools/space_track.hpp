@@ -91,7 +91,7 @@ struct SpaceTrack {
     SpaceCovariance covariance{};  ///< as in SpacePose
     std::array<double, 3> velocity_mm_s{};
     std::array<double, 3> turn_rad_s{};     ///< angular velocity about the axes of the camera frame
-    SpaceCovariance velocity_covariance{};  ///< of `velocity_mm_s`, then of `turn_rad_s`
+    SpaceCovariance velocity_covariance{};  ///< covariance of `velocity_mm_s` and `turn_rad_s`
 };
 
 /// Motion of a camera in the world of a sheet file.
@@ -99,12 +99,13 @@ struct CameraMotion {
     CameraInWorld pose;
     std::array<double, 3> velocity_m_s{};
     std::array<double, 3> turn_rad_s{};     ///< about the axes of the camera frame
-    SpaceCovariance velocity_covariance{};  ///< of `velocity_m_s`, then of `turn_rad_s`
+    SpaceCovariance velocity_covariance{};  ///< covariance of `velocity_m_s` and `turn_rad_s`
 };
 
 /// Converts a track from a frame with y down and z into the paper, in mm, to the frame with y up
-/// and z out of the paper, in metres. This is the world for sightings of `world_sighting`, and the
-/// pattern with y up for sightings in the pattern frame. Returns none while the camera is lost.
+/// and z out of the paper, in metres. The result is in the world if the sightings are from
+/// `world_sighting`, and in the pattern with y up if they are in the pattern frame. Returns none
+/// while the camera is lost.
 std::optional<CameraMotion> motion_of(const SpaceTrack& track);
 
 /// Implementation details of SpaceTracker: the filter state. Not part of the public API.

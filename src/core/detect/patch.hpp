@@ -16,11 +16,12 @@ namespace dotpose::core {
 bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int width_px,
                  int height_px, int scale, Patch& patch);
 
-/// The tiles of a patch from whose darkness the contrast of the dots is estimated.
+/// Selects the tile of a patch whose darkness is used as the contrast of its dots.
 enum class DotTiles : std::uint8_t {
-    median,  ///< the tile of median darkness among all tiles with contrast
-    pale,    ///< a pale tile, for patches in which most tiles contain graphics. Blurred dots are
-             ///< paler than graphics of the same ink.
+    median,  ///< the tile of median darkness among the tiles with contrast
+    /// A pale tile, for patches in which most tiles contain graphics. Blurred dots are paler than
+    /// graphics of the same ink.
+    pale,
 };
 
 /// Measures the typical dot contrast in a smoothed patch. Computes each tile's threshold from this

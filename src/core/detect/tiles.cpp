@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Step between the measured rows of a band. In each tile, the measured rows cross some of the
-/// dots.
+/// Distance between the rows of a band that are measured. It is small enough that the measured rows
+/// cross some of the dots in each tile.
 constexpr int kRowsEvery = 4;
 
 struct Rows {

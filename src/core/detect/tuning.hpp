@@ -49,8 +49,9 @@ inline constexpr int kSmall_px = 48;
 /// has fewer tiles, half of them are enough.
 inline constexpr int kMinDarkness = 12;
 inline constexpr int kMinTiles = 12;
-/// With `DotTiles::pale`, one of kPaleParts tiles with contrast is paler than a typical dot. A
-/// typical dot is then at most kMaxPale times as dark as the tile of median darkness.
+/// With `DotTiles::pale`, one in kPaleParts of the tiles with contrast is paler than the tile whose
+/// darkness is used as the dot contrast. This darkness must be at most kMaxPale times the median
+/// darkness.
 inline constexpr int kPaleParts = 6;
 inline constexpr float kMaxPale = 0.75F;
 /// Minimum darkness of a dot divided by the darkness of a typical dot, in 1/256. Lighter minima

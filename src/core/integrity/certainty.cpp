@@ -208,8 +208,8 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     if (chance > limit) return 1;
     const float codes = codes_in_question(query);
     const auto with = [&](float alternatives) { return chance + codes * alternatives; };
-    // An axis may use half the limit. Above this value, a tighter bound may still make the frame
-    // certain.
+    // Each axis may use half of the limit. If the bound exceeds this value, a tighter bound may
+    // still make the frame certain.
     const float enough = limit / 2;
     float sum = with(alternatives(kernels, ratios, unshared, limit));
     if (sum > enough && !ratios.is_of_bits()) {

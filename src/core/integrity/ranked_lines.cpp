@@ -13,13 +13,14 @@ static_assert(code::kA4Restored.size() == code::kA4Published.size() &&
 
 namespace {
 
-/// Odds by loss. Remembers the odds of earlier losses, because the losses of hard bits have few
-/// values.
+/// Computes the odds of losses. Caches the results, because the losses of hard bits have few
+/// different values.
 class OddsByLoss {
   public:
     explicit OddsByLoss(const LikelihoodRatios& ratios) : ratios_(ratios) { losses_.fill(kNone); }
     float operator()(int loss) {
-        // Losses of hard bits are multiples of 254, which this index distinguishes.
+        // Losses of hard bits are multiples of 254. 64 consecutive multiples have different slots,
+        // because 127 is odd.
         const auto slot = static_cast<std::size_t>(loss >> 1) % losses_.size();
         if (losses_[slot] != loss) {
             losses_[slot] = loss;

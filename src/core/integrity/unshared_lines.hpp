@@ -12,7 +12,8 @@
 
 namespace dotpose::core {
 
-/// How an alternative shares lines with the reading: at one shift in all lines, or at two shifts.
+/// Shifts at which an alternative shares lines with the reading: the same shift in all lines, or
+/// two shifts.
 enum class Sharing : std::uint8_t {
     at_one_shift,
     on_two_sides,  ///< one shift before a border between two lines, and another shift after the

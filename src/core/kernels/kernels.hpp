@@ -68,7 +68,7 @@ struct CellSums {
 /// Maximum number of columns in view, at any rotation of the grid. The same limit applies to rows.
 inline constexpr int kMaxLinesInView = 1024;
 
-/// Where `list_cells` places the measurement windows.
+/// Positions at which `list_cells` places the measurement windows.
 enum class Windows : std::uint8_t { none, on_intersections, on_dots };
 
 /// Options for `list_cells`, which lists the cells with a visible dot.

@@ -112,7 +112,7 @@ class AffineFit {
 
     /// Returns the summed squared residuals of all coherent dots, after subtracting the map.
     float squares() const { return squares_; }
-    /// Returns by how much `squares()` decreases if a displacement of the part `beyond` is fitted
+    /// Returns the decrease of `squares()` if a displacement of the part `beyond` is fitted
     /// together with the map. Returns 0 if the dots do not determine the displacement.
     float explained_by_displacement(const PartSums& beyond) const {
         const Triple step{beyond.dots(), beyond.places[0], beyond.places[1]};
@@ -122,9 +122,8 @@ class AffineFit {
         const float y = beyond.places[3] - inner_product(step, y_);
         return (x * x + y * y) / spread;
     }
-    /// Returns by how much `squares()` decreases if a displacement and a rotation of the part
-    /// `beyond` are fitted together with the map. Returns 0 if the dots do not determine the
-    /// displacement.
+    /// Returns the decrease of `squares()` if a displacement and a rotation of the part `beyond`
+    /// are fitted together with the map. Returns 0 if the dots do not determine the displacement.
     float explained_by_step(const PartSums& beyond) const {
         const float xx = beyond.moments[0];
         const float xy = beyond.moments[1];
@@ -298,8 +297,8 @@ class Search {
     /// Returns the log likelihood ratio between separate planes and one plane for the whole sheet.
     /// Both parts have a separate plane, because the plane of the whole sheet may fit neither of
     /// them. If its own plane explains the part beyond the line worse than random places do, the
-    /// log odds of this part are 0. If its own plane explains the part here worse than the plane of
-    /// the whole sheet does, this part adds nothing.
+    /// log odds of this part are 0. If its own plane explains the part on this side worse than the
+    /// plane of the whole sheet does, this part adds nothing.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));

@@ -154,8 +154,8 @@ TEST_P(SpaceTrackRates, SmoothsWithTrueCovariances) {
 }
 INSTANTIATE_TEST_SUITE_P(FramesPerSecond, SpaceTrackRates, testing::Values(30, 60, 200));
 
-/// With accurate sightings at a low rate, the errors of predictions are those of the motion model.
-/// Their innovations have equal signs for many frames.
+/// With accurate sightings at a low rate, the errors of predictions are mostly those of the motion
+/// model. The innovations then have equal signs for many frames.
 TEST(SpaceTrack, PredictsASmoothMotionWithTrueCovariances) {
     SpaceTracker tracker;
     Eye eye(0.05);

@@ -76,7 +76,7 @@ export interface ImageQuality {
     contrast: number;
     /** 98 % quantile of the differences between neighbouring pixels. */
     steepness: number;
-    /** The same as a fraction of the contrast. */
+    /** `steepness` as a fraction of `contrast`. */
     sharpness: number;
 }
 

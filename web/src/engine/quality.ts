@@ -3,7 +3,7 @@ import type { Image } from "dotpose";
 import type { ImageQuality } from "./messages.js";
 
 const kRows = 24;
-/** Dots cover at least 1.5 % of the paper, so the darkest pixels are those of dots. */
+/** Dots cover at least 1.5 % of the paper, so the darkest 0.5 % of the pixels are in dots. */
 const kDarkest = 0.005;
 const kBrightest = 0.95;
 

@@ -18,7 +18,7 @@ function shareText(motion: string, count: number, states: number): string {
     return `${((100 * count) / states).toFixed(count === 0 || count === states ? 0 : 1)} % ${motion}`;
 }
 
-/** Returns the longest time between two states without a pause. */
+/** Returns the maximum time between consecutive states. A longer time counts as a pause. */
 function maxGap_ms(span_ms: number): number {
     const kMaxGap_ms = 2000;
     return Math.max(kMaxGap_ms, 3 * span_ms);
@@ -137,7 +137,7 @@ export class HistoryPanel {
         const per_ms = width / (times_ms.at(-1)! + span_ms);
         const per_mm_s = (ground - top) / Math.max(max_speed_mm_s, 1);
         times_ms.forEach((time_ms, i) => {
-            // A bar reaches to the next state, except before a pause.
+            // A bar extends to the next state, except before a pause.
             const gap_ms = (times_ms[i + 1] ?? Infinity) - time_ms;
             const length_ms = gap_ms <= maxGap_ms(span_ms) ? gap_ms : span_ms;
             const x = Math.floor(time_ms * per_ms);

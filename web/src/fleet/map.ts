@@ -147,7 +147,8 @@ export class FleetMap {
         return this.#setup !== null && this.#setup.map === this.#map ? this.#setup.sheets : [];
     }
 
-    /** Returns the bounds of the robots and of the sheets among them, or of all sheets without robots. */
+    /** Returns the bounds of the robots and of the sheets that touch the bounds of the robots. Without robots,
+     * returns the bounds of all sheets. */
     #content(): Bounds_mm | null {
         const known = this.#known.find(({ name }) => name === this.#map);
         const robots = known ? { x_min: known.x_mm[0], x_max: known.x_mm[1], y_min: known.y_mm[0], y_max: known.y_mm[1] } : null;
@@ -243,7 +244,7 @@ export class FleetMap {
             if (this.#copies() !== copied) this.#is_ground_old = true;
             this.#requestFrame();
         }
-        // The next positions are requested after these are on the screen.
+        // Waits until these positions are on the screen before the next ones are requested.
         await new Promise(requestAnimationFrame);
     }
 

@@ -68,7 +68,7 @@ export interface Row {
     missed?: number;
     /** False if the robot is on a map or sheet that the sheet file does not contain. */
     is_known: boolean;
-    /** Newest known place. Missing if the robot never knew its place. */
+    /** Newest known place. Missing if no place of the robot is known. */
     map?: string;
     sheet?: string;
     /** Missing while the robot is lost. */

@@ -98,7 +98,7 @@ function showDials({ lens, step, directions, leans }: CalibrationState): void {
     if (seen.length > 0) {
         const text = is_pen ? `Sides: ${seen.filter(Boolean).length} of ${seen.length} with enough tilts` : turnsText(seen);
         show({ "calibration-turns-text": text });
-        // The tilts of the first side of a sheet are around its direction.
+        // For a pen, the first sector is centred on direction 0, so it begins half a sector earlier.
         draw("calibration-turns", text, (canvas) => drawTurns(canvas, seen, lens?.theta_rad ?? null, is_pen ? -0.5 : 0));
     }
     const [tilts, max, text] = lens !== null ? [lens.tilts, kMaxTilt, tiltsText(lens.tilts)] : [leans, kMaxLean, leansText(leans)];

@@ -49,8 +49,8 @@ function takeState(state: State): void {
 }
 
 /**
- * Shows whether the newest frame was located. The reason of a refusal takes the program some time;
- * until it arrives, the name of the status is shown.
+ * Shows whether the newest frame was located. The program needs some time to find the reason of a refusal. Until the
+ * reason arrives, the name of the status is shown.
  */
 function showResult(status: string): void {
     const is_good = status === "ok";

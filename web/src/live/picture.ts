@@ -19,8 +19,8 @@ const kMeasured_ms = 4000;
 class Meter {
     readonly #canvas = new OffscreenCanvas(1, 1);
     /**
-     * The steepest edges so far, which show by how much the focus can be improved. They are not compared relative to the
-     * contrast, because the noise of a frame without dots would count as sharp.
+     * Maximum steepness of edges so far. The steepness of a frame is compared with it, to show how far the focus can be
+     * improved. The sharpness is not suitable for this, because it is large for the noise of a frame without dots.
      */
     #best = 0;
 
@@ -110,7 +110,7 @@ export class Picture {
         this.#times_ms.push(now_ms);
         while (now_ms - this.#times_ms[0]! > kMeasured_ms) this.#times_ms.shift();
         const passed_s = (now_ms - this.#times_ms[0]!) / 1000;
-        // Two frames that wait at the beginning arrive together.
+        // The rate is not shown in the first second, because two frames that wait at the beginning arrive together.
         const rate_hz = passed_s > 1 ? (this.#times_ms.length - 1) / passed_s : 0;
         show({ "live-frame-rate": rate_hz > 0 ? `shown: ${rate_hz.toFixed(0)} frames/s` : "" });
         if (this.#topic !== kLarge || now_ms - this.#times_ms[0]! < kMeasured_ms / 2 || rate_hz >= kMinRate_hz) return;

@@ -113,7 +113,7 @@ export function drawSheet(context: CanvasRenderingContext2D, frame: Frame, place
     context.strokeStyle = themed(is_selected ? "--accent" : "--soft");
     context.stroke();
     context.restore();
-    // A mark at the upper left corner, whose place the file contains.
+    // Marks the upper left corner, because the file contains the place of this corner.
     context.fillStyle = themed(is_selected ? "--accent" : "--soft");
     dot(context, corners[0]!, is_selected ? 5 : 3.5);
     drawName(context, frame, placed, corners);

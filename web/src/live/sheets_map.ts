@@ -184,7 +184,7 @@ export class SheetsMap {
         this.redraw();
     }
 
-    /** Saves the changed pose. `sheet` is as the user saw it before. */
+    /** Saves the changed pose. `sheet` is the sheet before the change, as the user saw it. */
     async #save(sheet: Sheet): Promise<void> {
         const changed = this.#changed;
         if (!changed) return;

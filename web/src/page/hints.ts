@@ -1,7 +1,7 @@
 // Advice for frames that cannot be located, or are located with low accuracy.
 import type { ImageQuality, Reading } from "../engine/messages.js";
 
-/** The known sheets, as they concern a frame. */
+/** Relation between a frame and the known sheets. */
 export interface SheetContext {
     /** True if sheets are known, and the fix is on none of them. */
     is_on_unknown: boolean;

@@ -141,10 +141,10 @@ dotpose_status dotpose_space_tip_init(dotpose_space_tip* tip, size_t bytes);
 dotpose_status dotpose_space_tip_of(const dotpose_space_pose* pose, const dotpose_space_pen* pen,
                                     dotpose_space_tip* tip);
 
-/* Detects with hysteresis whether the pen touches the paper. `is_down` contains 1 or 0 for the
- * previous pose, 1 before the first pose, and receives the result. A pen on the paper counts as
- * lifted if its height is at least 0.05 mm plus three standard deviations, and a lifted pen counts
- * as on the paper below 0.05 mm. */
+/* Detects with hysteresis whether the pen touches the paper. `is_down` must contain the result
+ * for the previous pose, or 1 before the first pose. It receives the new result: 1 if the pen is
+ * on the paper, and otherwise 0. A pen on the paper counts as lifted if its height is at least
+ * 0.05 mm plus three standard deviations, and a lifted pen counts as on the paper below 0.05 mm. */
 dotpose_status dotpose_space_update_contact(const dotpose_space_tip* tip, int32_t* is_down);
 
 #ifdef __cplusplus

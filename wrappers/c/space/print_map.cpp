@@ -1,4 +1,4 @@
-// Print maps for C.
+// C functions for print maps (dotpose_print_map.h).
 #include "dotpose/files/print_map.hpp"
 
 #include <string_view>

@@ -71,7 +71,8 @@ dotpose_status check_image(const ImageView& image, const dotpose_space_camera& c
     return overlaps ? DOTPOSE_BAD_STRIDE : DOTPOSE_OK;
 }
 
-/// Returns position, rotation and covariance of a pose.
+/// Converts the position, rotation and covariance of a pose. The other members keep their default
+/// values.
 SpacePose to_core(const dotpose_space_pose& given) {
     SpacePose pose;
     const double* q = given.quaternion_xyzw;

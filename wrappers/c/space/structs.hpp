@@ -1,4 +1,4 @@
-// Checks of the arguments of the functions of dotpose_c_space.
+// Checks of arguments that the functions of dotpose_c_space have in common.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace dotpose::c {
 
-/// Returns OK if the member `size` has the size of the only version of the struct.
+/// Returns OK if the member `size` is the size of the struct, which has only one version.
 template <typename Struct>
 dotpose_status check_size(const Struct* given) {
     if (given == nullptr) return DOTPOSE_NULL_POINTER;
@@ -39,7 +39,7 @@ inline dotpose_status check_locator(const dotpose_locator* locator) {
     return has_dots ? DOTPOSE_OK : DOTPOSE_WRONG_KIND;
 }
 
-/// Calls a function that returns a status. Exceptions become statuses.
+/// Calls a function that returns a status, and converts exceptions to statuses.
 template <typename Function>
 dotpose_status without_exceptions(Function function) {
     try {

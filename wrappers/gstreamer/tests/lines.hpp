@@ -55,8 +55,8 @@ inline void expect_value_of(const std::string& key, const nlohmann::json& line,
     }
 }
 
-/// Expects that the message has the fields and values of the line. It may contain additional fields
-/// only for times.
+/// Expects that the message contains the fields of the line with the same values. Additional fields
+/// may only be times and the frame number.
 inline void expect_told(const nlohmann::json& line, nlohmann::json told) {
     for (const auto& [key, value] : line.items()) {
         if (is_only_in_lines(key)) continue;

@@ -12,7 +12,7 @@
 namespace dotpose::python {
 namespace {
 
-/// A member of SpaceTrackOptions, which can be set by name.
+/// A member of SpaceTrackOptions that can be set by name.
 struct SpaceTrackOption {
     const char* name;
     double SpaceTrackOptions::*member;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// A float member of TrackOptions, which can be set by name.
+/// A float member of TrackOptions that can be set by name.
 struct FloatOption {
     const char* name;
     float TrackOptions::*member;

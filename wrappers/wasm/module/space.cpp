@@ -1,6 +1,12 @@
+<<<<<<< HEAD
 // The runtime of the module dotpose-space.wasm, which is the core with poses in space and print
 // maps. JavaScript checks all arguments except the contents of print maps. A function that fails
 // sets the message of `dotpose_space_error` and ends the instance with a trap, as in tools.cpp.
+=======
+// Runtime functions of the module dotpose-space.wasm, which is the core with poses in space. No
+// function throws, because JavaScript checks all arguments. An exception would end the instance
+// with a trap.
+>>>>>>> reader
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -30,8 +36,8 @@ void __wasi_proc_exit(std::uint32_t) {
     __builtin_trap();
 }
 
-// Called when the memory has grown. The loader recreates its views after each call. The function
-// exists only to avoid an import.
+// Called when the memory has grown. Does nothing, because the loader recreates its views after each
+// call. Without this definition, the module would import the function.
 void emscripten_notify_memory_growth(std::size_t) {}
 
 /// Returns the message of the error that ended the instance, or "" if there was no error.

@@ -59,8 +59,8 @@ export interface LocatorOptions {
     dots?: boolean;
     /**
      * Intrinsic parameters of the camera, to fit its pose in space to every fix (`Fix.space`). The
-     * locator then uses a larger module, `dotpose-space.wasm`, which takes more time. Its lens is
-     * `lens_k_per_px2` about `lens_centre_offset_px`. Default: none.
+     * locator then uses a larger module, `dotpose-space.wasm`, which takes more time. The distortion
+     * of its lens is `lens_k_per_px2` about `lens_centre_offset_px`. Default: none.
      */
     space?: SpaceCamera;
     /**

@@ -13,7 +13,7 @@ export interface SpaceCamera {
     focal_px: number | readonly [number, number];
     /** Pixel on the optical axis, without distortion. Default: the image centre. */
     axis_px?: readonly [number, number];
-    /** Printed length divided by the nominal length of the sheet, from 0.1 to 10. Default: 1. */
+    /** Printed length divided by the nominal length of the sheet, above 0.1 and below 10. Default: 1. */
     print_scale?: number;
 }
 
@@ -56,7 +56,7 @@ export interface SpacePose extends PoseInSpace {
 
 /** The second pose that explains the view of a plane. */
 export interface SecondPose extends PoseInSpace {
-    /** Odds of this pose against the first one. */
+    /** Odds of this pose relative to the first one. */
     odds: number;
 }
 
@@ -91,7 +91,7 @@ export class SpaceFitter {
         const { axis_px = [0, 0], print_scale = 1 } = given;
         if (!focalOf(given).every((px) => px >= 1 && px <= 1e6)) throw new RangeError("focal_px must be from 1 to 1,000,000");
         if (!axis_px.every((px) => Math.abs(px) <= 1e4)) throw new RangeError("axis_px must be within 10,000 px");
-        if (!(print_scale > 0.1 && print_scale < 10)) throw new RangeError("print_scale must be from 0.1 to 10");
+        if (!(print_scale > 0.1 && print_scale < 10)) throw new RangeError("print_scale must be between 0.1 and 10");
         this.#core = core;
         this.#given = given;
         this.#lens = lens;

@@ -127,7 +127,7 @@ TEST_F(SpaceInC, FindsTheTipOfAPen) {
     std::int32_t is_down = 0;
     EXPECT_EQ(dotpose_space_update_contact(&tip, &is_down), DOTPOSE_OK);
     EXPECT_EQ(is_down, 1);
-    // 1 mm above the paper, with an uncertain tip.
+    // The tip is 1 mm above the paper, and its distance from the camera is uncertain.
     pen.z_mm -= 1 / std::cos(kTilt_rad);
     pen.sigma_mm[2] = 0.1;
     ASSERT_EQ(dotpose_space_tip_of(&pose_, &pen, &tip), DOTPOSE_OK);
@@ -135,7 +135,7 @@ TEST_F(SpaceInC, FindsTheTipOfAPen) {
     EXPECT_NEAR(std::sqrt(tip.covariance_mm2[8]), 0.1 * std::cos(kTilt_rad), 0.01);
     EXPECT_EQ(dotpose_space_update_contact(&tip, &is_down), DOTPOSE_OK);
     EXPECT_EQ(is_down, 0);
-    // The pen touches the paper at 1 mm, if this is its height at rest.
+    // The pen touches the paper at a measured height of 1 mm if this is its height at rest.
     pen.rest_mm = 1;
     ASSERT_EQ(dotpose_space_tip_of(&pose_, &pen, &tip), DOTPOSE_OK);
     EXPECT_NEAR(tip.height_mm, 0, 0.03);

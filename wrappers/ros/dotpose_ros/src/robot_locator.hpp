@@ -59,7 +59,7 @@ class RobotLocator {
     /// first time that it occurs. Otherwise, returns an empty string.
     std::string take(const Lens& lens);
 
-    /// Returns true if the camera has poses in space as soon as its lens is known.
+    /// Returns true if poses in space are fitted once the lens is known.
     bool has_space_pose() const { return options_.fits_space_pose; }
 
     /// Returns the mount of the camera, or none if the camera file does not contain it, or if the
