@@ -47,6 +47,8 @@ constexpr Table kTables[] = {
     {"print_map", "How much a map of the print improves positions", tables::print_map_table},
     {"print_map_drive", "How much a map of the print improves a drive",
      tables::print_map_drive_table},
+    {"print_map_errors", "Errors of print maps beside the covariances that they contain",
+     tables::print_map_errors_table},
     {"print_map_scale", "Time and memory for a map of many frames", tables::print_map_scale_table},
     {"print_map_solver", "Time and memory of the solver of print maps for 20,000 frames",
      tables::print_map_solver_table},
@@ -65,7 +67,7 @@ constexpr Table kTables[] = {
 void print_usage(std::FILE* file) {
     fmt::print(file, "usage: dotpose_tables TABLE [OPTION...]\n\nTables:\n");
     for (const Table& table : kTables)
-        fmt::print(file, "  {:<15} {}\n", table.name, table.what);
+        fmt::print(file, "  {:<16} {}\n", table.name, table.what);
     fmt::print(file, "\ndotpose_tables TABLE --help lists the options of a table.\n");
 }
 

@@ -17,6 +17,7 @@
 #include <fmt/core.h>
 
 #include "../tests/mapped_print.hpp"
+#include "dotpose/files/degrees.hpp"
 #include "dotpose/files/sheet_place.hpp"
 #include "dotpose/tools/track_names.hpp"
 #include "drive_run.hpp"
@@ -70,6 +71,7 @@ PrintMapResult map_of_area(const test::DriveCamera& camera, std::uint64_t frames
 struct RawErrors {
     test::DriveErrors all;
     std::array<test::PlaceErrors, 2> pages;  ///< of the left and the right page
+    double theta_variance = 0;               ///< sum of the variances of the headings
     int mapped = 0;                          ///< number of fixes that used the map
 
     void add(const test::DriveState& truth, const Followed& now) {
@@ -88,6 +90,18 @@ struct RawErrors {
         const test::DrivePose off = test::DriveErrors::difference(reading.raw, truth);
         pages[located.place->entry->name == "left" ? 0 : 1].add(
             {truth.x_mm, truth.y_mm}, {off.x_mm, off.y_mm}, {}, located.fix);
+        theta_variance += static_cast<double>(located.fix.covariance[2][2]);
+    }
+    std::size_t count() const { return pages[0].count() + pages[1].count(); }
+    /// Returns error^2 / variance of the absolute positions, and of the headings.
+    std::array<double, 2> normalised() const {
+        double variance = 0;
+        for (const test::PlaceErrors& page : pages)
+            variance += static_cast<double>(page.count()) * page.sigma_um() * page.sigma_um();
+        const auto fixes = static_cast<double>(count());
+        const double heading_rad = all.raw_deg() / kDegrees;
+        return {fixes * absolute_um() * absolute_um() / variance,
+                fixes * heading_rad * heading_rad / theta_variance};
     }
     /// Returns the rms of the absolute errors on both pages.
     double absolute_um() const {
@@ -120,7 +134,8 @@ bool print_map_drive_table(TableRun& run) {
     if (!run.parse()) return true;
     std::string text =
         "| print | map | fixes | with map | all errors, µm | absolute error, µm: left page | right "
-        "page | heading, degrees |\n|---|---|--:|--:|--:|--:|--:|--:|\n";
+        "page | heading, degrees | error² / variance: absolute, heading |\n"
+        "|---|---|--:|--:|--:|--:|--:|--:|--:|\n";
     bool is_right = true;
     for (const DrivePrint& print : kDrivePrints) {
         test::DriveCamera camera(320, 240);
@@ -133,10 +148,12 @@ bool print_map_drive_table(TableRun& run) {
             // because the frames do not determine the mean place, scale and turn.
             const std::string all =
                 print.wave_mm > 0 ? "-" : fmt::format("{:.3f}", errors->all.raw_um());
-            text += fmt::format("| {} | {} | {} | {} | {} | {:.3f} | {:.3f} | {:.4f} |\n",
-                                print.name, name, errors->all.fixes(), errors->mapped, all,
-                                errors->pages[0].absolute_um(), errors->pages[1].absolute_um(),
-                                errors->all.raw_deg());
+            const auto [place, heading] = errors->normalised();
+            text += fmt::format(
+                "| {} | {} | {} | {} | {} | {:.3f} | {:.3f} | {:.4f} | {:.2f}, {:.2f} |\n",
+                print.name, name, errors->all.fixes(), errors->mapped, all,
+                errors->pages[0].absolute_um(), errors->pages[1].absolute_um(),
+                errors->all.raw_deg(), place, heading);
         }
         if (print.wave_mm == 0) {
             is_right &= with.all.raw_um() <= kMaxError_um;

@@ -20,6 +20,7 @@ bool limits_table(TableRun& run);
 bool pens_table(TableRun& run);
 bool print_map_table(TableRun& run);
 bool print_map_drive_table(TableRun& run);
+bool print_map_errors_table(TableRun& run);
 bool print_map_scale_table(TableRun& run);
 bool print_map_solver_table(TableRun& run);
 bool seams_table(TableRun& run);

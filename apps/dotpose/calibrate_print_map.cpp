@@ -81,12 +81,16 @@ std::string report_of(const PrintMapResult& result) {
             "distortion  {:.1f} um rms, slow over the page\n"
             "jitter      {:.1f} um rms, of each dot\n"
             "noise       {:.2f} um rms, of a dot in a frame\n"
+            "error       {}\n"
             "camera      {}\n",
             page.name, page.frames, result.frames, page.seen, page.dots,
             static_cast<double>(page.observations) /
                 static_cast<double>(std::max<std::size_t>(page.seen, 1)),
             100 * static_cast<double>(page.outliers) / static_cast<double>(page.observations),
             1000 * page.slow_mm, 1000 * page.jitter_mm, 1000 * page.noise_mm,
+            page.error_mm > 0
+                ? fmt::format("{:.3f} um, of the place of a view on the page", 1000 * page.error_mm)
+                : "not known, because the earlier map does not contain it",
             page.is_rigid ? "at constant height" : "at changing heights");
         if (page.seen < page.dots) {
             text +=

@@ -21,10 +21,6 @@ constexpr std::size_t kMaxNodes = 800;
 constexpr int kNodeTerms = 3;
 using NodeBlock = Eigen::Matrix<double, kNodeTerms, kNodeTerms>;
 
-Eigen::Index first_term(std::size_t node) {
-    return kNodeTerms * static_cast<Eigen::Index>(node);
-}
-
 /// Derivatives of the offset of a dot with respect to the terms of a node with weight 1.
 Eigen::Matrix<double, 2, kNodeTerms> offset_terms(const MapGrid& grid, std::size_t dot) {
     const auto& [dx, dy] = grid.directions[dot];
@@ -40,6 +36,10 @@ MapField::Around around_dot(const MapField& nodes, const MapGrid& grid, std::siz
 }
 
 }  // namespace
+
+Eigen::Index MapDeformation::first_term(std::size_t node) {
+    return kNodeTerms * static_cast<Eigen::Index>(node);
+}
 
 MapDeformation::MapDeformation(const MapGrid& grid, const EarlierOffsets& earlier,
                                const std::vector<MapObservation>& observations,
@@ -201,6 +201,14 @@ void MapDeformation::add_solution(const MapUnknowns& residual, MapUnknowns& resu
         for (std::size_t i = 0; i < nodes.size(); ++i)
             result.field[k] += weights[i] * values.segment<2>(first_term(nodes[i]));
     }
+}
+
+Eigen::Matrix3d MapDeformation::covariance_of(
+    const Eigen::Matrix<double, 3, Eigen::Dynamic>& functions) const {
+    // The matrix of the equations is L L^T, so the covariance is the square of L^-1 functions^T.
+    const Eigen::Matrix<double, Eigen::Dynamic, 3> half =
+        equations_.matrixL().solve(functions.transpose());
+    return half.transpose() * half;
 }
 
 }  // namespace dotpose::calibrate

@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "calibrate/map_errors.hpp"
 #include "calibrate/map_geometry.hpp"
 #include "calibrate/map_parts.hpp"
 #include "calibrate/map_system.hpp"
@@ -173,7 +174,8 @@ void estimate_variances(const MapGrid& grid, double squares, std::size_t used,
 }
 
 /// Removes the mean offset, scale and turn of the seen dots from the offsets, because views of the
-/// page do not determine them.
+/// page do not determine them. Applies the inverse similarity to the places of the dots, because a
+/// turn of the page by 0.003 also turns a feed wave of 40 µm, by 0.13 µm.
 void fix_gauge(const MapGrid& grid, MapSolution& solution) {
     const Vector2d middle =
         grid.pitch_mm.cwiseProduct(Vector2d(grid.columns - 1, grid.rows - 1)) / 2;
@@ -191,8 +193,14 @@ void fix_gauge(const MapGrid& grid, MapSolution& solution) {
         right += rows.transpose() * solution.offset_mm[i].cast<double>();
     }
     const Eigen::Vector4d gauge = normal.ldlt().solve(right);
-    for (std::size_t i = 0; i < grid.dots(); ++i)
-        solution.offset_mm[i] -= (rows_of(grid.place_mm(i) - middle) * gauge).cast<float>();
+    Eigen::Matrix2d similarity;
+    similarity << 1 + gauge[2], -gauge[3], gauge[3], 1 + gauge[2];
+    const Eigen::Matrix2d inverse = similarity.inverse();
+    for (std::size_t i = 0; i < grid.dots(); ++i) {
+        const Vector2d from_middle = grid.place_mm(i) - middle;
+        const Vector2d place = from_middle + solution.offset_mm[i].cast<double>() - gauge.head<2>();
+        solution.offset_mm[i] = (inverse * place - from_middle).cast<float>();
+    }
 }
 
 }  // namespace
@@ -212,6 +220,10 @@ void solve_map(const MapGrid& grid, const EarlierOffsets& earlier, double reach_
         MapSystem system(grid, earlier, observations, solution);
         system.solve(solution, round == kRounds - 1 ? kConverged : kFirstConverged,
                      [&](double share) { progress((round + share) / kRounds); });
+        if (round == kRounds - 1) {
+            solution.errors = map_errors(grid, solution, system.deformation(),
+                                         earlier.views.empty() ? Gauge::fixed : Gauge::earlier);
+        }
         const std::size_t used = observations.size() - solution.outliers;
         const Statistics now = measure(grid, kMaxSquaredLength, solution, observations);
         estimate_variances(grid, now.squares, used, solution);

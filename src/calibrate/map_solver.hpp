@@ -81,6 +81,13 @@ struct EarlierOffsets {
     std::vector<float> views;
 };
 
+/// Covariances of the error of a map in a view (see `MapErrors`), in mm and rad.
+struct MapErrorGrid {
+    int columns = 0;
+    int rows = 0;
+    std::vector<Eigen::Matrix3d> covariances;
+};
+
 /// Unknowns and statistics of a map.
 struct MapSolution {
     std::vector<MapFrame> frames;
@@ -93,6 +100,7 @@ struct MapSolution {
     double jitter_mm = 0;                        ///< see MapPage::jitter
     /// Standard deviations of the view terms between frames, estimated by `solve_map`.
     std::array<double, kViewTerms> view_sigma{};
+    MapErrorGrid errors;
     std::size_t outliers = 0;
     int iterations = 0;  ///< iterations of conjugate gradients in all rounds
 };

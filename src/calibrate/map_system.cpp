@@ -40,14 +40,14 @@ MapSystem::MapSystem(const MapGrid& grid, const EarlierOffsets& earlier,
       solution_(solution),
       weight_(1 / (solution.noise_mm * solution.noise_mm)),
       prior_weight_(1 / (solution.jitter_mm * solution.jitter_mm)),
-      information_(grid.dots(), static_cast<float>(prior_weight_)),
+      information_(grid.dots(), prior_weight_),
       offsets_(grid.dots(), Vector2d::Zero()),
       sums_(kMapParts, std::vector<Vector2d>(grid.dots())),
       deformation_(grid, earlier, observations, solution) {
     for (std::size_t i = 0; i < grid.dots(); ++i) {
-        const float earlier_views = earlier.views.empty() ? 0 : earlier.views[i];
-        information_[i] +=
-            static_cast<float>(weight_) * (static_cast<float>(solution.views[i]) + earlier_views);
+        const double earlier_views =
+            earlier.views.empty() ? 0 : static_cast<double>(earlier.views[i]);
+        information_[i] += weight_ * (solution.views[i] + earlier_views);
     }
     make_preconditioner();
 }
@@ -95,7 +95,7 @@ void MapSystem::eliminate(const MapUnknowns& at, Residuals residuals) {
             sum += static_cast<double>(earlier_.views[i]) * earlier_.offset_mm[i].cast<double>();
         const auto [column, row] = grid_.cell_of(i);
         const Vector2d mean = field.at(column, row);
-        offsets_[i] = (weight_ * sum + prior_weight_ * mean) / double(information_[i]);
+        offsets_[i] = (weight_ * sum + prior_weight_ * mean) / information_[i];
     });
 }
 
@@ -169,7 +169,7 @@ void MapSystem::make_preconditioner() {
             if (seen.is_outlier()) continue;
             const MapView::Terms terms = view.terms(seen);
             const auto derivatives = terms.derivatives();
-            const double weight = weight_ * (1 - weight_ / double(information_[seen.dot]));
+            const double weight = weight_ * (1 - weight_ / information_[seen.dot]);
             block += weight * derivatives.transpose() * derivatives;
             Eigen::Matrix<double, 2, kCameraTerms> shared;
             shared.leftCols<kViewTerms>() = derivatives.rightCols<kViewTerms>();
@@ -190,7 +190,7 @@ void MapSystem::make_preconditioner() {
     for (std::size_t i = 0; i < grid_.dots(); ++i) {
         const auto [column, row] = grid_.cell_of(i);
         const MapField::Around near = field.around(column, row);
-        const double weight = prior_weight_ * (1 - prior_weight_ / double(information_[i]));
+        const double weight = prior_weight_ * (1 - prior_weight_ / information_[i]);
         for (std::size_t k = 0; k < near.nodes.size(); ++k)
             field_diagonal_[near.nodes[k]] += weight * near.weights[k] * near.weights[k];
     }

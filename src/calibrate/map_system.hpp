@@ -23,6 +23,7 @@ class MapSystem {
     /// kMaxIterations. Updates frames, camera, field and offsets of `solution`, which must be the
     /// solution of the constructor.
     void solve(MapSolution& solution, double converged, const MapProgress& progress);
+    const MapDeformation& deformation() const { return deformation_; }
 
   private:
     enum class Residuals : bool { omit, add };
@@ -48,9 +49,9 @@ class MapSystem {
     const EarlierOffsets& earlier_;
     const std::vector<MapObservation>& observations_;
     const MapSolution& solution_;
-    double weight_;                   ///< weight of an observation: 1 / noise^2
-    double prior_weight_;             ///< weight of the field in the offset of a dot: 1 / jitter^2
-    std::vector<float> information_;  ///< for each offset, sum of all its weights
+    double weight_;                    ///< weight of an observation: 1 / noise^2
+    double prior_weight_;              ///< weight of the field in the offset of a dot: 1 / jitter^2
+    std::vector<double> information_;  ///< for each offset, sum of all its weights
     std::vector<Eigen::Vector2d> offsets_;
     std::vector<std::vector<Eigen::Vector2d>> sums_;  ///< for each part, sums by dot
     std::vector<Eigen::LLT<Eigen::Matrix<double, kFrameTerms, kFrameTerms>>> frame_blocks_;

@@ -13,6 +13,7 @@ MappedDots mapped_dots(const Fix& fix, const PrintMap& map, const Trace& trace) 
     constexpr std::size_t kMinDots = 20;
     // Minimum fraction of the dots in view that the map must contain.
     constexpr double kMinCovered = 0.75;
+    result.page = page;
     result.noise = page->noise;
     const std::vector<LocatedDot> all = dots_read(trace);
     for (const LocatedDot& dot : all) {
@@ -27,6 +28,14 @@ MappedDots mapped_dots(const Fix& fix, const PrintMap& map, const Trace& trace) 
                      ? MapUse::used
                      : MapUse::not_covered;
     return result;
+}
+
+void add_map_error(const MapPage& page, Fix& fix) {
+    const auto error = page.error_covariance({fix.cell, fix.section});
+    for (std::size_t i = 0; i < error.size(); ++i) {
+        for (std::size_t j = 0; j < error.size(); ++j)
+            fix.covariance[i][j] += static_cast<float>(error[i][j]);
+    }
 }
 
 bool is_same_print(double variance_with_map, double variance_without, double noise) {

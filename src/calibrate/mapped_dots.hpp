@@ -21,11 +21,15 @@ struct MappedDot {
 /// Dots of a fix whose offsets the map contains. They are sufficient only if `use` is MapUse::used.
 struct MappedDots {
     MapUse use = MapUse::no_map;
-    double noise = 0;  ///< MapPage::noise
+    const MapPage* page = nullptr;  ///< the map of the page
+    double noise = 0;               ///< MapPage::noise
     std::vector<MappedDot> dots;
 };
 
 MappedDots mapped_dots(const Fix& fix, const PrintMap& map, const Trace& trace);
+
+/// Adds the error of the map at the place of a fix to the covariance of the fix.
+void add_map_error(const MapPage& page, Fix& fix);
 
 /// Returns true if the variances of the residuals with and without the map show that the map is of
 /// this print. `noise` is the noise of the map, in the unit of the residuals.

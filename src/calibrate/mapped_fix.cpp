@@ -265,6 +265,7 @@ MappedFix with_print_map(const Fix& fix, const PrintMap& map, const Trace& trace
     shrink_view(plane, dots, with_map);
     MappedFix result{fix, MapUse::used};
     write_fix(plane, with_map, trace, result.fix);
+    add_map_error(*mapped.page, result.fix);
     return result;
 }
 

@@ -256,6 +256,8 @@ MappedMovingFix with_camera_and_map(const Fix& seen, const Camera& camera, const
         write_place((p[0] + x * p[2] - y * p[3]) / print.x, (p[1] + y * p[2] + x * p[3]) / print.y,
                     trace.options.code, trace.decoding.place, result);
         write_covariance(pose, x, y, print, result);
+        if (mapped.use == MapUse::used)
+            add_map_error(*find_page(map, trace.options.code, {fix.cell, fix.section}), result);
         result.dots_used = pose.dots;
         result.dots_seen = std::max(result.dots_seen, result.dots_used);
         result.residual_px = static_cast<float>(std::sqrt(pose.variance) * fix.spacing_px());

@@ -54,11 +54,39 @@ std::int16_t to_q14(double spacings) {
     return static_cast<std::int16_t>(std::clamp(std::lround(spacings * 16384), -32767L, 32767L));
 }
 
+/// Converts covariances to spacings. The errors of an update are added to those of the earlier map,
+/// because the equations assume that the earlier offsets have independent errors, so the slow
+/// errors of the earlier map remain.
+MapErrors errors_of(const MapGrid& grid, const MapErrorGrid& found, const EarlierOffsets& earlier,
+                    const MapPage& page) {
+    if (!earlier.views.empty() && page.errors.nodes.empty()) return {};
+    MapErrors errors{found.columns, found.rows, {}};
+    for (std::size_t k = 0; k < found.covariances.size(); ++k) {
+        const auto node = static_cast<int>(k);
+        const auto cell = [&](int at, int nodes, int dots) {
+            return static_cast<std::uint32_t>((2 * at * (dots - 1) + nodes - 1) /
+                                              (2 * (nodes - 1)));
+        };
+        const Place place{{page.origin.x + cell(node % found.columns, found.columns, grid.columns),
+                           page.origin.y + cell(node / found.columns, found.rows, grid.rows)},
+                          page.section};
+        const auto before = page.error_covariance(place);
+        const Eigen::Vector3d unit(1 / grid.pitch_mm.x(), 1 / grid.pitch_mm.y(), 1);
+        const Eigen::Matrix3d own = unit.asDiagonal() * found.covariances[k] * unit.asDiagonal();
+        const auto at = [&](int i, int j) {
+            return static_cast<float>(own(i, j) + before[std::size_t(i)][std::size_t(j)]);
+        };
+        errors.nodes.push_back({at(0, 0), at(0, 1), at(1, 1), at(0, 2), at(1, 2), at(2, 2)});
+    }
+    return errors;
+}
+
 void write_page(const MapGrid& grid, const EarlierOffsets& earlier, const MapSolution& solution,
                 MapPage& page) {
     page.noise = solution.noise_mm / grid.pitch_mm.mean();
     page.jitter = solution.jitter_mm / grid.pitch_mm.mean();
     page.frames += static_cast<std::uint32_t>(solution.frames.size());
+    page.errors = errors_of(grid, solution.errors, earlier, page);
     page.offsets.resize(grid.dots());
     page.views.resize(grid.dots());
     for (std::size_t i = 0; i < grid.dots(); ++i) {
@@ -70,10 +98,28 @@ void write_page(const MapGrid& grid, const EarlierOffsets& earlier, const MapSol
     }
 }
 
-MappedPage statistics_of(const std::string& name, const MapGrid& grid, const MapSolution& solution,
+/// Returns the standard deviation of the error of a map per axis, in spacings, as rms over the dots
+/// that were seen.
+double typical_error(const MapPage& map) {
+    double sum = 0;
+    double seen = 0;
+    for (std::size_t i = 0; i < map.views.size(); ++i) {
+        if (map.views[i] == 0) continue;
+        const auto wide = static_cast<std::size_t>(map.columns);
+        const Cell cell{map.origin.x + static_cast<std::uint32_t>(i % wide),
+                        map.origin.y + static_cast<std::uint32_t>(i / wide)};
+        const auto error = map.error_covariance({cell, map.section});
+        sum += (error[0][0] + error[1][1]) / 2;
+        ++seen;
+    }
+    return std::sqrt(sum / std::max(seen, 1.0));
+}
+
+MappedPage statistics_of(const MapPage& map, const MapGrid& grid, const MapSolution& solution,
                          std::size_t observations) {
     MappedPage page;
-    page.name = name;
+    page.name = map.name;
+    page.error_mm = typical_error(map) * grid.pitch_mm.mean();
     page.frames = solution.frames.size();
     page.dots = grid.dots();
     page.observations = observations;
@@ -183,12 +229,12 @@ PrintMapResult PrintMapping::solve(const std::function<bool(double share)>& prog
         solve_map(grid, earlier, reach_mm, seen.observations, solution, go_on);
         MapPage page = is_update ? *known : empty_page(entry);
         write_page(grid, earlier, solution, page);
+        result.pages.push_back(statistics_of(page, grid, solution, seen.observations.size()));
         if (is_update) {
             *known = std::move(page);
         } else {
             result.map.pages.push_back(std::move(page));
         }
-        result.pages.push_back(statistics_of(entry.name, grid, solution, seen.observations.size()));
     }
     if (result.pages.empty())
         throw Error(fmt::format(

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "calibrate/dots_in_view.hpp"
+#include "calibrate/located_frame.hpp"
 #include "calibrate/space_fit.hpp"
 
 namespace dotpose {
@@ -33,6 +34,26 @@ Quaternion quaternion_of(Quaterniond q) {
 CameraInSpace camera_of(const SpaceState& state, const Vector3d& origin_mm) {
     const Vector3d position = state.position_mm + origin_mm;
     return {position.x(), position.y(), position.z(), quaternion_of(Quaterniond(state.rotation))};
+}
+
+/// Adds the error of the map in the view to the covariance of the pose. The shift and the turn of
+/// the dots in the view move the camera together with them. `middle_mm` is the place of the fix, in
+/// the coordinates of the state.
+void add_error_of_map(const MapPage& map, const Fix& fix, const Vector3d& spacing_mm,
+                      const Vector3d& middle_mm, SpaceFit& fit) {
+    const auto error = map.error_covariance({fix.cell, fix.section});
+    Matrix3d covariance;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+        for (Eigen::Index j = 0; j < 3; ++j)
+            covariance(i, j) = error[std::size_t(i)][std::size_t(j)];
+    }
+    const Vector3d arm = fit.state.position_mm - middle_mm;
+    Eigen::Matrix<double, 6, 3> by_error = Eigen::Matrix<double, 6, 3>::Zero();
+    by_error(0, 0) = spacing_mm.x();
+    by_error(1, 1) = spacing_mm.y();
+    by_error.topRightCorner<3, 1>() = Vector3d::UnitZ().cross(arm);
+    by_error.bottomRightCorner<3, 1>() = fit.state.rotation.transpose() * Vector3d::UnitZ();
+    fit.covariance += by_error * covariance * by_error.transpose();
 }
 
 }  // namespace
@@ -62,9 +83,15 @@ std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const 
     if (fix.status != Status::ok || fix.spacing_nm <= 0) return std::nullopt;
     const double x_mm = fix.spacing_mm() * print.x;
     const double y_mm = fix.spacing_mm() * print.y;
-    const auto fit = fit_to_image(image, {camera, *pinhole_of(camera), {x_mm, y_mm}, map}, trace);
+    auto fit = fit_to_image(image, {camera, *pinhole_of(camera), {x_mm, y_mm}, map}, trace);
     if (!fit) return std::nullopt;
     const Cell start = trace.decoding.place.cell;
+    if (map != nullptr) {
+        const Vector3d middle_mm(x_mm * (steps(start.x, fix.cell.x) + fix.fraction_x_q16 / 65536.0),
+                                 y_mm * (steps(start.y, fix.cell.y) + fix.fraction_y_q16 / 65536.0),
+                                 0);
+        add_error_of_map(*map, fix, {x_mm, y_mm, 0}, middle_mm, *fit);
+    }
     const Vector3d origin_mm(x_mm * start.x, y_mm * start.y, 0);
     SpacePose pose;
     pose.camera = camera_of(fit->state, origin_mm);

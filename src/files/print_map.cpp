@@ -1,6 +1,7 @@
 // Parses print maps, and writes them as bytes.
 #include "dotpose/files/print_map.hpp"
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 
@@ -10,7 +11,8 @@ namespace dotpose {
 namespace {
 
 constexpr std::string_view kMagic = "DOTPOSEM";
-constexpr std::uint32_t kVersion = 1;
+/// Version 1 does not contain the errors of the map.
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kMaxPages = 10'000;
 constexpr std::size_t kMaxName = 4096;
 
@@ -43,6 +45,10 @@ void append(std::string& bytes, double number) {
     append(bytes, __builtin_bit_cast(std::uint64_t, number));
 }
 
+void append(std::string& bytes, float number) {
+    append(bytes, __builtin_bit_cast(std::uint32_t, number));
+}
+
 /// Takes numbers from the front of a text. Throws Error at the end of the text.
 class Bytes {
   public:
@@ -65,6 +71,7 @@ class Bytes {
         return number;
     }
     double real() { return __builtin_bit_cast(double, number<std::uint64_t>()); }
+    float single() { return __builtin_bit_cast(float, number<std::uint32_t>()); }
     bool is_empty() const { return text_.empty(); }
 
   private:
@@ -94,7 +101,58 @@ std::size_t dots_of(std::uint64_t columns, std::uint64_t rows) {
     return static_cast<std::size_t>(columns * rows);
 }
 
-MapPage parse_page(Bytes& bytes) {
+/// Returns true if a node contains a covariance: finite, and no correlation above 1 (with a margin
+/// for rounding).
+bool is_covariance(const MapErrors::Node& node) {
+    constexpr float kMaxVariance = 1e6F;
+    const auto& [xx, xy, yy, xr, yr, rr] = node;
+    const auto is_variance = [](float variance) {
+        return variance >= 0 && variance <= kMaxVariance;
+    };
+    const auto fits = [](float mixed, float a, float b) { return mixed * mixed <= 1.001F * a * b; };
+    return is_variance(xx) && is_variance(yy) && is_variance(rr) && fits(xy, xx, yy) &&
+           fits(xr, xx, rr) && fits(yr, yy, rr);
+}
+
+/// Returns true if the numbers of nodes along the axes are valid.
+bool is_error_grid(std::uint32_t columns, std::uint32_t rows) {
+    constexpr std::uint32_t kMinNodes = 2;
+    const auto is_number = [](std::uint32_t n) { return n >= kMinNodes && n <= kMaxErrorNodes; };
+    return (columns == 0 && rows == 0) || (is_number(columns) && is_number(rows));
+}
+
+MapErrors parse_errors(Bytes& bytes) {
+    MapErrors errors;
+    const auto columns = bytes.number<std::uint32_t>();
+    const auto rows = bytes.number<std::uint32_t>();
+    if (!is_error_grid(columns, rows)) throw Error("a page has a wrong number of error nodes");
+    errors.columns = static_cast<int>(columns);
+    errors.rows = static_cast<int>(rows);
+    Bytes numbers(bytes.take(std::size_t{columns} * rows * sizeof(MapErrors::Node)));
+    errors.nodes.resize(std::size_t{columns} * rows);
+    for (MapErrors::Node& node : errors.nodes) {
+        for (float& number : node)
+            number = numbers.single();
+        if (!is_covariance(node)) throw Error("a page has an error that is not a covariance");
+    }
+    return errors;
+}
+
+void append_errors(const MapErrors& errors, std::string& bytes) {
+    const auto columns = static_cast<std::uint32_t>(errors.columns);
+    const auto rows = static_cast<std::uint32_t>(errors.rows);
+    if (!is_error_grid(columns, rows) || errors.nodes.size() != std::size_t{columns} * rows ||
+        !std::all_of(errors.nodes.begin(), errors.nodes.end(), is_covariance))
+        throw BadArgument("the errors of a print map are not valid");
+    append(bytes, columns);
+    append(bytes, rows);
+    for (const MapErrors::Node& node : errors.nodes) {
+        for (const float number : node)
+            append(bytes, number);
+    }
+}
+
+MapPage parse_page(Bytes& bytes, std::uint32_t version) {
     MapPage page;
     const std::size_t name_bytes = bytes.number<std::uint32_t>();
     if (name_bytes > kMaxName) throw Error("a name is too long");
@@ -125,6 +183,7 @@ MapPage parse_page(Bytes& bytes) {
         offset.y_q14 = static_cast<std::int16_t>(offsets.number<std::uint16_t>());
     }
     page.views.assign(views.begin(), views.end());
+    if (version > 1) page.errors = parse_errors(bytes);
     return page;
 }
 
@@ -152,9 +211,31 @@ void append_page(const MapPage& page, std::string& bytes) {
         append(bytes, static_cast<std::uint16_t>(offset.y_q14));
     }
     bytes.append(page.views.begin(), page.views.end());
+    append_errors(page.errors, bytes);
 }
 
 }  // namespace
+
+std::array<std::array<double, 3>, 3> MapPage::error_covariance(const Place& place) const {
+    std::array<std::array<double, 3>, 3> result{};
+    const auto index = index_of(place);
+    if (!index || errors.nodes.empty()) return result;
+    const double u = static_cast<double>(*index % std::size_t(columns)) / std::max(columns - 1, 1) *
+                     (errors.columns - 1);
+    const double v = static_cast<double>(*index / std::size_t(columns)) / std::max(rows - 1, 1) *
+                     (errors.rows - 1);
+    const int i = std::min(static_cast<int>(u), errors.columns - 2);
+    const int j = std::min(static_cast<int>(v), errors.rows - 2);
+    MapErrors::Node sum{};
+    for (const auto& [di, dj] : {std::array{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
+        const double weight = (di == 1 ? u - i : 1 - (u - i)) * (dj == 1 ? v - j : 1 - (v - j));
+        const auto node = static_cast<std::size_t>((j + dj) * errors.columns + i + di);
+        for (std::size_t k = 0; k < sum.size(); ++k)
+            sum[k] += static_cast<float>(weight) * errors.nodes[node][k];
+    }
+    const auto& [xx, xy, yy, xr, yr, rr] = sum;
+    return {{{xx, xy, xr}, {xy, yy, yr}, {xr, yr, rr}}};
+}
 
 const MapPage* find_page(const PrintMap& map, CodeVariant code, const Place& place) {
     for (const MapPage& page : map.pages) {
@@ -169,9 +250,11 @@ PrintMap parse_print_map(std::string_view text) {
     Bytes bytes(text);
     bytes.take(kMagic.size());
     const auto version = bytes.number<std::uint32_t>();
-    if (version != kVersion)
-        throw Error(
-            fmt::format("it has version {}, and this program reads version {}", version, kVersion));
+    if (version == 0 || version > kVersion)
+        throw Error(fmt::format(
+            "it has version {}, and this program reads versions 1 to {}: update dotpose, or make "
+            "the map again",
+            version, kVersion));
     if (text.size() < kMagic.size() + 2 * kSumBytes) throw Error("it is truncated");
     Bytes sum(text.substr(text.size() - kSumBytes));
     if (crc32_of(text.substr(0, text.size() - kSumBytes)) != sum.number<std::uint32_t>())
@@ -180,7 +263,7 @@ PrintMap parse_print_map(std::string_view text) {
     if (pages > kMaxPages) throw Error("it has too many pages");
     PrintMap map;
     for (std::uint32_t i = 0; i < pages; ++i)
-        map.pages.push_back(parse_page(bytes));
+        map.pages.push_back(parse_page(bytes, version));
     bytes.take(kSumBytes);
     if (!bytes.is_empty()) throw Error("it has bytes after its last page");
     return map;

@@ -9,6 +9,7 @@
 /// along each axis, and 1 byte for the number of views (docs/print-map.md).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -37,6 +38,22 @@ struct DotOffset {
     double y() const { return y_q14 / 16384.0; }
 };
 
+/// Error of a map: the error that the mapped places of all dots in a view have in common, because
+/// the map bends slowly. Contains its covariance at the nodes of a grid. The first and the last
+/// node of a row are at the first and the last column of dots, and likewise for the rows.
+struct MapErrors {
+    /// Covariance of the shift along x and y, in spacings, and of the rotation, in rad: the
+    /// elements xx, xy, yy, x rotation, y rotation, rotation^2.
+    using Node = std::array<float, 6>;
+
+    int columns = 0;  ///< number of nodes along x: 0 if the errors are not known, else at least 2
+    int rows = 0;     ///< number of nodes along y
+    std::vector<Node> nodes;  ///< row by row
+};
+
+/// Maximum number of nodes along each axis.
+inline constexpr int kMaxErrorNodes = 256;
+
 /// Map of one page. Code variant, section, region and nominal spacing are those of the sheet.
 struct MapPage {
     std::string name;  ///< name of the sheet
@@ -56,6 +73,7 @@ struct MapPage {
     /// around it.
     std::vector<DotOffset> offsets;
     std::vector<std::uint8_t> views;  ///< number of views of each dot, at most 255
+    MapErrors errors;                 ///< empty in a map of file version 1
 
     /// Returns the index of a dot in `offsets` and `views`. Returns none if the place of the dot is
     /// not on the page.
@@ -66,6 +84,11 @@ struct MapPage {
             return std::nullopt;
         return std::size_t{y} * std::size_t(columns) + x;
     }
+
+    /// Returns the covariance of the error of the map in a view whose centre is at a place on the
+    /// page: shift along x and y, in spacings, and rotation, in rad. It is 0 if the errors are not
+    /// known. `with_print_map` adds it to the covariance of the fix.
+    std::array<std::array<double, 3>, 3> error_covariance(const Place& place) const;
 };
 
 /// Maps of the pages of a sheet file.
@@ -92,7 +115,7 @@ enum class MapUse : std::uint8_t {
 inline constexpr std::size_t kMaxMapBytes = std::size_t{512} << 20;
 
 /// Parses the contents of a map file. Throws Error if they are not a map, are truncated or damaged,
-/// or have another version.
+/// or have a newer version. Files of version 1 do not contain the errors of the map.
 PrintMap parse_print_map(std::string_view bytes);
 
 /// Reads a map file. Throws Error, with the name of the file, if the file cannot be read or if its
@@ -100,8 +123,8 @@ PrintMap parse_print_map(std::string_view bytes);
 PrintMap read_print_map(const std::filesystem::path& path);
 
 /// Returns the contents of a map file. Throws BadArgument if a page is not valid: its region is not
-/// in the code plane, a number is out of range, its name is longer than 4096 bytes, or `offsets` or
-/// `views` do not contain one element per dot.
+/// in the code plane, a number is out of range, its name is longer than 4096 bytes, `offsets` or
+/// `views` do not contain one element per dot, or `errors` is not a grid of covariances.
 std::string print_map_bytes(const PrintMap& map);
 
 /// Throws Error unless each page of the map is a sheet of `sheets`, with the same code variant,

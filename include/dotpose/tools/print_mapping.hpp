@@ -56,6 +56,10 @@ struct MappedPage {
     /// True if all frames had the same scale, because the camera was mounted at a constant height.
     bool is_rigid = true;
     int iterations = 0;  ///< conjugate gradient iterations in the last round
+    /// Standard deviation of the error of the map in a view, per axis, rms over the dots that were
+    /// seen (see MapErrors). It is 0 if it is not known, because the earlier map does not contain
+    /// it.
+    double error_mm = 0;
 };
 
 struct PrintMapResult {
@@ -103,8 +107,10 @@ struct MappedFix {
 
 /// Corrects a fix by a map of the print, given the trace of the frame. Fits the place, angle and
 /// scale to the dots at their mapped places. Also fits perspective and shear if they are
-/// significant. The covariance is computed from the residuals, so it no longer contains the errors
-/// of the print.
+/// significant. The covariance is that of the absolute position on the page. It is computed from
+/// the residuals and from the error of the map (`MapPage::error_covariance`), so it no longer
+/// contains the errors of the print. Fixes at the same place have the error of the map in common.
+/// To obtain the covariance of differences between such fixes, subtract it.
 ///
 /// A map that contains the dots in view is used only if the variance of the residuals with the map
 /// is at most 0.8 times the variance without the map, or at most twice the square of

@@ -143,8 +143,14 @@ void make_print_map(const fs::path& folder) {
     page.jitter = 0.02;
     page.offsets.resize(72, {-5, 300});
     page.views.resize(72, 20);
-    const std::string bytes = print_map_bytes({{page}});
+    page.errors = {2, 3, std::vector(6, MapErrors::Node{2e-8F, 1e-9F, 3e-8F, 0, -1e-10F, 1e-11F})};
+    std::string bytes = print_map_bytes({{page}});
     write(folder / "page", {bytes.begin(), bytes.end() - 4});
+    // Version 1 does not contain the errors: 8 bytes for the size of their grid, and the checksum.
+    page.errors = {};
+    bytes = print_map_bytes({{page}});
+    bytes[8] = 1;
+    write(folder / "version-1", {bytes.begin(), bytes.end() - 12});
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "dotpose/files/print_map.hpp"
 
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -43,7 +45,31 @@ PrintMap small_map() {
             {static_cast<std::int16_t>(7 * i - 9000), static_cast<std::int16_t>(300 - 5 * i)});
         page.views.push_back(static_cast<std::uint8_t>(i));
     }
+    page.errors = {2, 3, {}};
+    for (int node = 0; node < 6; ++node) {
+        const auto factor = static_cast<float>(1 + node);
+        page.errors.nodes.push_back(
+            {4e-8F * factor, -1e-8F * factor, 9e-8F * factor, 2e-10F * factor, 0, 1e-10F * factor});
+    }
     return {{page}};
+}
+
+/// The bytes of a map as earlier programs wrote them: without the errors.
+std::string version_1_bytes() {
+    PrintMap map = small_map();
+    map.pages[0].errors = {};
+    std::string bytes = print_map_bytes(map);
+    bytes.resize(bytes.size() - 12);  // size of the grid of errors, and checksum
+    bytes[8] = 1;
+    std::uint32_t crc = 0xFFFFFFFF;
+    for (const char byte : bytes) {
+        crc ^= static_cast<std::uint8_t>(byte);
+        for (int bit = 0; bit < 8; ++bit)
+            crc = crc >> 1 ^ ((crc & 1) != 0 ? 0xEDB88320 : 0);
+    }
+    for (int i = 0; i < 4; ++i)
+        bytes += static_cast<char>(~crc >> (8 * i) & 0xFF);
+    return bytes;
 }
 
 auto refuses(const std::string& reason) {
@@ -67,6 +93,9 @@ TEST(PrintMapFile, KeepsAllValues) {
     EXPECT_EQ(b.noise, 0.003);
     EXPECT_EQ(b.jitter, 0.02);
     EXPECT_EQ(b.views, a.views);
+    EXPECT_EQ(b.errors.columns, 2);
+    EXPECT_EQ(b.errors.rows, 3);
+    EXPECT_EQ(b.errors.nodes, a.errors.nodes);
     for (std::size_t i = 0; i < a.offsets.size(); ++i) {
         ASSERT_EQ(b.offsets[i].x_q14, a.offsets[i].x_q14);
         ASSERT_EQ(b.offsets[i].y_q14, a.offsets[i].y_q14);
@@ -75,7 +104,9 @@ TEST(PrintMapFile, KeepsAllValues) {
 
 TEST(PrintMapFile, UsesFiveBytesForEachDot) {
     const PrintMap map = small_map();
-    EXPECT_LE(print_map_bytes(map).size(), 5 * map.pages[0].offsets.size() + 200);
+    const MapPage& page = map.pages[0];
+    EXPECT_LE(print_map_bytes(map).size(),
+              5 * page.offsets.size() + 24 * page.errors.nodes.size() + 200);
 }
 
 TEST(PrintMapFile, RefusesEveryTruncation) {
@@ -97,8 +128,9 @@ TEST(PrintMapFile, ExplainsRefusals) {
     const std::string bytes = print_map_bytes(small_map());
     EXPECT_THAT([&] { (void)parse_print_map("{}"); }, refuses("not a print map"));
     std::string newer = bytes;
-    newer[8] = 2;
-    EXPECT_THAT([&] { (void)parse_print_map(newer); }, refuses("has version 2"));
+    newer[8] = 3;
+    EXPECT_THAT([&] { (void)parse_print_map(newer); },
+                refuses("has version 3, and this program reads versions 1 to 2"));
     EXPECT_THAT([&] { (void)parse_print_map(bytes + "x"); }, refuses("checksum"));
     EXPECT_THAT([&] { (void)read_print_map("missing.map"); },
                 refuses("missing.map does not exist"));
@@ -111,6 +143,56 @@ TEST(PrintMapFile, RefusesInvalidPages) {
     map = small_map();
     map.pages[0].origin.x = kPositionsPerAxis - 1;
     EXPECT_THROW((void)print_map_bytes(map), BadArgument);
+}
+
+TEST(PrintMapFile, RefusesErrorsThatAreNotCovariances) {
+    const auto with_node = [](const MapErrors::Node& node) {
+        PrintMap map = small_map();
+        map.pages[0].errors.nodes[4] = node;
+        return map;
+    };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const MapErrors::Node& node : {MapErrors::Node{-1e-8F, 0, 1e-8F, 0, 0, 0},
+                                        {nan, 0, 1e-8F, 0, 0, 0},
+                                        {1e-8F, nan, 1e-8F, 0, 0, 0},
+                                        {1e-8F, 2e-8F, 1e-8F, 0, 0, 0},
+                                        {1e-8F, 0, 1e-8F, 0, 1e-9F, 0}})
+        EXPECT_THROW((void)print_map_bytes(with_node(node)), BadArgument);
+    PrintMap map = small_map();
+    map.pages[0].errors.nodes.pop_back();
+    EXPECT_THROW((void)print_map_bytes(map), BadArgument);
+    map = small_map();
+    map.pages[0].errors = {1, 6, map.pages[0].errors.nodes};
+    EXPECT_THROW((void)print_map_bytes(map), BadArgument);
+}
+
+TEST(PrintMapFile, ReadsVersion1WithoutErrors) {
+    const PrintMap map = parse_print_map(version_1_bytes());
+    const MapPage& page = map.pages.at(0);
+    EXPECT_EQ(page.views, small_map().pages[0].views);
+    EXPECT_TRUE(page.errors.nodes.empty());
+    EXPECT_EQ(page.error_covariance({page.origin, page.section})[0][0], 0);
+}
+
+TEST(PrintMapFile, InterpolatesTheErrors) {
+    const PrintMap map = small_map();
+    const MapPage& page = map.pages[0];
+    const auto at = [&](int column, int row) {
+        return page.error_covariance({{page.origin.x + static_cast<std::uint32_t>(column),
+                                       page.origin.y + static_cast<std::uint32_t>(row)},
+                                      page.section});
+    };
+    const int right = page.columns - 1;
+    const int bottom = page.rows - 1;
+    EXPECT_FLOAT_EQ(static_cast<float>(at(0, 0)[0][0]), 4e-8F);
+    EXPECT_FLOAT_EQ(static_cast<float>(at(right, 0)[1][1]), 18e-8F);
+    EXPECT_FLOAT_EQ(static_cast<float>(at(0, bottom)[0][1]), -5e-8F);
+    EXPECT_FLOAT_EQ(static_cast<float>(at(right, bottom)[2][0]), 12e-10F);
+    // The factor of the nodes is 1 + x + 4 y, for x and y from 0 to 1 over the page.
+    const double x = 10.0 / right;
+    const double y = 17.0 / bottom;
+    EXPECT_NEAR(at(10, 17)[2][2], 1e-10 * (1 + x + 4 * y), 1e-15);
+    EXPECT_EQ(at(right + 1, 0)[0][0], 0);
 }
 
 TEST(PrintMapFile, RequiresThePagesOfTheSheetFile) {

@@ -1,4 +1,7 @@
 // Tests maps of simulated prints, and fixes that are corrected by these maps.
+#include <algorithm>
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -69,7 +72,28 @@ TEST_F(PrintMapping, CorrectsFramesThatWereNotUsed) {
     EXPECT_LE(test.with.absolute_um(), test.without.absolute_um() / 5);
     EXPECT_LE(test.with.absolute_um(), 0.2);
     const double ratio = test.with.absolute_um() / test.with.sigma_um();
-    EXPECT_LT(ratio * ratio, 4);
+    EXPECT_LT(ratio * ratio, 1.5);
+    EXPECT_GT(ratio * ratio, 0.6);
+}
+
+TEST_F(PrintMapping, TheCovarianceContainsTheErrorOfTheMap) {
+    PrintMap exact = map_->map;
+    MapPage& page = exact.pages[0];
+    page.errors = {};
+    const MapTest with = test_map(*print_, map_->map, 10);
+    const MapTest without = test_map(*print_, exact, 10);
+    const double um = 1000 * page.spacing_mm;
+    double largest = 0;
+    for (const MapErrors::Node& node : map_->map.pages[0].errors.nodes)
+        largest = std::max(largest, um * std::sqrt(double(node[0])));
+    const double added = std::pow(with.with.sigma_um(), 2) - std::pow(without.with.sigma_um(), 2);
+    EXPECT_GT(added, 0);
+    EXPECT_LT(added, largest * largest);
+    EXPECT_EQ(with.with.absolute_um(), without.with.absolute_um());
+    // The map is less exact at the edges of the page, where no test frame has its centre.
+    const double mean = std::pow(1000 * map_->pages[0].error_mm, 2);
+    EXPECT_GT(mean, added);
+    EXPECT_LT(mean, 16 * added);
 }
 
 TEST_F(PrintMapping, AnotherPrintContradictsTheMap) {
@@ -99,6 +123,8 @@ TEST_F(PrintMapping, AnUpdateAddsViewsAndKeepsThePlace) {
         views_after += after.views[i];
     }
     EXPECT_GT(views_after, views_before * 5 / 4);
+    // The slow errors of the earlier map remain.
+    EXPECT_GE(updated.pages[0].error_mm, map_->pages[0].error_mm);
     const MapTest test = test_map(*print_, updated.map, 40);
     EXPECT_LE(test.with.absolute_um(), test.without.absolute_um() / 5);
 }

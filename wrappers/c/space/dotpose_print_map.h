@@ -29,7 +29,7 @@ extern "C" {
 typedef struct dotpose_print_map dotpose_print_map;
 
 /* Reads a map from the contents of a map file, and allocates memory for the map. Returns OK,
- * BAD_VALUE if the bytes are not a map, are damaged or have another version, OUT_OF_MEMORY, or
+ * BAD_VALUE if the bytes are not a map, are damaged or have a newer version, OUT_OF_MEMORY, or
  * NULL_POINTER. Unless the status is OK, `map` receives null. */
 dotpose_status dotpose_print_map_create(const void* bytes, size_t byte_count,
                                         dotpose_print_map** map);
@@ -48,7 +48,8 @@ enum {
 
 /* Corrects the fix of the image that the locator located last, and writes it to `fix`, which was
  * set up by dotpose_fix_init. Unless `use` is DOTPOSE_MAP_USED, the written fix is the fix of the
- * locator. Returns OK, NO_FIX if the image was not located, WRONG_KIND for device locators and for
+ * locator. The covariance is that of the absolute position on the page, with the error of the map.
+ * Returns OK, NO_FIX if the image was not located, WRONG_KIND for device locators and for
  * locators without `show_stages`, OUT_OF_MEMORY, or another misuse. */
 dotpose_status dotpose_print_map_correct(const dotpose_print_map* map,
                                          const dotpose_locator* locator, dotpose_fix* fix,

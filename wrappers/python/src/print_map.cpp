@@ -66,6 +66,9 @@ void define_print_map(py::module_& module) {
                       "Standard deviation of the print jitter, per axis, in mm.")
         .def_readonly("slow_mm", &MappedPage::slow_mm,
                       "Rms of the slow distortion of the page, per axis, in mm.")
+        .def_readonly("error_mm", &MappedPage::error_mm,
+                      "Standard deviation of the error of the map in a view, per axis, in mm; 0 if "
+                      "it is not known.")
         .def_readonly("is_rigid", &MappedPage::is_rigid,
                       "True if height and tilt of the camera were constant.");
     py::class_<PrintMapResult>(module, "PrintMapResult", "A new or updated map of the print.")

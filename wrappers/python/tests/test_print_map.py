@@ -60,6 +60,7 @@ def test_the_map_has_the_statistics_of_the_print(result):
     page = result.pages[0]
     assert page.name == "page" and page.frames == 50 and 0 < page.seen <= page.dots
     assert page.jitter_mm == pytest.approx(0.010, rel=0.1)
+    assert 0 < page.error_mm < 0.001
     assert page.is_rigid
 
 
