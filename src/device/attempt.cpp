@@ -103,7 +103,8 @@ Status measure_pose(const DeviceOptions& options, Workspace& w) {
 }  // namespace
 
 const Fix& finish_device_attempt(const DeviceOptions& options, DeviceWorkspace& w) {
-    Status status = find_dots(options, w);                        // II-B.1
+    Status status = w.keeps_frame ? w.on_sheets->find_dots_of_small(options, w)
+                                  : find_dots(options, w);        // II-B.1
     if (status == Status::ok) status = find_grid(options, w);     // II-B.2-3
     if (status == Status::ok) status = read_bits(w);              // II-B.4
     if (status == Status::ok) status = find_place(options, w);    // II-B.5-7

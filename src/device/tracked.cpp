@@ -41,10 +41,10 @@ Status settle(Tracking& tracking) {
     return Status::not_tracked;
 }
 
-/// Reads the dots in the rows that were received. Error: not_tracked.
+/// Reads the dots in the rows that were received, which must be at least `Tracking::first_rows`.
+/// Error: not_tracked.
 Status read_rows(DeviceWorkspace& w) {
     Tracking& t = w.tracking;
-    if (t.rows_taken < t.first_rows) return Status::ok;
     if (t.is_fine) {
         w.on_sheets->find_dots(t);
         make_room(kRowsAtOnce, t);
@@ -140,6 +140,7 @@ Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w) {
         return t.status;
     }
     keep_row(pixels, t);
+    if (t.rows_taken < t.first_rows) return Status::ok;
     return t.status = read_rows(w);
 }
 

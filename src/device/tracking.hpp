@@ -10,6 +10,7 @@
 #include "dotpose/code.hpp"
 #include "dotpose/geometry.hpp"
 #include "dotpose/status.hpp"
+#include "dotpose/trace.hpp"
 
 namespace dotpose::core {
 
@@ -52,13 +53,6 @@ struct TrackedView {
         return static_cast<std::uint32_t>(at_q16.x - min_q16.x) < width_q16 &&
                static_cast<std::uint32_t>(at_q16.y - min_q16.y) < height_q16;
     }
-};
-
-/// A dot of a fine grid. The coordinates are relative to the middle of the image, in 2^-8 px.
-struct FineDot {
-    std::int16_t x_q8;
-    std::int16_t y_q8;
-    std::int16_t mass;
 };
 
 /// A frame whose dots are measured at their predicted places while its rows arrive. If the frame
@@ -118,7 +112,9 @@ struct Tracking {
     int last_cell = 0;
     std::span<TrackedRow> grid_rows;
     TrackedView view;
-    std::span<FineDot> fine_dots;  ///< the first `dots_measured` are those of a fine grid
+    /// The first `dots_measured` are the dots that were found in the stored rows (see
+    /// `find_fine_dots`). Their centres are relative to the middle of the image.
+    std::span<DetectedDot> found;
 };
 
 }  // namespace dotpose::core

@@ -16,6 +16,9 @@ namespace dotpose::core {
 /// Memory and results of a tracked frame, and of the stages that desktops and devices share.
 struct DeviceWorkspace : Workspace {
     bool is_tracking = false;  ///< true if the rows of the current frame are tracked
+    /// True if the rows of the current frame are stored, and its dots are found after the last row
+    /// (see device/small_frame.hpp).
+    bool keeps_frame = false;
     Tracking tracking;
     const SheetFunctions* on_sheets = nullptr;  ///< null if no sheets are known
 
@@ -119,7 +122,7 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
         tracking.rows = tracked.rows;
         tracking.lines = tracked.lines;
         tracking.grid_rows = memory_of<TrackedDots>(dot_memory_).grid_rows;
-        tracking.fine_dots = memory_of<FineDotMemory>(dot_memory_).dots;
+        tracking.found = dots;
         open.max_runs = kCapacity.max_runs;
     }
     DeviceWorkspaceOf(const DeviceWorkspaceOf&) = delete;
@@ -161,9 +164,6 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
     };
     struct TrackedDots {
         std::array<TrackedRow, kMaxComparedLines> grid_rows;
-    };
-    struct FineDotMemory {
-        std::array<FineDot, kCapacity.dots> dots;
     };
 
     template <typename Stages, std::size_t Size>
