@@ -68,9 +68,10 @@ struct Tracking {
     int rows_taken = 0;
     int first_kept = 0;  ///< index of the first stored image row
     int stride_px = 0;
-    /// Offsets in the square around an intersection, in bytes. `corner_offset` is the offset from
-    /// the middle pixel to the upper left corner. `corners_apart` is the offset from an upper to a
-    /// lower corner.
+    /// Half side of the square in which a symbol is read, in px (see `set_half_side`).
+    int half_side_px = 0;
+    /// Offsets in this square, in bytes. `corner_offset` is the offset from the middle pixel to the
+    /// upper left corner. `corners_apart` is the offset from an upper to a lower corner.
     std::ptrdiff_t corner_offset = 0;
     std::ptrdiff_t corners_apart = 0;
     std::span<std::uint8_t> rows;  ///< the newest rows of the image
