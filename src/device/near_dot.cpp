@@ -5,7 +5,7 @@
 namespace dotpose::core {
 
 void set_half_side(int half_px, Tracking& tracking) {
-    tracking.half_side_px = half_px;
+    tracking.half_side_px = static_cast<std::uint8_t>(half_px);
     tracking.corner_offset = -half_px * (tracking.stride_px + 1);
     tracking.corners_apart = 2 * half_px * tracking.stride_px;
 }

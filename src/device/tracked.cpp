@@ -1,6 +1,5 @@
 #include "device/tracked.hpp"
 
-#include "core/integrity/verify.hpp"
 #include "core/math/fixed.hpp"
 #include "core/pose/subgrid.hpp"
 #include "core/steps.hpp"
@@ -67,12 +66,11 @@ Status read_rows(DeviceWorkspace& w) {
 /// Verifies the predicted place with the bits of the dots. If sheets are known, first tests whether
 /// the place is certain on these sheets. Error: not_certain.
 Status verify_place(const DeviceOptions& options, DeviceWorkspace& w) {
-    const Tracking& t = w.tracking;
     if (w.on_sheets != nullptr) {
         if (w.on_sheets->verify(options, w)) return Status::ok;
-        if (w.known.are_all()) return Status::not_certain;
+        if (w.known.are_all() || w.in_whole_code == nullptr) return Status::not_certain;
     }
-    return verify_tracked(options.code, t.lines, t.corner, options.integrity, w.decoding, w.fix);
+    return w.in_whole_code->verify(options, w);
 }
 
 /// Verifies the place with the bits of the dots, and fits the plane. Returns the number of dots in

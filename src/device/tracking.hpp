@@ -60,6 +60,8 @@ struct TrackedView {
 struct Tracking {
     Status status = Status::not_tracked;
     std::uint8_t min_contrast = 0;  ///< see DeviceOptions
+    /// Half side of the square in which a symbol is read, in px (see `set_half_side`).
+    std::uint8_t half_side_px = 0;
     // The members that are used for every dot are first, because small processors access the first
     // members fastest.
     int width_px = 0;
@@ -68,10 +70,9 @@ struct Tracking {
     int rows_taken = 0;
     int first_kept = 0;  ///< index of the first stored image row
     int stride_px = 0;
-    /// Half side of the square in which a symbol is read, in px (see `set_half_side`).
-    int half_side_px = 0;
-    /// Offsets in this square, in bytes. `corner_offset` is the offset from the middle pixel to the
-    /// upper left corner. `corners_apart` is the offset from an upper to a lower corner.
+    /// Offsets in the square in which a symbol is read, in bytes. `corner_offset` is the offset
+    /// from the middle pixel to the upper left corner. `corners_apart` is the offset from an upper
+    /// to a lower corner.
     std::ptrdiff_t corner_offset = 0;
     std::ptrdiff_t corners_apart = 0;
     std::span<std::uint8_t> rows;  ///< the newest rows of the image

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/workspace.hpp"
+#include "device/in_whole_code.hpp"
 #include "device/on_sheets.hpp"
 #include "device/tracking.hpp"
 #include "dotpose/image.hpp"
@@ -21,6 +22,8 @@ struct DeviceWorkspace : Workspace {
     bool keeps_frame = false;
     Tracking tracking;
     const SheetFunctions* on_sheets = nullptr;  ///< null if no sheets are known
+    /// Null if all frames are so small that only known sheets are read.
+    const WholeCodeFunctions* in_whole_code = nullptr;
 
     void set_known(const KnownSheets& sheets) {
         Workspace::set_known(sheets);
@@ -124,6 +127,7 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
         tracking.grid_rows = memory_of<TrackedDots>(dot_memory_).grid_rows;
         tracking.found = dots;
         open.max_runs = kCapacity.max_runs;
+        if constexpr (kScoredLines > 0) in_whole_code = &kWholeCodeFunctions;
     }
     DeviceWorkspaceOf(const DeviceWorkspaceOf&) = delete;
     DeviceWorkspaceOf& operator=(const DeviceWorkspaceOf&) = delete;

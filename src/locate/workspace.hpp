@@ -70,6 +70,7 @@ class WorkspaceOf : public DesktopWorkspace {
     WorkspaceOf() {
         max_width_px = MaxWidth;
         keeps_every_stage = true;
+        in_whole_code = &kWholeCodeFunctions;
         pushed.memory = pushed_;
         rolling_pixels = rolling_;
         patch = &patch_;
