@@ -1,7 +1,7 @@
 # Functions that run once per frame are optimized for size, to leave flash memory for other
 # functions.
 compile_core(-Os code/basis.cpp code/decode.cpp code/encode.cpp device/locate.cpp core/row_locator.cpp
-             core/math/plane.cpp device/attempt.cpp device/tracked.cpp core/steps.cpp
+             core/math/plane.cpp device/attempt.cpp device/in_whole_code.cpp device/tracked.cpp core/steps.cpp
              core/integrity/likelihood_ratios.cpp core/decode/orientation.cpp core/decode/lines.cpp
              core/decode/position.cpp core/integrity/seam_alternatives.cpp core/integrity/verify.cpp
              core/decode/window.cpp core/detect/undistort.cpp core/lattice/axes.cpp

@@ -4,9 +4,6 @@
 
 #include "core/decode/likelihood.hpp"
 #include "core/decode/nominal.hpp"
-#include "core/decode/position.hpp"
-#include "core/decode/window.hpp"
-#include "core/integrity/verify.hpp"
 #include "core/pose/subgrid.hpp"
 #include "core/steps.hpp"
 #include "device/affine_pose.hpp"
@@ -59,32 +56,15 @@ Status read_bits(Workspace& w) {
                                      w.known.any() ? kMinKnownSide : kWindowSide);  // II-B.4
 }
 
-Status read_position(const DeviceOptions& options, Workspace& w) {
-    // The decoder does not need the 8 x 8 window of the paper. The window is computed only for
-    // display.
-    if (w.keeps_every_stage) w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
-    choose_region(w);
-    const Status status =
-        decode_briefly(w.grid, options.code, w.line_scores, w.decoding);  // II-B.6-7
-    return status == Status::ok ? status : refused(status, w);
-}
-
-Status verify_position(const DeviceOptions& options, Workspace& w) {
-    const Status status =
-        verify_quickly(w.grid, options.code, w.decoding, options.integrity, w.line_scores, w.fix);
-    return status == Status::ok ? status : refused(status, w);
-}
-
 /// Finds the place in the code: first on the known sheets, then in the whole code, unless only
 /// known sheets are read.
 Status find_place(const DeviceOptions& options, DeviceWorkspace& w) {
     if (w.on_sheets != nullptr) {
         if (w.on_sheets->read(options, w)) return Status::ok;
-        if (w.known.are_all() || w.line_scores.empty()) return Status::not_certain;
+        if (w.known.are_all() || w.in_whole_code == nullptr) return Status::not_certain;
         if (std::min(w.grid.columns, w.grid.rows) < kWindowSide) return Status::grid_too_small;
     }
-    const Status status = read_position(options, w);  // II-B.5-7
-    return status == Status::ok ? verify_position(options, w) : status;
+    return w.in_whole_code->read(options, w);  // II-B.5-7
 }
 
 Status measure_pose(const DeviceOptions& options, Workspace& w) {
@@ -103,7 +83,8 @@ Status measure_pose(const DeviceOptions& options, Workspace& w) {
 }  // namespace
 
 const Fix& finish_device_attempt(const DeviceOptions& options, DeviceWorkspace& w) {
-    Status status = find_dots(options, w);                        // II-B.1
+    Status status = w.keeps_frame ? w.on_sheets->find_dots_of_small(options, w)
+                                  : find_dots(options, w);        // II-B.1
     if (status == Status::ok) status = find_grid(options, w);     // II-B.2-3
     if (status == Status::ok) status = read_bits(w);              // II-B.4
     if (status == Status::ok) status = find_place(options, w);    // II-B.5-7

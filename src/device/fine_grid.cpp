@@ -6,6 +6,7 @@
 #include "core/math/fixed.hpp"
 #include "core/noinline.hpp"
 #include "device/coded_cells.hpp"
+#include "device/fine_dots.hpp"
 #include "device/offset_fit.hpp"
 #include "device/predicted.hpp"
 
@@ -79,7 +80,7 @@ class FineGrid {
     FineGrid(Tracking& tracking, PlaneFromImage& plane)
         : tracking_(tracking), plane_(plane), displacement_q24_(tracking.displacement_q12 << 12) {
         take_slopes();
-        leave_out_dirt();
+        drop_unlike_dots(tracking);
     }
 
     int dots() const { return tracking_.dots_measured; }
@@ -97,21 +98,19 @@ class FineGrid {
     std::int32_t displacement_q16() const { return displacement_q24_ >> 8; }
 
   private:
-    std::span<const FineDot> all() const {
-        return tracking_.fine_dots.first(static_cast<std::size_t>(dots()));
+    std::span<const DetectedDot> all() const {
+        return tracking_.found.first(static_cast<std::size_t>(dots()));
     }
-    /// Removes the dots whose masses are far from the mean mass.
-    void leave_out_dirt();
     void take_slopes() {
         du_q16_ = {plane_.du_q24.x >> 8, plane_.du_q24.y >> 8};
         dv_q16_ = {plane_.dv_q24.x >> 8, plane_.dv_q24.y >> 8};
         at_q24_ = {plane_.at_centre_q16.x * 256, plane_.at_centre_q16.y * 256};
     }
-    FixedVec from_middle_q24(const FineDot& dot) const {
-        return {du_q16_.x * dot.x_q8 + dv_q16_.x * dot.y_q8,
-                du_q16_.y * dot.x_q8 + dv_q16_.y * dot.y_q8};
+    FixedVec from_middle_q24(const DetectedDot& dot) const {
+        return {du_q16_.x * dot.centre_q8.x + dv_q16_.x * dot.centre_q8.y,
+                du_q16_.y * dot.centre_q8.x + dv_q16_.y * dot.centre_q8.y};
     }
-    ReadDot read(const FineDot& dot) const;
+    ReadDot read(const DetectedDot& dot) const;
     /// Returns the offset of a dot from its place.
     FixedVec offset_q24(const ReadDot& dot) const {
         return dot.from_intersection_q24 -
@@ -128,24 +127,6 @@ class FineGrid {
     std::int32_t displacement_q24_;
 };
 
-DOTPOSE_NOINLINE void FineGrid::leave_out_dirt() {
-    std::int32_t mass = 0;
-    for (const FineDot& dot : all())
-        mass += dot.mass;
-    const std::int32_t mean = mass / std::max(dots(), 1);
-    const std::int32_t min_mass = mean * 3 / 8;
-    const std::int32_t max_mass = mean * 5 / 2;
-    FineDot* kept = tracking_.fine_dots.data();
-    for (const FineDot& dot : all()) {
-        if (dot.mass < min_mass || dot.mass > max_mass) continue;
-        // A copy of the struct would be a call of `memcpy` on small processors.
-        kept->x_q8 = dot.x_q8;
-        kept->y_q8 = dot.y_q8;
-        ++kept;
-    }
-    tracking_.dots_measured = static_cast<int>(kept - tracking_.fine_dots.data());
-}
-
 DOTPOSE_NOINLINE void FineGrid::fit_phases() {
     PhasesOfAxis along_x;
     PhasesOfAxis along_y;
@@ -153,7 +134,7 @@ DOTPOSE_NOINLINE void FineGrid::fit_phases() {
     // Farther dots may be off by more than half a spacing, because of the error of the turn.
     constexpr std::int32_t kNear_q8 = 7 * 128;
     int count = 0;
-    for (const FineDot& dot : all()) {
+    for (const DetectedDot& dot : all()) {
         const FixedVec p_q24 = from_middle_q24(dot);
         const FixedVec p_q8{p_q24.x >> 16, p_q24.y >> 16};
         if (!is_within(p_q8, kNear_q8)) continue;
@@ -175,7 +156,7 @@ DOTPOSE_NOINLINE void FineGrid::fit_phases() {
     take_slopes();
 }
 
-[[gnu::always_inline]] inline ReadDot FineGrid::read(const FineDot& dot) const {
+[[gnu::always_inline]] inline ReadDot FineGrid::read(const DetectedDot& dot) const {
     constexpr std::int32_t kHalf_q24 = kOneCell_q24 / 2;
     const FixedVec p_q24 = from_middle_q24(dot) + at_q24_ + FixedVec{kHalf_q24, kHalf_q24};
     const FixedVec from_q24{(p_q24.x & (kOneCell_q24 - 1)) - kHalf_q24,
@@ -190,7 +171,7 @@ DOTPOSE_NOINLINE void FineGrid::fit_roughly() {
     // displacement.
     OffsetFit fit;
     for (std::size_t i = 0; i < all().size(); i += 2) {
-        const FineDot& dot = all()[i];
+        const DetectedDot& dot = all()[i];
         const FixedVec off_q24 = offset_q24(read(dot));
         if (is_within(off_q24, kMaxOffset_q24)) fit.add(dot, off_q24);
     }
@@ -220,7 +201,7 @@ DOTPOSE_NOINLINE void FineGrid::note(const ReadDot& dot) {
 DOTPOSE_NOINLINE int FineGrid::read_and_fit() {
     OffsetFit fit;
     std::int32_t displacement_q16 = 0;
-    for (const FineDot& dot : all()) {
+    for (const DetectedDot& dot : all()) {
         const ReadDot read_dot = read(dot);
         note(read_dot);
         const FixedVec off_q24 = offset_q24(read_dot);

@@ -6,7 +6,7 @@
 
 namespace dotpose::core {
 
-/// Fits the predicted plane to the dots in `Tracking::fine_dots`, independently of the code. Then
+/// Fits the predicted plane to the dots in `Tracking::found`, independently of the code. Then
 /// sets the bits in `Tracking::lines`, and moves `Tracking::corner` by up to one cell along each
 /// axis so that most bits agree with the code. Returns the number of dots in the fit, or 0 if the
 /// dots do not determine a plane, or if too many bits contradict the code.

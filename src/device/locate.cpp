@@ -4,16 +4,30 @@
 
 #include "core/steps.hpp"
 #include "device/attempt.hpp"
+#include "device/newest_rows.hpp"
 #include "device/tracked.hpp"
 #include "device/workspace.hpp"
 #include "dotpose/locate.hpp"
 
 namespace dotpose::core {
+namespace {
+
+/// Starts a frame without a prediction. The frame size must be within the limits of the workspace.
+void begin_fresh(int width_px, int height_px, const DeviceOptions& options, DeviceWorkspace& w) {
+    w.is_tracking = false;
+    begin_frame(width_px, height_px, w);
+    w.keeps_frame =
+        w.on_sheets != nullptr && w.on_sheets->begin_small(width_px, height_px, options, w);
+}
+
+}  // namespace
 
 Fix locate_as_device(const ImageView& image, const DeviceOptions& options, DeviceWorkspace& w) {
     const Status status = check(image, options, w);
     if (status != Status::ok) return refuse(status, w);
-    detect_image(image, options, w);
+    begin_fresh(image.width_px, image.height_px, options, w);
+    for (int v = 0; v < image.height_px; ++v)
+        push_row(image.row(v), options, w);
     return finish_device_attempt(options, w);
 }
 
@@ -32,8 +46,7 @@ Fix locate_as_device(const ImageView& image, const DeviceOptions& options,
 Status begin(int width_px, int height_px, const DeviceOptions& options, DeviceWorkspace& w) {
     const Status status = check(width_px, height_px, options, w);
     if (status != Status::ok) return refuse(status, w).status;
-    w.is_tracking = false;
-    begin_frame(width_px, height_px, w);
+    begin_fresh(width_px, height_px, options, w);
     return Status::ok;
 }
 
@@ -48,6 +61,8 @@ Status begin(int width_px, int height_px, const DeviceOptions& options,
 void push_row(const std::uint8_t* pixels, const DeviceOptions& options, DeviceWorkspace& w) {
     if (w.is_tracking) {
         static_cast<void>(push_tracked_row(pixels, w));
+    } else if (w.keeps_frame) {
+        keep_row(pixels, w.tracking);
     } else {
         detect_row(pixels, options, w);
     }

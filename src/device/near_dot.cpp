@@ -4,7 +4,14 @@
 
 namespace dotpose::core {
 
+void set_half_side(int half_px, Tracking& tracking) {
+    tracking.half_side_px = static_cast<std::uint8_t>(half_px);
+    tracking.corner_offset = -half_px * (tracking.stride_px + 1);
+    tracking.corners_apart = 2 * half_px * tracking.stride_px;
+}
+
 bool lay_dot_pixels(Tracking& tracking) {
+    int half_px = kSmallHalf_px;
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
         // Centre of a quarter of a pixel, relative to the upper left corner of the pixel. All
         // intersections in the same quarter use the same pixels.
@@ -14,12 +21,14 @@ bool lay_dot_pixels(Tracking& tracking) {
             // The four pixels in which a dot is read must be inside the square around the
             // intersection. Because of rounding, the offset of the first of these pixels differs
             // from the displacement by at most 3/4 of a pixel.
+            if (!is_within(displaced_q16, half_px * 65536 - 49153)) half_px = kHalf_px;
             if (!is_within(displaced_q16, kHalf_px * 65536 - 49153)) return false;
             const FixedVec place_q16 = in_pixel_q16 + displaced_q16;
             tracking.dot_pixels[quarter][s] = static_cast<std::int16_t>(
                 (place_q16.y >> 16) * tracking.stride_px + (place_q16.x >> 16));
         }
     }
+    set_half_side(half_px, tracking);
     return true;
 }
 

@@ -16,10 +16,15 @@ namespace dotpose::core {
 
 /// Half sides of the squares in which dots are read, in px. A square with the half side n has 2 n +
 /// 1 px per side. The square of kHalf_px is around an intersection and contains the dot at any of
-/// its four places, at spacings of 7 to 13 px. The square of kDotHalf_px is around the centre of a
-/// dot.
+/// its four places, at spacings of 7 to 14 px. If the dots are displaced by little, symbols are
+/// read in the square of kSmallHalf_px, so that more dots near the border are read. The square of
+/// kDotHalf_px is around the centre of a dot.
 inline constexpr int kHalf_px = 4;
+inline constexpr int kSmallHalf_px = 3;
 inline constexpr int kDotHalf_px = 2;
+
+/// Sets the half side of the square in which symbols are read.
+void set_half_side(int half_px, Tracking& tracking);
 
 /// Returns the pixel nearest to a place.
 constexpr FixedVec pixel_at(FixedVec place_q16) {
@@ -40,12 +45,13 @@ constexpr FixedVec pixel_at(FixedVec place_q16) {
                                                         const std::uint8_t* at) {
     const std::uint8_t* const top = at + tracking.corner_offset;
     const std::uint8_t* const bottom = top + tracking.corners_apart;
-    constexpr int side_px = 2 * kHalf_px;
+    const int side_px = 2 * tracking.half_side_px;
     return (top[0] + top[side_px] + bottom[0] + bottom[side_px]) >> 2;
 }
 
-/// Sets `Tracking::dot_pixels`, the pixels that `read_symbol` reads. Returns false if any of these
-/// pixels is outside the square of the intersection.
+/// Sets `Tracking::dot_pixels`, the pixels that `read_symbol` reads, and the square of the
+/// intersection, which contains them. Returns false if any of these pixels is outside the square of
+/// kHalf_px.
 bool lay_dot_pixels(Tracking& tracking);
 
 /// The symbol read at an intersection and the threshold of its dot. Both are packed into one

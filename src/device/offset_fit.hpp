@@ -13,9 +13,9 @@ class OffsetFit {
   public:
     /// Adds a dot and its offset, in 2^-24 cells. The offset must be at most 2^21, an eighth of a
     /// cell, along each axis. The sums over 2^9 dots are then at most 2^27.
-    [[gnu::always_inline]] void add(const FineDot& dot, FixedVec offset_q24) {
+    [[gnu::always_inline]] void add(const DetectedDot& dot, FixedVec offset_q24) {
         const FixedVec r{offset_q24.x >> 12, offset_q24.y >> 12};
-        const FixedVec p{dot.x_q8 >> 6, dot.y_q8 >> 6};
+        const FixedVec p{dot.centre_q8.x >> 6, dot.centre_q8.y >> 6};
         ++count_;
         p_ = p_ + p;
         r_ = r_ + r;

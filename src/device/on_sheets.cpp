@@ -9,6 +9,7 @@
 #include "device/hard_block.hpp"
 #include "device/sheet_odds.hpp"
 #include "device/sheet_search.hpp"
+#include "device/small_frame.hpp"
 #include "device/workspace.hpp"
 
 namespace dotpose::core {
@@ -48,6 +49,7 @@ int fit_grid(const DeviceOptions& options, DeviceWorkspace& w) {
 
 }  // namespace
 
-constinit const SheetFunctions kSheetFunctions{read, verify, find_fine_dots, fit_grid};
+constinit const SheetFunctions kSheetFunctions{
+    read, verify, begin_small_frame, find_dots_of_small_frame, find_fine_dots, fit_grid};
 
 }  // namespace dotpose::core

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dotpose/device_options.hpp"
+#include "dotpose/status.hpp"
 
 namespace dotpose::core {
 
@@ -18,6 +19,11 @@ struct SheetFunctions {
     /// Returns true if the predicted place of a tracked frame is on the known sheets and its bits
     /// make it certain (see `is_certain_place`).
     bool (*verify)(const DeviceOptions& options, DeviceWorkspace& w);
+    /// Starts to store the rows of a small frame (see `begin_small_frame`).
+    bool (*begin_small)(int width_px, int height_px, const DeviceOptions& options,
+                        DeviceWorkspace& w);
+    /// Finds the dots of a small frame (see `find_dots_of_small_frame`).
+    Status (*find_dots_of_small)(const DeviceOptions& options, DeviceWorkspace& w);
     /// Finds the dots of a fine grid in the rows of a tracked frame (see `find_fine_dots`). Only
     /// locators that know sheets track fine grids.
     void (*find_dots)(Tracking& tracking);

@@ -12,7 +12,7 @@ namespace {
 /// the dot only at these spacings. Spacings below kFine_px are tracked only if sheets are known.
 constexpr int kFinest_px = 5;
 constexpr int kFine_px = 7;
-constexpr int kCoarsest_px = 13;
+constexpr int kCoarsest_px = 14;
 /// Range of displacements that can be tracked: a twelfth to a third of the spacing.
 constexpr std::int32_t kMinDisplacement_q16 = 65536 / 12;
 constexpr std::int32_t kMaxDisplacement_q16 = 65536 / 3;
@@ -107,8 +107,7 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     tracking.last_cell = kMaxComparedLines / 2 + cells - 1;
     tracking.stride_px = stride_of(tracking.width_px);
     tracking.rows_kept = static_cast<int>(tracking.rows.size()) / tracking.stride_px;
-    tracking.corner_offset = -kHalf_px * (tracking.stride_px + 1);
-    tracking.corners_apart = 2 * kHalf_px * tracking.stride_px;
+    set_half_side(kHalf_px, tracking);
     if (2 * kRowsNeeded + kRowsAtOnce > tracking.rows_kept) return false;
     // If the memory has room for all rows, the error of the prediction is measured from the whole
     // frame. Otherwise, it is measured from rows with a height of 13/4 spacings. At least 5/2
@@ -141,9 +140,10 @@ std::int32_t fine_spacing_q8(std::int32_t det_q24) {
 bool lay_cells(const Prediction& prediction, const PlaneFromImage& plane, std::int32_t det_q24,
                Tracking& tracking) {
     invert(plane, det_q24, tracking.cells);
-    const FixedVec along = tracking.cells.along_x_q16;
+    // The side of a square with the area of a cell.
+    const std::int64_t area_q32 = cross(tracking.cells.along_x_q16, tracking.cells.along_y_q16);
     const auto spacing_q8 =
-        static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(squared(along))) >> 8);
+        static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(area_q32)) >> 8);
     if (!lay_out_memory(spacing_q8, tracking)) return false;
     tracking.cells.origin_q16.y -= tracking.rows_above * 65536;
     tracking.du_q20 = {plane.du_q24.x >> 4, plane.du_q24.y >> 4};

@@ -24,18 +24,11 @@ RowDirection row_direction(const Tracking& tracking) {
 }
 
 TrackedView view_of(const Tracking& tracking) {
-    std::int32_t displaced_q16 = 0;
-    for (const FixedVec displaced : tracking.displaced_q16)
-        displaced_q16 = std::max(displaced_q16, larger_component(displaced));
     // The square around the pixel of an intersection must be in the image.
-    // The centre of a dot is rounded to a pixel, and kDotHalf_px pixels on each side of this pixel
-    // must also be in the image.
-    const std::int32_t of_dot_q16 = kDotHalf_px * 65536 - 32768 + displaced_q16;
-    const std::int32_t min_q16 = std::max<std::int32_t>(kHalf_px * 65536, of_dot_q16);
+    const int half_px = tracking.half_side_px;
+    const std::int32_t min_q16 = half_px * 65536;
     const auto extent_q16 = [&](int side_px) {
-        const std::int32_t end_q16 = std::min<std::int32_t>((side_px - kHalf_px) * 65536,
-                                                            (side_px - 1) * 65536 - of_dot_q16);
-        return static_cast<std::uint32_t>(end_q16 - min_q16);
+        return static_cast<std::uint32_t>((side_px - 2 * half_px) * 65536);
     };
     return {{min_q16 + tracking.left_out_px * 65536, min_q16},
             extent_q16(tracking.width_px - 2 * tracking.left_out_px),
@@ -92,14 +85,15 @@ DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
     return false;
 }
 
-/// Adds the next dot of a row to the sums, if its mass is plausible and its centre is near the
-/// predicted place. The symbol of the dot must agree with the code. Masses are below 2^12, offsets
-/// are at most 2 px (2^9 units of 2^-8 px), and columns are at most 2^4 from the middle. The sums
-/// over a row of at most 32 dots are therefore at most 2^30.
+/// Adds the next dot of a row to the sums, if it is not at the border, its mass is plausible, and
+/// its centre is near the predicted place. The symbol of the dot must agree with the code. Masses
+/// are below 2^12, offsets are at most 2 px (2^9 units of 2^-8 px), and columns are at most 2^4
+/// from the middle. The sums over a row of at most 32 dots are therefore at most 2^30.
 DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& row) {
     const auto symbol = static_cast<std::size_t>(read.symbol());
     const FixedVec place_q16 = row.next_q16 + tracking.displaced_q16[symbol];
     const FixedVec pixel = pixel_at(place_q16);
+    if (!is_kept(tracking, pixel, kDotHalf_px)) return;
     const std::uint8_t* const first =
         kept_row(tracking, pixel.y - kDotHalf_px) + pixel.x - kDotHalf_px;
     const DarkSums sums = dark_sums<kDotHalf_px>(first, tracking.stride_px, read.level());
@@ -137,11 +131,11 @@ bool begin_reading(Tracking& tracking) {
 
 void read_ready_dots(Tracking& tracking) {
     const RowDirection direction = row_direction(tracking);
-    // The pixels of a dot may extend one row below the square around its intersection, so one more
-    // row must be stored. After the last row of the image this does not apply, because all pixels
-    // of visible dots are inside the image.
-    const int ahead = tracking.rows_taken == tracking.height_px ? 1 : 2;
-    const std::int32_t ready_q16 = (tracking.rows_taken - ahead - kHalf_px) * 65536 + 32767;
+    // The pixels of a dot may extend one row below the square of kHalf_px around its intersection,
+    // so one more row must be stored. After the last row of the image, all visible dots are ready.
+    const bool is_last = tracking.rows_taken == tracking.height_px;
+    const int ahead = is_last ? 0 : kHalf_px + 2;
+    const std::int32_t ready_q16 = (tracking.rows_taken - ahead) * 65536 + 32767;
     TrackedRow* row = &tracking.grid_rows[static_cast<std::size_t>(tracking.first_cell)];
     for (int j = tracking.first_cell; j <= tracking.last_cell; ++j, ++row) {
         while (row->next_q16.y <= ready_q16) {

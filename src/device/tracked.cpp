@@ -1,6 +1,5 @@
 #include "device/tracked.hpp"
 
-#include "core/integrity/verify.hpp"
 #include "core/math/fixed.hpp"
 #include "core/pose/subgrid.hpp"
 #include "core/steps.hpp"
@@ -41,10 +40,10 @@ Status settle(Tracking& tracking) {
     return Status::not_tracked;
 }
 
-/// Reads the dots in the rows that were received. Error: not_tracked.
+/// Reads the dots in the rows that were received, which must be at least `Tracking::first_rows`.
+/// Error: not_tracked.
 Status read_rows(DeviceWorkspace& w) {
     Tracking& t = w.tracking;
-    if (t.rows_taken < t.first_rows) return Status::ok;
     if (t.is_fine) {
         w.on_sheets->find_dots(t);
         make_room(kRowsAtOnce, t);
@@ -67,12 +66,11 @@ Status read_rows(DeviceWorkspace& w) {
 /// Verifies the predicted place with the bits of the dots. If sheets are known, first tests whether
 /// the place is certain on these sheets. Error: not_certain.
 Status verify_place(const DeviceOptions& options, DeviceWorkspace& w) {
-    const Tracking& t = w.tracking;
     if (w.on_sheets != nullptr) {
         if (w.on_sheets->verify(options, w)) return Status::ok;
-        if (w.known.are_all()) return Status::not_certain;
+        if (w.known.are_all() || w.in_whole_code == nullptr) return Status::not_certain;
     }
-    return verify_tracked(options.code, t.lines, t.corner, options.integrity, w.decoding, w.fix);
+    return w.in_whole_code->verify(options, w);
 }
 
 /// Verifies the place with the bits of the dots, and fits the plane. Returns the number of dots in
@@ -140,6 +138,7 @@ Status push_tracked_row(const std::uint8_t* pixels, DeviceWorkspace& w) {
         return t.status;
     }
     keep_row(pixels, t);
+    if (t.rows_taken < t.first_rows) return Status::ok;
     return t.status = read_rows(w);
 }
 

@@ -10,6 +10,7 @@
 #include "dotpose/code.hpp"
 #include "dotpose/geometry.hpp"
 #include "dotpose/status.hpp"
+#include "dotpose/trace.hpp"
 
 namespace dotpose::core {
 
@@ -54,18 +55,13 @@ struct TrackedView {
     }
 };
 
-/// A dot of a fine grid. The coordinates are relative to the middle of the image, in 2^-8 px.
-struct FineDot {
-    std::int16_t x_q8;
-    std::int16_t y_q8;
-    std::int16_t mass;
-};
-
 /// A frame whose dots are measured at their predicted places while its rows arrive. If the frame
 /// contains too many cells, only its middle is tracked. All stages then use this part as the image.
 struct Tracking {
     Status status = Status::not_tracked;
     std::uint8_t min_contrast = 0;  ///< see DeviceOptions
+    /// Half side of the square in which a symbol is read, in px (see `set_half_side`).
+    std::uint8_t half_side_px = 0;
     // The members that are used for every dot are first, because small processors access the first
     // members fastest.
     int width_px = 0;
@@ -74,9 +70,9 @@ struct Tracking {
     int rows_taken = 0;
     int first_kept = 0;  ///< index of the first stored image row
     int stride_px = 0;
-    /// Offsets in the square around an intersection, in bytes. `corner_offset` is the offset from
-    /// the middle pixel to the upper left corner. `corners_apart` is the offset from an upper to a
-    /// lower corner.
+    /// Offsets in the square in which a symbol is read, in bytes. `corner_offset` is the offset
+    /// from the middle pixel to the upper left corner. `corners_apart` is the offset from an upper
+    /// to a lower corner.
     std::ptrdiff_t corner_offset = 0;
     std::ptrdiff_t corners_apart = 0;
     std::span<std::uint8_t> rows;  ///< the newest rows of the image
@@ -118,7 +114,9 @@ struct Tracking {
     int last_cell = 0;
     std::span<TrackedRow> grid_rows;
     TrackedView view;
-    std::span<FineDot> fine_dots;  ///< dots of a fine grid; the first `dots_measured` are valid
+    /// The first `dots_measured` are the dots that were found in the stored rows (see
+    /// `find_fine_dots`). Their centres are relative to the middle of the image.
+    std::span<DetectedDot> found;
 };
 
 }  // namespace dotpose::core

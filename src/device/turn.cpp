@@ -19,103 +19,115 @@ constexpr int kMinFraction_q3 = 6;
 /// Minimum number of measured dots at which the fraction is tested.
 constexpr int kMinMeasured = 8;
 
-/// Least-squares fit of a shift, a rotation and a stretch: offset = shift + stretch p + turn J p,
-/// where J is a rotation by 90 degrees and p is the place of a dot relative to the middle.
+/// A shift, a rotation and a stretch of the pattern: a cell at c, relative to the middle cell,
+/// moves by shift + stretch c + turn J c, where J is a rotation by 90 degrees. The shear of a
+/// rolling shutter is in the cell map, so it does not change with the rotation.
+struct Similarity {
+    std::int32_t stretch_q20 = 0;
+    std::int32_t turn_q20 = 0;
+    FixedVec shift_q12;  ///< in 2^-12 spacings
+};
+
+/// Returns stretch v + turn J v. Not inlined, because 64-bit products need a lot of code.
+[[gnu::noinline]] FixedVec change(const Similarity& s, FixedVec v) {
+    const auto part = [](std::int64_t a_q20) { return static_cast<std::int32_t>(a_q20 >> 20); };
+    return {part(std::int64_t{s.stretch_q20} * v.x - std::int64_t{s.turn_q20} * v.y),
+            part(std::int64_t{s.stretch_q20} * v.y + std::int64_t{s.turn_q20} * v.x)};
+}
+
+/// Least-squares fit of a similarity to the offsets of dots.
 class SimilarityFit {
   public:
-    /// Adds a dot. p is the predicted place of the dot, in px relative to the middle.
-    void add(FixedVec p, FixedVec offset_q8) {
+    /// Adds a dot. `cell` is its cell, relative to the middle cell.
+    void add(FixedVec cell, FixedVec offset_q12) {
         ++count_;
-        p_ = p_ + p;
-        offset_ = offset_ + offset_q8;
-        squares_ += p.x * p.x + p.y * p.y;
-        along_ += p.x * offset_q8.x + p.y * offset_q8.y;
-        across_ += p.x * offset_q8.y - p.y * offset_q8.x;
+        cells_ = cells_ + cell;
+        offset_ = offset_ + offset_q12;
+        squares_ += cell.x * cell.x + cell.y * cell.y;
+        along_ += cell.x * offset_q12.x + cell.y * offset_q12.y;
+        across_ += cell.x * offset_q12.y - cell.y * offset_q12.x;
     }
     int count() const { return count_; }
 
-    struct Similarity {
-        std::int32_t stretch_q20 = 0;
-        std::int32_t turn_q20 = 0;
-        FixedVec shift_q8;  ///< shift at the middle
-    };
     Similarity solve() const {
-        const std::int64_t spread = std::int64_t{count_} * squares_ - squared(p_);
+        const std::int32_t spread = count_ * squares_ - cells_.x * cells_.x - cells_.y * cells_.y;
         Similarity s;
         if (spread <= 0) return s;
-        const std::int64_t along = std::int64_t{count_} * along_ - dot(p_, offset_);
-        const std::int64_t across = std::int64_t{count_} * across_ - cross(p_, offset_);
-        s.stretch_q20 = short_quotient(along << 12, spread);
-        s.turn_q20 = short_quotient(across << 12, spread);
-        s.shift_q8 = {(offset_.x - ((s.stretch_q20 * p_.x - s.turn_q20 * p_.y) >> 12)) / count_,
-                      (offset_.y - ((s.stretch_q20 * p_.y + s.turn_q20 * p_.x) >> 12)) / count_};
+        const std::int64_t along = std::int64_t{count_} * along_ - dot(cells_, offset_);
+        const std::int64_t across = std::int64_t{count_} * across_ - cross(cells_, offset_);
+        s.stretch_q20 = short_quotient(along << 8, spread);
+        s.turn_q20 = short_quotient(across << 8, spread);
+        const FixedVec rest = offset_ - change(s, {cells_.x * (1 << 12), cells_.y * (1 << 12)});
+        s.shift_q12 = {rest.x / count_, rest.y / count_};
         return s;
     }
 
   private:
     std::int32_t count_ = 0;
-    FixedVec p_;
+    FixedVec cells_;
     FixedVec offset_;
     std::int32_t squares_ = 0;
     std::int32_t along_ = 0;
     std::int32_t across_ = 0;
 };
 
-/// Returns the change of v under a similarity transform. Not inlined, because 64-bit products need
-/// a lot of code.
-[[gnu::noinline]] FixedVec change(const SimilarityFit::Similarity& s, FixedVec v) {
-    const auto part = [](std::int64_t a_q20) { return static_cast<std::int32_t>(a_q20 >> 20); };
-    return {part(std::int64_t{s.stretch_q20} * v.x - std::int64_t{s.turn_q20} * v.y),
-            part(std::int64_t{s.stretch_q20} * v.y + std::int64_t{s.turn_q20} * v.x)};
-}
-
-CellMap changed(const CellMap& cells, FixedVec middle_q16, const SimilarityFit::Similarity& s) {
-    return {cells.origin_q16 + change(s, cells.origin_q16 - middle_q16) +
-                FixedVec{s.shift_q8.x * 256, s.shift_q8.y * 256},
-            cells.along_x_q16 + change(s, cells.along_x_q16),
-            cells.along_y_q16 + change(s, cells.along_y_q16)};
+/// Returns the map of the cells after a similarity around the cell `middle`.
+CellMap changed(const CellMap& cells, FixedVec middle, const Similarity& s) {
+    const FixedVec x = cells.along_x_q16;
+    const FixedVec y = cells.along_y_q16;
+    const FixedVec in_u = change(s, {y.x, x.x});
+    const FixedVec in_v = change(s, {y.y, x.y});
+    const FixedVec along_x = x + FixedVec{in_u.y, in_v.y};
+    const FixedVec along_y = y + FixedVec{in_u.x, in_v.x};
+    const auto shift_q16 = [&](std::int32_t of_x, std::int32_t of_y) {
+        return ((of_x >> 8) * s.shift_q12.x + (of_y >> 8) * s.shift_q12.y) >> 4;
+    };
+    const CellMap around{{}, along_x, along_y};
+    return {place_q16(cells, middle.x, middle.y) - place_q16(around, middle.x, middle.y) +
+                FixedVec{shift_q16(x.x, y.x), shift_q16(x.y, y.y)},
+            along_x, along_y};
 }
 
 /// Measures rings of dots, and fits a similarity to the dots that agree with the code.
 class Rounds {
   public:
-    Rounds(Tracking& tracking, FixedVec middle_q16)
-        : tracking_(tracking), before_(tracking.cells), middle_q16_(middle_q16) {}
+    Rounds(Tracking& tracking, FixedVec middle)
+        : tracking_(tracking), before_(tracking.cells), middle_(middle) {}
 
     /// Shifts the cells by the mean offset of up to five dots, at the middle cell and its four
     /// neighbours. These dots need not agree with the code.
-    void recentre(FixedVec middle);
+    void recentre();
     void measure(int i, int j);
     /// Moves the cells to the fitted place.
     void lay_cells() {
         similarity_ = fit_.solve();
-        tracking_.cells = changed(before_, middle_q16_, similarity_);
+        tracking_.cells = changed(before_, middle_, similarity_);
     }
     void lay_cells_as_before() { tracking_.cells = before_; }
 
     int seen() const { return seen_; }
     int agreeing() const { return fit_.count(); }
-    const SimilarityFit::Similarity& similarity() const { return similarity_; }
+    const Similarity& similarity() const { return similarity_; }
     std::int32_t mean_mass() const { return masses_ / agreeing(); }
     std::int32_t mean_displacement_q12() const { return projections_q12_ / (2 * agreeing()); }
 
   private:
     Tracking& tracking_;
     CellMap before_;
-    const FixedVec middle_q16_;
+    const FixedVec middle_;  ///< the middle cell
     SimilarityFit fit_;
-    SimilarityFit::Similarity similarity_;
+    Similarity similarity_;
     int seen_ = 0;
     std::int32_t masses_ = 0;
     std::int32_t projections_q12_ = 0;
 };
 
-void Rounds::recentre(FixedVec middle) {
+void Rounds::recentre() {
     FixedVec sum_q8;
     std::int32_t count = 0;
     for (const FixedVec step :
          {FixedVec{0, 0}, FixedVec{1, 0}, FixedVec{0, 1}, FixedVec{-1, 0}, FixedVec{0, -1}}) {
-        const FixedVec cell = middle + step;
+        const FixedVec cell = middle_ + step;
         NearDot dot;
         if (!measure_around(tracking_, place_q16(tracking_.cells, cell.x, cell.y), dot)) continue;
         const Symbol symbol = coded_symbol(tracking_, cell.x, cell.y);
@@ -139,12 +151,12 @@ void Rounds::measure(int i, int j) {
     const Projections p = projections(tracking_, dot.offset_q8);
     const Symbol symbol = coded_symbol(tracking_, i, j);
     if (symbol_of(p) != symbol) return;
-    const FixedVec displaced_q16 = tracking_.displaced_q16[static_cast<std::size_t>(symbol)];
-    const FixedVec was_q16 = place_q16(before_, i, j);
-    const FixedVec p_q16 = was_q16 - middle_q16_;
-    const FixedVec moved_q16 = at_q16 - was_q16 - displaced_q16;
-    fit_.add({p_q16.x >> 16, p_q16.y >> 16},
-             dot.offset_q8 + FixedVec{moved_q16.x >> 8, moved_q16.y >> 8});
+    const FixedVec cell = FixedVec{i, j} - middle_;
+    const FixedVec offset_q12{(p.y_q12 - p.x_q12) / 2 - dx(symbol) * tracking_.displacement_q12,
+                              (p.y_q12 + p.x_q12) / 2 - dy(symbol) * tracking_.displacement_q12};
+    // The dot was measured relative to the cells as changed by the previous fit.
+    const FixedVec moved_q12 = change(similarity_, {cell.x * (1 << 12), cell.y * (1 << 12)});
+    fit_.add(cell, offset_q12 + moved_q12 + similarity_.shift_q12);
     masses_ += dot.mass;
     projections_q12_ += magnitude(p.x_q12) + magnitude(p.y_q12);
 }
@@ -165,25 +177,19 @@ void visit_round(const Tracking& tracking, FixedVec middle, int round, Use use) 
     }
 }
 
-/// Updates the slopes du and dv of the plane, which is the inverse of the cell map, after the cells
-/// were stretched by s and rotated by t. Both are small, so to first order du changes by -(s du + t
-/// dv), and dv by -(s dv - t du).
-void turn_back(const SimilarityFit::Similarity& s, Tracking& tracking) {
-    FixedVec& du = tracking.du_q20;
-    FixedVec& dv = tracking.dv_q20;
-    const FixedVec of_x = change(s, {dv.x, du.x});
-    const FixedVec of_y = change(s, {dv.y, du.y});
-    du = du - FixedVec{of_x.y, of_y.y};
-    dv = dv - FixedVec{of_x.x, of_y.x};
+/// Updates the slopes of the plane, which is the inverse of the cell map, after a small change of
+/// the cells.
+void turn_back(const Similarity& s, Tracking& tracking) {
+    tracking.du_q20 = tracking.du_q20 - change(s, tracking.du_q20);
+    tracking.dv_q20 = tracking.dv_q20 - change(s, tracking.dv_q20);
 }
 
 }  // namespace
 
 bool find_turn(Tracking& tracking) {
-    const FixedVec middle_q16{(tracking.width_px - 1) * 32768, (tracking.first_rows - 1) * 32768};
     const FixedVec middle = middle_cell(tracking);
-    Rounds rounds(tracking, middle_q16);
-    rounds.recentre(middle);
+    Rounds rounds(tracking, middle);
+    rounds.recentre();
     bool agree = true;
     for (int round = 0; round <= kRounds && agree; ++round) {
         const int before = rounds.agreeing();

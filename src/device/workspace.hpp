@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/workspace.hpp"
+#include "device/in_whole_code.hpp"
 #include "device/on_sheets.hpp"
 #include "device/tracking.hpp"
 #include "dotpose/image.hpp"
@@ -16,8 +17,13 @@ namespace dotpose::core {
 /// Memory and results of a tracked frame, and of the stages that desktops and devices share.
 struct DeviceWorkspace : Workspace {
     bool is_tracking = false;  ///< true if the rows of the current frame are tracked
+    /// True if the rows of the current frame are stored, and its dots are found after the last row
+    /// (see device/small_frame.hpp).
+    bool keeps_frame = false;
     Tracking tracking;
     const SheetFunctions* on_sheets = nullptr;  ///< null if no sheets are known
+    /// Null if all frames are so small that only known sheets are read.
+    const WholeCodeFunctions* in_whole_code = nullptr;
 
     void set_known(const KnownSheets& sheets) {
         Workspace::set_known(sheets);
@@ -119,8 +125,9 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
         tracking.rows = tracked.rows;
         tracking.lines = tracked.lines;
         tracking.grid_rows = memory_of<TrackedDots>(dot_memory_).grid_rows;
-        tracking.fine_dots = memory_of<FineDotMemory>(dot_memory_).dots;
+        tracking.found = dots;
         open.max_runs = kCapacity.max_runs;
+        if constexpr (kScoredLines > 0) in_whole_code = &kWholeCodeFunctions;
     }
     DeviceWorkspaceOf(const DeviceWorkspaceOf&) = delete;
     DeviceWorkspaceOf& operator=(const DeviceWorkspaceOf&) = delete;
@@ -161,9 +168,6 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
     };
     struct TrackedDots {
         std::array<TrackedRow, kMaxComparedLines> grid_rows;
-    };
-    struct FineDotMemory {
-        std::array<FineDot, kCapacity.dots> dots;
     };
 
     template <typename Stages, std::size_t Size>

@@ -70,6 +70,7 @@ class WorkspaceOf : public DesktopWorkspace {
     WorkspaceOf() {
         max_width_px = MaxWidth;
         keeps_every_stage = true;
+        in_whole_code = &kWholeCodeFunctions;
         pushed.memory = pushed_;
         rolling_pixels = rolling_;
         patch = &patch_;
@@ -101,7 +102,7 @@ class WorkspaceOf : public DesktopWorkspace {
         tracking.rows = tracked_rows_;
         tracking.lines = tracked_lines_;
         tracking.grid_rows = grid_rows_;
-        tracking.fine_dots = fine_dots_;
+        tracking.found = dots_;
     }
     WorkspaceOf(const WorkspaceOf&) = delete;
     WorkspaceOf& operator=(const WorkspaceOf&) = delete;
@@ -155,7 +156,6 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<ComparedLine, 2 * kMaxComparedLines> tracked_lines_{};
     std::array<TrackedRow, kMaxComparedLines> grid_rows_{};
     /// Frames that are tracked have fewer dots, because their diagonal has at most 28 spacings.
-    std::array<FineDot, 400> fine_dots_{};
     std::array<std::uint8_t, kPushed_px> pushed_;
     std::array<std::uint8_t, kPushed_px> rolling_;
 };

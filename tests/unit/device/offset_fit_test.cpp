@@ -13,9 +13,11 @@ namespace {
 
 using namespace core;
 
-FineDot dot_at(double x_px, double y_px) {
-    return {static_cast<std::int16_t>(std::lround(256 * x_px)),
-            static_cast<std::int16_t>(std::lround(256 * y_px)), 60};
+DetectedDot dot_at(double x_px, double y_px) {
+    return {{static_cast<std::int32_t>(std::lround(256 * x_px)),
+             static_cast<std::int32_t>(std::lround(256 * y_px))},
+            60,
+            0};
 }
 
 TEST(OffsetFit, RemovesAffineOffsets) {
@@ -31,10 +33,10 @@ TEST(OffsetFit, RemovesAffineOffsets) {
                                           rng.uniform(-slope, slope), rng.uniform(-slope, slope)};
         OffsetFit fit;
         for (int i = 0; i < dots; ++i) {
-            const FineDot dot =
+            const DetectedDot dot =
                 dot_at(rng.uniform(-half_px, half_px / 2), rng.uniform(-half_px, half_px));
-            const double x = dot.x_q8 / 256.0;
-            const double y = dot.y_q8 / 256.0;
+            const double x = dot.centre_q8.x / 256.0;
+            const double y = dot.centre_q8.y / 256.0;
             fit.add(dot, {static_cast<std::int32_t>(
                               std::lround(16777216 * (truth[0] + truth[2] * x + truth[4] * y))),
                           static_cast<std::int32_t>(

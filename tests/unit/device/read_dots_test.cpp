@@ -61,24 +61,14 @@ TEST(ReadDots, LooksAtAllCellsInView) {
         for (int j = 0; j < kMaxComparedLines; ++j) {
             for (int i = 0; i < kMaxComparedLines; ++i) {
                 const FixedVec at_q16 = place_q16(tracking.cells, i, j);
-                // A cell is read only if the square of 9 x 9 px around its intersection, and the
-                // squares of 5 x 5 px around its dots, are inside the image.
-                const auto is_in = [&](double at_px, double displaced_px, int side_px) {
-                    const double corner = std::floor(at_px);
-                    bool in = corner >= 4 && corner <= side_px - 5;
-                    for (const double dot_px : {at_px - displaced_px, at_px + displaced_px}) {
-                        const double pixel = std::floor(dot_px + 0.5);
-                        in = in && pixel >= 2 && pixel <= side_px - 3;
-                    }
-                    return in;
+                // A cell is read only if the square of 7 x 7 px around its intersection is inside
+                // the image.
+                const auto is_in = [](double at_px, int side_px) {
+                    const double pixel = std::floor(at_px);
+                    return pixel >= 3 && pixel <= side_px - 4;
                 };
-                double most = 0;
-                for (const FixedVec displaced : tracking.displaced_q16) {
-                    most = std::max(
-                        {most, std::abs(displaced.x / 65536.0), std::abs(displaced.y / 65536.0)});
-                }
                 const bool is_in_view =
-                    is_in(at_q16.x / 65536.0, most, 188) && is_in(at_q16.y / 65536.0, most, 120);
+                    is_in(at_q16.x / 65536.0, 188) && is_in(at_q16.y / 65536.0, 120);
                 EXPECT_EQ(looked_at.contains({i, j}), is_in_view) << round << ": " << i << ' ' << j;
             }
         }

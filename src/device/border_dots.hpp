@@ -1,0 +1,14 @@
+// Border dots: finds the dots whose darkest pixels are so close to the border of the image that
+// `find_fine_dots` cannot measure them. Small frames have up to a quarter of their dots there.
+#pragma once
+
+#include "device/tracking.hpp"
+
+namespace dotpose::core {
+
+/// Adds the dots whose darkest pixels are in the two outermost columns and rows to
+/// `Tracking::found`. All rows of the image must be stored. A dot on the border may be off by a
+/// quarter of a pixel, which is little enough to read its bits.
+void find_border_dots(Tracking& tracking);
+
+}  // namespace dotpose::core

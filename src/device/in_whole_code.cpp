@@ -1,0 +1,34 @@
+#include "device/in_whole_code.hpp"
+
+#include "core/decode/position.hpp"
+#include "core/decode/window.hpp"
+#include "core/integrity/verify.hpp"
+#include "core/steps.hpp"
+#include "device/workspace.hpp"
+
+namespace dotpose::core {
+namespace {
+
+Status read_in_whole_code(const DeviceOptions& options, DeviceWorkspace& w) {
+    // The decoder does not need the 8 x 8 window of the paper. The window is computed only for
+    // display.
+    if (w.keeps_every_stage) w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
+    choose_region(w);
+    Status status = decode_briefly(w.grid, options.code, w.line_scores, w.decoding);  // II-B.6-7
+    if (status == Status::ok) {
+        status = verify_quickly(w.grid, options.code, w.decoding, options.integrity, w.line_scores,
+                                w.fix);
+    }
+    return status == Status::ok ? status : refused(status, w);
+}
+
+Status verify_in_whole_code(const DeviceOptions& options, DeviceWorkspace& w) {
+    return verify_tracked(options.code, w.tracking.lines, w.tracking.corner, options.integrity,
+                          w.decoding, w.fix);
+}
+
+}  // namespace
+
+constinit const WholeCodeFunctions kWholeCodeFunctions{read_in_whole_code, verify_in_whole_code};
+
+}  // namespace dotpose::core
