@@ -251,11 +251,15 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
         }
         if (decides && !hypothesis.is_certain) {
             measurement.bits = 2 * bits.read;
-            const bool are_clear = bits.read == bits.seen && bits.wrong_x + bits.wrong_y == 0;
+            // In small views, the remaining dots hardly matter, and further attempts take long.
+            const bool are_clear = hypothesis.is_small_view && !hypothesis.reads_cut_dots
+                                       ? is_clean(bits)
+                                       : bits.read == bits.seen && bits.wrong_x + bits.wrong_y == 0;
             if (!confirm_place(evidence, hypothesis, view, block, bits, fix)) {
                 if (!is_last || !are_clear) return Confirmation::uncertain;
-                measurement.shows_too_few_cells =
-                    hypothesis.reads_cut_dots || shows_too_few_cells(frame, view, dots);
+                measurement.shows_too_few_cells = hypothesis.reads_cut_dots ||
+                                                  hypothesis.is_small_view ||
+                                                  shows_too_few_cells(frame, view, dots);
                 return Confirmation::too_few_bits;
             }
         }
@@ -269,12 +273,11 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
 }
 
 /// Returns true if the image contains so few cells that their bits may suffice only together with
-/// those of dots cut by the image border.
-bool needs_cut_dots(const Frame& frame, const Hypothesis& hypothesis) {
+/// those of dots cut by the image border, and that the sums over alternatives take long.
+bool is_small_view(const Frame& frame, const Hypothesis& hypothesis) {
     const float spacing = spacing_px(hypothesis.pattern_from_image);
     const auto pixels = static_cast<float>(frame.image.width_px * frame.image.height_px);
-    return !hypothesis.is_partial_view && !hypothesis.is_certain && !frame.known.any() &&
-           pixels < tuned::kMaxCellsWithCutDots * spacing * spacing;
+    return !frame.known.any() && pixels < tuned::kMaxCellsOfSmallView * spacing * spacing;
 }
 
 }  // namespace
@@ -325,7 +328,8 @@ Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvide
         if (before) *evidence.others = *before;
         return {};
     };
-    if (needs_cut_dots(frame, hypothesis)) {
+    hypothesis.is_small_view = is_small_view(frame, hypothesis);
+    if (hypothesis.is_small_view && !hypothesis.is_partial_view && !hypothesis.is_certain) {
         if (const auto result = measure_with(&Hypothesis::reads_cut_dots)) return *result;
     }
     if (hypothesis.is_predicted && can_sample_directly(hypothesis)) {

@@ -28,6 +28,9 @@ struct Hypothesis {
     bool reads_cut_dots = false;
     /// True if the pattern may cover only a part of the image, around `from_centre`.
     bool is_partial_view = false;
+    /// True if the image shows so few cells that the work of testing the place is limited (see
+    /// `PlaceEvidence::work`).
+    bool is_small_view = false;
     /// Contrast of a typical dot after a 1-2-1 filter along both axes, in 1/256 of the paper level.
     int depth_q8 = 0;
     /// Mass of a typical dot: the darkness beyond the threshold, relative to the paper level,

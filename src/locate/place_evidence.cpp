@@ -13,9 +13,11 @@ namespace {
 
 /// Returns true if `block` makes the place of the hypothesis certain. `block` contains only the
 /// bits of the current frame.
-bool is_certain_alone(const PlaceEvidence& evidence, const Place& place, const CellsInView& view,
-                      const BitBlock& block, const BitsRead& bits, Fix& fix) {
-    const auto& [kernels, options, known, earlier, line_scores, others] = evidence;
+bool is_certain_alone(const PlaceEvidence& evidence, const Hypothesis& hypothesis,
+                      const CellsInView& view, const BitBlock& block, const BitsRead& bits,
+                      Fix& fix) {
+    const auto& [kernels, options, known, earlier, line_scores, others, work] = evidence;
+    const Place& place = hypothesis.place;
     const auto confidences = confidences_in(bits);
     if (known.are_all() && !shows_sheet(known, options.code, place, block)) return false;
     const CodedBlock coded(options.code, place, view, block);
@@ -26,16 +28,16 @@ bool is_certain_alone(const PlaceEvidence& evidence, const Place& place, const C
     }
     if (known.any() && is_certain_on_sheets(kernels, options, place, block, known, fix))
         return true;
-    return is_certain(kernels,
-                      evidence_of(kernels, options.code, place, block, confidences, line_scores),
-                      options.code, options.integrity, fix, others);
+    return is_certain(
+        kernels, evidence_of(kernels, options.code, place, block, confidences, line_scores),
+        options.code, options.integrity, fix, others, hypothesis.is_small_view ? &work : nullptr);
 }
 
 /// Returns true if `block` and the bits of earlier frames together make the place certain.
 /// `grid_from_image` is relative to the image centre.
 bool is_certain_together(const PlaceEvidence& evidence, const Place& place,
                          const FloatPlane& grid_from_image, const BitBlock& block, Fix& fix) {
-    const auto& [kernels, options, known, earlier, line_scores, others] = evidence;
+    const auto& [kernels, options, known, earlier, line_scores, others, work] = evidence;
     // There are two possible errors: a wrong match of the grids and a wrong place. Each of them may
     // have half of the permitted probability.
     DeviceOptions half = options;
@@ -61,7 +63,7 @@ bool is_certain_together(const PlaceEvidence& evidence, const Place& place,
 }  // namespace
 
 std::optional<TurnedPlace> find_turned_place(const PlaceEvidence& evidence, const BitBlock& block) {
-    const auto& [kernels, options, known, earlier, line_scores, others] = evidence;
+    const auto& [kernels, options, known, earlier, line_scores, others, work] = evidence;
     TurnedPlace found{likeliest_turn(kernels, block), {}};
     const BitBlock upright = turned(found.quarters, block);
     const bool is_exact = find_place_exactly(options.code, upright, found.place);
@@ -98,7 +100,7 @@ bool confirm_place(const PlaceEvidence& evidence, const Hypothesis& hypothesis,
                    const CellsInView& view, const BitBlock& block, const BitsRead& bits, Fix& fix) {
     EarlierBits& earlier = evidence.earlier;
     const Place& place = hypothesis.place;
-    bool is_certain = is_certain_alone(evidence, place, view, block, bits, fix);
+    bool is_certain = is_certain_alone(evidence, hypothesis, view, block, bits, fix);
     if (earlier.is_in_series()) {
         const FloatPlane grid = centred_plane(hypothesis);
         is_certain = is_certain ||

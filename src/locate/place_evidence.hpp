@@ -8,6 +8,7 @@
 
 #include "core/decode/bit_lines.hpp"
 #include "core/integrity/confidence.hpp"
+#include "core/integrity/work_limit.hpp"
 #include "core/kernels/kernels.hpp"
 #include "core/known_sheets.hpp"
 #include "core/other_codes.hpp"
@@ -27,6 +28,8 @@ struct PlaceEvidence {
     EarlierBits& earlier;
     std::span<ScoredLine> line_scores;  ///< memory for the scores of the lines of a block
     OtherCodes* others;  ///< receives the odds of the other codes; null if not requested
+    /// Work that may still be done for this frame to test places in small views.
+    WorkLimit& work;
 };
 
 /// A quarter turn of a block, and the place of cell (0, 0) of the turned block.

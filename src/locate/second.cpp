@@ -114,7 +114,7 @@ Status SecondAttempt::read_filtered(const Frame& frame) {
 
 /// Finds the position from the bits, and verifies the position with the bits of all dots.
 Status SecondAttempt::read_position(const PlaceEvidence& evidence) {
-    const auto& [kernels, options, known, earlier, line_scores, others] = evidence;
+    const auto& [kernels, options, known, earlier, line_scores, others, work] = evidence;
     const Grid& grid = w_.grid;
     Decoding& decoding = w_.decoding;
     // Chooses the window (paper, section II-B.5).

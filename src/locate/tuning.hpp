@@ -174,7 +174,7 @@ inline constexpr int kMinFetched_bytes = 32 << 10;
 inline constexpr int kMaxFetched_bytes = 1 << 20;
 /// Number of cells in the image below which the bits are also read from dots that the image border
 /// cuts. Views with more cells are certain without these dots.
-inline constexpr float kMaxCellsWithCutDots = 144;
+inline constexpr float kMaxCellsOfSmallView = 144;
 /// Maximum distance of an intersection from the image, in spacings, at which the dot of the cell
 /// may be partly visible.
 inline constexpr float kBeyondBorder = 0.2F;

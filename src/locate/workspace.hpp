@@ -30,6 +30,7 @@ struct DesktopWorkspace : DeviceWorkspace {
     Measurement measurement;  ///< `confirm`
     OtherCodes other_codes;   ///< odds of the codes in which the frame was not read
     EarlierBits earlier;
+    WorkLimit work{WorkLimit::kOfFrame};  ///< see `PlaceEvidence::work`
     PushedImage pushed;
     std::span<std::uint8_t> rolling_pixels;  ///< turning: the image without rotation
     bool is_mirrored = false;                ///< true if an attempt found the mirrored code
@@ -53,7 +54,8 @@ struct DesktopWorkspace : DeviceWorkspace {
     /// Returns the sources of evidence with which an attempt finds and tests places in a frame.
     PlaceEvidence evidence(const Frame& frame) {
         return {frame.kernels, frame.options, known,
-                earlier,       line_scores,   other_codes.are_wanted ? &other_codes : nullptr};
+                earlier,       line_scores,   other_codes.are_wanted ? &other_codes : nullptr,
+                work};
     }
 };
 

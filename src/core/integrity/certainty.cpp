@@ -145,7 +145,7 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
                                      std::span(storage).first(lines), loss_limit, list)) {
         return 1;
     }
-    for (const auto& [sequence, place, line] :
+    for (const auto& [sequence, place, line, loss] :
          std::span(list.places).first(static_cast<std::size_t>(list.count)))
         sum += odds_of(ratios, loss_of(ratios, sequence, place, line));
     return sum;
@@ -172,6 +172,7 @@ struct Query {
     int odds_per_bit_q8;
     int limit_log2;
     OtherCodes* others;  ///< odds of the other codes; null if not requested
+    WorkLimit* work;     ///< work that may still be done; null if it is not limited
 };
 
 bool is_code_in_question(const Query& query) {
@@ -212,12 +213,16 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     // still make the frame certain.
     const float enough = limit / 2;
     float sum = with(alternatives(kernels, ratios, unshared, limit));
-    if (sum > enough && !ratios.is_of_bits()) {
+    // In small views, the second bound is seldom much tighter than the first.
+    const bool may_suffice_quickly = query.work == nullptr || sum < 1e-3F;
+    if (sum > enough && !ratios.is_of_bits() && may_suffice_quickly)
         sum = with(power_of_two_rounded_up(quick_alternatives_log2_q8(ratios, 256 * limit_log2)));
-        if (sum > enough) {
-            // The factor covers the error of the exponentials.
-            sum = with(1.03F * sum_of_alternatives(kernels, ratios, limit_log2));
-        }
+    if (sum > enough && !ratios.is_of_bits()) {
+        const float counted = query.work == nullptr
+                                  ? sum_of_alternatives(kernels, ratios, limit_log2)
+                                  : sum_of_alternatives(kernels, ratios, limit_log2, *query.work);
+        // The factor covers the error of the exponentials.
+        sum = with(1.03F * counted);
     }
     if (sum > limit) return 1;
     return sum + seam_alternatives(kernels, unshared);
@@ -285,7 +290,7 @@ bool passes_hard_bit_test(const Kernels& kernels, const std::array<AxisBits, 2>&
         return LikelihoodRatios(code, axis.lines, axis.reading, odds_q8, axis.rolls);
     };
     return are_certain(kernels, {x.confidence, y.confidence}, ratios_of(x), ratios_of(y),
-                       {code, odds_q8, options.max_p_wrong_log2, others}, fix);
+                       {code, odds_q8, options.max_p_wrong_log2, others, nullptr}, fix);
 }
 
 std::array<Confidence, 2> compared_with_code(CodeVariant code, const Place& place,
@@ -317,7 +322,7 @@ Evidence evidence_of(const Kernels& kernels, CodeVariant code, const Place& plac
 }
 
 bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant code,
-                const IntegrityOptions& options, Fix& fix, OtherCodes* others) {
+                const IntegrityOptions& options, Fix& fix, OtherCodes* others, WorkLimit* work) {
     const auto& [x_bits, y_bits] = evidence.bits;
     const int odds_q8 = odds_of_bits_q8(x_bits, y_bits, options, fix);
     if (odds_q8 == 0) return false;
@@ -325,7 +330,7 @@ bool is_certain(const Kernels& kernels, const Evidence& evidence, CodeVariant co
     const auto [x, y] = readings_at(evidence.corner, code);
     return are_certain(kernels, evidence.bits, LikelihoodRatios(code, evidence.columns, x, odds_q8),
                        LikelihoodRatios(code, evidence.rows, y, odds_q8),
-                       {code, odds_q8, options.max_p_wrong_log2, others}, fix);
+                       {code, odds_q8, options.max_p_wrong_log2, others, work}, fix);
 }
 
 void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, CodeVariant code,

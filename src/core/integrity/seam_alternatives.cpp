@@ -117,6 +117,39 @@ bool may_matter(const LikelihoodRatios& ratios, std::size_t sequence, std::uint3
     return false;
 }
 
+/// The lines whose minimum loss is at least a loss limit. An alternative matters only if it shares
+/// all of them, each at the shift before or at the shift after the border.
+class RequiredLines {
+  public:
+    RequiredLines(const LikelihoodRatios& ratios, int loss_limit) : ratios_(ratios) {
+        for (int line = 0; line < ratios.count(); ++line) {
+            if (ratios.min_loss(line) >= loss_limit)
+                lines_[count_++] = static_cast<std::uint8_t>(line);
+        }
+    }
+    /// Returns true if the alternative can share all required lines: its shift changes at most once
+    /// from one required line to the next.
+    bool can_be_shared(std::size_t sequence, std::uint32_t place) const {
+        const std::uint8_t* own = ratios_.basis[sequence].rolls + ratios_.places[sequence];
+        const std::uint8_t* alternative = ratios_.basis[sequence].rolls + place;
+        int changes = 0;
+        for (std::size_t n = 1; n < count_ && changes < 2; ++n) {
+            const std::size_t line = lines_[n];
+            const std::size_t before = lines_[n - 1];
+            changes += roll_offset(own[line], alternative[line]) !=
+                               roll_offset(own[before], alternative[before])
+                           ? 1
+                           : 0;
+        }
+        return changes < 2;
+    }
+
+  private:
+    const LikelihoodRatios& ratios_;
+    std::size_t count_ = 0;
+    std::array<std::uint8_t, kMaxLines> lines_;
+};
+
 /// Sums the odds of the seam alternatives whose odds, without the prior, exceed kMin_q8.
 class SeamAlternatives {
   public:
@@ -164,9 +197,13 @@ StepLosses losses_of_steps(const LikelihoodRatios& ratios, int loss_limit) {
         max_lost = std::max(max_lost, lost_at(step));
     const int part =
         (loss_limit + max_lost + StepLosses::kLimitParts - 1) / StepLosses::kLimitParts;
-    for (int step = 0; step < steps.count; ++step)
-        steps.parts[static_cast<std::size_t>(step)] =
-            static_cast<std::uint8_t>(lost_at(step) / part);
+    for (int step = 0; step < steps.count; ++step) {
+        // A step between two lines that each lose the limit counts as half of the limit, because an
+        // alternative that differs in two such steps loses the limit wherever the border is.
+        const int lost = lost_at(step);
+        steps.parts[static_cast<std::size_t>(step)] = static_cast<std::uint8_t>(
+            lost == loss_limit ? StepLosses::kLimitParts / 2 : lost / part);
+    }
     return steps;
 }
 
@@ -193,6 +230,7 @@ int seam_alternatives_log2_q8(const Kernels& kernels, const UnsharedLines& unsha
     SeamAlternatives alternatives(ratios, loss_limit);
     if (must_lose_with_border(ratios, loss_limit)) return alternatives.sum_q8();
     std::optional<StepLosses> steps;
+    const RequiredLines required(ratios, loss_limit);
     for (std::size_t k = 0; k < ratios.basis.size(); ++k) {
         if (unshared.all_lose(k, Sharing::on_two_sides, loss_limit)) continue;
         if (!steps) steps = losses_of_steps(ratios, loss_limit);
@@ -200,7 +238,8 @@ int seam_alternatives_log2_q8(const Kernels& kernels, const UnsharedLines& unsha
             kernels.find_similar_places(ratios.basis[k], ratios.places[k], *steps);
         for (std::uint32_t word = 0; word < similar.size(); ++word)
             visit_places(similar[word], word, [&](std::uint32_t place) {
-                if (may_matter(ratios, k, place, loss_limit)) alternatives.add(k, place);
+                if (required.can_be_shared(k, place) && may_matter(ratios, k, place, loss_limit))
+                    alternatives.add(k, place);
             });
     }
     return alternatives.sum_q8();

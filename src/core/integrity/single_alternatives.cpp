@@ -1,6 +1,7 @@
 #include "core/integrity/single_alternatives.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 
 #include "core/math/odds.hpp"
@@ -27,6 +28,19 @@ float odds_at(const RankedLines& lines, const RollOffsets& offsets, std::size_t 
         if (lines.ratios.is_hopeless(lost)) return kNegligible;
     }
     return lines.ratios.odds(lost);
+}
+
+/// Variant of `odds_at` without a list of the roll offsets.
+float odds_of_place(const RankedLines& lines, std::size_t sequence, std::uint32_t place,
+                    std::size_t shared) {
+    const LikelihoodRatios& ratios = lines.ratios;
+    const std::uint8_t* own = ratios.basis[sequence].rolls + ratios.places[sequence];
+    const std::uint8_t* alternative = ratios.basis[sequence].rolls + place;
+    const int base = 2 * kSections + own[shared] - alternative[shared];
+    int lost = 0;
+    for (int line = 0; line < lines.count(); ++line)
+        lost += lines.loss(line, alternative[line] - own[line] + base);
+    return ratios.odds(lost);
 }
 
 float sum_one_by_one(const RankedLines& lines) {
@@ -59,26 +73,67 @@ void sort_losses(const CoarseLosses& losses, std::span<LineLoss> sorted) {
     }
 }
 
+/// Lists the places that may lose less than `losses.limit`. Returns false if there are too many.
+bool list_similar(const Kernels& kernels, const RankedLines& lines, const CoarseLosses& losses,
+                  SimilarPlaceList& list) {
+    std::array<LineLoss, kMaxLines> storage;
+    const auto sorted = std::span(storage).first(static_cast<std::size_t>(lines.count()));
+    sort_losses(losses, sorted);
+    const LikelihoodRatios& ratios = lines.ratios;
+    return kernels.list_similar_places(ratios.basis, ratios.places, 15, sorted, losses.limit, list);
+}
+
+/// Returns the sum over all places that are not listed. Each of them counts with the odds at the
+/// loss of `skipped_bits`, once per line.
+float sum_of_skipped(const RankedLines& lines, int skipped_bits) {
+    constexpr float kPlaces =
+        code::kA1.size() + code::kA2.size() + code::kA3.size() + code::kA4Restored.size();
+    return kPlaces * static_cast<float>(lines.count()) * power_of_two_exactly(-skipped_bits);
+}
+
 }  // namespace
 
 float sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines) {
-    const LikelihoodRatios& ratios = lines.ratios;
-    std::array<LineLoss, kMaxLines> storage;
-    const auto sorted = std::span(storage).first(static_cast<std::size_t>(lines.count()));
     const int skipped_bits = bits_of_skipped(lines.count());
-    const CoarseLosses losses(ratios, skipped_bits);
-    sort_losses(losses, sorted);
     SimilarPlaceList list;
-    if (!kernels.list_similar_places(ratios.basis, ratios.places, 15, sorted, losses.limit, list))
+    if (!list_similar(kernels, lines, CoarseLosses(lines.ratios, skipped_bits), list))
         return sum_one_by_one(lines);
-    constexpr float kPlaces =
-        code::kA1.size() + code::kA2.size() + code::kA3.size() + code::kA4Restored.size();
-    float sum = kPlaces * static_cast<float>(lines.count()) * power_of_two_exactly(-skipped_bits);
+    float sum = sum_of_skipped(lines, skipped_bits);
     RollOffsets offsets;
-    for (const auto& [sequence, place, shared] :
+    for (const auto& [sequence, place, shared, loss] :
          std::span(list.places).first(static_cast<std::size_t>(list.count))) {
         lines.set_offsets(sequence, place, offsets);
         sum += odds_at(lines, offsets, shared);
+    }
+    return sum;
+}
+
+std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines,
+                                                WorkLimit& work) {
+    // In small views, many places lose 44 to 52 bits. They count with the odds at their minimum
+    // losses. Up to 16 lines, the odds of the places that are not listed add up to at most 2^-37.
+    constexpr int kSkippedBits = 51;
+    constexpr int kEvaluatedBits = 43;
+    // Work in processor instructions (estimated).
+    constexpr std::size_t kWorkPerEntry = 20;
+    constexpr std::size_t kWorkPerEvaluation = 100;
+    const LikelihoodRatios& ratios = lines.ratios;
+    const CoarseLosses losses(ratios, kSkippedBits);
+    SimilarPlaceList list;
+    list.max_count = SimilarPlaceList::kMax;
+    if (!list_similar(kernels, lines, losses, list) ||
+        !work.spend(kWorkPerEntry * static_cast<std::size_t>(list.count)))
+        return {};
+    float sum = sum_of_skipped(lines, kSkippedBits);
+    const int limit = losses.limit * kEvaluatedBits / kSkippedBits + 1;
+    for (const auto& [sequence, place, shared, loss] :
+         std::span(list.places).first(static_cast<std::size_t>(list.count))) {
+        if (loss >= limit) {
+            sum += power_of_two_exactly(-kEvaluatedBits);
+            continue;
+        }
+        if (!work.spend(kWorkPerEvaluation)) return {};
+        sum += odds_of_place(lines, sequence, place, shared);
     }
     return sum;
 }

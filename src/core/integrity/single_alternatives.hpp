@@ -2,12 +2,19 @@
 // sequence. See docs/integrity.md, "Alternatives: odds". likelihood_ratios.hpp defines the terms.
 #pragma once
 
+#include <optional>
+
 #include "core/integrity/ranked_lines.hpp"
+#include "core/integrity/work_limit.hpp"
 
 namespace dotpose::core {
 
 /// Returns an upper bound on the summed odds of all single alternatives that share a line with the
 /// reading. The sum includes each alternative at every shift at which it shares a line.
 float sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines);
+
+/// Variant with bounded work, for small views. Returns nullopt if `work` does not suffice.
+std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines,
+                                                WorkLimit& work);
 
 }  // namespace dotpose::core

@@ -202,14 +202,17 @@ struct LineLoss {
 };
 
 /// Places in the secondary sequences at which the bits of an alternative may be similar to those of
-/// the reading. Each entry also contains a line that this alternative shares with the reading.
+/// the reading. Each entry also contains a line that this alternative shares with the reading, and
+/// a lower bound on its loss, in the unit of the losses of the lines.
 struct SimilarPlaceList {
-    static constexpr int kMax = 512;
+    static constexpr int kMax = 3072;
     struct Entry {
         std::uint8_t sequence;
         std::uint8_t place;
         std::uint8_t line;
+        std::uint8_t loss;
     };
+    int max_count = 512;  ///< at most kMax
     int count = 0;
     std::array<Entry, kMax> places;
 };

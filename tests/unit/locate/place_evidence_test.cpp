@@ -42,8 +42,9 @@ std::optional<core::TurnedPlace> found(const core::BitBlock& block, CodeVariant 
     options.code = code;
     core::EarlierBits earlier;
     std::array<core::ScoredLine, 128> scores{};
-    return core::find_turned_place({core::kernels(), options, known, earlier, scores, nullptr},
-                                   block);
+    core::WorkLimit work(0);
+    return core::find_turned_place(
+        {core::kernels(), options, known, earlier, scores, nullptr, work}, block);
 }
 
 Place random_place(Rng& rng) {

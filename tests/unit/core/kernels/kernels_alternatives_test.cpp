@@ -88,7 +88,7 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
             return;
         std::set<std::array<int, 3>>
             found;  // sequence, place, and the shift at which the place shares a line
-        for (const auto& [k, place, line] :
+        for (const auto& [k, place, line, loss] :
              std::span(list.places).first(static_cast<std::size_t>(list.count)))
             found.insert({k, place, places.offset(k, place, line)});
         for (std::size_t k = 0; k < 4; ++k) {

@@ -1,0 +1,325 @@
+#include "core/integrity/planned_alternatives.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <span>
+
+#include "core/integrity/line_sets.hpp"
+#include "core/integrity/set_plan.hpp"
+#include "core/math/odds.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Safety factor for the expected odds of the sets that are not searched. On 2,500 axes of nominal
+/// frames, their odds were 0.04 times the expected odds on average, more than 4 times on 6 axes,
+/// and at most 40 times.
+constexpr float kPlanMargin = 4;
+
+/// Alternatives that lose this many bits are not evaluated in all lines. They count with the odds
+/// at this loss.
+constexpr int kSkippedBits = 46;
+
+/// Keys of places: the changes of the roll offset across the first two gaps, combined as kKeyStep *
+/// first + second. The sum of two keys with elements below kSections needs no reduction.
+constexpr std::size_t kKeyStep = 128;
+constexpr std::size_t kKeys = 2 * kKeyStep * kSections;
+
+/// A set of shared lines, and the lines that are not shared, by decreasing minimum loss.
+struct Pattern {
+    Pattern(const RankedLines& lines, LineSet shared_) : shared(shared_), gaps(shared_) {
+        for (int line = 0; line < lines.count(); ++line) {
+            if ((shared >> line & 1) != 0) continue;
+            std::size_t n = unshared_count++;
+            for (; n > 0 && lines.ratios.min_loss(unshared[n - 1]) < lines.ratios.min_loss(line);
+                 --n)
+                unshared[n] = unshared[n - 1];
+            unshared[n] = static_cast<std::uint8_t>(line);
+        }
+        packed_count = std::min(unshared_count, sizeof(std::uint64_t));
+    }
+    LineSet shared;
+    Gaps gaps;
+    std::size_t unshared_count = 0;
+    std::size_t packed_count;  ///< number of lines whose offsets are packed (`KeyedPlaces::packed`)
+    std::array<std::uint8_t, kMaxLines> unshared;
+};
+
+/// Places in one sequence at which an alternative may share a given set of lines.
+class KeyedPlaces {
+  public:
+    /// Lists the places. `negates` is true if the keys are of the negated changes.
+    void list(const RankedLines& lines, std::size_t sequence, const PlaceBits& places,
+              const Pattern& pattern, bool negates) {
+        count_ = 0;
+        for (std::size_t word = 0; word < places.size(); ++word) {
+            for (std::uint32_t rest = places[word]; rest != 0; rest &= rest - 1) {
+                const auto place = static_cast<std::uint32_t>(
+                    32 * word + static_cast<std::size_t>(std::countr_zero(rest)));
+                lines.set_offsets(sequence, place, offsets_[count_]);
+                is_other_[count_] = place != lines.ratios.places[sequence] ? 1 : 0;
+                set_key(pattern.gaps, negates);
+                make_relative(static_cast<std::size_t>(lines.count()), pattern.gaps.before[0]);
+                pack(pattern);
+                ++count_;
+            }
+        }
+    }
+    std::size_t count() const { return count_; }
+    /// Returns the roll offsets of a place relative to the first shared line.
+    const RollOffsets& offsets(std::size_t n) const { return offsets_[n]; }
+    /// Returns the roll offsets in the first eight lines that are not shared, one per byte. Sums of
+    /// four such offsets fit in a byte.
+    std::uint64_t packed(std::size_t n) const { return packed_[n]; }
+    std::size_t key(std::size_t n) const { return keys_[n]; }
+    /// Returns 1 if the place is not the place of the reading, and 0 otherwise.
+    int is_other(std::size_t n) const { return is_other_[n]; }
+
+  private:
+    void set_key(const Gaps& gaps, bool negates) {
+        const RollOffsets& offsets = offsets_[count_];
+        const auto across = [&](std::size_t gap) -> std::size_t {
+            const std::uint8_t before = offsets[static_cast<std::size_t>(gaps.before[gap])];
+            const std::uint8_t after = offsets[static_cast<std::size_t>(gaps.after[gap])];
+            return negates ? roll_offset(after, before) : roll_offset(before, after);
+        };
+        keys_[count_] = static_cast<std::uint16_t>(kKeyStep * across(0) + across(1));
+    }
+    void make_relative(std::size_t line_count, int first_shared) {
+        RollOffsets& offsets = offsets_[count_];
+        const auto back =
+            static_cast<std::uint8_t>(kSections - offsets[static_cast<std::size_t>(first_shared)]);
+        for (std::size_t line = 0; line < line_count; line += sizeof(Bytes)) {
+            const Bytes relative = modulo_sections(bytes_at(offsets, line) + back);
+            std::memcpy(offsets.data() + line, &relative, sizeof relative);
+        }
+    }
+    void pack(const Pattern& pattern) {
+        std::uint64_t packed = 0;
+        for (std::size_t n = pattern.packed_count; n-- > 0;)
+            packed = packed << 8 | offsets_[count_][pattern.unshared[n]];
+        packed_[count_] = packed;
+    }
+
+    static constexpr std::size_t kMaxPlaces = code::kA4Restored.size();
+
+    std::size_t count_ = 0;
+    std::array<std::uint8_t, kMaxPlaces> is_other_;
+    std::array<std::uint16_t, kMaxPlaces> keys_;
+    std::array<std::uint64_t, kMaxPlaces> packed_;
+    std::array<RollOffsets, kMaxPlaces> offsets_;
+};
+
+/// Finds the far alternatives that share given sets of lines, and adds their odds. Two positions
+/// share two adjacent lines only if, in the step between these lines, they have the same digit in
+/// each of the four sequences. The places of two sequences are stored in a table, by their changes
+/// of the roll offset across the gaps, and each pair of places of the other two sequences is looked
+/// up there.
+class SetSearch {
+  public:
+    SetSearch(const RankedLines& lines, float max_odds, WorkLimit& work)
+        : lines_(lines),
+          count_(static_cast<std::size_t>(lines.count())),
+          max_odds_(max_odds),
+          skipped_loss_(lines.ratios.loss_for(-256 * kSkippedBits) + lines.ratios.max_gain()),
+          work_(work) {
+        for (std::size_t k = 0; k < all_.size(); ++k) {
+            const std::size_t length = lines.ratios.basis[k].length;
+            all_[k].fill(0);
+            std::fill_n(all_[k].begin(), length / 32, ~std::uint32_t{0});
+            all_[k][length / 32] = (std::uint32_t{1} << length % 32) - 1;
+            own_[k].fill(0);
+            const std::uint32_t own = lines.ratios.places[k];
+            own_[k][own / 32] = std::uint32_t{1} << own % 32;
+            set_equal_places(k);
+        }
+        newest_.fill(kNone);
+    }
+
+    /// Adds the odds of the far alternatives that share exactly the lines `shared`, which must not
+    /// be empty. Lines with a minimum loss of 0 may be shared or not. Returns false if the search
+    /// must end, because the sum exceeds `max_odds` or the work does not suffice.
+    bool add(LineSet shared) {
+        PlaceSets places = all_;
+        for (LineSet steps = shared & shared >> 1; steps != 0; steps &= steps - 1) {
+            const PlaceSets& equal = equal_[static_cast<std::size_t>(std::countr_zero(steps))];
+            for (std::size_t k = 0; k < places.size(); ++k) {
+                for (std::size_t word = 0; word < places[k].size(); ++word)
+                    places[k][word] &= equal[k][word];
+            }
+        }
+        if (count_different(places) < 2) return work_.spend(kWorkPerSet);
+        const Pattern pattern(lines_, shared);
+        if (!list(places, pattern)) return false;
+        add_matches(pattern);
+        return odds() <= max_odds_;
+    }
+    float odds() const {
+        return sum_ + static_cast<float>(skipped_) * power_of_two_exactly(-kSkippedBits);
+    }
+
+  private:
+    static constexpr std::size_t kWorkPerSet = 500;
+    /// A pair of places is stored as kPlaces times the index in a3 plus the index in a1.
+    static constexpr std::size_t kPlaces = 256;
+    static constexpr std::size_t kMaxPairs = code::kA3.size() * kPlaces;
+    static constexpr std::uint16_t kNone = kMaxPairs;
+    static_assert(code::kA1.size() <= kPlaces);
+
+    void set_equal_places(std::size_t k) {
+        const code::Secondary& sequence = lines_.ratios.basis[k];
+        std::uint32_t place = lines_.ratios.places[k];
+        for (std::size_t step = 0; step + 1 < count_; ++step) {
+            const std::uint32_t* equal = sequence.places_of[sequence.digit(place)] + step / 32;
+            const std::size_t ahead = step % 32;
+            PlaceBits& places = equal_[step][k];
+            for (std::size_t word = 0; word < places.size(); ++word)
+                places[word] = equal[word] >> ahead | equal[word + 1] << 1 << (31 - ahead);
+            if (++place == sequence.length) place = 0;
+        }
+    }
+
+    /// Returns the number of sequences with places other than the place of the reading.
+    int count_different(const PlaceSets& places) const {
+        int different = 0;
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            std::uint32_t others = 0;
+            for (std::size_t word = 0; word < places[k].size(); ++word)
+                others |= places[k][word] & ~own_[k][word];
+            different += others != 0 ? 1 : 0;
+        }
+        return different;
+    }
+
+    /// Lists the places in all sequences. Returns false if the work does not suffice.
+    bool list(const PlaceSets& places, const Pattern& pattern) {
+        for (std::size_t k = 0; k < places.size(); ++k)
+            lists_[k].list(lines_, k, places[k], pattern, k % 2 == 1);
+        const std::size_t tabled = lists_[0].count() * lists_[2].count();
+        const std::size_t looked_up = lists_[1].count() * lists_[3].count();
+        std::size_t listed = 0;
+        for (const KeyedPlaces& list : lists_)
+            listed += list.count();
+        std::size_t matches = tabled * looked_up;
+        for (std::size_t gap = 0; gap < pattern.gaps.count; ++gap)
+            matches /= kSections;
+        return work_.spend(kWorkPerSet + 50 * listed + 30 * tabled + 6 * looked_up + 40 * matches);
+    }
+
+    /// Combines each pair of places in a2 and a4 with all pairs of places in a1 and a3 that make
+    /// the roll offset equal at both ends of each gap.
+    void add_matches(const Pattern& pattern) {
+        int rest = 0;  // minimum loss in the compared lines after line n
+        for (std::size_t n = pattern.packed_count; n-- > 0;) {
+            losses_[n] = lines_.losses(pattern.unshared[n]);
+            limits_[n] = skipped_loss_ - rest;
+            rest += std::max(lines_.ratios.min_loss(pattern.unshared[n]), 0);
+        }
+        const auto& [first, second, third, fourth] = lists_;
+        for (std::size_t n = 0; n < third.count(); ++n) {
+            for (std::size_t m = 0; m < first.count(); ++m) {
+                const auto pair = static_cast<std::uint16_t>(kPlaces * n + m);
+                const std::size_t key = reduced(third.key(n) + first.key(m));
+                before_[pair] = newest_[key];
+                set_newest(key, pair);
+            }
+        }
+        for (std::size_t n = 0; n < second.count(); ++n) {
+            for (std::size_t m = 0; m < fourth.count(); ++m) {
+                const std::size_t key = second.key(n) + fourth.key(m);
+                for (std::uint16_t pair = newest_[key]; pair != kNone; pair = before_[pair])
+                    add(pattern, pair % kPlaces, n, pair / kPlaces, m);
+            }
+        }
+        for (std::size_t n = 0; n < third.count(); ++n) {
+            for (std::size_t m = 0; m < first.count(); ++m)
+                set_newest(reduced(third.key(n) + first.key(m)), kNone);
+        }
+    }
+    /// Reduces both elements of a key modulo kSections.
+    static std::size_t reduced(std::size_t key) {
+        constexpr std::size_t kTooMany = kKeyStep * kSections;
+        if (key % kKeyStep >= kSections) key -= kSections;
+        return key >= kTooMany ? key - kTooMany : key;
+    }
+    /// Sets all elements whose key is equal to `key` modulo kSections.
+    void set_newest(std::size_t key, std::uint16_t pair) {
+        newest_[key] = newest_[key + kSections] = pair;
+        newest_[key + kKeyStep * kSections] = newest_[key + kKeyStep * kSections + kSections] =
+            pair;
+    }
+
+    /// Adds the odds of the alternative with the given places, at the shift at which it shares the
+    /// first shared line. Most alternatives lose kSkippedBits in the first few lines, and count as
+    /// skipped. The arguments are indices into the lists of places.
+    void add(const Pattern& pattern, std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
+        std::uint64_t shifts =
+            lists_[0].packed(a) + lists_[1].packed(b) + lists_[2].packed(c) + lists_[3].packed(d);
+        int lost = 0;
+        for (std::size_t n = 0; n < pattern.packed_count; ++n, shifts >>= 8) {
+            lost += losses_[n][shifts & 0xFF];
+            if (lost >= limits_[n]) {
+                ++skipped_;
+                return;
+            }
+        }
+        if (lists_[0].is_other(a) + lists_[1].is_other(b) + lists_[2].is_other(c) +
+                lists_[3].is_other(d) >=
+            2)
+            add_in_all_lines(pattern, a, b, c, d);
+    }
+
+    /// Adds the odds of the alternative with the given places, unless the lines with a positive
+    /// minimum loss that it shares are not exactly those of the pattern.
+    void add_in_all_lines(const Pattern& pattern, std::size_t a, std::size_t b, std::size_t c,
+                          std::size_t d) {
+        int lost = 0;
+        for (std::size_t line = 0; line < count_; ++line) {
+            const int shift = lists_[0].offsets(a)[line] + lists_[1].offsets(b)[line] +
+                              lists_[2].offsets(c)[line] + lists_[3].offsets(d)[line];
+            const bool is_compared = lines_.ratios.min_loss(static_cast<int>(line)) > 0;
+            if (is_compared && (shift % kSections == 0) != ((pattern.shared >> line & 1) != 0))
+                return;
+            lost += lines_.loss(static_cast<int>(line), shift);
+        }
+        sum_ += lines_.ratios.odds(lost);
+    }
+
+    const RankedLines& lines_;
+    std::size_t count_;
+    float max_odds_;
+    int skipped_loss_;  ///< loss of kSkippedBits, whatever an alternative gains in other lines
+    WorkLimit& work_;
+    PlaceSets all_;  ///< all places
+    PlaceSets own_;  ///< the places of the reading
+    /// For each step, the places at which the digit is equal to the digit of the reading.
+    std::array<PlaceSets, kMaxLines> equal_;
+    std::array<KeyedPlaces, 4> lists_;
+    /// Losses in the first lines that are not shared, by roll offset (see `RankedLines::losses`).
+    std::array<const std::int16_t*, sizeof(std::uint64_t)> losses_{};
+    /// For each of these lines, the loss up to this line at which an alternative is skipped.
+    std::array<int, sizeof(std::uint64_t)> limits_{};
+    /// `newest_` contains the newest pair of places with each key, and `before_` contains for each
+    /// pair the previous pair with the same key.
+    std::array<std::uint16_t, kKeys> newest_;
+    std::array<std::uint16_t, kMaxPairs> before_;
+    std::size_t skipped_ = 0;  ///< number of alternatives that lose `skipped_loss_`
+    float sum_ = 0;
+};
+
+}  // namespace
+
+std::optional<float> sum_of_planned_alternatives(const RankedLines& lines, float max_rest,
+                                                 float max_odds, WorkLimit& work) {
+    const SetPlan plan(lines, max_rest / kPlanMargin, static_cast<float>(work.left()));
+    if (!plan.is_feasible()) return {};
+    SetSearch search(lines, max_odds, work);
+    for (const PlannedSet& set : plan.sets()) {
+        if (search.add(set.shared)) continue;
+        return search.odds() > max_odds ? std::optional(search.odds()) : std::nullopt;
+    }
+    return search.odds() + kPlanMargin * plan.rest();
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,179 @@
+#include "core/integrity/set_plan.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace dotpose::core {
+namespace {
+
+/// Sets are searched in any case if alternatives may lose less than this many bits. So the odds of
+/// an alternative that is not counted are at most 2^-24.
+constexpr int kRequiredBits = 24;
+
+/// Number of possible changes of the roll from one line to the next. The changes of an alternative
+/// that differs in all four sequences are about uniformly distributed over them.
+constexpr float kChanges = 54;
+
+/// Factors by which the expected odds of alternatives that differ in two and in three sequences
+/// exceed those of the model, in which the roll offsets of lines that are not shared are uniformly
+/// distributed. With few different sequences, only few changes of the roll are possible. On 700
+/// axes of nominal frames, the mean ratios to the sum of `sum_of_expected_alternatives` were 10 to
+/// 17, 2, and 0.6 for alternatives that differ in four sequences.
+constexpr float kUnevennessOfTwo = 16;
+constexpr float kUnevennessOfThree = 2;
+/// Probabilities that the roll offset is 0 again after a gap, for alternatives that differ in two,
+/// three and four sequences.
+constexpr float kReturnOfTwo = 1.0F / 20;
+constexpr float kReturnOfThree = 1.0F / 35;
+constexpr float kReturnOfFour = 1 / kChanges;
+
+/// Returns the summed odds of all rolls of a line except the roll of the reading.
+float odds_of_others(const OddsByOffset& odds) {
+    return std::accumulate(odds.begin() + 1, odds.begin() + kSections, 0.0F);
+}
+
+}  // namespace
+
+/// Set of shared lines, up to a line.
+struct SetPlan::Node {
+    LineSet shared = 0;
+    /// Number of alternatives with the digits of the reading in all steps between shared lines, in
+    /// each sequence.
+    std::array<float, 4> places;
+    /// Probability that all gaps end at a shared line, times the mean odds in the lines that are
+    /// not shared, for alternatives that differ in two, three and four sequences.
+    float two;
+    float three;
+    float four;
+    int min_loss = 0;  ///< of the lines that are not shared
+    int gaps = 0;
+    int last = -2;  ///< last shared line
+    int run = 0;    ///< number of adjacent shared lines that end with `last`
+
+    void multiply(float of_two, float of_three, float of_four) {
+        two *= of_two;
+        three *= of_three;
+        four *= of_four;
+    }
+
+    /// Returns the expected odds of the far alternatives that share these lines. The sum over all
+    /// sets that continue this set is not larger.
+    float expected() const {
+        const auto& [a, b, c, d] = places;
+        const float sum = two * (a * b + (a + b) * (c + d) + c * d) +
+                          three * (a * b * (c + d) + (a + b) * c * d) + four * (a * b * c * d);
+        return shared == 0 ? kSections * sum : sum;
+    }
+
+    /// Returns the work of `SetSearch::add`, in processor instructions (estimated).
+    float work() const {
+        constexpr float kNever = 1e9F;
+        if (shared == 0) return kNever;
+        const auto& [a, b, c, d] = places;
+        const float tabled = (1 + a) * (1 + c);
+        const float looked_up = (1 + b) * (1 + d);
+        float matches = tabled * looked_up;
+        for (int gap = 0; gap < std::min(gaps, 2); ++gap)
+            matches /= kSections;
+        return 500 + 50 * (a + b + c + d) + 30 * tabled + 6 * looked_up + 40 * matches;
+    }
+};
+
+SetPlan::SetPlan(const RankedLines& lines, float max_rest, float max_work)
+    : lines_(lines),
+      max_rest_(max_rest),
+      max_work_(max_work),
+      required_loss_(lines.ratios.loss_for(-256 * kRequiredBits)) {
+    Node all;
+    for (std::size_t k = 0; k < all.places.size(); ++k)
+        all.places[k] = static_cast<float>(lines.ratios.basis[k].length);
+    float uncompared = 1;  // product of the mean odds in the lines with a minimum loss of 0
+    for (int line = 0; line < lines.count(); ++line) {
+        const OddsByOffset& odds = lines.odds()[static_cast<std::size_t>(line)];
+        const float others = odds_of_others(odds);
+        if (lines.ratios.min_loss(line) > 0) {
+            mean_odds_[compared_count_] = others / kChanges;
+            compared_[compared_count_++] = static_cast<std::uint8_t>(line);
+        } else {
+            uncompared *= (others + odds[0]) / kChanges;
+        }
+    }
+    all.two = kUnevennessOfTwo * uncompared;
+    all.three = kUnevennessOfThree * uncompared;
+    all.four = uncompared;
+    visit(0, all);
+    sort_sets();
+    skip_sets();
+}
+
+/// Adds all sets that continue `node` with compared lines from index `n` on.
+void SetPlan::visit(std::size_t n, const Node& node) {
+    const float expected = node.expected();
+    if (expected < max_rest_ / 1024 && node.min_loss >= required_loss_) {
+        rest_ += expected;
+        return;
+    }
+    if (n == compared_count_) {
+        is_complete_ = is_complete_ && count_ < kMaxSets;
+        if (is_complete_)
+            sets_[count_++] = {node.shared, expected, node.work(), node.min_loss < required_loss_};
+        return;
+    }
+    if (!is_complete_) return;
+    visit_shared(n, node);
+    Node without = node;
+    without.multiply(mean_odds_[n], mean_odds_[n], mean_odds_[n]);
+    without.min_loss += lines_.ratios.min_loss(compared_[n]);
+    visit(n + 1, without);
+}
+
+/// Adds all sets that continue `node` with compared line `n`.
+void SetPlan::visit_shared(std::size_t n, Node node) {
+    const LikelihoodRatios& ratios = lines_.ratios;
+    const int line = compared_[n];
+    if (node.last == line - 1) {
+        // No alternative shares more adjacent lines.
+        if (++node.run > ratios.max_shared()) return;
+        for (std::size_t k = 0; k < node.places.size(); ++k)
+            node.places[k] *= ratios.basis[k].base == 2 ? 1.0F / 2 : 1.0F / 3;
+    } else {
+        node.run = 1;
+        if (node.shared != 0) {
+            node.multiply(kReturnOfTwo, kReturnOfThree, kReturnOfFour);
+            ++node.gaps;
+        }
+    }
+    node.shared |= LineSet{1} << line;
+    node.last = line;
+    visit(n + 1, node);
+}
+
+/// Sorts the sets by decreasing ratio of expected odds and work.
+void SetPlan::sort_sets() {
+    std::array<float, kMaxSets> ratios;
+    for (std::size_t n = 0; n < count_; ++n) {
+        const PlannedSet set = sets_[n];
+        const float ratio = set.is_required ? 1e30F : set.expected / set.work;
+        std::size_t i = n;
+        for (; i > 0 && ratios[i - 1] < ratio; --i) {
+            sets_[i] = sets_[i - 1];
+            ratios[i] = ratios[i - 1];
+        }
+        sets_[i] = set;
+        ratios[i] = ratio;
+        work_ += set.work;
+    }
+}
+
+/// Moves sets from the end of the list to the rest.
+void SetPlan::skip_sets() {
+    for (; count_ > 0; --count_) {
+        const PlannedSet& last = sets_[count_ - 1];
+        const float limit = work_ > max_work_ ? max_rest_ : max_rest_ / 2;
+        if (last.is_required || rest_ + last.expected > limit) break;
+        rest_ += last.expected;
+        work_ -= last.work;
+    }
+}
+
+}  // namespace dotpose::core

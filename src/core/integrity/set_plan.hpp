@@ -1,0 +1,59 @@
+// Set plan: chooses the sets of shared lines whose alternatives are counted one by one. The
+// alternatives of all other sets count with their expected odds. See docs/integrity.md, "Small
+// views". likelihood_ratios.hpp defines the terms.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "core/integrity/line_sets.hpp"
+#include "core/integrity/ranked_lines.hpp"
+
+namespace dotpose::core {
+
+/// Set of lines that far alternatives may share.
+struct PlannedSet {
+    LineSet shared;
+    float expected;    ///< expected odds of the far alternatives that share exactly these lines
+    float work;        ///< work of the search for these alternatives, in processor instructions
+    bool is_required;  ///< true if the set must be searched, because single odds may be large
+};
+
+/// Chooses sets of lines. Lines with a minimum loss of 0 may be shared or not.
+class SetPlan {
+  public:
+    /// `max_rest` is the maximum of the expected odds of all sets that are not searched. The rest
+    /// is at most half of it, unless the search would then take more than `max_work`.
+    SetPlan(const RankedLines& lines, float max_rest, float max_work);
+    /// Returns false if there are too many sets, if the search would take more than `max_work`, or
+    /// if the rest would exceed `max_rest`.
+    bool is_feasible() const { return is_complete_ && work_ <= max_work_ && rest_ <= max_rest_; }
+    /// Returns the sets to search, in a good order: large expected odds and little work first.
+    std::span<const PlannedSet> sets() const { return std::span(sets_).first(count_); }
+    /// Returns the expected odds of all other far alternatives.
+    float rest() const { return rest_; }
+
+  private:
+    struct Node;
+    void visit(std::size_t n, const Node& node);
+    void visit_shared(std::size_t n, Node node);
+    void sort_sets();
+    void skip_sets();
+
+    static constexpr std::size_t kMaxSets = 256;
+
+    const RankedLines& lines_;
+    float max_rest_;
+    float max_work_;
+    int required_loss_;
+    std::size_t compared_count_ = 0;
+    std::array<std::uint8_t, kMaxLines> compared_;  ///< lines with a positive minimum loss
+    std::array<float, kMaxLines> mean_odds_;        ///< see `mean_odds_of`; by index in `compared_`
+    std::size_t count_ = 0;
+    std::array<PlannedSet, kMaxSets> sets_;
+    bool is_complete_ = true;
+    float rest_ = 0;
+    float work_ = 0;
+};
+
+}  // namespace dotpose::core

@@ -1,0 +1,30 @@
+// Work limit: bounds the time of the sums over alternatives.
+#pragma once
+
+#include <cstddef>
+
+namespace dotpose::core {
+
+/// Work that may still be done, in processor instructions (estimated).
+class WorkLimit {
+  public:
+    /// Work of testing the places of one frame that shows a small view. All other steps of a first
+    /// attempt take up to 250,000 instructions in such a frame.
+    static constexpr std::size_t kOfFrame = 450'000;
+
+    explicit WorkLimit(std::size_t work) : left_(work) {}
+    /// Subtracts `work` and returns true. Returns false if less work is left; then, nothing is
+    /// left.
+    bool spend(std::size_t work) {
+        const bool is_enough = work <= left_;
+        left_ = is_enough ? left_ - work : 0;
+        return is_enough;
+    }
+
+    std::size_t left() const { return left_; }
+
+  private:
+    std::size_t left_;
+};
+
+}  // namespace dotpose::core
