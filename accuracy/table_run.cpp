@@ -9,6 +9,8 @@
 
 #include <fmt/core.h>
 
+#include "../apps/dotpose/terminal_text.hpp"
+
 namespace dotpose::tables {
 
 std::string Done::speed_text(const std::string& items) const {
@@ -95,7 +97,12 @@ void TableRun::print_block(const std::string& name, const std::string& text) {
 }
 
 void TableRun::update_document() const {
-    if (!document_.empty()) dotpose::update_document(document_, blocks_);
+    if (document_.empty()) return;
+    if (cli::interrupted()) {
+        cli::tell(fmt::format("interrupted; {} keeps its tables", document_));
+        return;
+    }
+    dotpose::update_document(document_, blocks_);
 }
 
 Progress shown_on(cli::ProgressLine& line) {

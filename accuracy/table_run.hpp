@@ -78,7 +78,8 @@ class TableRun {
     /// Prints a generated part of the document, and keeps it for `update_document`.
     void print_block(const std::string& name, const std::string& text);
     const Blocks& blocks() const { return blocks_; }
-    /// If a document was named, replaces its generated parts with the printed parts.
+    /// If a document was named, replaces its generated parts with the printed parts. After an
+    /// interruption, the printed parts may be incomplete, so the document is kept.
     void update_document() const;
     const std::string& document() const { return document_; }
 

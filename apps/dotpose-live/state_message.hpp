@@ -84,12 +84,8 @@ struct RobotState {
     double vx_m_s = 0;
     double vy_m_s = 0;
     double omega_rad_s = 0;
-<<<<<<< HEAD
     /// Pose of the camera in space, with the axes of x and y. In a parsed message, the pose is that
     /// of the tracked camera if there is one, and has no covariance.
-=======
-    /// Pose of the camera in space, with the same axes as x and y. `parse_state` does not set it.
->>>>>>> reader
     std::optional<CameraInWorld> camera_pose;
     /// Motion of the tracked camera, with the same axes as x and y. `parse_state` does not set it.
     std::optional<CameraMotion> camera_track;

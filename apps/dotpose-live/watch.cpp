@@ -160,7 +160,12 @@ void use_changed_sheets(Follower& follower, WatchOutputs& outputs) {
     std::optional<std::vector<SheetEntry>> sheets = outputs.take_changed_sheets();
     if (!sheets) return;
     const bool was_in_world = follower.is_in_world();
-    follower.set_sheets(std::move(*sheets));
+    try {
+        follower.set_sheets(std::move(*sheets));
+    } catch (const Error& error) {
+        tell(fmt::format("the changed sheets are not used: {}", error.what()));
+        return;
+    }
     outputs.use_sheets(was_in_world);
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -132,8 +133,10 @@ int report(const std::vector<Outcome>& outcomes, const ReportArguments& argument
     return exit_code;
 }
 
-/// Evaluates the frames in batches. After Ctrl-C, the results of completed batches are kept.
-std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line) {
+/// Evaluates the frames in batches. After Ctrl-C, the results of completed batches are kept,
+/// without those from the index `readable_frames()` on.
+std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line,
+                                       const std::function<std::size_t()>& readable_frames) {
     const int part = 16 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     std::vector<Outcome> outcomes;
     for (int done = 0; done < all.frames && !interrupted(); done += part) {
@@ -147,16 +150,15 @@ std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line) 
         std::ranges::move(evaluate(run).front(), std::back_inserter(outcomes));
     }
     if (interrupted()) {
-        // The frames of a video that were not read before the interruption have a problem. Frames
-        // with a problem are therefore omitted.
-        std::erase_if(outcomes, [](const Outcome& outcome) { return !outcome.problem.empty(); });
+        if (outcomes.size() > readable_frames()) outcomes.resize(readable_frames());
         tell(fmt::format("interrupted; the report covers the first {} of {} frames",
                          outcomes.size(), all.frames));
     }
     return outcomes;
 }
 
-int evaluate_run(const EvaluateArguments& arguments, const std::string& what, FrameRun& run) {
+int evaluate_run(const EvaluateArguments& arguments, const std::string& what, FrameRun& run,
+                 const std::function<std::size_t()>& readable_frames) {
     ProgressLine line("evaluating " + what);
     run.options = {arguments.options};
     run.any_code = !arguments.code;
@@ -168,7 +170,7 @@ int evaluate_run(const EvaluateArguments& arguments, const std::string& what, Fr
         };
     }
     run.threads = arguments.threads;
-    const std::vector<Outcome> outcomes = evaluate_in_parts(run, line);
+    const std::vector<Outcome> outcomes = evaluate_in_parts(run, line, readable_frames);
     const int exit_code = report(outcomes, arguments.report);
     return outcomes.size() < static_cast<std::size_t>(run.frames) ? kExitFailed : exit_code;
 }
@@ -234,7 +236,8 @@ int evaluate_sources(const EvaluateArguments& arguments) {
         };
     }
     if (arguments.camera.camera) locate_with(*arguments.camera.camera, known.rows, run);
-    const int exit_code = evaluate_run(arguments, what_is_read(arguments.sources), run);
+    const int exit_code =
+        evaluate_run(arguments, what_is_read(arguments.sources), run, known.readable_frames);
     known.finish();
     return exit_code;
 }
@@ -253,7 +256,9 @@ int evaluate_preset(const EvaluateArguments& arguments) {
     FrameRun run;
     run.frames = arguments.frames.value_or(1000);
     run.frame_at = frames_of_setup(arguments.setup);
-    return evaluate_run(arguments, fmt::format("preset {}", dotpose::name(*arguments.preset)), run);
+    const auto all = [&run] { return static_cast<std::size_t>(run.frames); };
+    return evaluate_run(arguments, fmt::format("preset {}", dotpose::name(*arguments.preset)), run,
+                        all);
 }
 
 int evaluate_sweep(const EvaluateArguments& arguments) {

@@ -157,6 +157,7 @@ int evaluate_measured(const MeasuredArguments& arguments, const FollowerOptions&
     for (std::size_t i = 0; i < known.rows.size() && !interrupted(); ++i) {
         line.update(static_cast<std::int64_t>(i), static_cast<std::int64_t>(known.rows.size()));
         const KnownFrame frame = known.frame_at(static_cast<int>(i));
+        if (i >= known.readable_frames()) break;
         if (!frame.problem.empty()) {
             tell(frame.problem);
             exit_code = kExitFailed;

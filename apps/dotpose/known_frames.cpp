@@ -86,6 +86,7 @@ KnownFrames known_images(const std::vector<std::string>& names,
         for (const std::string& image : capture::files_of(name))
             known.rows.push_back(poses.row_of(system::path_of(image)));
     }
+    known.readable_frames = [count = known.rows.size()] { return count; };
     known.frame_at = [options, rows = known.rows,
                       read = frames_of_folder("", known.rows)](int index) {
         KnownFrame frame = read(index);
@@ -131,6 +132,12 @@ class FramesInOrder {
         waiting_.erase(found);
         if (frame.image.pixels.empty()) frame.problem = fmt::format("frame {} is empty", index);
         return frame;
+    }
+
+    std::size_t readable_frames() {
+        const std::lock_guard lock(mutex_);
+        const bool is_cut = is_over_ && problem_.empty() && interrupted();
+        return is_cut ? static_cast<std::size_t>(read_) : rows_.size();
     }
 
     void tell_if_more() {
@@ -193,6 +200,7 @@ KnownFrames known_frames(const SourceArguments& arguments, const std::string& po
         result.rows[i].file = fmt::format("frame {}", i);
     frames->set_poses(result.rows);
     result.frame_at = [frames](int index) { return frames->at(index); };
+    result.readable_frames = [frames] { return frames->readable_frames(); };
     result.finish = [frames] { frames->tell_if_more(); };
     return result;
 }

@@ -1,6 +1,7 @@
 /// Frames with true poses, for `dotpose evaluate`.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -15,6 +16,9 @@ struct KnownFrames {
     std::vector<TruthRow> rows;  ///< true pose of each frame; `file` is the frame's path or name
     /// Returns a frame. If the frame cannot be read, its `problem` contains the reason.
     dotpose::FrameSource frame_at;
+    /// Returns the number of frames, or the index of the first frame that was not read because the
+    /// run was interrupted.
+    std::function<std::size_t()> readable_frames;
     /// Must be called after the last frame. Warns on standard error if there are more frames than
     /// poses.
     std::function<void()> finish = [] {};

@@ -38,6 +38,7 @@ void Follower::require_space_camera() const {
 
 void Follower::set_sheets(std::vector<SheetEntry> sheets) {
     if (sheets.empty()) throw BadArgument("a follower needs at least one sheet");
+    require_pages(options_.print_map, sheets);
     options_.sheets = std::move(sheets);
     // The track and the prediction are in the coordinates of the previous sheets, so a new track
     // begins.

@@ -204,6 +204,8 @@ class DotRows : public QPDFObjectHandle::StreamDataProvider {
           rows_(std::move(rows)) {}
 
     void provideStreamData(const QPDFObjGen& /*id*/, Pipeline* out) override {
+        // After an error, qpdf may request the data again.
+        if (rows_->stopped) std::rethrow_exception(rows_->stopped);
         if (drawing_ == DotDrawing::glyphs) {
             write_glyph_rows(sheet_, dpi_, first_row_, end_row_, *rows_, *out);
         } else {

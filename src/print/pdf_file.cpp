@@ -29,10 +29,9 @@ void write_document(QPDF& pdf, const RowCount& rows, base::OutputFile& file) {
         // encrypted files, whose key depends on a random identifier.
         if (!pdf.isEncrypted()) writer.setDeterministicID(true);
         writer.write();
-    } catch (const Error&) {
-        throw;
     } catch (const std::exception& error) {
         if (rows.stopped) std::rethrow_exception(rows.stopped);
+        if (dynamic_cast<const Error*>(&error) != nullptr) throw;
         throw Error(fmt::format("cannot write PDF: {}", error.what()));
     }
 }

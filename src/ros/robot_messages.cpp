@@ -221,8 +221,10 @@ std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFr
     const PlanarPose camera_from_base = {reference.x_mm / 1000, -reference.y_mm / 1000,
                                          -camera.theta_offset_rad};
     const PlanarPose base_from_camera = inverse(camera_from_base);
-    const double height_m = camera.focal_px.value_or(0) *
-                            std::sqrt(camera.paper->mm_per_px_x * camera.paper->mm_per_px_y) / 1000;
+    const Pinhole pinhole = pinhole_of(camera).value_or(Pinhole{});
+    const double height_m = std::sqrt(pinhole.focal_u_px * camera.paper->mm_per_px_x *
+                                      pinhole.focal_v_px * camera.paper->mm_per_px_y) /
+                            1000;
     const double half_rad = base_from_camera.yaw_rad / 2;
     // Rotation about z by the yaw, then about the new x axis by half a turn, so z points down.
     TransformStamped mount;

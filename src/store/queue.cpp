@@ -134,8 +134,11 @@ void Queue::remove_old_days() {
         const std::int64_t first = today() - options_.keep_days;
         database_->remove_days_before(first * kDay_us);
         kept_from_ = first;
+        is_removal_reported_ = false;
     } catch (const Error& error) {
-        report_failure(error);
+        if (std::exchange(is_removal_reported_, true)) return;
+        options_.tell(fmt::format("cannot remove old days from {}: {}; trying again",
+                                  database_->label(), error.what()));
     }
 }
 

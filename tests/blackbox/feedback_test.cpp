@@ -1,6 +1,7 @@
 // Tests the output of long operations on a terminal: progress with the remaining time, colour, and
 // partial results after Ctrl-C. The program `script` runs the tool on a pseudo-terminal.
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -82,6 +83,24 @@ TEST_F(Feedback, CtrlCKeepsTheFramesThatCalibrateHasRead) {
     EXPECT_THAT(errors_, HasSubstr("no more frames are read"));
     EXPECT_THAT(output_, HasSubstr("verdict "));
     EXPECT_THAT(file("camera.yaml"), HasSubstr("k_per_px2"));
+}
+
+TEST_F(Feedback, CtrlCKeepsTheUnreadableFramesOfEvaluate) {
+    ASSERT_EQ(run("simulate -o frames --frames 2"), 0) << errors_;
+    std::filesystem::resize_file(directory_ / "frames/frame_000000.pgm", 100);
+    std::ofstream list(directory_ / "list");
+    list << "frames/frame_000000.pgm\n";
+    for (int i = 0; i < 30'000; ++i)
+        list << "frames/frame_000001.pgm\n";
+    list.close();
+    EXPECT_EQ(interrupt(std::string("exec ") + kTool + "evaluate --list list --format json",
+                        "[ \"$(cut -d ' ' -f 14 /proc/$(cat pid)/stat)\" -gt 30 ]"),
+              1);
+    EXPECT_THAT(errors_, ContainsRegex("the report covers the first [1-9][0-9]* of 30001"));
+    EXPECT_THAT(errors_, HasSubstr("frame_000000.pgm"));
+    const json report = json::parse(output_);
+    EXPECT_EQ(report["unreadable"], 1);
+    EXPECT_GT(report["located"], 0);
 }
 
 TEST_F(Feedback, CtrlCKeepsTheFramesThatEvaluateHasSeen) {

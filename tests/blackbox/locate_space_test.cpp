@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../tilted_shot.hpp"
 #include "locate_command.hpp"
 
 namespace dotpose::test {
@@ -17,22 +18,14 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
-constexpr double kDistance_mm = 25;
-constexpr double kTilt_deg = 20;
+constexpr double kDistance_mm = kTiltedDistance_mm;
 
 class LocateSpace : public LocateCommand {
   protected:
     /// Writes a frame of a camera that is tilted by 20 degrees towards +x, and the file of this
     /// camera.
     void SetUp() override {
-        dotpose::Setup setup;
-        setup.camera.width_px = 320;
-        setup.camera.height_px = 240;
-        setup.camera.working_distance_mm = kDistance_mm;
-        setup.seed = 20;
-        shot_ = draw_shot(setup, 0);
-        shot_.pose.theta_rad = 0;
-        shot_.pose.tilt_y_rad = kTilt_deg * kDegree_rad;
+        shot_ = tilted_shot();
         write_pgm(directory_ / "frame.pgm", render(shot_).view());
         write_camera("camera.yaml", "focal_px: 543.4782609\n");
     }
@@ -51,10 +44,10 @@ TEST_F(LocateSpace, WritesPositionAndAngles) {
     // The reported pose is that of the point at which the optical axis intersects the paper. The
     // camera is kDistance_mm from this point, along a line that is tilted by kTilt_deg from the
     // vertical.
-    const double aside_mm = kDistance_mm * std::sin(kTilt_deg * kDegree_rad);
+    const double aside_mm = kDistance_mm * std::sin(kTilt_rad);
     EXPECT_NEAR(line["camera_x_mm"], line["x_mm"].get<double>() + aside_mm, 0.05);
     EXPECT_NEAR(line["camera_y_mm"], line["y_mm"].get<double>(), 0.05);
-    EXPECT_NEAR(line["camera_z_mm"], -kDistance_mm * std::cos(kTilt_deg * kDegree_rad), 0.05);
+    EXPECT_NEAR(line["camera_z_mm"], -kDistance_mm * std::cos(kTilt_rad), 0.05);
     EXPECT_NEAR(line["camera_tilt_deg"], kTilt_deg, 0.1);
     EXPECT_NEAR(line["camera_azimuth_deg"], 0, 0.3);
     EXPECT_NEAR(line["camera_turn_deg"], 0, 0.3);
@@ -70,7 +63,7 @@ TEST_F(LocateSpace, WritesPositionAndAngles) {
 TEST_F(LocateSpace, PointsUpInTheUnitsOfRos) {
     ASSERT_EQ(run("--camera camera.yaml --pose space --units ros frame.pgm"), 0) << errors_;
     const json line = json::parse(output_);
-    EXPECT_NEAR(line["camera_z_pattern_m"], 0.025 * std::cos(kTilt_deg * kDegree_rad), 5e-5);
+    EXPECT_NEAR(line["camera_z_pattern_m"], 0.025 * std::cos(kTilt_rad), 5e-5);
     EXPECT_NEAR(line["camera_y_pattern_m"], line["y_pattern_m"].get<double>(), 5e-5);
     EXPECT_FALSE(line.contains("camera_z_mm"));
 }
@@ -126,7 +119,7 @@ TEST_F(LocateSpace, ReadsTheCamerasOfRos) {
     ASSERT_EQ(run("--camera info.yaml --pose space frame.pgm"), 0) << errors_;
     const json line = json::parse(output_);
     EXPECT_NEAR(line["camera_tilt_deg"], kTilt_deg, 0.1);
-    EXPECT_NEAR(line["camera_z_mm"], -kDistance_mm * std::cos(kTilt_deg * kDegree_rad), 0.05);
+    EXPECT_NEAR(line["camera_z_mm"], -kDistance_mm * std::cos(kTilt_rad), 0.05);
 }
 
 }  // namespace

@@ -297,6 +297,7 @@ class FakeDatabase : public store::Database {
         std::mutex mutex;
         std::vector<std::int64_t> numbers;
         bool is_away = false;
+        bool fails_to_remove = false;
         std::vector<std::int64_t> kept_from;
     };
     explicit FakeDatabase(Contents& contents) : contents_(contents) {}
@@ -310,6 +311,7 @@ class FakeDatabase : public store::Database {
     }
     void remove_days_before(std::int64_t time_us) override {
         const std::lock_guard lock(contents_.mutex);
+        if (contents_.fails_to_remove) throw Error("locked");
         contents_.kept_from.push_back(time_us);
     }
     void read(const store::Query&, const std::function<void(const State&)>&) override {}
@@ -346,6 +348,29 @@ TEST(StoreQueue, KeepsStatesWhileTheDatabaseIsAway) {
     EXPECT_EQ(queue.status().dropped, 0);
     EXPECT_THAT(news.text(), HasSubstr("cannot store states in fake: away; trying again\n"));
     EXPECT_THAT(news.text(), HasSubstr("fake answers again\n"));
+}
+
+TEST(StoreQueue, ReportsOldDaysThatAreNotRemoved) {
+    FakeDatabase::Contents contents;
+    contents.fails_to_remove = true;
+    News news;
+    store::Queue queue(std::make_unique<FakeDatabase>(contents), true,
+                       {.period = 1ms, .keep_days = 7, .tell = news.listener()});
+    for (int i = 0; i < 20; ++i) {
+        queue.push(state_of("anna", kNoon_us + i, i));
+        std::this_thread::sleep_for(5ms);
+    }
+    EXPECT_FALSE(queue.status().is_away);
+    {
+        const std::lock_guard lock(contents.mutex);
+        contents.fails_to_remove = false;
+    }
+    queue.push(state_of("anna", kNoon_us + 20, 20));
+    EXPECT_TRUE(queue.finish(10s));
+    EXPECT_EQ(queue.status().stored, 21);
+    EXPECT_EQ(contents.kept_from.size(), 1U);
+    // The states are stored, so only the removal is reported, and only once.
+    EXPECT_EQ(news.text(), "cannot remove old days from fake: locked; trying again\n");
 }
 
 TEST(StoreQueue, DropsTheOldestStatesBeyondItsBuffer) {

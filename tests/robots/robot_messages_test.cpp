@@ -368,6 +368,12 @@ TEST(CameraMount, IsWhereTheImageCentreIsSeenFromTheRobot) {
     // axis down.
     EXPECT_NEAR(ahead->transform.rotation.x, 1, 1e-12);
 
+    // A pinhole model also determines the height.
+    Camera pinhole = camera;
+    pinhole.focal_px.reset();
+    pinhole.pinhole = Pinhole{400, 400, {90, 60}};
+    EXPECT_NEAR(camera_mount(pinhole)->transform.translation.z, 0.02, 1e-12);
+
     // The heading of the robot is the image y axis. The image x axis therefore points to the left
     // of the robot, and the camera is 10 mm to the left of the robot's centre.
     camera.theta_offset_rad = kRightAngle;

@@ -146,7 +146,8 @@ class Follower {
 
     /// Replaces the sheets, for example after one of them was moved in the world. The next image
     /// starts a new track. Invalidates `SheetPlace::entry` of earlier results. Throws BadArgument
-    /// if there are no sheets, or if the region of a sheet is not inside the code plane.
+    /// if there are no sheets, or if the region of a sheet is not inside the code plane, and Error
+    /// if the print map contains a page that is not among the sheets.
     void set_sheets(std::vector<SheetEntry> sheets);
 
     bool fits_space_pose() const { return options_.fits_space_pose; }

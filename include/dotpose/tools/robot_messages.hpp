@@ -147,8 +147,8 @@ class RobotMessenger {
 
 /// Returns the mount of the camera: the pose of the optical frame in `base_link`. The origin of the
 /// optical frame is above the point under the image centre. z points to the paper, and x and y are
-/// along the axes of the image. The height is 0 if `camera.focal_px` is none. Returns none if the
-/// camera file has no view of the paper.
+/// along the axes of the image. The height is 0 if the camera file has no focal length. Returns
+/// none if the camera file has no view of the paper.
 std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFrames& frames = {});
 
 }  // namespace dotpose::ros

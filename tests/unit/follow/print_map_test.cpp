@@ -167,6 +167,20 @@ TEST_F(PrintMapping, FollowsAsExactlyAsItLocates) {
     EXPECT_LT(std::sqrt(squares / (2 * kTests)), 0.02);
 }
 
+TEST_F(PrintMapping, RefusesSheetsWithoutThePageOfTheMap) {
+    FollowerOptions options;
+    options.sheets = {print_->entry()};
+    options.print_map = map_->map;
+    Follower follower(options);
+    SheetEntry other = print_->entry();
+    other.sheet.origin.x += 1000;
+    EXPECT_THAT([&] { follower.set_sheets({other}); },
+                ::testing::ThrowsMessage<Error>(::testing::HasSubstr("the print map is of page")));
+    EXPECT_EQ(follower.sheets().front().sheet.origin, print_->entry().sheet.origin);
+    follower.set_sheets({other, print_->entry()});
+    EXPECT_EQ(follower.sheets().size(), 2U);
+}
+
 TEST_F(PrintMapping, ConvergesInFewIterations) {
     const MappedPrint large({.side_mm = 60});
     // The first rounds would need hundreds of iterations without a preconditioner for deformations

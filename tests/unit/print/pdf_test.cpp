@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -230,6 +231,23 @@ TEST(pdf, stops_when_told_and_leaves_nothing) {
     EXPECT_THAT([&] { write_sheet(make_sheet(options), directory / "a.pdf", print); },
                 ThrowsMessage<Error>(HasSubstr("stopped; nothing was written")));
     EXPECT_EQ(max_rows, make_sheet(options).rows);
+    EXPECT_TRUE(directory.names().empty());
+}
+
+// qpdf requests the data of a stream again if the first request fails.
+TEST(pdf, stops_with_the_first_error) {
+    const TemporaryDirectory directory;
+    PrintOptions print;
+    int calls = 0;
+    print.progress = [&](int, int) -> bool {
+        throw std::runtime_error(fmt::format("error {}", ++calls));
+    };
+    EXPECT_THAT([&] { write_sheet(make_sheet({}), directory / "a.pdf", print); },
+                ThrowsMessage<std::runtime_error>(HasSubstr("error 1")));
+    calls = 0;
+    print.progress = [&](int, int) { return ++calls > 1; };
+    EXPECT_THAT([&] { write_sheet(make_sheet({}), directory / "a.pdf", print); },
+                ThrowsMessage<Error>(HasSubstr("stopped; nothing was written")));
     EXPECT_TRUE(directory.names().empty());
 }
 

@@ -6,7 +6,8 @@ import { element, make, show } from "../page/dom.js";
 import { listen } from "../page/gestures.js";
 import { MarkPixels } from "./mark_pixels.js";
 import { drawNames, drawPath, drawRing, drawRobots, drawScale, drawTrack, drawTrailEnds, drawTrails } from "./marks.js";
-import { Positions, trailsOf, type KnownMap, type Robot, type Setup, type Track, type Trails } from "./messages.js";
+import { Positions, trailsOf, type KnownMap, type Robot, type Setup, type Track } from "./messages.js";
+import { TrailEnds } from "./trail_ends.js";
 import { boundsOf, touches, union, Viewport, type Bounds_mm } from "./viewport.js";
 
 const kAskPeriod_ms = 150;
@@ -36,7 +37,7 @@ export class FleetMap {
     #is_fitted = true;
     #fitted: Bounds_mm | null = null;
     #positions: Positions | null = null;
-    #trails: Trails | null = null;
+    readonly #trails = new TrailEnds();
     #chosen: Robot | null = null;
     /** Stored tracks of the chosen robot, by map. */
     #tracks: readonly Track[] = [];
@@ -107,7 +108,7 @@ export class FleetMap {
         this.#map = name;
         this.#view.y_up = !name.startsWith("pattern");
         this.#positions = null;
-        this.#trails = null;
+        this.#trails.takeTrails(null);
         this.#is_ground_old = true;
         this.#maps.value = name;
         this.#fit();
@@ -241,6 +242,7 @@ export class FleetMap {
         if (positions.map === this.#map) {
             const copied = this.#copies();
             this.#positions = positions;
+            this.#trails.takePositions(positions);
             if (this.#copies() !== copied) this.#is_ground_old = true;
             this.#requestFrame();
         }
@@ -251,7 +253,7 @@ export class FleetMap {
     async #takeTrails(value: Value): Promise<void> {
         const trails = trailsOf(value as Uint8Array<ArrayBuffer>);
         if (trails.map === this.#map) {
-            this.#trails = trails;
+            this.#trails.takeTrails(trails);
             this.#is_ground_old = true;
         }
         await new Promise(requestAnimationFrame);
@@ -279,7 +281,7 @@ export class FleetMap {
             const corners = corners_mm.map(([x_mm, y_mm]) => ({ x_mm, y_mm }));
             drawPaper(context, { name, corners }, ({ x_mm, y_mm }) => [this.#view.x(x_mm), this.#view.y(y_mm)]);
         }
-        if (this.#trails !== null) drawTrails(context, this.#trails, this.#view);
+        if (this.#trails.trails !== null) drawTrails(context, this.#trails.trails, this.#view);
         for (const track of this.#tracks) if (track.map === this.#map) drawTrack(context, track, this.#view);
         if (this.#map !== "") drawScale(context, this.#view);
         if (this.#copies()) this.#marks.setGround(context, scale, this.#positions!.count);
@@ -303,7 +305,7 @@ export class FleetMap {
     }
 
     #drawAbove(context: CanvasRenderingContext2D, positions: Positions): void {
-        if (this.#trails !== null) drawTrailEnds(context, this.#trails, positions, this.#view);
+        if (this.#trails.trails !== null) drawTrailEnds(context, this.#trails, this.#view);
         if (this.#chosen?.map === this.#map) drawPath(context, this.#chosen.path_mm, this.#view);
         if (!this.#copies()) drawRobots(context, positions, this.#view);
         const i = this.#chosen === null ? -1 : positions.indexOf(this.#chosen.id);

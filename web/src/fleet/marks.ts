@@ -1,6 +1,7 @@
 // Draws robots on a map. Conditions differ in shape and colour.
 import { themed } from "../draw/surface.js";
 import { kConditions, type Condition, type Positions, type Track, type Trails } from "./messages.js";
+import type { TrailEnds } from "./trail_ends.js";
 import type { Viewport } from "./viewport.js";
 
 /** Names of the colours in the style sheet. */
@@ -115,18 +116,13 @@ export function drawTrails(context: CanvasRenderingContext2D, { trails_mm }: Tra
     context.globalAlpha = 1;
 }
 
-/** Draws the connection between the end of each trail and the robot, which is newer. */
-export function drawTrailEnds(context: CanvasRenderingContext2D, trails: Trails, positions: Positions, view: Viewport): void {
+/** Draws the way of each robot from the end of its trail to its newest position. */
+export function drawTrailEnds(context: CanvasRenderingContext2D, { trails, ends_mm }: TrailEnds, view: Viewport): void {
     context.strokeStyle = themed("--accent");
     context.globalAlpha = 0.35;
-    context.lineWidth = trails.trails_mm.size > 500 ? 1 : 2;
+    context.lineWidth = (trails?.trails_mm.size ?? 0) > 500 ? 1 : 2;
     context.beginPath();
-    for (let i = 0; i < positions.count; ++i) {
-        const trail = trails.trails_mm.get(positions.id(i));
-        if (trail === undefined || trail.length === 0) continue;
-        context.moveTo(view.x(trail[trail.length - 2]!), view.y(trail[trail.length - 1]!));
-        context.lineTo(view.x(positions.x_mm(i)), view.y(positions.y_mm(i)));
-    }
+    for (const end of ends_mm) addLine(context, end, view);
     context.stroke();
     context.globalAlpha = 1;
 }

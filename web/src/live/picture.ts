@@ -35,7 +35,8 @@ class Meter {
         return measureQuality({ data, width, height });
     }
 
-    show(quality: ImageQuality): void {
+    /** Shows the quality of a frame in which `dots` dots were found. */
+    show(quality: ImageQuality, dots: number): void {
         this.#best = Math.max(this.#best, quality.steepness);
         element("live-brightness", HTMLMeterElement).value = quality.brightness;
         element("live-contrast", HTMLMeterElement).value = quality.contrast;
@@ -45,7 +46,7 @@ class Meter {
             "live-brightness-text": `${Math.round(quality.brightness)} of 255`,
             "live-contrast-text": `${Math.round(quality.contrast)} grey levels`,
             "live-sharpness-text": `${Math.round(100 * share)} % of the best`,
-            "live-picture-advice": hintOfPicture(quality) ?? "The picture is bright and sharp enough.",
+            "live-picture-advice": hintOfPicture(quality, dots) ?? "The picture is bright and sharp enough.",
         });
     }
 
@@ -98,7 +99,7 @@ export class Picture {
         const frame = await frameOf(value as Uint8Array<ArrayBuffer>);
         this.#last?.picture.close();
         this.#last = frame;
-        this.#meter.show(this.#meter.measure(frame));
+        this.#meter.show(this.#meter.measure(frame), frame.overlay.dots.length / 2);
         this.redraw();
         this.#countRate();
         // The next frame is requested after this one is on the screen.

@@ -29,8 +29,16 @@ const kBlurred = 0.12;
  */
 const kManyDots = 1500;
 const kFewDots = 60;
+/** Pictures with fewer dots may show no sheet. */
+const kMinDots = 5;
 
 const kBlurredHint = "Sharper: hold still, let the camera focus, or move a little away.";
+const kNoDotsHint = "No dots are found: point the camera at a sheet, and let the camera focus.";
+
+/** Returns advice for a blurred picture, in which `dots` dots were found. */
+function hintOfBlur(dots: number): string {
+    return dots < kMinDots ? kNoDotsHint : kBlurredHint;
+}
 
 function hintOfLight(quality: ImageQuality): string | null {
     if (quality.brightness < kDark) return "Brighter: the picture is too dark.";
@@ -39,9 +47,12 @@ function hintOfLight(quality: ImageQuality): string | null {
     return null;
 }
 
-/** Returns advice on light and focus, or null if there is nothing to improve. */
-export function hintOfPicture(quality: ImageQuality): string | null {
-    return hintOfLight(quality) ?? (quality.sharpness < kBlurred ? kBlurredHint : null);
+/**
+ * Returns advice on light and focus, or null if there is nothing to improve. `dots` is the number of dots that were found
+ * in the picture. A picture without dots may be smooth rather than blurred.
+ */
+export function hintOfPicture(quality: ImageQuality, dots: number): string | null {
+    return hintOfLight(quality) ?? (quality.sharpness < kBlurred ? hintOfBlur(dots) : null);
 }
 
 function hintOfFailure(reading: Reading, only_sheets: boolean): string {
@@ -53,7 +64,7 @@ function hintOfFailure(reading: Reading, only_sheets: boolean): string {
         return "No known sheet has these dots. If this sheet is not in the list, allow other sheets.";
     if (fix.status === "ambiguous_code") return "Two codes explain these dots: choose the sheet's code, or show more dots.";
     if (fix.status === "not_in_code") return "These dots belong to another code: choose the sheet's code.";
-    if (quality.sharpness < kBlurred) return kBlurredHint;
+    if (quality.sharpness < kBlurred) return hintOfBlur(fix.dots_seen);
     if (fix.dots_seen > kManyDots) return "Closer: the dots are too small.";
     if (fix.dots_seen < kFewDots) return "Further away: too few dots are in view. Or no sheet is in view.";
     return "Closer and straighter: fill the picture with dots, seen from above.";

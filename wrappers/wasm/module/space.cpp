@@ -1,12 +1,6 @@
-<<<<<<< HEAD
-// The runtime of the module dotpose-space.wasm, which is the core with poses in space and print
+// Runtime functions of the module dotpose-space.wasm, which is the core with poses in space and print
 // maps. JavaScript checks all arguments except the contents of print maps. A function that fails
 // sets the message of `dotpose_space_error` and ends the instance with a trap, as in tools.cpp.
-=======
-// Runtime functions of the module dotpose-space.wasm, which is the core with poses in space. No
-// function throws, because JavaScript checks all arguments. An exception would end the instance
-// with a trap.
->>>>>>> reader
 #include <cstddef>
 #include <cstdint>
 #include <exception>

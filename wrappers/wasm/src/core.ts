@@ -3,11 +3,7 @@ import { compile, hasSimd, type Instance, type WasmSource } from "./instance.js"
 
 /**
  * Returns the given module or, by default, the module in the file beside this one: the core or, if
-<<<<<<< HEAD
- * `has_space`, the core with poses in space and print maps.
-=======
- * `has_space` is true, the core with poses in space.
->>>>>>> reader
+ * `has_space` is true, the core with poses in space and print maps.
  */
 export function coreModule(wasm?: WasmSource, has_space = false): Promise<WebAssembly.Module> {
     if (wasm !== undefined) return compile(wasm);

@@ -3,18 +3,18 @@
 
 #include <fstream>
 #include <memory>
-#include <numbers>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "../../../../tests/tilted_shot.hpp"
 #include "dotpose/tools/simulate.hpp"
 #include "dotpose_space.h"
 
 namespace dotpose {
 
-inline constexpr double kDistance_mm = 25;
-inline constexpr double kTilt_rad = 20 * std::numbers::pi / 180;
+using test::kTilt_rad;
+inline constexpr double kDistance_mm = test::kTiltedDistance_mm;
 
 struct Destroy {
     void operator()(dotpose_locator* locator) const { dotpose_locator_destroy(locator); }
@@ -25,15 +25,8 @@ using CLocator = std::unique_ptr<dotpose_locator, Destroy>;
 class SpaceInC : public testing::Test {
   protected:
     void SetUp() override {
-        dotpose::Setup setup;
-        setup.camera.width_px = 320;
-        setup.camera.height_px = 240;
-        setup.camera.working_distance_mm = kDistance_mm;
-        setup.seed = 20;
-        shot_ = draw_shot(setup, 0);
-        shot_.pose.theta_rad = 0;
-        shot_.pose.tilt_y_rad = kTilt_rad;
-        focal_px_ = kDistance_mm / shot_.camera.mm_per_px;
+        shot_ = test::tilted_shot();
+        focal_px_ = test::focal_px_of(shot_);
         image_ = render(shot_);
         ASSERT_EQ(dotpose_space_camera_init(&camera_, sizeof camera_, 320, 240, focal_px_),
                   DOTPOSE_OK);

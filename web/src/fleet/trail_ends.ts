@@ -1,0 +1,38 @@
+// The newest part of the trails: the positions of the robots since the trails arrived. Trails arrive once per second.
+import type { Positions, Trails } from "./messages.js";
+
+/** With more robots, only the newest position is kept: the ends are then too short on the screen to be seen as curves. */
+const kMaxRobots = 500;
+/** Maximum number of positions of an end, for pages that get no trails for some time. */
+const kMaxPoints = 100;
+
+export class TrailEnds {
+    #trails: Trails | null = null;
+    /** x and y alternately, from the end of the trail to the newest position, by the number of the robot. */
+    readonly #ends_mm = new Map<number, number[]>();
+
+    get trails(): Trails | null {
+        return this.#trails;
+    }
+    get ends_mm(): Iterable<readonly number[]> {
+        return this.#ends_mm.values();
+    }
+
+    /** Replaces the trails. The ends begin again at the new trails. */
+    takeTrails(trails: Trails | null): void {
+        this.#trails = trails;
+        this.#ends_mm.clear();
+        for (const [id, trail] of trails?.trails_mm ?? [])
+            if (trail.length > 0) this.#ends_mm.set(id, [trail[trail.length - 2]!, trail[trail.length - 1]!]);
+    }
+
+    takePositions(positions: Positions): void {
+        const max = this.#ends_mm.size > kMaxRobots ? 2 : kMaxPoints;
+        for (let i = 0; i < positions.count; ++i) {
+            const end = this.#ends_mm.get(positions.id(i));
+            if (end === undefined) continue;
+            if (end.length >= 2 * max) end.length = 2 * max - 2;
+            end.push(positions.x_mm(i), positions.y_mm(i));
+        }
+    }
+}
