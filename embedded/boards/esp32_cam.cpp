@@ -6,6 +6,8 @@
 // (docs/hardware.md). Packets are sent at 115200 baud on the UART that is also used for
 // programming, so logging must be disabled: CONFIG_LOG_DEFAULT_LEVEL_NONE. The main task needs a
 // larger stack: CONFIG_ESP_MAIN_TASK_STACK_SIZE=8192.
+#include <algorithm>
+
 #include <driver/uart.h>
 #include <esp_camera.h>
 #include <esp_timer.h>
@@ -19,9 +21,15 @@ namespace {
 
 constexpr int kWidth_px = board::kMaxWidth_px;
 constexpr int kHeight_px = board::kMaxHeight_px;
+/// A short, fixed exposure avoids motion blur. Try 20 to 200 sensor rows.
+constexpr int kExposure_rows = 60;
+/// Approximate number of sensor rows per frame in the mode for QVGA (CIF), with those between
+/// frames.
+constexpr int kRowsPerFrame = 336;
 
 camera_fb_t* frame = nullptr;
 const std::uint8_t* row = nullptr;
+std::int64_t middle_of_exposure_us = 0;  ///< relative to the driver's time stamp
 
 camera_config_t wiring() {
     camera_config_t config{};
@@ -44,6 +52,27 @@ camera_config_t wiring() {
     return config;
 }
 
+/// Returns the driver's time stamp, which is the start of the frame on the clock of esp_timer.
+std::int64_t stamp_us(const camera_fb_t& of) {
+    return of.timestamp.tv_sec * std::int64_t{1'000'000} + of.timestamp.tv_usec;
+}
+
+/// Returns the time from one frame to the next: the shortest of a few, because the driver may skip
+/// frames.
+std::int64_t frame_period_us() {
+    std::int64_t shortest_us = 1'000'000;
+    std::int64_t last_us = 0;
+    for (int count = 0; count < 10;) {
+        camera_fb_t* const next = esp_camera_fb_get();
+        if (next == nullptr) continue;
+        const std::int64_t now_us = stamp_us(*next);
+        esp_camera_fb_return(next);
+        if (count++ > 0) shortest_us = std::min(shortest_us, now_us - last_us);
+        last_us = now_us;
+    }
+    return shortest_us;
+}
+
 void set_up() {
     uart_driver_install(UART_NUM_0, 256, 1024, 0, nullptr, 0);
     uart_set_baudrate(UART_NUM_0, 115200);
@@ -61,9 +90,12 @@ void set_up() {
     while (esp_camera_init(&config) != ESP_OK)
         vTaskDelay(pdMS_TO_TICKS(500));
     sensor_t* sensor = esp_camera_sensor_get();
-    // A short, fixed exposure avoids motion blur. Its unit is sensor rows. Try 20 to 200.
     sensor->set_exposure_ctrl(sensor, 0);
-    sensor->set_aec_value(sensor, 60);
+    sensor->set_aec_value(sensor, kExposure_rows);
+    // The time stamp is that of VSYNC. The exposure of the middle row ends about half a frame
+    // later, when this row is read.
+    middle_of_exposure_us =
+        frame_period_us() * (kRowsPerFrame - kExposure_rows) / (2 * kRowsPerFrame);
 }
 
 }  // namespace
@@ -80,9 +112,7 @@ Frame start_frame(std::int64_t not_before_us) {
         const std::int64_t left_us = not_before_us - esp_timer_get_time();
         if (left_us > 0) vTaskDelay(pdMS_TO_TICKS(left_us / 1000));
         frame = esp_camera_fb_get();
-        // The driver's time stamp is the start of the frame, on the clock of esp_timer.
-        if (frame != nullptr)
-            time_us = frame->timestamp.tv_sec * std::int64_t{1'000'000} + frame->timestamp.tv_usec;
+        if (frame != nullptr) time_us = stamp_us(*frame) + middle_of_exposure_us;
     } while (frame == nullptr || time_us < not_before_us);
     const int left = (static_cast<int>(frame->width) - kWidth_px) / 2 / 4 * 4;
     const int top = (static_cast<int>(frame->height) - kHeight_px) / 2;
