@@ -16,6 +16,8 @@ inline constexpr int kPatchHeight_px = 160;
 /// Minimum spacing at which a patch predicts dots well enough for direct sampling. In finer grids,
 /// direct sampling is less accurate than windows.
 inline constexpr float kMinSpacingForPrediction_px = 9.5F;
+/// Factor by which a filtered image may show more dots than the image itself.
+inline constexpr float kDotsOfFilteredImage = 1.25F;
 /// Maximum number of uncertain hypotheses away from the image centre. The number is limited,
 /// because each uncertain hypothesis increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
