@@ -105,12 +105,12 @@ class PatchSearch {
         return confirm(frame_, *hypothesis, evidence_, measurement_, fix_);
     }
 
-    /// Returns true if the patch is the whole image, and shows a few dots, but too few for a certain
-    /// position, even if a filtered image shows more of them. Bits of earlier frames may add to
-    /// those of these dots.
+    /// Returns true if the patch is the whole image, and shows a few dots, but too few for a
+    /// certain position, even if a filtered image shows more of them. Bits of earlier frames may
+    /// add to those of these dots.
     bool shows_too_few_dots() const {
         const int dots = patch_.dots.count;
-        return dots >= frame_.min_dots && is_whole_image(patch_, frame_.image) &&
+        return 2 * dots >= frame_.min_dots && is_whole_image(patch_, frame_.image) &&
                !evidence_.earlier.is_in_series() &&
                are_too_few_cells(frame_, static_cast<int>(tuned::kDotsOfFilteredImage *
                                                           static_cast<float>(dots)));

@@ -174,8 +174,9 @@ inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
 /// cache. Larger parts would evict their own first rows.
 inline constexpr int kMinFetched_bytes = 32 << 10;
 inline constexpr int kMaxFetched_bytes = 1 << 20;
-/// Number of cells in the image below which the bits are also read from dots that the image border
-/// cuts. Views with more cells are certain without these dots.
+/// Number of cells in the image below which a view is small: the bits are also read from dots that
+/// the image border cuts, and the work of the sums over alternatives is limited. Views with more
+/// cells are certain without these dots, and the sums take little time there.
 inline constexpr float kMaxCellsOfSmallView = 144;
 /// Maximum distance of an intersection from the image, in spacings, at which the dot of the cell
 /// may be partly visible.
