@@ -62,7 +62,9 @@ class PatchSearch {
                 return confirmation;
             is_mirrored =
                 is_mirrored || shows_mirror_image(frame_.kernels, frame_.options.code, patch_);
-            if (measurement_.shows_too_few_cells) return Confirmation::too_few_bits;
+            if (measurement_.shows_too_few_cells)
+                return shows_too_few_dots() ? Confirmation::implausible
+                                            : Confirmation::too_few_bits;
             if (confirmation != Confirmation::implausible) break;
         }
         return search_everywhere();
@@ -105,12 +107,13 @@ class PatchSearch {
         return confirm(frame_, *hypothesis, evidence_, measurement_, fix_);
     }
 
-    /// Returns true if the patch is the whole image, and shows a few dots, but too few for a
+    /// Returns true if the patch is a whole small image, and shows a few dots, but too few for a
     /// certain position, even if a filtered image shows more of them. Bits of earlier frames may
     /// add to those of these dots.
     bool shows_too_few_dots() const {
         const int dots = patch_.dots.count;
         return 2 * dots >= frame_.min_dots && is_whole_image(patch_, frame_.image) &&
+               frame_.image.width_px * frame_.image.height_px <= tuned::kMaxPixelsOfFewDots &&
                !evidence_.earlier.is_in_series() &&
                are_too_few_cells(frame_, static_cast<int>(tuned::kDotsOfFilteredImage *
                                                           static_cast<float>(dots)));

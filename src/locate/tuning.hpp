@@ -18,6 +18,9 @@ inline constexpr int kPatchHeight_px = 160;
 inline constexpr float kMinSpacingForPrediction_px = 9.5F;
 /// Factor by which a filtered image may show more dots than the image itself.
 inline constexpr float kDotsOfFilteredImage = 1.25F;
+/// Maximum number of pixels of an image that is refused if it shows too few dots. In larger images,
+/// filtering often shows many more dots.
+inline constexpr int kMaxPixelsOfFewDots = 96 * 96;
 /// Maximum number of uncertain hypotheses away from the image centre. The number is limited,
 /// because each uncertain hypothesis increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;

@@ -79,7 +79,7 @@ TEST(LocateFirst, SettlesImagesWithTooFewCells) {
 TEST(LocateFirst, SettlesImagesWithTooFewDotsBeforeTheirGrid) {
     for (std::uint64_t i = 0; i < 20; ++i) {
         outwards(render(shot_of({11, 64, 64}, kSeed, i)));
-        EXPECT_EQ(large_workspace().fix.status, Status::not_certain) << "shot " << i;
+        EXPECT_EQ(large_workspace().fix.status, Status::too_few_dots) << "shot " << i;
         EXPECT_TRUE(large_workspace().measurement.shows_too_few_cells) << "shot " << i;
     }
 }
