@@ -1,7 +1,9 @@
 // Locates nominal frames of 188 x 120 px. bench/instructions counts the instructions of the calls.
 // Prints the number of frames, and the number of frames that the first attempt locates without a
-// given code.
+// given code. With a side and a spacing in px as arguments, locates small square frames instead,
+// and prints 1 for each located frame and 0 for each other frame.
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -26,6 +28,9 @@ extern "C" [[gnu::noinline]] void count_tracked_frame(const ImageView& image,
                                                       const Prediction& prediction,
                                                       Locator& locator) {
     locator.locate(image, prediction);
+}
+extern "C" [[gnu::noinline]] void count_small_frame(const ImageView& image, Locator& locator) {
+    locator.locate(image);
 }
 /// Locates a frame whose code is not given. count_frame_in_code locates the same frame with its
 /// code given, so the difference between the counts is due to the detection of the code.
@@ -57,9 +62,26 @@ bool compare_codes(const ImageView& image, Locator& locator) {
     return is_ordinary;
 }
 
+int count_small_frames(int side_px, double spacing_px) {
+    constexpr double kSpacing_mm = 0.508;  // spacing of the simulated sheet
+    Setup setup;
+    setup.seed = kSeed;
+    setup.camera.width_px = setup.camera.height_px = side_px;
+    setup.camera.mm_per_px = kSpacing_mm / spacing_px;
+    const auto memory = std::make_unique<SmallMemory>();
+    for (int i = 0; i < kFrames; ++i) {
+        const GreyImage image = render(draw_shot(setup, static_cast<std::uint64_t>(i)));
+        Locator locator(*memory, DeviceOptions{});
+        count_small_frame(image.view(), locator);
+        std::printf("%d\n", locator.trace().fix.status == Status::ok ? 1 : 0);
+    }
+    return 0;
+}
+
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+    if (argc == 3) return count_small_frames(std::atoi(argv[1]), std::atof(argv[2]));
     Setup setup;
     setup.seed = kSeed;
     const auto memory = std::make_unique<SmallMemory>();

@@ -35,7 +35,8 @@ enum class Confirmation : std::uint8_t {
     implausible,   ///< the plane is not plausible, or the dots or their bits contradict the
                    ///< hypothesis
     uncertain,     ///< the hypothesis is plausible, but its position is not certain
-    too_few_bits,  ///< same as `uncertain`, but all bits in view are clear and agree with the code
+    too_few_bits,  ///< same as `uncertain`, but all bits in view are clear and agree with the code,
+                   ///< or in small views nearly all bits
 };
 
 /// Memory and results of `confirm`.
@@ -49,8 +50,9 @@ struct Measurement {
     /// Number of bits that were read to decide whether the place is certain, two per dot. Not set
     /// for a hypothesis that is certain beforehand.
     int bits = 0;
-    /// True if the frame shows fewer cells than a certain position needs without known sheets.
-    /// Computed only if the result is `too_few_bits`.
+    /// True if the frame shows fewer cells than a certain position needs without known sheets, or
+    /// if its view is small, its dots are clear, and the position is not certain. Further attempts
+    /// are then skipped. Computed only if the result is `too_few_bits`.
     bool shows_too_few_cells = false;
     /// True if the result of the first attempt is `too_few_bits`. In this case, the scene did not
     /// rotate during the readout, because a rotation would misplace some of the dots.

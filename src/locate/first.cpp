@@ -62,7 +62,9 @@ class PatchSearch {
                 return confirmation;
             is_mirrored =
                 is_mirrored || shows_mirror_image(frame_.kernels, frame_.options.code, patch_);
-            if (measurement_.shows_too_few_cells) return Confirmation::too_few_bits;
+            if (measurement_.shows_too_few_cells)
+                return shows_too_few_dots() ? Confirmation::implausible
+                                            : Confirmation::too_few_bits;
             if (confirmation != Confirmation::implausible) break;
         }
         return search_everywhere();
@@ -74,6 +76,8 @@ class PatchSearch {
     /// shears and stretches moving scenes.
     Confirmation search_middle() {
         if (!find_patch_dots(frame_, patch_, fix_)) return Confirmation::implausible;
+        measurement_.shows_too_few_cells = shows_too_few_dots();
+        if (measurement_.shows_too_few_cells) return Confirmation::implausible;
         undistort(frame_.options.lens, middle_of(patch_, frame_.image), patch_.dots);
         const Confirmation square = test_grid(false);
         const bool may_be_skewed =
@@ -102,6 +106,18 @@ class PatchSearch {
             is_whole_image(patch_, frame_.image) &&
             spacing_px(hypothesis->pattern_from_image) >= tuned::kMinSpacingForPrediction_px;
         return confirm(frame_, *hypothesis, evidence_, measurement_, fix_);
+    }
+
+    /// Returns true if the patch is a whole small image, and shows a few dots, but too few for a
+    /// certain position, even if a filtered image shows more of them. Bits of earlier frames may
+    /// add to those of these dots.
+    bool shows_too_few_dots() const {
+        const int dots = patch_.dots.count;
+        return 2 * dots >= frame_.min_dots && is_whole_image(patch_, frame_.image) &&
+               frame_.image.width_px * frame_.image.height_px <= tuned::kMaxPixelsOfFewDots &&
+               !evidence_.earlier.is_in_series() &&
+               are_too_few_cells(frame_, static_cast<int>(tuned::kDotsOfFilteredImage *
+                                                          static_cast<float>(dots)));
     }
 
     /// Returns true if the patch is the whole image, and a grid with the spacing of the given grid

@@ -16,6 +16,11 @@ inline constexpr int kPatchHeight_px = 160;
 /// Minimum spacing at which a patch predicts dots well enough for direct sampling. In finer grids,
 /// direct sampling is less accurate than windows.
 inline constexpr float kMinSpacingForPrediction_px = 9.5F;
+/// Factor by which a filtered image may show more dots than the image itself.
+inline constexpr float kDotsOfFilteredImage = 1.25F;
+/// Maximum number of pixels of an image that is refused if it shows too few dots. In larger images,
+/// filtering often shows many more dots.
+inline constexpr int kMaxPixelsOfFewDots = 96 * 96;
 /// Maximum number of uncertain hypotheses away from the image centre. The number is limited,
 /// because each uncertain hypothesis increases the probability of a wrong fix.
 inline constexpr int kMaxTries = 4;
@@ -172,8 +177,9 @@ inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
 /// cache. Larger parts would evict their own first rows.
 inline constexpr int kMinFetched_bytes = 32 << 10;
 inline constexpr int kMaxFetched_bytes = 1 << 20;
-/// Number of cells in the image below which the bits are also read from dots that the image border
-/// cuts. Views with more cells are certain without these dots.
+/// Number of cells in the image below which a view is small: the bits are also read from dots that
+/// the image border cuts, and the work of the sums over alternatives is limited. Views with more
+/// cells are certain without these dots, and the sums take little time there.
 inline constexpr float kMaxCellsOfSmallView = 144;
 /// Maximum distance of an intersection from the image, in spacings, at which the dot of the cell
 /// may be partly visible.

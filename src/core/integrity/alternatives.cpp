@@ -117,8 +117,9 @@ float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
 
 float sum_of_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, int limit_log2,
                           WorkLimit& work) {
-    // Work of `RankedLines`, of the list of single alternatives, and of the expected odds.
-    constexpr std::size_t kPreparation = 90'000;
+    // Work of `RankedLines`, of the list of single alternatives, of `SetPlan`, and of the seam
+    // alternatives.
+    constexpr std::size_t kPreparation = 110'000;
     if (ratios.lines.count() <= kMaxSharedInARow || !work.spend(kPreparation)) return 1;
     const RankedLines lines(ratios);
     const auto single = sum_of_single_alternatives(kernels, lines, work);

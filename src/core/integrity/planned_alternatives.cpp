@@ -160,7 +160,7 @@ class SetSearch {
     }
 
   private:
-    static constexpr std::size_t kWorkPerSet = 500;
+    static constexpr std::size_t kWorkPerSet = 1000;
     /// A pair of places is stored as kPlaces times the index in a3 plus the index in a1.
     static constexpr std::size_t kPlaces = 256;
     static constexpr std::size_t kMaxPairs = code::kA3.size() * kPlaces;
@@ -204,7 +204,7 @@ class SetSearch {
         std::size_t matches = tabled * looked_up;
         for (std::size_t gap = 0; gap < pattern.gaps.count; ++gap)
             matches /= kSections;
-        return work_.spend(kWorkPerSet + 50 * listed + 30 * tabled + 6 * looked_up + 40 * matches);
+        return work_.spend(kWorkPerSet + 80 * listed + 36 * tabled + 9 * looked_up + 45 * matches);
     }
 
     /// Combines each pair of places in a2 and a4 with all pairs of places in a1 and a3 that make

@@ -75,7 +75,7 @@ struct SetPlan::Node {
         float matches = tabled * looked_up;
         for (int gap = 0; gap < std::min(gaps, 2); ++gap)
             matches /= kSections;
-        return 500 + 50 * (a + b + c + d) + 30 * tabled + 6 * looked_up + 40 * matches;
+        return 1000 + 80 * (a + b + c + d) + 36 * tabled + 9 * looked_up + 45 * matches;
     }
 };
 

@@ -8,9 +8,10 @@ namespace dotpose::core {
 /// Work that may still be done, in processor instructions (estimated).
 class WorkLimit {
   public:
-    /// Work of testing the places of one frame that shows a small view. All other steps of a first
-    /// attempt take up to 250,000 instructions in such a frame.
-    static constexpr std::size_t kOfFrame = 450'000;
+    /// Work of testing the places of one frame that shows a small view. docs/speed.md, "Small
+    /// frames", compares limits. All other steps of a first attempt take about 200,000
+    /// instructions.
+    static constexpr std::size_t kOfFrame = 600'000;
 
     explicit WorkLimit(std::size_t work) : left_(work) {}
     /// Subtracts `work` and returns true. Returns false if less work is left; then, nothing is

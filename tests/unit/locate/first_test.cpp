@@ -76,6 +76,27 @@ TEST(LocateFirst, SettlesImagesWithTooFewCells) {
     EXPECT_GE(settled, kFrames * 9 / 10);
 }
 
+TEST(LocateFirst, SettlesImagesWithTooFewDotsBeforeTheirGrid) {
+    for (std::uint64_t i = 0; i < 20; ++i) {
+        outwards(render(shot_of({11, 64, 64}, kSeed, i)));
+        EXPECT_EQ(large_workspace().fix.status, Status::too_few_dots) << "shot " << i;
+        EXPECT_TRUE(large_workspace().measurement.shows_too_few_cells) << "shot " << i;
+    }
+}
+
+TEST(LocateFirst, SettlesSmallViewsWithClearDots) {
+    int left = 0;
+    int settled = 0;
+    for (std::uint64_t i = 0; i < 60; ++i) {
+        const Fix fix = outwards(render(shot_of({11, 96, 96}, kSeed, i)));
+        if (fix.status == Status::ok) continue;
+        ++left;
+        settled += large_workspace().measurement.shows_too_few_cells ? 1 : 0;
+    }
+    EXPECT_GE(left, 20);
+    EXPECT_GE(settled, left * 9 / 10);
+}
+
 TEST(LocateFirst, FindsAllProfilesAtEveryTurn) {
     int found = 0;
     constexpr int kFrames = 36;
