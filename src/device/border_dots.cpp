@@ -88,7 +88,8 @@ DarkSums AtBorder::sums(int level) const {
     return sums;
 }
 
-DOTPOSE_NOINLINE void visit(int u, int v, Tracking& tracking) {
+/// Adds the dot whose darkest pixel is (u, v), if there is one.
+DOTPOSE_NOINLINE void add_if_dot(int u, int v, Tracking& tracking) {
     const AtBorder pixel(tracking, u, v);
     if (!pixel.is_darkest()) return;
     const int paper = pixel.paper();
@@ -113,7 +114,7 @@ void find_border_dots(Tracking& tracking) {
           PixelArea{0, kBorder_px, kBorder_px, end_v},
           PixelArea{width - kBorder_px, kBorder_px, width, end_v}}) {
         visit_dark_pixels(tracking, area,
-                          [&](const std::uint8_t*, int u, int v) { visit(u, v, tracking); });
+                          [&](const std::uint8_t*, int u, int v) { add_if_dot(u, v, tracking); });
     }
 }
 

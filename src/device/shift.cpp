@@ -29,8 +29,9 @@ Shifts::Shifts(const Tracking& tracking) {
     left_ = std::max(tracking.width_px / 2 - half, margin);
     right_ = std::min(tracking.width_px / 2 + half, tracking.width_px - margin);
     measure_paper(tracking);
-    // Pixels below this level count as dark.
-    cut_ = paper_ - paper_ / 4;
+    // Pixels below this level count as dark. It is close to the paper level, because the dots of
+    // blurred frames are pale.
+    cut_ = paper_ - paper_ / 16;
     add_dots(tracking);
     divide_by_dots();
 }
