@@ -357,15 +357,17 @@ TEST(C, PacesFramesAsThePacerDoes) {
     EXPECT_EQ(rests, 6);
 }
 
+/// A sheet in C and in C++.
+constexpr dotpose_region kRegionInC{DOTPOSE_CODE_ANOTO, 0, 0, 0, 1024, 2048, 393, 564};
+constexpr KnownRegion kRegion{CodeVariant::anoto, {}, {1024, 2048}, 393, 564};
+
 TEST(C, LocatesSmallViewsOfKnownSheets) {
-    const dotpose_region sheet{
-        .code = DOTPOSE_CODE_ANOTO, .first_x = 1024, .first_y = 2048, .columns = 393, .rows = 564};
-    const KnownRegion region{CodeVariant::anoto, {}, {1024, 2048}, 393, 564};
     Locator core(DeviceOptions{});
-    ASSERT_EQ(core.set_known({&region, 1}, OtherSheets::impossible), Status::ok);
+    ASSERT_EQ(core.set_known({&kRegion, 1}, OtherSheets::impossible), Status::ok);
     const CLocator locator = make_locator();
-    ASSERT_EQ(dotpose_set_known(locator.get(), &sheet, 1, DOTPOSE_OTHERS_IMPOSSIBLE), DOTPOSE_OK);
-    const GreyImage image = small_view_of(region);
+    ASSERT_EQ(dotpose_set_known(locator.get(), &kRegionInC, 1, DOTPOSE_OTHERS_IMPOSSIBLE),
+              DOTPOSE_OK);
+    const GreyImage image = small_view_of(kRegion);
     const Fix expected = core.locate(image.view());
     ASSERT_EQ(expected.status, Status::ok);
     EXPECT_TRUE(same(locate(locator.get(), image), as_c(expected)));
@@ -374,17 +376,14 @@ TEST(C, LocatesSmallViewsOfKnownSheets) {
 }
 
 TEST(C, DevicesLocateViewsOfKnownSheets) {
-    const dotpose_region sheet{
-        .code = DOTPOSE_CODE_ANOTO, .first_x = 1024, .first_y = 2048, .columns = 393, .rows = 564};
-    const KnownRegion region{CodeVariant::anoto, {}, {1024, 2048}, 393, 564};
     dotpose::DeviceMemory memory;
     dotpose::DeviceLocator core(memory);
-    ASSERT_EQ(core.set_known({&region, 1}, OtherSheets::impossible), Status::ok);
+    ASSERT_EQ(core.set_known({&kRegion, 1}, OtherSheets::impossible), Status::ok);
     alignas(8) std::array<std::byte, DOTPOSE_DEVICE_BYTES> bytes;
     dotpose_locator* locator = nullptr;
     ASSERT_EQ(dotpose_device_init(bytes.data(), bytes.size(), nullptr, &locator), DOTPOSE_OK);
-    ASSERT_EQ(dotpose_set_known(locator, &sheet, 1, DOTPOSE_OTHERS_IMPOSSIBLE), DOTPOSE_OK);
-    const GreyImage image = small_view_of(region, 96);
+    ASSERT_EQ(dotpose_set_known(locator, &kRegionInC, 1, DOTPOSE_OTHERS_IMPOSSIBLE), DOTPOSE_OK);
+    const GreyImage image = small_view_of(kRegion, 96);
     const Fix expected = core.locate(image.view());
     ASSERT_EQ(expected.status, Status::ok);
     EXPECT_EQ(expected.prior, Prior::only_sheets);

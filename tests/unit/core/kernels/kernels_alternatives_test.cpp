@@ -207,7 +207,7 @@ void visit_digits(const OwnPlaces& places, unsigned different, std::size_t line,
     if ((different >> k & 1) == 0)
         return visit_digits(places, different, line, k + 1, shift, are_equal, use);
     const code::Secondary& a = places.basis[k];
-    const int own = a.digit((places.own[k] + line) % a.length);
+    const int own = a.digit((places.own[k] + static_cast<std::uint32_t>(line)) % a.length);
     for (int digit = 0; digit < a.base; ++digit) {
         visit_digits(places, different, line, k + 1, shift + a.weight * (digit - own),
                      are_equal && digit == own, use);
