@@ -116,7 +116,7 @@ struct DeviceOptions {
 
     /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast gets the
     /// status no_contrast, or the status not_tracked if a DeviceLocator began it with a prediction.
-    /// The default of 0 accepts any readable contrast. [0 to 255]
+    /// With the default of 0, each attempt applies only its own limit (LocatorOptions). [0 to 255]
     int min_contrast = 0;
 
     /// Maximum number of dots in the pose fit of the first and the tracked attempt. If more dots

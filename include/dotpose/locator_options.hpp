@@ -43,8 +43,10 @@ struct LocatorOptions {
     /// A larger fraction indicates that the frame contains two patterns. [0 to 1]
     double max_bit_errors = 0.18;
     /// Minimum contrast between paper and dots, in grey levels. A frame with less contrast gets the
-    /// status no_contrast. The default of 0 accepts any readable contrast. A larger value is useful
-    /// for noisy cameras. [0 to 255]
+    /// status no_contrast. A larger value is useful for noisy cameras. With the default of 0, each
+    /// attempt applies only its own limit: about 12 grey levels in the first attempt
+    /// (`kMinDarkness` in core/detect/tuning.hpp), and 6 in the second attempt (locate/tuning.hpp).
+    /// [0 to 255]
     int min_contrast = 0;
     /// Minimum number of dots required to search for a grid. A position needs at least 6 x 6 dots.
     /// [0 to 2^20]
