@@ -114,11 +114,12 @@ class Cascade {
         return *doubtful;
     }
 
-    /// Returns the certain fix, or a better fix if there is one. Reads the frame again in another
-    /// code if the other code is more likely. After a first attempt, searches for a rotation if the
-    /// residuals show one. If this gives no certain fix, or if there is no rotation, makes a second
-    /// attempt if the residuals are large. If none of these attempts gives a certain fix, repeats
-    /// the original attempt to restore its results in the workspace.
+    /// Returns the certain fix of a step, or a better fix if one of the following attempts finds
+    /// it. Reads the frame again in another code if the other code is more likely. After a first
+    /// attempt, searches for a rotation if the residuals show one. If this gives no certain fix, or
+    /// if there is no rotation, makes a second attempt if the residuals are large. If none of these
+    /// attempts gives a certain fix, repeats the original attempt to restore its results in the
+    /// workspace.
     CodeReading best_of(Step step, CodeVariant code, Judgement judgement) {
         const auto remake = [&](Step other_step, CodeVariant other) {
             if (!attempts_.make(other_step, other)) return false;
@@ -157,9 +158,10 @@ class Cascade {
         return reading;
     }
 
-    /// Tests the frame in the other codes as if there were no earlier evidence. If it is certain in
-    /// one of them, adds the evidence of the frame to the reading. Without this addition, strong
-    /// earlier evidence for one code would prevent certain fixes on all sheets in other codes.
+    /// Tests the frame in the other codes as if there were no earlier evidence. If the frame has a
+    /// certain fix in another code, adds the evidence of the frame to the reading. Without this
+    /// addition, strong earlier evidence for one code would prevent certain fixes on all sheets in
+    /// other codes.
     void add_evidence_of_another_sheet(CodeReading& reading) {
         if (options_.effort == Effort::device || codes_.is_known() || codes_.are_equal()) return;
         const PossibleCodes all{CodeEvidence{}};
