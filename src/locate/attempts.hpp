@@ -36,9 +36,9 @@ class Attempts {
     /// Makes an attempt in one code. Returns true if there is a fix.
     bool make(Step step, CodeVariant code);
 
-    /// Returns the codes that are worth an attempt, most likely code first. If several codes are
-    /// possible, returns at most one code for `resampled`: the code with the fewest bit errors
-    /// among the codes in which `second` was not certain.
+    /// Returns the codes in which the step should be tried, most likely code first. If several
+    /// codes are possible, returns at most one code for `resampled`: the code with the fewest bit
+    /// errors among the codes in which `second` was not certain.
     std::span<const CodeVariant> codes_for(Step step) const;
     /// Returns true if the options allow a second attempt and the image is large enough for one.
     bool may_try_twice() const;

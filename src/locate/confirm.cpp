@@ -80,7 +80,8 @@ FloatVec fit_without_bias(const Frame& frame, const DotReader& reader, const Cel
     if (!reader.correct_neighbour_bias(hypothesis, fit) && !has_pixel_bias) return {};
     FloatPlane better = hypothesis.pattern_from_image;
     PoseFit better_fit;
-    // The fit fails if the correction has dropped too many dots at the border.
+    // The fit fails if too few dots remain after the correction has dropped dots at the image
+    // border.
     if (!fit_plane(frame.kernels, reader.dots(), static_cast<int>(half_side_px(frame.image)) + 1,
                    tuning::fit::kOutlier * fit.variance, fit.displacement, better, better_fit)) {
         return {};

@@ -82,11 +82,12 @@ class Cascade {
         return make({Step::first, Step::turning, Step::second, Step::resampled});
     }
 
-    /// Runs the steps in order until a fix is certain. Tries each step in all codes worth trying. A
-    /// step after `turning` ends early if it fails for a reason that does not depend on the code.
-    /// Skips the remaining steps if the first doubtful fix is ambiguous between codes, or if the
-    /// image shows too few cells for a certain fix. Without a certain fix, returns the first
-    /// doubtful fix. Without a doubtful fix, returns the last failure in the most likely code.
+    /// Runs the steps in order until a fix is certain. Tries each step in the codes that
+    /// `Attempts::codes_for` returns. A step after `turning` ends early if it fails for a reason
+    /// that does not depend on the code. Skips the remaining steps if the first doubtful fix is
+    /// ambiguous between codes, or if the image shows too few cells for a certain fix. Without a
+    /// certain fix, returns the first doubtful fix. Without a doubtful fix, returns the last
+    /// failure in the most likely code.
     CodeReading make(std::initializer_list<Step> steps) {
         std::optional<CodeReading> doubtful;
         std::optional<Fix> failure;

@@ -63,7 +63,7 @@ bool is_possible(const ReadoutTurn& turn, const ImageView& image) {
 /// Searches for the rotation at which the dots of a patch agree best with a grid.
 class TurnSearch {
   public:
-    /// The dots in the patch must be undistorted.
+    /// The coordinates of the dots in the patch must be undistorted (see `undistort`).
     TurnSearch(const Frame& frame, Patch& patch)
         : frame_(frame),
           view_(whole_view(patch)),

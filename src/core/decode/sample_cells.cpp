@@ -74,7 +74,6 @@ class CellSampler {
     std::array<int, 4> darkest_around_q8(const CellView& view) const;
 
   private:
-    /// Returns the image point of an intersection.
     FixedVec image_of(int i, int j) const {
         return distorted_point_q8(lens_, plane_, {i * 65536, j * 65536});
     }

@@ -16,8 +16,8 @@
 // - Double alternative: an alternative whose places differ in two sequences.
 // - Far alternative: an alternative whose places differ in two or more sequences.
 // - Near alternative: an alternative that shares at least four adjacent lines with the reading.
-// - Seam alternative: an alternative with one shift before a border between two lines, and another
-//   shift after the border.
+// - Seam alternative: an alternative with one shift before a border between two lines, and a
+//   different shift after the border.
 #pragma once
 
 #include <algorithm>

@@ -63,8 +63,8 @@ class LossesByBorder {
         const auto loss_in = [&](int line) {
             return ratios_.loss(line, offsets[static_cast<std::size_t>(line)] - shift);
         };
-        // Each loop stops when the loss on its side reaches `loss_limit_`, because more distant
-        // borders cannot matter at this shift.
+        // Each loop stops when the loss on its side reaches `loss_limit_`, because at this shift,
+        // the odds for more distant borders are negligible.
         int lost = 0;
         for (int line = 0; line < count && lost < loss_limit_; ++line) {
             update_min(before_[static_cast<std::size_t>(line)], lost);

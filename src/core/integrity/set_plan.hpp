@@ -50,7 +50,9 @@ class SetPlan {
     int required_loss_;
     std::size_t compared_count_ = 0;
     std::array<std::uint8_t, kMaxLines> compared_;  ///< lines with a positive minimum loss
-    std::array<float, kMaxLines> mean_odds_;        ///< see `mean_odds_of`; by index in `compared_`
+    /// For each compared line, the summed odds of all other rolls, divided by kChanges. Indexed as
+    /// `compared_`.
+    std::array<float, kMaxLines> mean_odds_;
     std::size_t count_ = 0;
     std::array<PlannedSet, kMaxSets> sets_;
     bool is_complete_ = true;

@@ -35,8 +35,8 @@ struct Losses {
         }
     }
 
-    /// Returns the step losses, in parts of the loss limit. A place that loses
-    /// `StepLosses::kLimitParts` parts loses at least the limit.
+    /// Returns the step losses as multiples of a part of the loss limit. A place whose step losses
+    /// add up to at least `StepLosses::kLimitParts` parts loses at least the limit.
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
