@@ -132,8 +132,8 @@ Status decode(CodeVariant code, const SymbolWindow& window, Place& place) noexce
 
 /// Computes the position of the first of 6 to 32 adjacent columns (or rows) from their rolls. Each
 /// roll must be in [0, 63). The rolls may be indices of the bits in any row (or column) instead of
-/// row 0, but all of them must refer to the same one. Errors: bad_window if the number of rolls is
-/// not from 6 to 32; not_in_code and ambiguous as for `decode`.
+/// row 0, but all indices must refer to the same row (or column). Errors: bad_window if the number
+/// of rolls is not from 6 to 32; not_in_code and ambiguous in the cases listed for `decode`.
 Status position_from_rolls(CodeVariant code, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 

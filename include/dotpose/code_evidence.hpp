@@ -32,8 +32,8 @@ namespace dotpose {
 /// the weight of a single frame. Each frame alone would divide the odds of a variant by a factor:
 /// the likelihood of the frame's bits in their likeliest variant, divided by their likelihood in
 /// this variant. All consecutive frames at one place together divide the odds by the mean of their
-/// factors. A frame is at the same place as the frames before it if it is less than 64 cells from
-/// the first of them, along both axes.
+/// factors. A frame counts as being at the same place as the preceding frames if it is less than 64
+/// cells from the first of these frames along both axes.
 class CodeEvidence {
   public:
     /// log2 of the likelihood or of the odds of each code variant, in units of 2^-8.
@@ -41,8 +41,8 @@ class CodeEvidence {
 
     /// Maximum log2 of the ratio between the odds of the likeliest code variant and the odds of any
     /// other code variant. The maximum applies to each frame, and to all frames together. Without
-    /// it, the evidence from many frames of one sheet could not be outweighed by the first frames
-    /// of a new sheet in another code variant.
+    /// this limit, the evidence from many frames of one sheet could not be outweighed by the first
+    /// frames of a new sheet in another code variant.
     static constexpr std::int32_t kMax_log2 = 40;
     /// Maximum log2 of the factor by which all consecutive frames at one place together divide the
     /// odds of a variant.

@@ -132,7 +132,7 @@ struct DeviceOptions {
 
     /// If true, the first and the tracked attempt store dots, grid and bits in the trace. Drawing
     /// and calibration need these results, but storing them takes time. The other attempts always
-    /// store them.
+    /// store these results.
     bool show_stages = false;
 
     /// Reference point: the image point whose pose is reported. Relative to the image centre, in

@@ -26,8 +26,8 @@ struct KnownRegion {
 };
 
 /// Minimum number of dots required to search for a grid if regions are known. If `min_dots` in the
-/// options is lower, it is used instead. The smallest views with a certain position have about 25
-/// dots.
+/// options is lower, that value is used instead. The smallest views with a certain position have
+/// about 25 dots.
 inline constexpr int kMinKnownDots = 16;
 
 /// Specifies whether sheets other than the known sheets may be in view.

@@ -161,7 +161,7 @@ class Locator : public RowLocator {
                                    const CodeEvidence& evidence);
 
     /// Locates an image whose code variant is not known, after the camera has moved by
-    /// `since_last`. Uses the motion as `locate` does.
+    /// `since_last`. Uses the motion in the same way as `locate`.
     CodeReading locate_in_any_code(const ImageView& image, const MeasuredMotion& since_last,
                                    const CodeEvidence& evidence);
 
@@ -183,9 +183,9 @@ class Locator : public RowLocator {
     /// Appends the next row of `width_px` pixels. Ignores rows beyond the height of the image. Also
     /// ignores all rows if `begin` was not called.
     void push_row(const std::uint8_t* pixels);
-    /// Locates the image whose rows were pushed, as `locate` does. Missing rows count as white
-    /// paper. If `begin` failed, the fix has the status of `begin`. If `begin` was not called, the
-    /// status is bad_argument.
+    /// Locates the image whose rows were pushed, in the same way as `locate`. Missing rows count as
+    /// white paper. If `begin` failed, the fix has the status of `begin`. If `begin` was not
+    /// called, the status is bad_argument.
     Fix finish();
 
   private:
@@ -224,11 +224,11 @@ class DeviceLocator : public RowLocator {
     /// bad_argument.
     explicit DeviceLocator(AnyDeviceMemory& memory, const DeviceOptions& options = {});
 
-    /// Sets the known regions, as Locator::set_known does. `locate` and `finish` then search for
-    /// the position in the regions first, and in the rest of the plane only if other sheets are
-    /// possible. They ignore regions in a code other than `options().code`. The search needs no
-    /// additional memory. Its time is proportional to the total number of columns and rows of all
-    /// regions, so there should be few regions.
+    /// Sets the known regions (see Locator::set_known). `locate` and `finish` then search for the
+    /// position in the regions first, and in the rest of the plane only if other sheets are
+    /// possible. `locate` and `finish` ignore regions in a code other than `options().code`. The
+    /// search needs no additional memory. The time of the search is proportional to the total
+    /// number of columns and rows of all regions, so there should be few regions.
     Status set_known(std::span<const KnownRegion> regions,
                      OtherSheets others = OtherSheets::possible);
 

@@ -74,7 +74,8 @@ struct TrackOptions {
     /// larger acceleration is accepted only after further sightings have confirmed it.
     float max_acceleration_mm_s2 = 10'000;
     float max_angular_acceleration_rad_s2 = 200;
-    /// Maximum speed. It limits the distance that the robot can have moved since its last sighting.
+    /// Maximum speed. The maximum speed limits the distance that the robot can have moved since its
+    /// last sighting.
     float max_speed_mm_s = 1000;
     float max_turn_rad_s = 20;
     /// Tolerance of the gate, in standard deviations of the innovation (the difference between the

@@ -62,9 +62,10 @@ struct AxisPlace {
 /// Returns the place of the position `target`, which is outside [0, L), where L =
 /// kPositionsPerAxis. Not inlined, because the function is rarely called.
 [[gnu::noinline]] AxisPlace wrapped(CodeVariant code, AxisPlace place, std::int64_t target) {
-    // Along x, the rolls of columns p and p + L differ by roll(L), so the column section changes by
-    // roll(L). Each row continues L cells farther along the main sequence, so the row section
-    // changes by L modulo 63. Along y, the same holds with columns and rows exchanged.
+    // For a move by L along x, the rolls of columns p and p + L differ by roll(L), so the column
+    // section changes by roll(L). The move also advances L cells along the main sequence in each
+    // row, so the row section changes by L modulo 63. The same applies to y with columns and rows
+    // exchanged.
     const bool is_before = target < 0;
     const auto shifted = [&](int section, int by) {
         const int sum = section + (is_before ? kSections - by : by);

@@ -31,8 +31,8 @@ void follow_rolls(CodeVariant code, std::uint32_t position, int first_roll,
 void follow_rolls(CodeVariant code, std::uint32_t position, int section, std::uint32_t cross,
                   std::span<std::uint8_t> rolls);
 
-/// Computes the rolls of consecutive lines in section 0 on demand. `follow_rolls` computes all of
-/// them, which takes longer if few are needed.
+/// Computes the rolls of consecutive lines in section 0 on demand. `follow_rolls` computes the
+/// rolls of all lines, which takes longer if few rolls are needed.
 class RollsAhead {
   public:
     RollsAhead(CodeVariant code, std::uint32_t position);

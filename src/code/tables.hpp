@@ -41,7 +41,7 @@ constexpr std::uint32_t modulo_sections(std::uint32_t n) {
 /// A secondary sequence with its tables. The type is the same for all lengths and bases.
 struct Secondary {
     /// Contribution to the roll, by place: the sum of all weighted digits before the place, modulo
-    /// 63. Has kLinesAhead + kVectorAhead entries beyond the end.
+    /// 63. The table contains kLinesAhead + kVectorAhead entries beyond the end of the sequence.
     const std::uint8_t* rolls;
     /// First place of each 5-digit string, or kAbsent if the string does not occur. The index is
     /// the `key` of the string.
@@ -67,8 +67,8 @@ struct Secondary {
             rest -= length;
         return rest;
     }
-    /// Returns the digit at a place below `length`. The digits have no table of their own, to save
-    /// flash memory on devices.
+    /// Returns the digit at a place below `length`. Computes the digit from `rolls`, because a
+    /// separate table would need flash memory on devices.
     constexpr std::uint8_t digit(std::uint32_t place) const {
         const int difference = rolls[place + 1] - rolls[place];
         const int weighted = difference < 0 ? difference + kSections : difference;

@@ -1,6 +1,6 @@
 // Unshared lines between codes: how well a position in one code can be distinguished from all
 // positions in another code. The tables contain the minimum number of lines that differ, as defined
-// in unshared_lines.hpp. They were generated, and tests/unit/code/unshared_codes_test.cpp
+// in unshared_lines.hpp. The tables are generated. tests/unit/code/unshared_codes_test.cpp
 // recomputes them.
 #pragma once
 

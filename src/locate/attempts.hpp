@@ -24,7 +24,7 @@ enum class Step : std::uint8_t { first, turning, second, resampled, device };
 /// certain position in this code. Another code may succeed.
 bool leaves_code_open(Status status);
 
-/// Makes attempts at one frame. The workspace contains the results of the last attempt.
+/// Makes attempts at one frame. The results of the last attempt are in the workspace.
 class Attempts {
   public:
     Attempts(const ImageView& image, const DeviceOptions& options, const PossibleCodes& codes,
@@ -36,23 +36,23 @@ class Attempts {
     /// Makes an attempt in one code. Returns true if there is a fix.
     bool make(Step step, CodeVariant code);
 
-    /// Returns the codes that are worth an attempt, most likely code first. If several codes are
-    /// possible, returns at most one code for `resampled`: the code with the fewest bit errors
-    /// among the codes in which `second` was not certain.
+    /// Returns the codes in which the step should be tried, most likely code first. If several
+    /// codes are possible, returns at most one code for `resampled`: the code with the fewest bit
+    /// errors among the codes in which `second` was not certain.
     std::span<const CodeVariant> codes_for(Step step) const;
     /// Returns true if the options allow a second attempt and the image is large enough for one.
     bool may_try_twice() const;
 
-    /// Returns how certain the fix of the last attempt is, and whether another code is more likely.
-    /// The attempt was made in the code `read`.
+    /// Returns the certainty of the fix of the last attempt, and the odds of the other codes. The
+    /// attempt was made in the code `read`.
     Judgement judge(CodeVariant read) const;
     /// Returns true if a rotation of the scene during the readout may explain the residuals of the
     /// fix. A search for this rotation (`Step::turning`) may then give a better fix.
     bool shows_turn();
     /// Returns true if the last attempt found too few cells for a certain fix in any code.
     bool shows_too_few_cells() const { return w_.measurement.shows_too_few_cells; }
-    /// Returns true if the last first attempt measured only clear dots that agree with the code,
-    /// but too few of them for a certain position.
+    /// Returns true if, in the most recent first attempt, all measured dots were clear and agreed
+    /// with the code, but were too few for a certain position.
     bool has_clear_bits() const { return w_.measurement.has_clear_bits; }
 
   private:

@@ -35,10 +35,10 @@ CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int3
 CodeEvidence::LogOdds CodeEvidence::sum() const {
     LogOdds sum = before_log2_q8_;
     if (frames_here_ == 0) return sum;
-    // The factor of a code in a frame is the ratio of the odds of the likeliest code in the frame
-    // to the odds of this code. If the code is the true code, its mean factor at one place is m or
-    // more with a probability of at most 1/m, by Markov's inequality. This also holds if the frames
-    // are not independent. The odds of the code are therefore multiplied by 1/m.
+    // For each code and frame, the factor is the odds of the likeliest code in the frame divided by
+    // the odds of the given code. By Markov's inequality, the mean factor of the true code at one
+    // place is at least m with a probability of at most 1/m, even if the frames are not
+    // independent. The odds of a code with the mean factor m are therefore multiplied by 1/m.
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const float mean = factors_here_[i] / static_cast<float>(frames_here_);
         sum[i] +=

@@ -27,7 +27,8 @@ float half_side_px(const ImageView& image) {
 }
 
 /// Returns true if all of these conditions hold:
-/// - At least `Frame::min_dots` dots were read, and at least half of the seen dots were read.
+/// - The number of dots that were read is at least `Frame::min_dots` and at least half of the
+///   number of dots that were seen.
 /// - Dots were seen in at least a quarter of the listed cells, or the view is partial.
 /// - On each axis, at most max_bit_error_q8 / 256 of the bits contradict the code.
 bool are_plausible(const BitsRead& bits, const MeasuredDots& dots, const Frame& frame,
@@ -40,8 +41,9 @@ bool are_plausible(const BitsRead& bits, const MeasuredDots& dots, const Frame& 
            !exceeds_error_rate(bits.wrong_x) && !exceeds_error_rate(bits.wrong_y);
 }
 
-/// Returns true if the bits need no second reading: at least kClear_percent of the dots seen were
-/// read, and of n dots read, at most max(kMaxWrong, n / kDotsPerWrong) bits are wrong.
+/// Returns true if the bits need no second reading. This is the case if at least kClear_percent of
+/// the dots that were seen were also read, and if at most max(kMaxWrong, n / kDotsPerWrong) bits of
+/// the n dots that were read are wrong.
 bool is_clean(const BitsRead& bits) {
     return 100 * bits.read >= tuned::kClear_percent * bits.seen &&
            bits.wrong_x + bits.wrong_y <=
@@ -68,9 +70,9 @@ bool fit_to_dots(const Frame& frame, const MeasuredDots& dots, const BitsRead& b
                      hypothesis.displacement, hypothesis.pattern_from_image, fit);
 }
 
-/// Corrects pixel bias and neighbour bias if they matter, and then fits the plane again. Returns
-/// the variance that the remaining pixel bias adds to the mean dot centre, along u and v, in px^2.
-/// Returns 0 if nothing was corrected, or if the new fit failed.
+/// Corrects the pixel bias and the neighbour bias if they are significant, and then fits the plane
+/// again. Returns the variance that the remaining pixel bias adds to the mean dot centre, along u
+/// and v, in px^2. Returns 0 if nothing was corrected, or if the new fit failed.
 FloatVec fit_without_bias(const Frame& frame, const DotReader& reader, const CellsInView& view,
                           Hypothesis& hypothesis, PoseFit& fit) {
     FloatVec remaining_px2;
@@ -78,7 +80,8 @@ FloatVec fit_without_bias(const Frame& frame, const DotReader& reader, const Cel
     if (!reader.correct_neighbour_bias(hypothesis, fit) && !has_pixel_bias) return {};
     FloatPlane better = hypothesis.pattern_from_image;
     PoseFit better_fit;
-    // The fit fails if the correction has dropped too many dots at the border.
+    // The fit fails if too few dots remain after the correction has dropped dots at the image
+    // border.
     if (!fit_plane(frame.kernels, reader.dots(), static_cast<int>(half_side_px(frame.image)) + 1,
                    tuning::fit::kOutlier * fit.variance, fit.displacement, better, better_fit)) {
         return {};
@@ -122,7 +125,7 @@ void write_results(const Frame& frame, const Hypothesis& hypothesis, const BitsR
     fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536);
     write_pose(plane, reference, frame.options.code, hypothesis.place, fix);
     estimate_covariance(fit, plane, reference, fix);
-    // Moves the centre of the plane to the image centre, because predictions need such a plane.
+    // Makes the plane relative to the image centre, because predictions require this.
     if (!(from_q8 == FixedVec{}))
         fix.pattern_from_image = fixed_plane(centred_plane(hypothesis), middle_q8);
     fix.status = Status::ok;
@@ -251,7 +254,8 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
         }
         if (decides && !hypothesis.is_certain) {
             measurement.bits = 2 * bits.read;
-            // In small views, the remaining dots hardly matter, and further attempts take long.
+            // In small views, clean bits are sufficient, because the remaining dots have little
+            // influence and further attempts take long.
             const bool are_clear = hypothesis.is_small_view && !hypothesis.reads_cut_dots
                                        ? is_clean(bits)
                                        : bits.read == bits.seen && bits.wrong_x + bits.wrong_y == 0;
@@ -272,8 +276,8 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
     }
 }
 
-/// Returns true if the image contains so few cells that their bits may suffice only together with
-/// those of dots cut by the image border, and that the sums over alternatives take long.
+/// Returns true if the image contains few cells. In such an image, the position may be certain only
+/// if dots cut by the image border are also read, and the sums over alternatives take long.
 bool is_small_view(const Frame& frame, const Hypothesis& hypothesis) {
     const float spacing = spacing_px(hypothesis.pattern_from_image);
     const auto pixels = static_cast<float>(frame.image.width_px * frame.image.height_px);

@@ -48,14 +48,15 @@ struct Measurement {
     PlaneFromImage pattern_from_image;  ///< plane of `hypothesis`, in fixed point
     TurnFit turn;                       ///< fitted rotation, if `Frame::removed_turn` is not null
     /// Number of bits that were read to decide whether the place is certain, two per dot. Not set
-    /// for a hypothesis that is certain beforehand.
+    /// if `Hypothesis::is_certain` is true.
     int bits = 0;
     /// True if the frame shows fewer cells than a certain position needs without known sheets, or
     /// if its view is small, its dots are clear, and the position is not certain. Further attempts
     /// are then skipped. Computed only if the result is `too_few_bits`.
     bool shows_too_few_cells = false;
     /// True if the result of the first attempt is `too_few_bits`. In this case, the scene did not
-    /// rotate during the readout, because a rotation would misplace some of the dots.
+    /// rotate during the readout, because some dots would otherwise be away from their predicted
+    /// places.
     bool has_clear_bits = false;
 };
 
@@ -67,9 +68,9 @@ struct Measurement {
 Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvidence& evidence,
                      Measurement& measurement, Fix& fix);
 
-/// Returns true if a position cannot be certain from `count` cells, even if all their bits are
-/// clear and agree with the code. So few bits may agree with a position by chance. Returns false if
-/// sheets are known, because they need fewer cells.
+/// Returns true if `count` cells are too few for a certain position even if all their bits are
+/// clear and agree with the code, because so few bits may agree with a position by chance. Returns
+/// false if sheets are known, because a place on a known sheet can be certain with fewer cells.
 bool are_too_few_cells(const Frame& frame, int count);
 
 /// Returns true if the residual of a fix is at least kRough_px and at least kRough spacings. A

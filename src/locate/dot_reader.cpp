@@ -90,7 +90,8 @@ bool can_sample_directly(const Hypothesis& hypothesis) {
 
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px) {
     if (variance_px2 > tuned::kMaxVariance_px2) return false;
-    // Change of the phase from one dot to the next that adds up to kDriftInView_px across the view.
+    // Change of the phase from one dot to the next, in px, if the phase changes by kDriftInView_px
+    // across the view.
     const float drift_px = tuned::kDriftInView_px * spacing_px(plane) / static_cast<float>(side_px);
     return has_common_phase(plane, drift_px);
 }
@@ -163,9 +164,8 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
 
 bool DotReader::correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                                    const PoseFit& fit, FloatVec& remaining_px2) const {
-    // The bias averages out if the dots have different sub-pixel phases. Directly sampled dots have
-    // different phases (see `can_sample_directly`), and so do dots seen through a lens with
-    // distortion.
+    // The bias averages out if the dots have different sub-pixel phases. The phases differ if dots
+    // are sampled directly (see `can_sample_directly`) or if the lens has distortion.
     if (hypothesis.is_exact || view.lens.k != 0) return false;
     const float variance_px2 =
         fit.variance * spacing_px_ * spacing_px_ / static_cast<float>(fit.dots);

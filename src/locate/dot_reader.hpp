@@ -13,9 +13,9 @@ namespace dotpose::core {
 /// windows.
 bool can_sample_directly(const Hypothesis& hypothesis);
 
-/// Returns true if the pixel bias matters: all dots of a row or column have nearly the same
-/// sub-pixel phase, and other errors are small. `variance_px2` is the variance of the mean centre
-/// along one axis. `side_px` is the longer image side.
+/// Returns true if the pixel bias is significant. This is the case if all dots of a row or column
+/// have nearly the same sub-pixel phase, and other errors are small. `variance_px2` is the variance
+/// of the mean centre along one axis. `side_px` is the longer image side.
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px);
 
 /// Reads and measures the listed dots. If the hypothesis is exact, samples the four places of each
@@ -39,10 +39,11 @@ class DotReader {
     /// found. If fewer than kMinFound dots are found, only sets `right` to 0.
     void find_centres(const CellsInView& view, Hypothesis& hypothesis, bool is_last,
                       BitsRead& bits) const;
-    /// Measures the centres again and subtracts the pixel bias, if the bias matters (see
-    /// `may_be_biased`). Before the call, the plane must be fitted to the current centres. After
-    /// the call, it must be fitted again. Sets `remaining_px2` to the variance of the mean centre
-    /// due to the remaining bias. Returns false without any change if the bias does not matter.
+    /// Measures the centres again and subtracts the pixel bias if the bias is significant (see
+    /// `may_be_biased`). The plane must be fitted to the current centres before the call, and to
+    /// the corrected centres after the call. Sets `remaining_px2` to the variance of the mean
+    /// centre due to the remaining bias. Returns false without any change if the bias is not
+    /// significant.
     bool correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                             const PoseFit& fit, FloatVec& remaining_px2) const;
     /// Corrects the bias of facing dots, which are adjacent dots displaced towards each other (see

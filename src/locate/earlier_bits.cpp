@@ -58,8 +58,8 @@ void count_overlap(const BitLines& a, const BitLines& b, int across, int along, 
     }
 }
 
-/// Returns log2 of a likelihood ratio: the likelihood of the overlap if both blocks show the same
-/// cells, divided by its likelihood if they show unrelated parts of the pattern.
+/// Returns log2 of the likelihood ratio of two assumptions, given the bits of the overlap: that
+/// both blocks show the same cells, and that the blocks show unrelated parts of the pattern.
 float log2_ratio(const Overlap& overlap) {
     return tuned::kEqualBit_log2 * static_cast<float>(overlap.shared - overlap.different) +
            tuned::kDifferentBit_log2 * static_cast<float>(overlap.different);
@@ -129,15 +129,15 @@ struct Match {
         shift = at_shift;
     }
     /// Returns an upper bound on the probability of a wrong match: the summed weight of all other
-    /// matches and of a blunder, relative to the best weight. In a blunder, the measured motion is
-    /// wrong by far more than its standard deviation. `blunder_log2` is log2 of the weight of a
+    /// matches and of a blunder, relative to the best weight. A blunder is a measured motion whose
+    /// error is far larger than its standard deviation. `blunder_log2` is log2 of the weight of a
     /// blunder.
     float p_wrong(float blunder_log2) const {
         return std::max(sum - 1, 0.0F) + power_of_two(std::min(blunder_log2 - best_log2, 99.0F));
     }
 };
 
-/// Returns log2 of a normal density, relative to its maximum.
+/// Returns log2 of the ratio of a normal density at `distance` from its mean to its maximum.
 float normal_log2(float distance, float variance) {
     return -0.5F * std::numbers::log2e_v<float> * distance * distance / variance;
 }
@@ -223,7 +223,8 @@ std::optional<JoinedBits> EarlierBits::join(const BitBlock& block,
         const float off_rad = std::remainder(
             angle_of(grid_from_image) - angle_of(before) - motion_.turn_rad, 2 * kPi);
         if (std::abs(off_rad) > tuned::kReach_sigmas * std::sqrt(variance_rad2)) continue;
-        // Point of the earlier image that showed the paper which is now at the reference point.
+        // Point of the earlier image that shows the same point of the paper as the reference point
+        // of the current image.
         const float scale = spacing_px(before) / spacing_mm_;
         const FloatVec reached{reference_px_.x + scale * motion_.right_mm,
                                reference_px_.y + scale * motion_.down_mm};

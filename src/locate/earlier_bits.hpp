@@ -40,8 +40,8 @@ class EarlierBits {
     void end_frame();
 
     /// Stores a block of bits of the current frame. Must be called between `begin_frame` and
-    /// `end_frame`. Only one block is kept: the last block with a confirmed place or, if no place
-    /// is confirmed, the block with the most bits.
+    /// `end_frame`. If several blocks are stored, only one is kept: the last block with a confirmed
+    /// place or, if no place is confirmed, the block with the most bits.
     void note(const BitBlock& block, const FloatPlane& grid_from_image, bool is_confirmed);
 
     /// True while an attempt reads the current frame together with earlier frames.

@@ -24,7 +24,7 @@ constexpr int kPatchHeight_px = tuned::kPatchHeight_px;
 
 /// Returns true if the dots of a patch around the image centre show the mirrored code. A grid
 /// counts as mirrored only if adjacent lines without wrong bits determine a place
-/// (`find_place_exactly`). Leaves the dots of the patch mirrored.
+/// (`find_place_exactly`). After the call, the x coordinates of the dots in the patch are negated.
 bool shows_mirror_image(const Kernels& kernels, CodeVariant code, Patch& patch) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(patch.dots.count); ++i)
         patch.dots.x[i] = -patch.dots.x[i];
@@ -56,8 +56,8 @@ class PatchSearch {
             if (!place_patch_in_middle(frame_.image, scale, patch_)) break;
             const Confirmation confirmation = search_middle();
             if (confirmation == Confirmation::ok) return confirmation;
-            // If the patch covers the whole image, the search ends, because other patches contain
-            // the same dots and give the same bits.
+            // Ends the search if the patch covers the whole image, because every other patch
+            // contains only dots of this patch.
             if (confirmation == Confirmation::too_few_bits && is_whole_image(patch_, frame_.image))
                 return confirmation;
             is_mirrored =
@@ -122,7 +122,7 @@ class PatchSearch {
 
     /// Returns true if the patch is the whole image, and a grid with the spacing of the given grid
     /// has too few cells in this image for a certain position. Returns false if the frame is part
-    /// of a series, because the bits of earlier frames may then be added.
+    /// of a series, because the bits of earlier frames may make the position certain.
     bool shows_too_few_cells(const FloatPlane& grid_from_image) const {
         if (!is_whole_image(patch_, frame_.image) || evidence_.earlier.is_in_series()) return false;
         const float border = 2 * tuning::confirm::kBeyondBorder;
@@ -132,7 +132,8 @@ class PatchSearch {
         return are_too_few_cells(frame_, static_cast<int>(std::min(cells, 1e6F)));
     }
 
-    /// Searches the whole image. If the search fails, repeats it for pale dots among graphics.
+    /// Searches the whole image. If the search fails, repeats it with thresholds for pale dots
+    /// among graphics.
     Confirmation search_everywhere() {
         tries_left_ = tuned::kMaxTries;
         for (const DotTiles tiles : {DotTiles::median, DotTiles::pale}) {
@@ -215,9 +216,9 @@ class PatchSearch {
     Patch& patch_;
     Measurement& measurement_;
     Fix& fix_;
-    /// Number of hypotheses that may still be tested and turn out to be uncertain. Each of them
-    /// increases the probability of a wrong fix, because it is a further chance of agreeing with
-    /// the bits by accident.
+    /// Number of uncertain hypotheses that the search may still test. The number is limited,
+    /// because each further hypothesis may agree with the bits by chance, and thus increases the
+    /// probability of a wrong fix.
     int tries_left_ = 0;
     DotTiles dot_tiles_ = DotTiles::median;  ///< for `find_hypothesis`
 };

@@ -10,7 +10,7 @@
 
 namespace dotpose::core {
 
-/// An image, and everything that was known about it before an attempt.
+/// The image and the other inputs of an attempt.
 struct Frame {
     const Kernels& kernels;
     ImageView image;

@@ -28,15 +28,15 @@ Extent extent(float min, float max, int room) {
 void limit_to_image(const Frame& frame, const Hypothesis& hypothesis, CellsInView& view) {
     const float spacing = spacing_px(hypothesis.pattern_from_image);
     if (hypothesis.reads_cut_dots) {
-        // The list must not depend on the expected dots. Otherwise, it would favour cells that
-        // agree with the hypothesis.
+        // Limits the intersections instead of the expected dots. Otherwise, the list would favour
+        // cells whose bits agree with the hypothesis.
         view.limits_intersections = true;
         view.margin_px = -tuning::confirm::kBeyondBorder * spacing;
         return;
     }
     // The margin excludes dots that touch the image border, because their images are incomplete.
     view.margin_px = margin_of_whole_dots_px(spacing);
-    // Small views of known sheets also need the dots closer to the border.
+    // In small views of known sheets, the dots closer to the border are needed as well.
     const auto shorter_px =
         static_cast<float>(std::min(frame.image.width_px, frame.image.height_px));
     if (frame.known.any() && shorter_px < tuning::known::kSmallView * spacing)

@@ -23,8 +23,8 @@ struct Hypothesis {
     /// True if each dot is closer to its predicted place than to the other places of its cell. Such
     /// dots are sampled directly.
     bool is_exact = false;
-    /// True if the bits are also read from dots that the image border cuts. Such dots do not count
-    /// for the pose.
+    /// True if the bits are also read from dots that the image border cuts. Such dots are not used
+    /// to fit the pose.
     bool reads_cut_dots = false;
     /// True if the pattern may cover only a part of the image, around `from_centre`.
     bool is_partial_view = false;
@@ -34,7 +34,7 @@ struct Hypothesis {
     /// Contrast of a typical dot after a 1-2-1 filter along both axes, in 1/256 of the paper level.
     int depth_q8 = 0;
     /// Mass of a typical dot: the darkness beyond the threshold, relative to the paper level,
-    /// summed over the pixels of the dot. 0 if unknown.
+    /// summed over the pixels of the dot. The value is 0 if the mass is unknown.
     float typical_mass = 0;
 };
 
@@ -56,8 +56,8 @@ struct RollMemory {
     std::span<std::uint8_t> rows;
 };
 
-/// Threshold for dark pixels in a window, in 1/256 of the contrast of a typical dot. Pixels with
-/// more contrast belong to a dot.
+/// Threshold for the contrast of a pixel in a window, in 1/256 of the contrast of a typical dot.
+/// Pixels above the threshold count as part of a dot.
 inline constexpr int kCutOfDepth_q8 = 160;
 
 /// Returns the minimum distance of a dot centre to the image border at which the border does not

@@ -82,11 +82,12 @@ class Cascade {
         return make({Step::first, Step::turning, Step::second, Step::resampled});
     }
 
-    /// Runs the steps in order until a fix is certain. Tries each step in all codes worth trying. A
-    /// step after `turning` ends early if it fails for a reason that does not depend on the code.
-    /// Skips the remaining steps if the first doubtful fix is ambiguous between codes, or if the
-    /// image shows too few cells for a certain fix. Without a certain fix, returns the first
-    /// doubtful fix. Without a doubtful fix, returns the last failure in the most likely code.
+    /// Runs the steps in order until a fix is certain. Tries each step in the codes that
+    /// `Attempts::codes_for` returns. A step after `turning` ends early if it fails for a reason
+    /// that does not depend on the code. Skips the remaining steps if the first doubtful fix is
+    /// ambiguous between codes, or if the image shows too few cells for a certain fix. Without a
+    /// certain fix, returns the first doubtful fix. Without a doubtful fix, returns the last
+    /// failure in the most likely code.
     CodeReading make(std::initializer_list<Step> steps) {
         std::optional<CodeReading> doubtful;
         std::optional<Fix> failure;
@@ -114,11 +115,12 @@ class Cascade {
         return *doubtful;
     }
 
-    /// Returns the certain fix, or a better fix if there is one. Reads the frame again in another
-    /// code if the other code is more likely. After a first attempt, searches for a rotation if the
-    /// residuals show one. If this gives no certain fix, or if there is no rotation, makes a second
-    /// attempt if the residuals are large. If none of these attempts gives a certain fix, repeats
-    /// the original attempt to restore its results in the workspace.
+    /// Returns the certain fix of a step, or a better fix if one of the following attempts finds
+    /// it. Reads the frame again in another code if the other code is more likely. After a first
+    /// attempt, searches for a rotation if the residuals show one. If this gives no certain fix, or
+    /// if there is no rotation, makes a second attempt if the residuals are large. If none of these
+    /// attempts gives a certain fix, repeats the original attempt to restore its results in the
+    /// workspace.
     CodeReading best_of(Step step, CodeVariant code, Judgement judgement) {
         const auto remake = [&](Step other_step, CodeVariant other) {
             if (!attempts_.make(other_step, other)) return false;
@@ -157,9 +159,10 @@ class Cascade {
         return reading;
     }
 
-    /// Tests the frame in the other codes as if there were no earlier evidence. If it is certain in
-    /// one of them, adds the evidence of the frame to the reading. Without this addition, strong
-    /// earlier evidence for one code would prevent certain fixes on all sheets in other codes.
+    /// Tests the frame in the other codes as if there were no earlier evidence. If the frame has a
+    /// certain fix in another code, adds the evidence of the frame to the reading. Without this
+    /// addition, strong earlier evidence for one code would prevent certain fixes on all sheets in
+    /// other codes.
     void add_evidence_of_another_sheet(CodeReading& reading) {
         if (options_.effort == Effort::device || codes_.is_known() || codes_.are_equal()) return;
         const PossibleCodes all{CodeEvidence{}};

@@ -17,7 +17,8 @@ LargeMemory::LargeMemory() : workspace_(core::make_workspace<core::LargeWorkspac
 
 Locator::Locator(core::DesktopWorkspace* workspace, const DeviceOptions& options)
     : RowLocator(workspace, options) {
-    // Another locator may have left known sheets and a series of images in this memory.
+    // Clears the memory, because it may contain the known sheets and the series of images of
+    // another locator.
     workspace->earlier.clear();
     workspace->set_known({});
 }

@@ -9,8 +9,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the hard bits of all cells in a region whose two bits are clear (see kMinWeight). Cell
-/// (0, 0) of the block is cell `middle` of the grid.
+/// Returns the hard bits of those cells of a region in which both bits are clear (see kMinWeight).
+/// Cell (0, 0) of the block is cell `middle` of the grid.
 BitBlock bits_of(const Grid& grid, const GridRegion& region, FixedVec middle) {
     BitBlock block;
     const auto is_clear = [](int weight) { return std::abs(weight) >= tuning::known::kMinWeight; };

@@ -16,9 +16,9 @@ namespace dotpose::core {
 /// them. Otherwise, returns true.
 bool is_possible(CodeVariant code, const Decoding& decoding, const KnownSheets& known);
 
-/// Returns the most likely place of a block on the known sheets. Returns nullopt if there is none,
-/// if this place is in a code other than the code of the options, or if too many bits contradict
-/// the place.
+/// Returns the most likely place of a block on the known sheets. Returns nullopt if the block has
+/// no bits, if this place is in a code other than the code of the options, or if too many bits
+/// contradict the place.
 std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const DeviceOptions& options,
                                                const BitBlock& block, const KnownSheets& known);
 
@@ -29,8 +29,8 @@ bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, 
 
 /// Finds the position of the decoded region on the known sheets. Returns false without any change
 /// if there is no position. Otherwise, sets `bit_errors` and `p_wrong_log2` of the fix, and returns
-/// true if the position is certain. Only in this case, also sets the decoding and `prior` of the
-/// fix.
+/// true if the position is certain. If the position is certain, also sets the decoding and `prior`
+/// of the fix.
 bool read_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Grid& grid,
                     const KnownSheets& known, Decoding& decoding, Fix& fix);
 

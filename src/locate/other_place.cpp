@@ -8,7 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Returns the signed number of steps between two positions, in the shorter direction.
+/// Returns the signed number of steps from one position to another, in the direction with fewer
+/// steps. Positions are cyclic.
 std::int32_t steps(std::uint32_t from, std::uint32_t to) {
     constexpr auto kAll = static_cast<std::int32_t>(kPositionsPerAxis);
     const std::int32_t step = static_cast<std::int32_t>(to) - static_cast<std::int32_t>(from);

@@ -30,8 +30,8 @@ bool place_patch(const ImageView& image, FixedVec around_px, int scale, Patch& p
 /// Places a patch around the image centre. Returns false if the patch is too small for a grid.
 bool place_patch_in_middle(const ImageView& image, int scale, Patch& patch);
 
-/// Finds the dots of the patch. Sets the status of the fix to too_few_dots or no_grid, which
-/// applies if no patch contains a grid. Returns false, without setting the status, if the patch has
+/// Finds the dots of the patch. Sets the status of the fix to too_few_dots or no_grid. This status
+/// is final if no patch contains a grid. Returns false without setting the status if the patch has
 /// no contrast.
 bool find_patch_dots(const Frame& frame, Patch& patch, Fix& fix, DotTiles tiles = DotTiles::median);
 

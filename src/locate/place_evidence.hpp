@@ -38,13 +38,13 @@ struct TurnedPlace {
     Place place;
 };
 
-/// Finds the place of a block in the code. Prefers places on known sheets. Returns nullopt if there
-/// is no place, or if only known sheets are possible and none of them has such a place.
+/// Finds the place of a block in the code. Prefers places on known sheets. Returns nullopt if no
+/// place is found, or if only known sheets are possible and the place is not on a known sheet.
 std::optional<TurnedPlace> find_turned_place(const PlaceEvidence& evidence, const BitBlock& block);
 
-/// Does nothing and returns true outside a series of frames. Within a series, stores the bits of
-/// the current frame and returns true. While frames are read together, adds the bits of the earlier
-/// frames to the block instead, and returns false if the grids of the frames do not match. The
+/// Outside a series of frames, does nothing and returns true. Within a series, stores the bits of
+/// the current frame and returns true. If frames are being read together, instead adds the bits of
+/// the earlier frames to the block, and returns false if the grids of the frames do not match. The
 /// plane is relative to `from_centre`.
 bool join_earlier(const FloatPlane& grid_from_image, FloatVec from_centre, EarlierBits& earlier,
                   BitBlock& block);

@@ -47,8 +47,8 @@ Status decode(const DeviceOptions& options, const Grid& grid, std::span<ScoredLi
     return decode_all(grid, options.code, line_scores, decoding);
 }
 
-/// Returns true if the pixel bias of the fix matters. If it does, the dots are measured again as in
-/// the tracked attempt, which corrects this bias.
+/// Returns true if the pixel bias of the fix is significant. In this case, the dots are measured
+/// again as in the tracked attempt, which corrects the bias.
 bool may_be_biased(const Fix& fix, const PlaneFromImage& plane, const ImageView& image) {
     const float variance_px2 =
         fix.residual_px * fix.residual_px / static_cast<float>(fix.dots_used);
@@ -105,7 +105,7 @@ Status SecondAttempt::read_filtered(const Frame& frame) {
     const Fix seen = w_.fix;
     filtered.threshold.min_contrast = pale;
     if (read_filtered_with(filtered, frame.image) == Status::ok) return Status::ok;
-    // Keeps the first result. The second try found no readable grid, so its additional dots are
+    // Restores the first result. The second try found no readable grid, so the additional dots are
     // noise.
     w_.fix = seen;
     w_.dot_count = 0;

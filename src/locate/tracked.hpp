@@ -13,8 +13,8 @@ namespace dotpose::core {
 /// of the workspace and returns true.
 bool locate_tracked(const Frame& frame, const Prediction& prediction, DesktopWorkspace& w);
 
-/// Does the same as `locate_tracked` with the given parts of the workspace. Does not reset the fix
-/// first, and stores no trace.
+/// Variant of `locate_tracked` that uses only the given parts of the workspace. Does not reset the
+/// fix first, and stores no trace.
 bool confirm_prediction(const Frame& frame, const Prediction& prediction,
                         const PlaceEvidence& evidence, Measurement& measurement, Fix& fix);
 

@@ -38,14 +38,15 @@ inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F};
 
 /// Search for a rotation of the scene during the readout (locate/turning).
 namespace turning {
-/// Maximum rotation during the readout. kMaxFall is the maximum downward motion of the scene while
-/// a row is read, in rows, due to the rotation, at the left or right border of the image.
+/// kMaxTurn_rad is the maximum rotation during the readout. kMaxFall is the maximum distance, in
+/// rows, by which the rotation moves the left or right image border down while a row is read.
 inline constexpr float kMaxTurn_rad = 1.2F;
 inline constexpr float kMaxFall = 0.95F;
-/// Maximum motion of the scene while a row is read, in rows.
+/// Maximum drift of the scene while a row is read, in rows.
 inline constexpr float kMaxDrift = 0.9F;
-/// kStep is the first step of the search for the rotation: the distance by which the dots in the
-/// corners of the patch move, in spacings. The search ends at steps of kStep / kStepParts.
+/// kStep is the first step of the search for the rotation, given as the distance by which the dots
+/// in the corners of the patch move, in spacings. The search ends when the step is kStep /
+/// kStepParts.
 inline constexpr float kStep = 0.4F;
 inline constexpr float kStepParts = 32;
 /// A grid is better than the best grid so far if its agreement is larger by at least this factor.
@@ -61,8 +62,8 @@ inline constexpr float kMinGain = 3;
 /// spacings^2. In a false grid, the offsets are evenly distributed over discs with a radius of 0.18
 /// spacings, so their variance is 0.008.
 inline constexpr float kMaxVariance = 0.002F;
-/// Maximum number of grids whose bits are searched for in the code. If these grids have no place in
-/// the code, further rotations often lead to the same grids again.
+/// Maximum number of grids for which the search looks up a place in the code. If these grids have
+/// no place in the code, further rotations often lead to the same grids.
 inline constexpr int kMaxClimbs = 3;
 /// The image is measured again if the correction of the rotation moves the dots in its corners by
 /// at least kSettled_px. Smaller corrections are applied to the measured dots. kMaxRounds is the
@@ -92,13 +93,14 @@ inline constexpr float kCoarsest_px = 80;
 /// Range of plausible displacements in a prediction, in spacings.
 inline constexpr float kMinDisplacement = 0.05F;
 inline constexpr float kMaxDisplacement = 0.4F;
-/// Maximum distance between a dot and its place, in the first and in the second fit, in spacings.
+/// Maximum distance between a dot and its predicted place, in spacings: kFirstOff in the first fit,
+/// and kSecondOff in the second.
 inline constexpr float kFirstOff = 0.30F;
 inline constexpr float kSecondOff = 0.15F;
 /// Maximum offset at which a dot is measured in a centroid window.
 inline constexpr float kMaxOffset_px = 1.5F;
-/// Factor that converts the ratio of moment to weight in a centroid window to the offset of the
-/// dot, in px (see `find_centres`). Accurate to 20 % for a typical dot.
+/// Conversion factor from the ratio of moment to weight in a centroid window to the offset of the
+/// dot, in px (see `find_centres`). For a typical dot, the resulting offset is accurate to 20 %.
 inline constexpr float kWeight_px = 0.84F;
 /// The dots are measured again if the scale and rotation of a correction move the dots at the image
 /// border by at least this distance.
@@ -113,9 +115,9 @@ inline constexpr FloatVec kPoints[] = {
 
 /// Measurement of dots at known places (locate/confirm, locate/dot_reader).
 namespace confirm {
-/// Reading distance in the first round, in spacings, for images that the pattern fills and whose
-/// half side exceeds kDenseAtMost. The first round measures all dots within this distance of
-/// `Hypothesis::from_centre`. The bits of these dots must make the position certain.
+/// Reading distance in the first round, in spacings. The first round measures all dots within this
+/// distance of `Hypothesis::from_centre`. The constant applies if the pattern fills the image and
+/// half the image side exceeds kDenseAtMost. The bits of these dots must make the position certain.
 inline constexpr float kDense = 10;
 /// Maximum half side of an image that is measured in a single round, in spacings.
 inline constexpr float kDenseAtMost = 17;
@@ -134,8 +136,8 @@ inline constexpr int kClear_percent = 97;
 inline constexpr int kMaxWrong = 2;
 inline constexpr int kDotsPerWrong = 200;
 /// A dot is an outlier if its squared residual exceeds kOutlier times the mean squared residual.
-/// The mean is over dots and contains both coordinates, so the limit is four standard deviations of
-/// one coordinate.
+/// The mean is over all dots, and the squared residual of a dot is the sum over both coordinates.
+/// The limit is therefore about four standard deviations of one coordinate.
 inline constexpr float kOutlier = 8.3F;
 /// Maximum distance by which a fit may move a corner of the measured part, in spacings along an
 /// axis. After a larger motion, the dots are measured again, because small centroid windows do not
@@ -170,8 +172,8 @@ inline constexpr float kDrift_px = 0.05F;
 /// by less than this distance across the view. The correction is restricted in this way because it
 /// takes several times as long as all other steps of a frame.
 inline constexpr float kDriftInView_px = 0.35F;
-/// The pixel bias matters only if the variance of the mean centre along one axis is at most this
-/// value. At a larger variance, other errors are larger than the bias.
+/// Maximum variance of the mean centre along one axis at which the pixel bias is significant. At a
+/// larger variance, other errors are larger than the bias.
 inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
 /// Minimum and maximum size of image parts that are prefetched. Smaller parts are already in the
 /// cache. Larger parts would evict their own first rows.
@@ -201,10 +203,10 @@ inline constexpr float kRough = 0.027F;
 
 /// Views of known sheets (locate/hypothesis, locate/on_sheets).
 namespace known {
-/// Shorter image side, in spacings, below which dots are read up to kMargin_px from the border. The
-/// usual margin is at least 1.7 px. Of 300 views of 36 x 36 px at 6 px per spacing, 97 % are
-/// located with a margin of 1.0 px, and 88 % with the usual margin. The pose errors are equal
-/// (`dotpose_tables known`).
+/// kSmallView is the length of the shorter image side, in spacings, below which dots are read up to
+/// a distance of kMargin_px from the image border. The usual margin is at least 1.7 px. Of 300
+/// views of 36 x 36 px at 6 px per spacing, 97 % are located with a margin of 1.0 px, and 88 % with
+/// the usual margin. The pose errors are equal (`dotpose_tables known`).
 inline constexpr float kSmallView = 9;
 inline constexpr float kMargin_px = 1;
 /// Minimum weight of a bit, in 1/127. The second attempt uses a cell only if each of its two bits
@@ -222,8 +224,8 @@ inline constexpr float kDifferentBit_log2 = -3;
 /// log2 of the weight of a blunder, in which the measured motion is wrong by far more than its
 /// standard deviation.
 inline constexpr float kBlunder_log2 = -36;
-/// Standard deviations of the errors in the angle and the place of a grid. The angle also depends
-/// on the camera tilt. The place error is in spacings.
+/// Standard deviations of the errors in the angle of a grid, in rad, and in its place, in spacings.
+/// The angle error includes the effect of the camera tilt.
 inline constexpr float kGridAngle_rad = 0.035F;
 inline constexpr float kGridPhase = 0.06F;
 /// Maximum deviation of a match from the prediction: kReach_sigmas standard deviations, but at most
@@ -246,7 +248,7 @@ inline constexpr int kHigh_10ths = 9;
 inline constexpr int kPaleParts = 3;
 /// Maximum rotations of the grid relative to the first grid estimate in the periodogram search, in
 /// degrees. If the search finds no grid within the first maximum, it is repeated with the second,
-/// because printed text can rotate the first estimate by 26 degrees.
+/// because printed text can cause an error of 26 degrees in the first estimate.
 inline constexpr int kMaxTurns_deg[] = {12, 45};
 }  // namespace second
 
@@ -256,8 +258,8 @@ namespace cascade {
 /// read again in the other code.
 inline constexpr float kBetterOdds = 2;
 /// Minimum number of dots per wrong bit at which a reading in another code is reported. A dot has
-/// two bits, so at most one bit in a hundred is wrong in such a reading. Misread bits can cause
-/// this error rate.
+/// two bits, so in such a reading, at most one bit in a hundred is wrong. Misread bits can cause
+/// such an error rate even if the reading is correct.
 inline constexpr int kBitsPerError = 50;
 /// Minimum odds, relative to the fix, at which a different place in another code is reported in
 /// addition to a certain fix.

@@ -63,7 +63,7 @@ bool is_possible(const ReadoutTurn& turn, const ImageView& image) {
 /// Searches for the rotation at which the dots of a patch agree best with a grid.
 class TurnSearch {
   public:
-    /// The dots in the patch must be undistorted.
+    /// The coordinates of the dots in the patch must be undistorted (see `undistort`).
     TurnSearch(const Frame& frame, Patch& patch)
         : frame_(frame),
           view_(whole_view(patch)),
@@ -80,9 +80,10 @@ class TurnSearch {
     /// Sets whether cells may be arbitrary parallelograms. Otherwise, cells must be about square.
     void accept_skewed(bool is_skewed) { view_.is_skewed = is_skewed; }
 
-    /// Changes a rotation in decreasing steps as long as the dots agree better with a grid. Then
-    /// `turn` and `grid` return the best rotation and its grid, and the dots of the patch are those
-    /// without this rotation. Returns false if the dots do not form a grid at the first rotation.
+    /// Changes a rotation in decreasing steps as long as the dots agree better with a grid.
+    /// Afterwards, `turn` and `grid` return the best rotation and its grid, and this rotation is
+    /// removed from the dots of the patch. Returns false if the dots do not form a grid at the
+    /// first rotation.
     bool climb(float rad_per_row, FloatVec drift) {
         turn_.rad_per_row = rad_per_row;
         turn_.drift = drift;
@@ -135,7 +136,7 @@ class TurnSearch {
     PatchGrid grid_;
 };
 
-/// Converts dots of an image from which a rotation was removed to dots of the original image.
+/// Moves dots from the image without rotation to their places in the original image.
 void show_in_original(const ReadoutTurn& turn, const ImageView& image, const FixedLens& lens,
                       std::span<DetectedDot> dots) {
     const FixedVec middle_q8 = centre_q8(image);
@@ -169,8 +170,8 @@ bool is_significant(const TurnFit& fit, int dots, Surface surface) {
 
 /// Calls `locate` with the frame from which the rotation `turn` is removed. `locate` must call
 /// `confirm`, which fits the rotation to the measured dots. Repeats this with the fitted rotation
-/// until it moves the dots in the image corners by less than kSettled_px relative to the previous
-/// rotation. Sets `turn` to the fitted rotation. `pixels` is memory for the image. Returns the
+/// until the difference from the previous rotation moves the dots in the image corners by less than
+/// kSettled_px. Sets `turn` to the fitted rotation. `pixels` is memory for the image. Returns the
 /// result of `locate` if it is not ok, and implausible if a rotation is out of range or still
 /// changes after kMaxRounds.
 template <typename Locate>
@@ -233,8 +234,8 @@ std::optional<Hypothesis> search_patch(const Frame& frame, const PlaceEvidence& 
 }
 
 /// Finds the isolated dots of a patch. Returns false if the patch has no contrast, or if less than
-/// kMinIsolated of its dots are isolated. In that case, noise and dirt explain the failure of the
-/// first attempt.
+/// kMinIsolated of its dots are isolated. If fewer dots are isolated, the first attempt failed
+/// because of noise and dirt, and not because of a rotation.
 bool find_isolated_dots(const Frame& frame, Patch& patch, Fix& fix) {
     if (!find_patch_dots(frame, patch, fix)) return false;
     const int seen = patch.dots.count;

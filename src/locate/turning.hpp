@@ -14,7 +14,7 @@ namespace dotpose::core {
 
 /// Returns true if the fix of a first or tracked attempt has large or correlated residuals that a
 /// rotation during the readout may explain, and `pixels` has room for the image without rotation.
-/// `measurement` must contain the results of the attempt. Changes its dots.
+/// `measurement` must contain the results of the attempt. Changes the dots of `measurement`.
 bool shows_turn(const Frame& frame, const Fix& fix, std::span<const std::uint8_t> pixels,
                 Measurement& measurement);
 
@@ -26,8 +26,8 @@ bool locate_turning(const Frame& frame, DesktopWorkspace& w);
 
 /// Removes the predicted rotation from the image, and measures the dots at their predicted places.
 /// Returns true if their bits confirm the prediction. The workspace then contains the fix. Returns
-/// false if they do not, if the rotation is out of range, or if the workspace has no room for the
-/// image without rotation.
+/// false if the bits do not confirm the prediction, if the rotation is out of range, or if the
+/// workspace has no room for the image without rotation.
 bool locate_tracked_turning(const Frame& frame, const Prediction& prediction, DesktopWorkspace& w);
 
 }  // namespace dotpose::core

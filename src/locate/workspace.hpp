@@ -22,8 +22,8 @@
 namespace dotpose::core {
 
 /// Memory of a Locator, and results of its attempts. Only the entry points and the attempts use the
-/// whole workspace. They pass parts of it to the stages. Contains the memory of a DeviceLocator,
-/// for `Effort::device`.
+/// whole workspace, and pass parts of it to the stages. The base class is the memory of a
+/// DeviceLocator, which `Effort::device` uses.
 struct DesktopWorkspace : DeviceWorkspace {
     Patch* patch = nullptr;   ///< first attempt, turning
     Smoothing smoothing;      ///< second attempt
@@ -124,8 +124,7 @@ class WorkspaceOf : public DesktopWorkspace {
     // and 1280 x 1024 px otherwise.
     static constexpr std::size_t kPushed_px = std::min(MaxWidth * MaxWidth, 1280 * 1024);
 
-    // Maximum number of columns in view, and of rows in view. Further columns and rows are not
-    // read.
+    // Maximum number of columns and of rows in view that are read.
     static constexpr std::size_t kRolls = 1024;
 
     Patch patch_;
@@ -157,7 +156,6 @@ class WorkspaceOf : public DesktopWorkspace {
     std::array<std::uint8_t, 36 * std::min(MaxWidth, 376)> tracked_rows_{};
     std::array<ComparedLine, 2 * kMaxComparedLines> tracked_lines_{};
     std::array<TrackedRow, kMaxComparedLines> grid_rows_{};
-    /// Frames that are tracked have fewer dots, because their diagonal has at most 28 spacings.
     std::array<std::uint8_t, kPushed_px> pushed_;
     std::array<std::uint8_t, kPushed_px> rolling_;
 };

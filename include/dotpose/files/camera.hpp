@@ -67,7 +67,7 @@ struct Pinhole {
     PixelPoint centre_px;  ///< pixel on the optical axis
 };
 
-/// Tip of a pen in the camera frame in space: the origin is the projection centre, x is along the
+/// Position of the tip of a pen relative to the projection centre of the camera. x is along the
 /// image x axis, y is down in the image, and z is along the optical axis.
 struct PenTip {
     double x_mm = 0;
@@ -145,8 +145,8 @@ void validate(const Camera& camera);
 
 /// Returns the undistorted pixel of `pixel` (paper eq. 1-2).
 PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
-/// Returns the pixel at which the camera shows an undistorted pixel. If k is positive, points far
-/// from the distortion centre have no such pixel. For these points, returns a pixel in the same
+/// Returns the pixel of the point that has the given undistorted pixel. If k is positive, points
+/// far from the distortion centre have no such pixel. For these points, returns a pixel in the same
 /// direction from the distortion centre as `undistorted`, at twice the distance.
 PixelPoint distorted(const Camera& camera, PixelPoint undistorted);
 
@@ -162,21 +162,24 @@ struct CameraPoint {
 /// Returns the point on the paper that an undistorted pixel shows, in the camera frame. Throws
 /// std::bad_optional_access if `camera.paper` is none.
 CameraPoint on_paper(const Camera& camera, PixelPoint undistorted);
-/// Returns the undistorted pixel of a point in the camera frame. Throws as `on_paper` does.
+/// Returns the undistorted pixel of a point in the camera frame. Throws std::bad_optional_access if
+/// `camera.paper` is none.
 PixelPoint on_image(const Camera& camera, CameraPoint point);
 
 /// Returns the direction of the image x axis on the paper, at an undistorted pixel. The angle is
-/// measured from +x towards +y of the camera frame. Throws as `on_paper` does.
+/// measured from +x towards +y of the camera frame. Throws std::bad_optional_access if
+/// `camera.paper` is none.
 double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 
 /// Returns the point on the paper that an undistorted pixel shows, in mm relative to the point
-/// under the image centre. x is along the image x axis at the image centre. Throws as `on_paper`
-/// does. This frame is suitable for comparing two calibrations of the same camera: according to the
-/// two calibrations, the coordinates of a point of the paper differ by only microns, even far
-/// outside the image. Its undistorted pixels differ by more.
+/// under the image centre. x is along the image x axis at the image centre. Throws
+/// std::bad_optional_access if `camera.paper` is none. This frame is suitable for comparing two
+/// calibrations of the same camera. The coordinates of a point of the paper differ by only microns
+/// between the calibrations, even far outside the image, whereas the undistorted pixels of the
+/// point differ by more.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
-/// Inverse of `from_image_centre`: returns the undistorted pixel that shows `point`. Throws as
-/// `on_paper` does.
+/// Inverse of `from_image_centre`: returns the undistorted pixel that shows `point`. Throws
+/// std::bad_optional_access if `camera.paper` is none.
 PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
 
 /// Returns the reference point of `camera` as an undistorted pixel of `other`, which is another
@@ -192,7 +195,8 @@ double brightness_at(const Camera& camera, PixelPoint pixel);
 /// pixels, and its top left pixel is (`left_px`, `top_px`). The reference point is the same point
 /// of the scene as before, even if `camera.reference_px` is none. If the view of the paper is
 /// known, the heading is also the same as before. `flat_field` and `readout_ms` apply to the crop.
-/// Throws BadArgument as `validate` does, and if the crop exceeds the image.
+/// Throws BadArgument if the crop exceeds the image, or if the result is not a valid camera (see
+/// `validate`).
 Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
 /// Sets `options` for images of the given size: the lens, and the reference point if the camera has

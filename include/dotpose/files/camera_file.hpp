@@ -30,7 +30,8 @@ inline constexpr int kCameraFileVersion = 1;
 Camera read_camera(const std::filesystem::path& path);
 
 /// Reads a camera from the text of a camera file or of a camera_info file. `name` is the name of
-/// the file in messages. Throws Error as `read_camera` does.
+/// the file in messages. Throws Error if the text is not valid, in the cases listed for
+/// `read_camera`.
 Camera parse_camera(const std::string& text, const std::string& name);
 
 /// Returns true if the file is a camera_info file of ROS. Programs should not write cameras to such
@@ -39,7 +40,7 @@ Camera parse_camera(const std::string& text, const std::string& name);
 bool is_camera_info(const std::filesystem::path& path);
 
 /// Writes the file completely or not at all. Throws Error if the file cannot be written, and
-/// BadArgument as `validate` does.
+/// BadArgument if the camera is not valid (see `validate` in camera.hpp).
 void write_camera(const std::filesystem::path& path, const Camera& camera);
 
 }  // namespace dotpose

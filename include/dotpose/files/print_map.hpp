@@ -86,8 +86,8 @@ struct MapPage {
     }
 
     /// Returns the covariance of the error of the map in a view whose centre is at a place on the
-    /// page: shift along x and y, in spacings, and rotation, in rad. It is 0 if the errors are not
-    /// known. `with_print_map` adds it to the covariance of the fix.
+    /// page: shift along x and y, in spacings, and rotation, in rad. The covariance is 0 if the
+    /// errors are not known. `with_print_map` adds this covariance to the covariance of the fix.
     std::array<std::array<double, 3>, 3> error_covariance(const Place& place) const;
 };
 
@@ -114,8 +114,9 @@ enum class MapUse : std::uint8_t {
 /// Maximum size of a map file, in bytes. The map of a page with the size of A0 is about 20 MB.
 inline constexpr std::size_t kMaxMapBytes = std::size_t{512} << 20;
 
-/// Parses the contents of a map file. Throws Error if they are not a map, are truncated or damaged,
-/// or have a newer version. Files of version 1 do not contain the errors of the map.
+/// Parses the contents of a map file. Throws Error if the contents are not those of a map, are
+/// truncated or damaged, or have a newer version. Files of version 1 do not contain the errors of
+/// the map.
 PrintMap parse_print_map(std::string_view bytes);
 
 /// Reads a map file. Throws Error, with the name of the file, if the file cannot be read or if its

@@ -122,8 +122,9 @@ struct SheetFileWait {
 class SheetFile {
   public:
     /// Waits for exclusive access, then reads the file. A missing file counts as a file without
-    /// sheets. Throws Error as `read_sheets` does, and if the file cannot be locked. For example,
-    /// another program may hold the lock for longer than `wait` allows.
+    /// sheets. Throws Error if the file exists but cannot be read or is not valid (see
+    /// `read_sheets`), or if the file cannot be locked, for example because another program holds
+    /// the lock for longer than `wait` allows.
     explicit SheetFile(const std::filesystem::path& path, const SheetFileWait& wait = {});
     ~SheetFile();
     SheetFile(const SheetFile&) = delete;
@@ -139,35 +140,36 @@ class SheetFile {
     /// regions, regardless of their code variant and section. Cells alone therefore distinguish
     /// allocated sheets. The next free region is the topmost, then leftmost free region.
     ///
-    /// Returns the added entries. Throws BadArgument as `validate` does, and if the name is taken,
-    /// the plane is full, or the count is below 1.
+    /// Returns the added entries. Throws BadArgument if an entry would not be valid (see
+    /// `validate`), if the name is taken, if the plane is full, or if the count is below 1.
     std::vector<SheetEntry> allocate(const std::string& name, const Sheet& sheet, int count = 1);
 
     /// Adds one page, with its own name and number, in the next free region. Ignores
-    /// `entry.sheet.origin`. Returns the added entry. Throws BadArgument as `validate` does, and if
-    /// the name is taken or the plane is full.
+    /// `entry.sheet.origin`. Returns the added entry. Throws BadArgument if the entry is not valid
+    /// (see `validate`), if the name is taken, or if the plane is full.
     SheetEntry allocate(SheetEntry entry);
 
-    /// Adds a sheet with a given region. The region may touch other regions but must not overlap
-    /// them. Throws BadArgument as `validate` does, and if the name or the region is taken. The
-    /// message contains the name of the other sheet.
+    /// Adds a sheet with a given region. The region may touch other regions, but must not overlap
+    /// any other region. Throws BadArgument if the entry is not valid (see `validate`), if the name
+    /// is taken, or if the region overlaps the region of another sheet. The message contains the
+    /// name of the other sheet.
     void add(const SheetEntry& entry);
 
-    /// Replaces the sheet that has the same name as `entry`. Throws BadArgument as `add` does, or
-    /// if there is no such sheet.
+    /// Replaces the sheet that has the same name as `entry`. Throws BadArgument if there is no such
+    /// sheet, if the entry is not valid (see `validate`), or if the region overlaps the region of
+    /// another sheet.
     void replace(const SheetEntry& entry);
 
-    /// Renames the sheet `name`. Keeps the keys of this sheet in the file that dotpose does not
-    /// know. Throws BadArgument if the sheet does not exist, or if the new name is taken or
-    /// invalid.
+    /// Renames the sheet `name`. Preserves unrecognised keys of this sheet in the file. Throws
+    /// BadArgument if the sheet does not exist, or if the new name is taken or invalid.
     void rename(const std::string& name, const std::string& new_name);
 
     /// Removes the sheet with this name, if there is one.
     void remove(const std::string& name);
 
-    /// Writes the file completely or not at all. Keeps the keys of the old file that dotpose does
-    /// not know. Throws Error if the file cannot be written, or if a program that does not use the
-    /// lock, such as an editor, has changed it since it was read.
+    /// Writes the file completely or not at all. Preserves unrecognised keys of the previous file.
+    /// Throws Error if the file cannot be written, or if a program that does not use the lock, such
+    /// as an editor, has changed it since it was read.
     void save();
 
   private:
@@ -187,8 +189,9 @@ class SheetFile {
 /// programs may change the file in the meantime.
 class SheetReservation {
   public:
-    /// Calls `enter` to add the sheets, and saves the file. Throws Error as SheetFile does, and
-    /// passes on the exceptions of `enter`. After an exception, nothing is reserved.
+    /// Calls `enter` to add the sheets, and saves the file. Throws Error if the file cannot be
+    /// read, locked or written, and passes on the exceptions of `enter`. After an exception, no
+    /// region is reserved.
     SheetReservation(const std::filesystem::path& path,
                      const std::function<void(SheetFile&)>& enter, const SheetFileWait& wait = {});
     /// Removes the entries that were not confirmed. Restores the previous file if no other program

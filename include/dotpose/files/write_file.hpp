@@ -16,7 +16,7 @@ namespace dotpose {
 /// target is not a regular file or cannot be written.
 void write_file(const std::filesystem::path& target, std::string_view contents);
 
-/// Throws Error, as `write_file` does, if the file cannot be created. A program can call this
+/// Throws the same Error as `write_file` if the file cannot be created. A program can call this
 /// function before a long computation whose result it writes to the file.
 void require_writable(const std::filesystem::path& target);
 

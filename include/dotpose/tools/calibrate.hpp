@@ -190,22 +190,22 @@ DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
                                  const std::optional<Camera>& camera,
                                  const CalibrateOptions& options);
 
-/// Tip of a pen, computed from frames in which the tip rests on the paper while the pen pivots
-/// about it.
+/// Position of the tip of a pen relative to the camera, computed from frames in which the tip rests
+/// on the paper while the pen pivots about the tip.
 struct PivotCalibration {
     Camera camera;  ///< the given camera with `tip` set
     int frames = 0;
     int located = 0;
     int used = 0;  ///< number of frames in which the tip is at the common point of rest
-    /// Rms angle by which the pen rotated about the axis of least rotation. The larger this angle
-    /// is, the more accurate is the tip.
+    /// Rms angle by which the pen rotated about the axis of least rotation. The position of the tip
+    /// is more accurate if this angle is larger.
     double pivot_rad = 0;
     double min_tilt_rad = 0;
     double max_tilt_rad = 0;
     double residual_mm = 0;  ///< rms distance of the tip from the point of rest, per axis
-    /// Rms ratio of the distances of the tip from the point of rest to their standard deviations,
-    /// which are computed from the covariances of the poses. If the ratio is above 1, the standard
-    /// deviations of the tip are increased accordingly.
+    /// Rms ratio of the distance between the tip and the point of rest to the standard deviation of
+    /// this distance, which is computed from the covariances of the poses. If the ratio is above 1,
+    /// the standard deviations of the tip are increased accordingly.
     double error_ratio = 0;
 };
 
@@ -264,8 +264,8 @@ struct ReadoutCalibration {
 ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const Camera& camera,
                                      double interval_ms, const CalibrateOptions& options);
 
-/// Reference for the print scales of sheets. Frames determine the ratios between the scales of
-/// sheets and axes, but not the absolute scale.
+/// Reference for the print scales of sheets. The frames determine the print scales of all sheets
+/// and axes relative to each other, but not the absolute scale.
 struct ScaleReference {
     enum class By {
         /// No measurement. The mean of the two print scales of the fixed sheet remains unchanged.

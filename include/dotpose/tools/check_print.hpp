@@ -222,8 +222,9 @@ struct PrintCheck {
     /// patch is the patch whose dots have the diameter closest to a sixth of the spacing. Patches
     /// with many faulty cells are excluded.
     std::vector<std::size_t> best_per_spacing;
-    /// Index of the best patch of all spacings. It is the first element of `best_per_spacing`,
-    /// because more dots of a fine pattern are in view. Valid if `best_per_spacing` is not empty.
+    /// Index of the best patch of all spacings. The finest spacing is preferred, because more dots
+    /// of a fine pattern are in view, so this patch is the first element of `best_per_spacing`.
+    /// Valid if `best_per_spacing` is not empty.
     std::size_t best = 0;
     std::vector<Finding> findings;
 };

@@ -11,8 +11,8 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Reads an image as `read_image` does. Throws ImageTooLarge if the image is larger than `locate`
-/// accepts. Such an image is not decoded.
+/// Variant of `read_image` that throws ImageTooLarge if the image is larger than `locate` accepts.
+/// The pixels of such an image are not decoded.
 inline GreyImage read_frame(const std::filesystem::path& path) {
     return read_image(path, kMaxFrameSide_px * kMaxFrameSide_px);
 }

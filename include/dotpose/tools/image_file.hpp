@@ -56,14 +56,15 @@ struct ImageTooLarge : Error {
 GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels,
                      int page = 1);
 
-/// Reads one image as the function above does. Sets `note` to a sentence about the file for the
-/// user, for example that its end marker is missing, or to an empty string.
+/// Variant of `read_image` that also sets `note` to a sentence about the file for the user, for
+/// example that its end marker is missing. If there is nothing to report, sets `note` to an empty
+/// string.
 GreyImage read_image(const std::filesystem::path& path, int max_pixels, std::string& note,
                      int page = 1);
 
 /// Returns the number of pages in a file. Only TIFF files can have more than one page. A file that
-/// is not regular, such as a pipe, is not read and counts as one page. Throws Error as `read_image`
-/// does.
+/// is not regular, such as a pipe, is not read and counts as one page. Throws Error if the file
+/// cannot be read (see `read_image`).
 int count_pages(const std::filesystem::path& path);
 
 /// Pixels per inch along both axes.
@@ -83,7 +84,8 @@ struct ImageOrigin {
     std::optional<Resolution> resolution;
 };
 
-/// Returns the origin of an image, without decoding its pixels. Throws Error as `read_image` does.
+/// Returns the origin of an image, without decoding its pixels. Throws Error if the file cannot be
+/// read (see `read_image`).
 ImageOrigin read_origin(const std::filesystem::path& path, int page = 1);
 
 /// Formats in which grey images are encoded.
@@ -101,7 +103,7 @@ std::vector<std::uint8_t> encode_image(ImageEncoding encoding, ImageView image);
 void write_pgm(const std::filesystem::path& path, ImageView image);
 
 /// Writes 8-bit grey PNG, replacing the file. Identical images produce identical files. Throws
-/// Error as `write_pgm` does.
+/// Error if the image is empty or the file cannot be written.
 void write_png(const std::filesystem::path& path, ImageView image);
 
 }  // namespace dotpose

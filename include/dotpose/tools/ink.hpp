@@ -40,7 +40,8 @@ struct InkPoint {
     double azimuth_rad = 0;
 };
 
-/// Points of the path of the tip, from touching to leaving the paper.
+/// Points on the path of the tip, from the moment when it touches the paper to the moment when it
+/// leaves the paper.
 using InkStroke = std::vector<InkPoint>;
 
 struct InkPage {
@@ -62,10 +63,10 @@ inline constexpr double kMaxInkGap_s = 0.1;
 /// must be in the order of their times.
 ///
 /// The path is smoothed forwards and backwards (Rauch, Tung and Striebel 1965). The motion model is
-/// an acceleration driven by white noise. The power of the noise is the power for which the samples
-/// are most likely. PenContact detects when the pen is lifted from the paper. It detects a lift
-/// late and its end early, so adjacent samples also belong to the lift if their smoothed heights
-/// are clearly above the paper.
+/// an acceleration driven by white noise. The power of the noise is chosen to maximise the
+/// likelihood of the samples. PenContact detects when the pen is lifted from the paper. It detects
+/// a lift late and its end early, so adjacent samples also belong to the lift if their smoothed
+/// heights are clearly above the paper.
 std::vector<InkPage> ink_of(std::span<const InkSample> samples);
 
 /// Returns the page as SVG, in mm, with the size of the page.

@@ -75,7 +75,7 @@ struct OverlayReport {
     int card_pages = 0;  ///< number of pages with cards; 0 if there are no cards
 };
 
-/// Writes `in` with dots to `out`. `out` appears completely or not at all.
+/// Writes `in` with dots to `out`. Writes `out` completely or not at all.
 ///
 /// `black_to_cmy` and `lighten` change colours only on pages with dots. They change the colours of
 /// text, drawings, forms, fonts and appearances, and of images if their colour space permits. The

@@ -20,7 +20,7 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose {
 
-/// Place of the tip of a pen in the pattern or sheet frame (x right, y DOWN).
+/// Position of the tip of a pen in the pattern or sheet frame (x right, y DOWN).
 struct TipPose {
     double x_mm = 0;
     double y_mm = 0;

@@ -60,15 +60,17 @@ struct SheetOptions {
 /// coordinates, every dot of the default pattern covers whole printer pixels at 300, 600 and 1200
 /// dpi (paper section III-A.1, Fig. 11).
 ///
-/// Throws BadArgument as `validate` does, if the margins leave less space than kMinSheetCells
-/// columns and rows, and if the region would extend past the end of the code plane.
+/// Throws BadArgument if the options do not give a valid sheet (see `validate`), if the margins
+/// leave less space than kMinSheetCells columns and rows, or if the region would extend past the
+/// end of the code plane.
 Sheet make_sheet(const SheetOptions& options);
 
 /// Lays out `pages` sheets with adjacent regions that share no cell. Each region begins to the
 /// right of the previous one. At the right end of the plane, the regions continue below, starting
 /// at `options.origin.x`.
 ///
-/// Throws BadArgument as `make_sheet` does, and if `pages` is not 1 to kMaxPages.
+/// Throws BadArgument in the cases listed for `make_sheet`, and if `pages` is not in 1 to
+/// kMaxPages.
 std::vector<Sheet> make_sheets(const SheetOptions& options, int pages);
 
 /// Checks that a printer of this resolution can print the pattern. The resolution must be above 0
@@ -131,8 +133,8 @@ struct PrintOptions {
 /// In PNG and TIFF, the centre of every dot is rounded to the nearest printer pixel. The error is
 /// at most half a printer pixel per axis and does not accumulate.
 ///
-/// The file appears completely or not at all: it is written under a temporary name in the same
-/// directory and renamed at the end. After an error, and if `progress` returned false, an existing
+/// The file is written completely or not at all: it is first written under a temporary name in the
+/// same directory, and then renamed. After an error, and if `progress` returned false, an existing
 /// file is unchanged and no temporary file remains.
 ///
 /// Throws BadArgument as `print_format`, `validate` and `validate_resolution` do, and for
@@ -141,9 +143,9 @@ struct PrintOptions {
 void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
                  const PrintOptions& options = {});
 
-/// Writes a document of several pages as `write_sheet` does. More than one page requires a PDF.
-/// Throws as `write_sheet` does, and BadArgument if there is no sheet or the format supports only
-/// one page.
+/// Variant of `write_sheet` for a document of several pages. More than one page requires a PDF.
+/// Throws Error and BadArgument in the cases listed for `write_sheet`. Also throws BadArgument if
+/// there is no sheet, or if there are several sheets and the format supports only one page.
 void write_sheets(std::span<const Sheet> sheets, const std::filesystem::path& path,
                   const PrintOptions& options = {});
 

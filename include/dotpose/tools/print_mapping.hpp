@@ -109,8 +109,8 @@ struct MappedFix {
 /// scale to the dots at their mapped places. Also fits perspective and shear if they are
 /// significant. The covariance is that of the absolute position on the page. It is computed from
 /// the residuals and from the error of the map (`MapPage::error_covariance`), so it no longer
-/// contains the errors of the print. Fixes at the same place have the error of the map in common.
-/// To obtain the covariance of differences between such fixes, subtract it.
+/// contains the errors of the print. Fixes at the same place have the same error of the map. To
+/// obtain the covariance of differences between such fixes, subtract the covariance of this error.
 ///
 /// A map that contains the dots in view is used only if the variance of the residuals with the map
 /// is at most 0.8 times the variance without the map, or at most twice the square of

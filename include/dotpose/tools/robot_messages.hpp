@@ -117,8 +117,8 @@ struct RobotMessages {
     /// Pose of the tracked camera in `map`, twist in `camera_optical`. None while the camera is
     /// lost.
     std::optional<Odometry> camera_odometry;
-    /// `map` to `odom` and `odom` to `base_link`, unless the robot is lost, and `map` to
-    /// `camera_optical`, if the pose in space is known. None without transforms.
+    /// Transforms: `map` to `odom` and `odom` to `base_link` unless the robot is lost, and `map` to
+    /// `camera_optical` if the pose in space is known. None if there are no transforms.
     std::optional<TFMessage> tf;
     DiagnosticArray status;
 };

@@ -113,9 +113,10 @@ void require_focal_length(const Camera& camera);
 ///
 /// `print` is the print scale of the sheet. `map` is the map of the page, or null: with a map, the
 /// dots are at their mapped places, and only dots that the map has seen are used. Check the map
-/// with `with_print_map` before, because this function does not detect another print. Returns none
-/// if there is no fix, if the spacing is unknown (`Fix::spacing_nm` is 0), or if there are fewer
-/// than 12 dots. Throws BadArgument as `require_focal_length` does.
+/// with `with_print_map` first, because this function does not detect that the map is of a
+/// different print. Returns none if there is no fix, if the spacing is unknown (`Fix::spacing_nm`
+/// is 0), or if there are fewer than 12 dots. Throws BadArgument if `camera` has neither a focal
+/// length nor a pinhole model.
 std::optional<SpacePose> space_pose(const Fix& fix, const Camera& camera, const ImageView& image,
                                     const Trace& trace, const AxisScale& print = {},
                                     const MapPage* map = nullptr);

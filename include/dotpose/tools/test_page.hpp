@@ -43,8 +43,8 @@ struct TestPageOptions {
 };
 
 /// Lays out the patches, with a label "spacing/dot" in mm above each patch. Omits combinations in
-/// which dots would touch. Throws BadArgument as `make_sheet` does, and if a setting is not in 1 to
-/// 80, or if there are no spacings or no dot diameters.
+/// which dots would touch. Throws BadArgument if a patch does not give a valid sheet (see
+/// `make_sheet`), if a setting is not in 1 to 80, or if there are no spacings or no dot diameters.
 PrintPage make_test_page(const TestPageOptions& options);
 
 /// Returns the settings of the patch whose first cell is nearest to `cell` on both axes, even if

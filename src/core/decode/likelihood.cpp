@@ -69,7 +69,8 @@ Status assign(std::span<const DetectedDot> dots, int min_side, PointOf point_of,
         const auto i = static_cast<unsigned>(g.cell.x - here.i0);
         const auto j = static_cast<unsigned>(g.cell.y - here.j0);
         // Projects the offset to get the two bits (paper, eq. 7-8). Unlike in the paper, y points
-        // down. The x bit is therefore 1 for left and down, and the y bit is 1 for right and down.
+        // down. The x bit is therefore 1 if the dot is displaced to the left or down, and the y bit
+        // is 1 if the dot is displaced to the right or down.
         if (i < columns && j < rows) {
             const GridCell read{quasi_probability(g.offset_q16.y - g.offset_q16.x),
                                 quasi_probability(g.offset_q16.y + g.offset_q16.x), index};

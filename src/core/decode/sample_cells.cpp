@@ -74,15 +74,14 @@ class CellSampler {
     std::array<int, 4> darkest_around_q8(const CellView& view) const;
 
   private:
-    /// Returns the image point of an intersection.
     FixedVec image_of(int i, int j) const {
         return distorted_point_q8(lens_, plane_, {i * 65536, j * 65536});
     }
     /// Returns the mean darkness of a square, relative to the paper level, in 1/256. Subsamples
     /// large squares.
     int shade_q8(FixedVec centre_q8, int half_px) const;
-    /// Converts the sum of the grey levels in a square to the mean darkness, relative to the paper
-    /// level, in 1/256. Returns 0 if `pixels` is 0.
+    /// Returns the mean darkness of a square relative to the paper level, in 1/256. `sum` is the
+    /// sum of the grey levels of `pixels` pixels. Returns 0 if `pixels` is 0.
     int darkness_q8(FixedVec centre_q8, int sum, int pixels) const;
     template <typename Shade>
     static std::array<int, 4> darkest_around_q8(const CellView& view, Shade shade_q8);
@@ -288,7 +287,8 @@ class Ink {
     std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
         // The weight is proportional to the log-likelihood ratio of the bit. With constant sensor
         // noise, this ratio is proportional to the level difference times the contrast. Both are
-        // proportional to the paper level at the cell, so the weight is proportional to its square.
+        // proportional to the paper level at the cell, so the weight is proportional to the square
+        // of the paper level.
         const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = sample.light_q8 * sample.light_q8;
         // High contrast does not make a bit more reliable, because its errors are mostly not caused

@@ -14,9 +14,8 @@ constexpr std::size_t kSequences = 4;
 constexpr std::size_t kDigits = 3;
 constexpr std::size_t kStepSizes = code::kMaxDelta - code::kMinDelta + 1;
 
-/// The score that is lost if a step contains a certain digit, by secondary sequence and digit. The
-/// loss is the highest score of any step size minus the highest score of a step size with this
-/// digit.
+/// For each secondary sequence and digit, the highest score of any step size minus the highest
+/// score of a step size with this digit. This is the score that is lost if the step has this digit.
 using StepLosses = std::array<std::array<std::int32_t, kDigits>, kSequences>;
 
 /// Returns the highest total score of two adjacent lines whose rolls differ by `step`.

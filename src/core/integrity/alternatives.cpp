@@ -39,7 +39,7 @@ float sum_of_other_sections(const RankedLines& lines) {
     return sum;
 }
 
-/// Returns an upper bound of this sum.
+/// Returns an upper bound on the result of `sum_of_other_sections`.
 float bound_of_other_sections(const LikelihoodRatios& ratios) {
     int lost = 0;
     for (int line = 0; line < ratios.count(); ++line)

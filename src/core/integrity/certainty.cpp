@@ -126,11 +126,11 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
     return lost;
 }
 
-/// Returns an upper bound on the odds of the single alternatives that share a line. A sequence
-/// counts with its table bound if this bound is at most `limit` / 12. Otherwise, the function lists
-/// the places in the sequence whose odds may exceed kSkippedOdds, and adds the odds of these
-/// places. All other places count with kSkippedOdds for each line. Returns 1 if the list cannot be
-/// made (see `Kernels::list_similar_places`).
+/// Returns an upper bound on the odds of the single alternatives that share a line. Uses the table
+/// bound of a sequence if this bound is at most `limit` / 12. Otherwise, lists the places in the
+/// sequence whose odds may exceed kSkippedOdds, adds the odds of these places, and adds
+/// kSkippedOdds for each other place and each line. Returns 1 if the list cannot be made (see
+/// `Kernels::list_similar_places`).
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;

@@ -25,7 +25,8 @@ class Confidence {
         return confidence;
     }
 
-    /// Adds `bits` bits with the same weight, in [-127, 127]. The sign of the weight is ignored.
+    /// Adds `bits` bits of the given weight, which is in [-127, 127]. Ignores the sign of the
+    /// weight.
     void add(int weight, bool is_wrong, int bits = 1) {
         const int level = (weight < 0 ? -weight : weight) >> 3;
         counts_[static_cast<std::size_t>(2 * level + (is_wrong ? 1 : 0))] += bits;
@@ -63,19 +64,19 @@ class Confidence {
 int odds_per_bit_q8(const Confidence& confidence);
 
 /// Returns log2 of Chernoff's upper bound, in units of 2^-8, on the probability that random bits of
-/// the same weights agree with a given place at least as well as the bits that were read. Any value
-/// of `odds_per_bit_q8` gives an upper bound.
+/// the same weights agree with a given place at least as well as the bits that were read. The
+/// result is an upper bound for any value of `odds_per_bit_q8`.
 int agreement_log2_q8(const Confidence& bits, int odds_per_bit_q8);
 
 /// Returns log2 of an upper bound on the probability that random bits agree with any place, in any
 /// section and orientation, at least as well as the bits that were read. See docs/integrity.md,
-/// "Chance: a bound". Any value of `odds_per_bit_q8` gives an upper bound. The bound is smallest
-/// near the true odds.
+/// "Chance: a bound". The result is an upper bound for any value of `odds_per_bit_q8`, and is
+/// smallest if this value is near the true odds.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
 /// Variant of `chance_log2` with a result in units of 2^-8. Multiplies the number of hypotheses by
-/// 2^(log2_times_q8 / 256). Uses either the given odds or odds of 2^16, whichever gives the smaller
-/// bound.
+/// 2^(log2_times_q8 / 256). Computes the bound for the given odds and for odds of 2^16, and returns
+/// the smaller bound.
 int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8);
 
 }  // namespace dotpose::core

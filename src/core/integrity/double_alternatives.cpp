@@ -203,9 +203,9 @@ class Finder {
     float sum() const {
         float sum = 0;
         groups_.visit_pairs([&](std::size_t one, std::size_t other) {
-            // Each call sorts the places of its first sequence into buckets, and combines them with
-            // the places of the other sequences. a3 is never sorted into buckets, because it is the
-            // shortest sequence.
+            // Each call sorts the places of one sequence into buckets, and combines these places
+            // with the places of the sequences in the list. The places of a3 are never sorted into
+            // buckets, because a3 is the shortest sequence.
             sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
                    sum_of_bucketed(3, {0, 1, 2}, one, other);
         });
@@ -274,9 +274,9 @@ class Finder {
     int shared_;
     Groups groups_;
     AnchorBytes anchors_{};  ///< 1 for each anchor
-    /// Minimum loss of an alternative that does not share the anchor, rounded down. The unit is
-    /// 1/kLimit of the loss at which the odds are at most kSkippedOdds, whatever the alternative
-    /// gains in other lines.
+    /// For each anchor, the minimum loss of an alternative that does not share it, rounded down. In
+    /// this unit, an alternative whose losses add up to kLimit has odds of at most kSkippedOdds,
+    /// whatever it gains in other lines.
     AnchorBytes losses_{};
 };
 

@@ -1,6 +1,7 @@
 // Expected alternatives: the expected odds of positions whose places differ from those of the
-// reading in several secondary sequences. The expectation is over all places. There are 4e8 such
-// positions, too many for an enumeration. See docs/integrity.md, "Alternatives: odds".
+// reading in several secondary sequences. The expectation is over all places. The expected odds
+// replace an enumeration, because there are 4e8 such positions. See docs/integrity.md,
+// "Alternatives: odds".
 #pragma once
 
 #include "core/integrity/ranked_lines.hpp"

@@ -48,7 +48,7 @@ struct PositionAndRoll {
     std::size_t roll;
 };
 
-/// Summed odds of all positions, by class and by added roll, without the odds of `left_out`. The
+/// For each class and each added roll, the summed odds of all positions except `left_out`. The
 /// class of a position is the position modulo 63.
 class OddsByClass {
   public:

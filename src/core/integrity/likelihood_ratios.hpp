@@ -16,8 +16,8 @@
 // - Double alternative: an alternative whose places differ in two sequences.
 // - Far alternative: an alternative whose places differ in two or more sequences.
 // - Near alternative: an alternative that shares at least four adjacent lines with the reading.
-// - Seam alternative: an alternative with one shift before a border between two lines, and another
-//   shift after the border.
+// - Seam alternative: an alternative with one shift before a border between two lines, and a
+//   different shift after the border.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +39,8 @@ inline constexpr int kMaxShared = 7;
 /// log2(62) in units of 2^-8, rounded up. A line has 62 rolls other than the reading's roll.
 inline constexpr int kOtherRolls_q8 = 1525;
 
-/// Minimum odds, 2^-64, as log2 in units of 2^-8 and as a number. Smaller odds count as 2^-64.
+/// Minimum odds: 2^-64, as log2 in units of 2^-8 and as a number. Smaller odds are replaced by
+/// 2^-64.
 inline constexpr int kNegligible_q8 = -64 * 256;
 inline constexpr float kNegligible = 5.5e-20F;
 
@@ -157,8 +158,8 @@ class LikelihoodRatios {
     std::array<std::int16_t, kMaxComparedLines> log2_of_nearest_q8_;
 };
 
-/// Roll offsets of an alternative in each line, from 0 to 62. Without a section, they are known
-/// only up to a shift.
+/// Roll offset of an alternative in each line, from 0 to 62. If the section of the alternative is
+/// unknown, the roll offsets are determined only up to a shift.
 using RollOffsets = std::array<std::uint8_t, kMaxLines>;
 
 /// Returns the roll offset, from 0 to 62. `own` is the roll of the reading, and `alternative` is

@@ -108,7 +108,7 @@ class Finder {
     int min_skipped_loss() const { return min_skipped_loss_; }
 
   private:
-    /// Maximum work of the search, in processor instructions (estimated).
+    /// Maximum estimated work of the search, in processor instructions.
     static constexpr std::size_t kMaxWork = 2'000'000;
     /// A pair of places in the last two sequences is stored as kLastPlaces times the index of the
     /// first place plus the index of the second place.
@@ -134,14 +134,13 @@ class Finder {
     /// before `line`. `places` contains the places at which an alternative may share the lines in
     /// `shared`. `lost` is the sum of the minimum losses of the other lines before `line`. Returns
     /// false if the search ends early, because it takes too long or the sum exceeds `max_odds_`.
-    /// Visits sets with more shared lines first, because they contain few alternatives, with the
-    /// largest odds.
+    /// Visits sets with more shared lines first, because these sets contain few alternatives, but
+    /// the alternatives with the largest odds.
     bool visit(int line, int lost, const PlaceSets& places, LineSet shared) {
         if (line == count_) return add_all(places, shared);
         const int loss = std::max(lines_.ratios.min_loss(line), 0);
-        // A line with a minimum loss of 0 costs nothing if it is not shared. The sets without it
-        // therefore include the alternatives that share it, and sets with it would count them
-        // twice.
+        // Sets never contain a line with a minimum loss of 0. An alternative that shares such a
+        // line is counted in a set without this line, and would otherwise be counted twice.
         if (loss > 0 && !visit_shared(line, lost, places, shared)) return false;
         if (lost + loss >= loss_limit_) {
             min_skipped_loss_ = std::min(min_skipped_loss_, lost + loss);

@@ -15,8 +15,8 @@ using MinLosses = std::array<int, kMaxLines + 1>;
 MinLosses min_losses(const LikelihoodRatios& ratios, bool from_last);
 
 /// Returns a lower bound on the loss of every seam alternative, wherever its border is. A seam
-/// alternative has one shift before a border between two lines, and another shift after the border.
-/// Gains count as 0.
+/// alternative has one shift before a border between two lines, and a different shift after the
+/// border. Gains count as 0.
 int min_loss_with_border(const LikelihoodRatios& ratios);
 
 /// Returns true if every seam alternative loses at least `loss_limit` in a single line, because

@@ -13,16 +13,17 @@ namespace dotpose::core {
 namespace {
 
 /// Safety factor for the expected odds of the sets that are not searched. On 2,500 axes of nominal
-/// frames, their odds were 0.04 times the expected odds on average, more than 4 times on 6 axes,
-/// and at most 40 times.
+/// frames, the ratio of the true odds of these sets to the expected odds was 0.04 on average, above
+/// 4 on 6 axes, and at most 40.
 constexpr float kPlanMargin = 4;
 
-/// Alternatives that lose this many bits are not evaluated in all lines. They count with the odds
-/// at this loss.
+/// Loss, in bits, at which the evaluation of an alternative stops. The alternative then counts with
+/// the odds at this loss.
 constexpr int kSkippedBits = 46;
 
 /// Keys of places: the changes of the roll offset across the first two gaps, combined as kKeyStep *
-/// first + second. The sum of two keys with elements below kSections needs no reduction.
+/// first + second. Sums of two keys are also valid indices, because the elements of each key are
+/// below kSections.
 constexpr std::size_t kKeyStep = 128;
 constexpr std::size_t kKeys = 2 * kKeyStep * kSections;
 
@@ -49,7 +50,7 @@ struct Pattern {
 /// Places in one sequence at which an alternative may share a given set of lines.
 class KeyedPlaces {
   public:
-    /// Lists the places. `negates` is true if the keys are of the negated changes.
+    /// Lists the places. If `negates` is true, computes the keys from the negated changes.
     void list(const RankedLines& lines, std::size_t sequence, const PlaceBits& places,
               const Pattern& pattern, bool negates) {
         count_ = 0;
@@ -113,9 +114,9 @@ class KeyedPlaces {
 
 /// Finds the far alternatives that share given sets of lines, and adds their odds. Two positions
 /// share two adjacent lines only if, in the step between these lines, they have the same digit in
-/// each of the four sequences. The places of two sequences are stored in a table, by their changes
-/// of the roll offset across the gaps, and each pair of places of the other two sequences is looked
-/// up there.
+/// each of the four sequences. The search stores each pair of places in two of the sequences in a
+/// table, by the change of the roll offset across the gaps. For each pair of places in the other
+/// two sequences, it looks up the pairs with the opposite change.
 class SetSearch {
   public:
     SetSearch(const RankedLines& lines, float max_odds, WorkLimit& work)
@@ -180,7 +181,8 @@ class SetSearch {
         }
     }
 
-    /// Returns the number of sequences with places other than the place of the reading.
+    /// Returns the number of sequences in which `places` contains a place other than the place of
+    /// the reading.
     int count_different(const PlaceSets& places) const {
         int different = 0;
         for (std::size_t k = 0; k < places.size(); ++k) {
@@ -243,7 +245,8 @@ class SetSearch {
         if (key % kKeyStep >= kSections) key -= kSections;
         return key >= kTooMany ? key - kTooMany : key;
     }
-    /// Sets all elements whose key is equal to `key` modulo kSections.
+    /// Sets all elements of `newest_` whose keys are equal to `key` if both parts of the keys are
+    /// reduced modulo kSections.
     void set_newest(std::size_t key, std::uint16_t pair) {
         newest_[key] = newest_[key + kSections] = pair;
         newest_[key + kKeyStep * kSections] = newest_[key + kKeyStep * kSections + kSections] =
@@ -270,8 +273,8 @@ class SetSearch {
             add_in_all_lines(pattern, a, b, c, d);
     }
 
-    /// Adds the odds of the alternative with the given places, unless the lines with a positive
-    /// minimum loss that it shares are not exactly those of the pattern.
+    /// Adds the odds of the alternative with the given places. Adds nothing if, among the lines
+    /// with a positive minimum loss, it does not share exactly the lines of the pattern.
     void add_in_all_lines(const Pattern& pattern, std::size_t a, std::size_t b, std::size_t c,
                           std::size_t d) {
         int lost = 0;
@@ -289,7 +292,7 @@ class SetSearch {
     const RankedLines& lines_;
     std::size_t count_;
     float max_odds_;
-    int skipped_loss_;  ///< loss of kSkippedBits, whatever an alternative gains in other lines
+    int skipped_loss_;  ///< kSkippedBits as a loss, plus the maximum gain in other lines
     WorkLimit& work_;
     PlaceSets all_;  ///< all places
     PlaceSets own_;  ///< the places of the reading
@@ -298,7 +301,8 @@ class SetSearch {
     std::array<KeyedPlaces, 4> lists_;
     /// Losses in the first lines that are not shared, by roll offset (see `RankedLines::losses`).
     std::array<const std::int16_t*, sizeof(std::uint64_t)> losses_{};
-    /// For each of these lines, the loss up to this line at which an alternative is skipped.
+    /// For each of these lines, the total loss in the lines up to and including this line at which
+    /// an alternative is skipped.
     std::array<int, sizeof(std::uint64_t)> limits_{};
     /// `newest_` contains the newest pair of places with each key, and `before_` contains for each
     /// pair the previous pair with the same key.

@@ -9,10 +9,10 @@
 
 namespace dotpose::core {
 
-/// Returns an upper estimate of the summed odds of all far alternatives. The result contains the
-/// individual odds of the alternatives in the sets of lines that `SetPlan` chooses, and kMargin
-/// times the expected odds of all others. This second part is at most `max_rest`. If the sum
-/// exceeds `max_odds`, the search stops and the result is incomplete, but exceeds `max_odds`.
+/// Returns an upper estimate of the summed odds of all far alternatives. The result is the sum of
+/// the individual odds of the alternatives in the sets of lines that `SetPlan` chooses, and 4 times
+/// the expected odds of all other far alternatives. The second term is at most `max_rest`. If the
+/// sum exceeds `max_odds`, the search stops and the result is incomplete, but exceeds `max_odds`.
 /// Returns nullopt if `work` does not suffice. In most of these cases, no work is done.
 std::optional<float> sum_of_planned_alternatives(const RankedLines& lines, float max_rest,
                                                  float max_odds, WorkLimit& work);

@@ -71,7 +71,8 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
     // digits so far are equal. An element therefore does not change while its alternatives continue
     // to share lines.
     std::array<int, kMaxShared + kMaxLines> sharing;
-    // pairs[n] is sharing[n] + sharing[n - 1]. Adding pairs halves the number of additions.
+    // pairs[n] is log2 of the sum of the odds in sharing[n] and sharing[n - 1]. Adding pairs halves
+    // the number of additions.
     std::array<int, kMaxShared + kMaxLines> pairs;
     std::fill_n(sharing.begin(), kMaxShared, kNever_q8);
     std::fill_n(pairs.begin(), kMaxShared, kNever_q8);
@@ -137,10 +138,10 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int max_log2_q8) {
         odds[static_cast<std::size_t>(line)] = {best, best + others};
     }
     int sum = far_log2_q8(ratios, kAlternativeSets.front(), odds);
-    // The other four sets contain more alternatives, but these alternatives share lines more
-    // rarely. Among the alternatives that share more than seven lines, each of the four sets has
-    // less than half the odds of the first set. The odds of all five sets together are therefore
-    // less than three times the odds of the first set.
+    // Each of the other four sets contains more alternatives, but these alternatives share fewer
+    // lines on average. Among the alternatives that share more than seven lines, each of the four
+    // sets has less than half the odds of the first set. The odds of all five sets together are
+    // therefore less than three times the odds of the first set.
     constexpr int kThreeTimes_q8 = 406;
     if (sum + kThreeTimes_q8 < kSmallOdds_q8) {
         const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(ratios));
@@ -240,7 +241,7 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int loss_limit)
     for (const Loss* const end = loss + first_count_; loss != end; ++loss)
         keep(*loss);
     // If `largest` is at most this value, the alternative loses at least `loss_limit_` in the lines
-    // that were added so far, at every shift. Such an alternative does not matter.
+    // that were added so far, at every shift. The odds of such an alternative are negligible.
     std::uint32_t max_to_keep = none - loss_limit_ + first_losses_;
     for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
         keep(*loss);

@@ -13,8 +13,8 @@ static_assert(code::kA4Restored.size() == code::kA4Published.size() &&
 
 namespace {
 
-/// Computes the odds of losses. Caches the results, because the losses of hard bits have few
-/// different values.
+/// Converts losses to odds. Caches the results, because the losses of hard bits have few different
+/// values.
 class OddsByLoss {
   public:
     explicit OddsByLoss(const LikelihoodRatios& ratios) : ratios_(ratios) { losses_.fill(kNone); }
@@ -86,8 +86,8 @@ void RankedLines::rank_lines() {
 void RankedLines::set_offsets(std::size_t sequence, std::uint32_t place,
                               RollOffsets& offsets) const {
     using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
-    // The vectors also access elements beyond the last line. These elements exist in the tables of
-    // rolls and in the array of offsets.
+    // The loop also accesses elements beyond the last line, up to a multiple of the vector size.
+    // The tables of rolls and the array of offsets contain these elements.
     static_assert(kMaxLines % sizeof(Bytes) == 0 && kMaxLines <= code::kLinesAhead);
     const std::uint8_t* const rolls = ratios.basis[sequence].rolls;
     for (std::size_t line = 0; line < static_cast<std::size_t>(count()); line += sizeof(Bytes)) {

@@ -12,9 +12,9 @@ namespace dotpose::core {
 namespace {
 
 /// Prior probability that a given border between two lines is a seam with a given roll difference,
-/// as log2 in units of 2^-8. With this prior and the default limit, a position is accepted if a
-/// seam explains the view equally well, but refused if the likelihood of a seam is at least four
-/// times higher.
+/// as log2 in units of 2^-8. With this prior and the default limit, a position is accepted if the
+/// view is equally likely with and without a seam, but refused if the view is at least four times
+/// as likely with a seam.
 constexpr int kSeam_q8 = -32 * 256;
 /// Minimum odds of the alternatives that are included in the sum, as log2 in units of 2^-8. These
 /// odds exclude the prior.
@@ -63,8 +63,8 @@ class LossesByBorder {
         const auto loss_in = [&](int line) {
             return ratios_.loss(line, offsets[static_cast<std::size_t>(line)] - shift);
         };
-        // Each loop stops when the loss on its side reaches `loss_limit_`, because more distant
-        // borders cannot matter at this shift.
+        // Each loop stops when the loss on its side reaches `loss_limit_`, because at this shift,
+        // the odds for more distant borders are negligible.
         int lost = 0;
         for (int line = 0; line < count && lost < loss_limit_; ++line) {
             update_min(before_[static_cast<std::size_t>(line)], lost);
@@ -117,8 +117,9 @@ bool may_matter(const LikelihoodRatios& ratios, std::size_t sequence, std::uint3
     return false;
 }
 
-/// The lines whose minimum loss is at least a loss limit. An alternative matters only if it shares
-/// all of them, each at the shift before or at the shift after the border.
+/// The required lines are those whose minimum loss is at least a loss limit. The odds of an
+/// alternative are negligible unless it shares every required line, either at the shift before the
+/// border or at the shift after it.
 class RequiredLines {
   public:
     RequiredLines(const LikelihoodRatios& ratios, int loss_limit) : ratios_(ratios) {
@@ -198,8 +199,9 @@ StepLosses losses_of_steps(const LikelihoodRatios& ratios, int loss_limit) {
     const int part =
         (loss_limit + max_lost + StepLosses::kLimitParts - 1) / StepLosses::kLimitParts;
     for (int step = 0; step < steps.count; ++step) {
-        // A step between two lines that each lose the limit counts as half of the limit, because an
-        // alternative that differs in two such steps loses the limit wherever the border is.
+        // If both lines of a step have minimum losses of at least the limit, the step counts as
+        // half of the limit. An alternative that differs in two such steps loses the limit wherever
+        // the border is.
         const int lost = lost_at(step);
         steps.parts[static_cast<std::size_t>(step)] = static_cast<std::uint8_t>(
             lost == loss_limit ? StepLosses::kLimitParts / 2 : lost / part);

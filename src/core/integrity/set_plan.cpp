@@ -6,19 +6,19 @@
 namespace dotpose::core {
 namespace {
 
-/// Sets are searched in any case if alternatives may lose less than this many bits. So the odds of
-/// an alternative that is not counted are at most 2^-24.
+/// A set must be searched if its alternatives may lose less than this many bits. An alternative
+/// that is not counted individually therefore has odds of at most 2^-24.
 constexpr int kRequiredBits = 24;
 
-/// Number of possible changes of the roll from one line to the next. The changes of an alternative
-/// that differs in all four sequences are about uniformly distributed over them.
+/// Number of possible changes of the roll from one line to the next. If an alternative differs in
+/// all four sequences, its roll changes are distributed about uniformly over these values.
 constexpr float kChanges = 54;
 
-/// Factors by which the expected odds of alternatives that differ in two and in three sequences
-/// exceed those of the model, in which the roll offsets of lines that are not shared are uniformly
-/// distributed. With few different sequences, only few changes of the roll are possible. On 700
-/// axes of nominal frames, the mean ratios to the sum of `sum_of_expected_alternatives` were 10 to
-/// 17, 2, and 0.6 for alternatives that differ in four sequences.
+/// Correction factors for the expected odds of alternatives that differ in two and in three
+/// sequences. The model assumes that the roll offsets of lines that are not shared are uniformly
+/// distributed, but if few sequences differ, only few changes of the roll are possible. On 700 axes
+/// of nominal frames, the mean ratio of the result of `sum_of_expected_alternatives` to that of the
+/// model was 10 to 17 for two different sequences, 2 for three, and 0.6 for four.
 constexpr float kUnevennessOfTwo = 16;
 constexpr float kUnevennessOfThree = 2;
 /// Probabilities that the roll offset is 0 again after a gap, for alternatives that differ in two,
@@ -34,18 +34,19 @@ float odds_of_others(const OddsByOffset& odds) {
 
 }  // namespace
 
-/// Set of shared lines, up to a line.
+/// A choice of shared lines among the first compared lines. The other compared lines are still
+/// undecided.
 struct SetPlan::Node {
     LineSet shared = 0;
-    /// Number of alternatives with the digits of the reading in all steps between shared lines, in
-    /// each sequence.
+    /// For each sequence, the expected number of places with the digits of the reading in all steps
+    /// between adjacent shared lines.
     std::array<float, 4> places;
     /// Probability that all gaps end at a shared line, times the mean odds in the lines that are
     /// not shared, for alternatives that differ in two, three and four sequences.
     float two;
     float three;
     float four;
-    int min_loss = 0;  ///< of the lines that are not shared
+    int min_loss = 0;  ///< total minimum loss of the lines that are not shared
     int gaps = 0;
     int last = -2;  ///< last shared line
     int run = 0;    ///< number of adjacent shared lines that end with `last`
@@ -65,7 +66,7 @@ struct SetPlan::Node {
         return shared == 0 ? kSections * sum : sum;
     }
 
-    /// Returns the work of `SetSearch::add`, in processor instructions (estimated).
+    /// Returns the estimated work of `SetSearch::add`, in processor instructions.
     float work() const {
         constexpr float kNever = 1e9F;
         if (shared == 0) return kNever;
@@ -106,7 +107,7 @@ SetPlan::SetPlan(const RankedLines& lines, float max_rest, float max_work)
     skip_sets();
 }
 
-/// Adds all sets that continue `node` with compared lines from index `n` on.
+/// Adds all sets that continue `node`. The compared lines from index `n` on are undecided.
 void SetPlan::visit(std::size_t n, const Node& node) {
     const float expected = node.expected();
     if (expected < max_rest_ / 1024 && node.min_loss >= required_loss_) {
@@ -127,12 +128,12 @@ void SetPlan::visit(std::size_t n, const Node& node) {
     visit(n + 1, without);
 }
 
-/// Adds all sets that continue `node` with compared line `n`.
+/// Adds all sets that continue `node` and contain the compared line with index `n`.
 void SetPlan::visit_shared(std::size_t n, Node node) {
     const LikelihoodRatios& ratios = lines_.ratios;
     const int line = compared_[n];
     if (node.last == line - 1) {
-        // No alternative shares more adjacent lines.
+        // No alternative shares more than `max_shared` adjacent lines.
         if (++node.run > ratios.max_shared()) return;
         for (std::size_t k = 0; k < node.places.size(); ++k)
             node.places[k] *= ratios.basis[k].base == 2 ? 1.0F / 2 : 1.0F / 3;
@@ -148,7 +149,8 @@ void SetPlan::visit_shared(std::size_t n, Node node) {
     visit(n + 1, node);
 }
 
-/// Sorts the sets by decreasing ratio of expected odds and work.
+/// Sorts the sets: first the required sets, then the other sets by decreasing ratio of expected
+/// odds to work.
 void SetPlan::sort_sets() {
     std::array<float, kMaxSets> ratios;
     for (std::size_t n = 0; n < count_; ++n) {
@@ -165,7 +167,7 @@ void SetPlan::sort_sets() {
     }
 }
 
-/// Moves sets from the end of the list to the rest.
+/// Removes sets from the end of the list, and adds their expected odds to the rest.
 void SetPlan::skip_sets() {
     for (; count_ > 0; --count_) {
         const PlannedSet& last = sets_[count_ - 1];

@@ -22,15 +22,17 @@ struct PlannedSet {
 /// Chooses sets of lines. Lines with a minimum loss of 0 may be shared or not.
 class SetPlan {
   public:
-    /// `max_rest` is the maximum of the expected odds of all sets that are not searched. The rest
-    /// is at most half of it, unless the search would then take more than `max_work`.
+    /// The rest is the sum of the expected odds of all sets that are not searched. If the plan is
+    /// feasible, the rest is at most `max_rest` / 2 or, if the search would otherwise take more
+    /// than `max_work`, at most `max_rest`.
     SetPlan(const RankedLines& lines, float max_rest, float max_work);
     /// Returns false if there are too many sets, if the search would take more than `max_work`, or
     /// if the rest would exceed `max_rest`.
     bool is_feasible() const { return is_complete_ && work_ <= max_work_ && rest_ <= max_rest_; }
-    /// Returns the sets to search, in a good order: large expected odds and little work first.
+    /// Returns the sets to search. The required sets come first. The other sets are sorted by
+    /// decreasing ratio of expected odds to work.
     std::span<const PlannedSet> sets() const { return std::span(sets_).first(count_); }
-    /// Returns the expected odds of all other far alternatives.
+    /// Returns the expected odds of all far alternatives that are not in `sets`.
     float rest() const { return rest_; }
 
   private:
@@ -48,8 +50,9 @@ class SetPlan {
     int required_loss_;
     std::size_t compared_count_ = 0;
     std::array<std::uint8_t, kMaxLines> compared_;  ///< lines with a positive minimum loss
-    std::array<float, kMaxLines>
-        mean_odds_;  ///< of rolls that are not shared, by index in `compared_`
+    /// For each compared line, the summed odds of all other rolls, divided by kChanges. Indexed as
+    /// `compared_`.
+    std::array<float, kMaxLines> mean_odds_;
     std::size_t count_ = 0;
     std::array<PlannedSet, kMaxSets> sets_;
     bool is_complete_ = true;

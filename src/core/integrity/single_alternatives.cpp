@@ -10,9 +10,10 @@ namespace dotpose::core {
 namespace {
 
 /// Returns the loss, in bits, at which an alternative is skipped. Skipped alternatives are not
-/// evaluated line by line, but count with the odds at this loss. In small views, many places lose
-/// 52 to 56 bits, so the loss is smaller there. The skipped alternatives still count little,
-/// because each is added once per line: with 16 lines, their odds add up to at most 2^-38.
+/// evaluated line by line, but count with the odds at this loss. In views with at most 16 lines,
+/// many places lose 52 to 56 bits. The loss is smaller in these views, so that these places are
+/// skipped. Each skipped alternative counts once per line, so with 16 lines, the odds of all
+/// skipped alternatives add up to at most 2^-38.
 int bits_of_skipped(int lines) {
     return lines <= 16 ? 52 : 56;
 }
@@ -30,7 +31,7 @@ float odds_at(const RankedLines& lines, const RollOffsets& offsets, std::size_t 
     return lines.ratios.odds(lost);
 }
 
-/// Variant of `odds_at` without a list of the roll offsets.
+/// Variant of `odds_at` that computes the roll offsets from the place.
 float odds_of_place(const RankedLines& lines, std::size_t sequence, std::uint32_t place,
                     std::size_t shared) {
     const LikelihoodRatios& ratios = lines.ratios;
@@ -110,11 +111,12 @@ float sum_of_single_alternatives(const Kernels& kernels, const RankedLines& line
 
 std::optional<float> sum_of_single_alternatives(const Kernels& kernels, const RankedLines& lines,
                                                 WorkLimit& work) {
-    // In small views, many places lose 44 to 52 bits. They count with the odds at their minimum
-    // losses. Up to 16 lines, the odds of the places that are not listed add up to at most 2^-37.
+    // In small views, many places lose 44 to 52 bits. These places count with the odds at their
+    // minimum losses. In views with at most 16 lines, the odds of the places that are not listed
+    // add up to at most 2^-37.
     constexpr int kSkippedBits = 51;
     constexpr int kEvaluatedBits = 43;
-    // Work in processor instructions (estimated).
+    // Estimated work, in processor instructions.
     constexpr std::size_t kWorkPerEntry = 20;
     constexpr std::size_t kWorkPerEvaluation = 100;
     const LikelihoodRatios& ratios = lines.ratios;

@@ -193,7 +193,8 @@ TrackedAxis tracked_axis(CodeVariant code, std::span<const ComparedLine> columns
     int wrong = 0;
     for (const ComparedLine& line : result.lines) {
         seen += bits_in(line.seen);
-        // Skips counting in most lines, because it is slow on processors without an instruction.
+        // Counts bits only in lines with wrong bits, because counting is slow on processors without
+        // a popcount instruction.
         if (line.wrong != 0) wrong += bits_in(line.wrong);
     }
     result.confidence = Confidence::of_hard_bits(seen, wrong);

@@ -35,8 +35,8 @@ struct Losses {
         }
     }
 
-    /// Returns the step losses, in parts of the loss limit. A place that loses
-    /// `StepLosses::kLimitParts` parts loses at least the limit.
+    /// Returns the step losses as multiples of a part of the loss limit. A place whose step losses
+    /// add up to at least `StepLosses::kLimitParts` parts loses at least the limit.
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
@@ -91,10 +91,10 @@ class OtherPlaces {
         result_.here = ratios_.odds(lost);
     }
 
-    /// Returns the likelihood ratio of the same place in the other code.
+    /// Returns the odds of the same place in the other code.
     float here() const { return result_.here; }
-    /// Returns the summed likelihood ratios of all other places, or an upper bound if only the
-    /// table bound is set.
+    /// Returns the summed odds of all other places, or an upper bound on this sum if only the table
+    /// bound is set.
     float elsewhere() const { return result_.elsewhere; }
 
     /// Sets the summed odds of all other places to an upper bound from a table.
@@ -115,8 +115,9 @@ class OtherPlaces {
     /// place of the reading in a4 at all shifts except `shift_here_`, and every place at shifts
     /// without a shared line.
     void add_unsimilar() {
-        // A place with the rolls of the reading shares all lines at `shift_here_`, which is left
-        // out, and no line at any other shift. `add` would therefore add nothing.
+        // If the rolls are the same in both codes, the place shares all lines at `shift_here_` and
+        // no line at any other shift. `add` would leave out `shift_here_`, and therefore add
+        // nothing.
         if (!has_same_rolls_) add(ratios_.places[kA4], here_, shift_here_);
         add_sharing_none();
     }

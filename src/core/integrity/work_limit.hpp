@@ -5,17 +5,17 @@
 
 namespace dotpose::core {
 
-/// Work that may still be done, in processor instructions (estimated).
+/// Estimated work that may still be done, in processor instructions.
 class WorkLimit {
   public:
-    /// Work of testing the places of one frame that shows a small view. docs/speed.md, "Small
-    /// frames", compares limits. All other steps of a first attempt take about 200,000
+    /// Maximum work of testing the places of one frame that shows a small view. docs/speed.md,
+    /// "Small frames", compares limits. All other steps of a first attempt take about 200,000
     /// instructions.
     static constexpr std::size_t kOfFrame = 600'000;
 
     explicit WorkLimit(std::size_t work) : left_(work) {}
-    /// Subtracts `work` and returns true. Returns false if less work is left; then, nothing is
-    /// left.
+    /// Subtracts `work` and returns true. If less than `work` is left, sets the remaining work to 0
+    /// and returns false.
     bool spend(std::size_t work) {
         const bool is_enough = work <= left_;
         left_ = is_enough ? left_ - work : 0;
