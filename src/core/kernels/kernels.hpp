@@ -166,7 +166,7 @@ struct DotOffsets {
 struct BlockSums {
     static constexpr std::size_t kMaxAlong = 9;
     struct Block {
-        Four sums;  ///< one vector, because each dot then needs only one addition
+        Four sums;  ///< one vector, so that adding a dot takes one addition
         float inliers() const { return sums[0]; }
         float dots() const { return sums[1]; }  ///< number of measured dots, including outliers
         /// Sum of the residuals of the inliers, in spacings.
