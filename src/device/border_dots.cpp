@@ -29,8 +29,8 @@ class AtBorder {
           here_(kept_row(tracking, v)[u]) {}
 
     int darkness_below(int level) const { return level - here_; }
-    /// Returns true if no adjacent pixel is darker. Of several equally dark pixels, only the last
-    /// one counts.
+    /// Returns true if no adjacent pixel is darker. Of several adjacent pixels that are equally
+    /// dark, only the last one in row-major order counts as the darkest.
     bool is_darkest() const {
         for (int v = rows_.last; v >= rows_.first; --v) {
             const std::uint8_t* const row = kept_row(tracking_, v);

@@ -12,8 +12,8 @@ namespace dotpose::core {
 inline constexpr int kPartWidth_px = 16;
 inline constexpr int kPartHeight_px = 8;
 
-/// Returns the level below which pixels are dark. It is close to the paper level, because dots are
-/// pale.
+/// Returns the level below which pixels are dark. This level is close to the paper level, because
+/// dots are pale.
 constexpr int paper_edge(int paper) {
     return paper - (paper >> 4);
 }

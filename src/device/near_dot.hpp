@@ -74,8 +74,8 @@ class ReadSymbol {
 
 /// Reads the symbol of the dot at an intersection: the darkest of its four possible places. The
 /// result is unclear if no place is clearly the darkest and dark enough for a dot. Requires that
-/// the square around the intersection and a border of one pixel are stored. Not inlined, because
-/// small processors would otherwise not have enough registers.
+/// the square around the intersection and a border of one pixel are stored. This function is not
+/// inlined, because small processors would otherwise not have enough registers.
 DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
                                                const FixedVec& intersection_q16) {
     const std::int32_t stride = tracking.stride_px;

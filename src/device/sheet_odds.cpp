@@ -38,7 +38,7 @@ std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_acros
 }
 
 /// Sum of the odds of alternatives to a given place, which are other places on the known sheets.
-/// Includes the alternatives that agree with the given place on one axis. Only the lines of the
+/// Only alternatives that agree with the given place on one axis are included. The lines of the
 /// other axis distinguish such an alternative from the given place.
 class OddsOfOthers {
   public:

@@ -132,7 +132,7 @@ class SheetSearch {
 
   private:
     /// Tests the places at which the first line of a pair is at `position` and has an agreeing
-    /// roll. `step` is the difference from this roll to that of the next line.
+    /// roll. `step` is the roll of the next line minus this roll.
     void test_pair(const KnownRegion& region, const PairsOfLines& pairs, int quarters,
                    const Rolls& rolls, std::uint32_t position, std::uint32_t step);
     /// Tests the places at which the first line of an axis is at `position`. `wrong` bits of this
