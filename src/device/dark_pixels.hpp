@@ -19,7 +19,7 @@ constexpr int paper_edge(int paper) {
 }
 
 /// Returns the mean of every fourth pixel in every second row of a part. At most an eighth of the
-/// pixels are dark, so the mean is little below the paper level.
+/// pixels are dark, so the mean is only slightly below the paper level.
 int sampled_mean(const std::uint8_t* row, int stride);
 
 /// Returns the next pixel below `level`, or `end`.

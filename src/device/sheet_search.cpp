@@ -49,9 +49,9 @@ struct LinePair {
     AgreeingRolls second;
 };
 
-/// Returns the first line of the pair of adjacent lines that has the most bits. The bits of a pair
-/// are counted in the line that has fewer. Skips the lines in the bit set `tried`, and adds the
-/// pair to this set. Returns nullopt if no pair with bits is left.
+/// Returns the first line of the pair of adjacent lines that has the most bits. The number of bits
+/// of a pair is the number of bits in the line that has fewer bits. Skips the lines in the bit set
+/// `tried`, and adds the pair to this set. Returns nullopt if no pair with bits is left.
 std::optional<int> longest_pair(const HardLines& lines, std::uint32_t& tried) {
     std::optional<int> longest;
     int most_bits = 0;

@@ -150,9 +150,9 @@ class AffineFit {
     }
 
   private:
-    /// Minimum spread at which the dots determine a step. The spread measures how badly an affine
-    /// map imitates a step: if an affine map is fitted to the value 1 for dots beyond the line and
-    /// 0 for all other dots, the spread is the sum of its squared residuals.
+    /// Minimum spread at which the dots determine a step. The spread measures how poorly an affine
+    /// map approximates a step: if an affine map is fitted to the value 1 for dots beyond the line
+    /// and 0 for all other dots, the spread is the sum of its squared residuals.
     static constexpr float kMinSpread = 1;
 
     Symmetric3 inverse_{};

@@ -17,8 +17,8 @@ namespace measure {
 inline constexpr int kHalf_32nds = 9;
 inline constexpr int kMinHalf_q8 = 768;
 /// Standard deviation of the fitted dot, in 1/128 of the spacing, and its minimum, in 1/256 px.
-/// kSigma_128ths is the sigma of a typical blurred dot. A value of 6 gives 1,994 frames, 2.19 µm
-/// and 5.36 µm. A value of 24 gives only 1,904 frames, 3.58 µm and 9.19 µm.
+/// kSigma_128ths is the sigma of a typical blurred dot. With 6, the results are 1,994 frames, 2.19
+/// µm and 5.36 µm. With 24, they are only 1,904 frames, 3.58 µm and 9.19 µm.
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
 /// Maximum squared distance between a dot and its predicted place, in units of sigma^2. The limit
