@@ -101,7 +101,8 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 
 void Shifts::divide_by_dots() {
     // Minimum number by which a sum of darkness is divided. Sums over fewer dots are also divided
-    // by this number. This reduces their means, which may be large by chance.
+    // by this number, which reduces their means, because a mean over a few dots may be large by
+    // chance.
     constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);

@@ -10,7 +10,7 @@
 namespace dotpose::core {
 
 /// Returns the image that the camera would see if the scene did not rotate during the readout. The
-/// scene has the orientation that it had when the middle row was read. Levels between pixels are
+/// scene keeps the orientation that it had when the middle row was read. Levels between pixels are
 /// interpolated linearly, and border pixels replace pixels outside the image. `memory` receives the
 /// pixels, and must have one byte per pixel.
 ImageView derotated(const ImageView& image, const ReadoutTurn& turn,
