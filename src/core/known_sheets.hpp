@@ -9,9 +9,9 @@
 
 namespace dotpose::core {
 
-/// Range of the positions of a block's first line at which the block overlaps a region, along one
-/// axis. The block has `lines` adjacent lines. The region begins at `region_first` and has
-/// `region_size` positions.
+/// Range of positions along one axis: if the first line of a block is in this range, the block
+/// overlaps a region. The block has `lines` adjacent lines. The region begins at `region_first` and
+/// has `region_size` positions.
 struct PositionRange {
     std::uint32_t first;
     std::uint32_t count;

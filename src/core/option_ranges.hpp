@@ -1,4 +1,4 @@
-// Option ranges: the valid range of each option. If all options are in range, no stage can
+// Option ranges: the valid range of each option. If all options are in range, no computation can
 // overflow. Options that are safe at any value have no range, for example the lens coefficient k
 // (see `bend_q48`).
 #pragma once

@@ -28,10 +28,11 @@ struct OtherCode {
     OtherAxis x;
     OtherAxis y;
 
-    /// Returns the likelihood ratio of the same place in the other code, with both axes combined.
+    /// Returns the likelihood ratio for the same place in the other code: the product over both
+    /// axes.
     float here() const { return x.here * y.here; }
-    /// Returns an upper bound on the summed likelihood ratios of all other places, with both axes
-    /// combined.
+    /// Returns an upper bound on the summed likelihood ratios of all other places. The ratio of a
+    /// place is the product of its ratios along both axes.
     float elsewhere() const { return x.here * y.elsewhere + x.elsewhere * (y.here + y.elsewhere); }
 };
 

@@ -21,8 +21,8 @@ FixedVec image_centre_q8(const AdaptiveThreshold& threshold);
 /// Returns the image point whose pose is reported. `centre_q8` is the image centre.
 FixedVec reference_q8(FixedVec centre_q8, const DeviceOptions& options);
 
-/// Returns ok if the options are valid and the workspace accepts frames of this size, and the
-/// reason for a refusal otherwise. The second overload also refuses an image without pixels.
+/// Returns ok if the options are valid and the workspace accepts frames of this size. Otherwise,
+/// returns the reason for the refusal. The second overload also refuses an image without pixels.
 Status check(int width_px, int height_px, const DeviceOptions& options, const Workspace& w);
 Status check(const ImageView& image, const DeviceOptions& options, const Workspace& w);
 

@@ -60,7 +60,8 @@ struct Workspace {
     std::span<const DetectedDot> found_dots() const {
         return dots.first(static_cast<std::size_t>(dot_count));
     }
-    /// Sets the known sheets, and the minimum side of an image, which is smaller on known sheets.
+    /// Sets the known sheets and the minimum side of an image. The minimum is smaller if there are
+    /// known sheets.
     void set_known(const KnownSheets& sheets) {
         known = sheets;
         min_side_px =

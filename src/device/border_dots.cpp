@@ -29,8 +29,8 @@ class AtBorder {
           here_(kept_row(tracking, v)[u]) {}
 
     int darkness_below(int level) const { return level - here_; }
-    /// Returns true if no adjacent pixel is darker. Of several equally dark pixels, only the last
-    /// one counts.
+    /// Returns true if no adjacent pixel is darker. Of several adjacent pixels that are equally
+    /// dark, only the last one in row-major order counts as the darkest.
     bool is_darkest() const {
         for (int v = rows_.last; v >= rows_.first; --v) {
             const std::uint8_t* const row = kept_row(tracking_, v);
@@ -52,8 +52,8 @@ class AtBorder {
                 std::max(top[columns.last], bottom[columns.first])) >>
                1;
     }
-    /// Returns the sums over the pixel and those adjacent to it, as if no pixel were outside of the
-    /// image.
+    /// Returns the sums over the pixel and its neighbours. If some of the neighbours are outside
+    /// the image, corrects the sums for the missing pixels.
     DarkSums sums(int level) const;
 
   private:
@@ -77,8 +77,8 @@ DarkSums AtBorder::sums(int level) const {
             sums.y += (v - v_) * darkness;
         }
     }
-    // If the darkest pixel is on the border, a third of the square is outside of the image. The
-    // centroid is then off by about a quarter of a pixel.
+    // If the darkest pixel is on the border, a third of the square is outside of the image. Without
+    // correction, the centroid would then be wrong by about a quarter of a pixel.
     const auto correction = [mass = sums.mass](int at, int side_px) {
         if (at == 0) return -mass / 4;
         return at == side_px - 1 ? mass / 4 : 0;

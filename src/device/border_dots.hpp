@@ -7,8 +7,8 @@
 namespace dotpose::core {
 
 /// Adds the dots whose darkest pixels are in the two outermost columns and rows to
-/// `Tracking::found`. All rows of the image must be stored. A dot on the border may be off by a
-/// quarter of a pixel, which is little enough to read its bits.
+/// `Tracking::found`. All rows of the image must be stored. The centre of a dot on the border may
+/// be wrong by a quarter of a pixel, which is accurate enough for reading its bits.
 void find_border_dots(Tracking& tracking);
 
 }  // namespace dotpose::core

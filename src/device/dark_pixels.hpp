@@ -12,14 +12,14 @@ namespace dotpose::core {
 inline constexpr int kPartWidth_px = 16;
 inline constexpr int kPartHeight_px = 8;
 
-/// Returns the level below which pixels are dark. It is close to the paper level, because dots are
-/// pale.
+/// Returns the level below which pixels are dark. This level is close to the paper level, because
+/// dots are pale.
 constexpr int paper_edge(int paper) {
     return paper - (paper >> 4);
 }
 
 /// Returns the mean of every fourth pixel in every second row of a part. At most an eighth of the
-/// pixels are dark, so the mean is little below the paper level.
+/// pixels are dark, so the mean is only slightly below the paper level.
 int sampled_mean(const std::uint8_t* row, int stride);
 
 /// Returns the next pixel below `level`, or `end`.

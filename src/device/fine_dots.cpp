@@ -10,19 +10,19 @@
 namespace dotpose::core {
 namespace {
 
-/// Half side of the square in which a dot is measured, in px. No other dot reaches its corners.
+/// Half side of the square in which a dot is measured, in px.
 constexpr int kHalf_px = 2;
 /// Minimum mass, for which `Inverse` is exact enough.
 constexpr int kMinMass = 16;
 
-/// Returns true if no pixel around `at` is darker. Of several equally dark pixels, only the last
-/// one counts.
+/// Returns true if no pixel around `at` is darker. Of several adjacent pixels that are equally
+/// dark, only the last one in row-major order counts as the darkest.
 DOTPOSE_NOINLINE bool is_darkest(const std::uint8_t* at, int stride) {
     const int here = *at;
     const std::uint8_t* const above = at - stride;
     const std::uint8_t* const below = at + stride;
-    // The search meets most dots first at their upper edges, so the lower pixels are compared
-    // first.
+    // The search reaches most dots at their upper edges, where a pixel below is darker. The lower
+    // pixels are therefore compared first.
     return here < below[0] && here < at[1] && here < below[1] && here < below[-1] &&
            here <= at[-1] && here <= above[0] && here <= above[1] && here <= above[-1];
 }
@@ -44,7 +44,8 @@ DOTPOSE_NOINLINE void measure_dot(const std::uint8_t* at, int u, int v, Tracking
     const int stride = tracking.stride_px;
     const std::uint8_t* const first = at - kHalf_px * (stride + 1);
     const std::uint8_t* const last = first + 2 * kHalf_px * stride;
-    // At most one corner on each diagonal is darkened by another dot.
+    // Another dot may darken at most one corner on each diagonal, so the brighter corner of each
+    // diagonal shows the paper.
     const int paper = (std::max<int>(first[0], last[2 * kHalf_px]) +
                        std::max<int>(first[2 * kHalf_px], last[0])) >>
                       1;
@@ -70,8 +71,8 @@ void drop_unlike_dots(Tracking& tracking) {
     DetectedDot* kept = all.data();
     for (const DetectedDot& dot : all) {
         if (dot.mass < min_mass || dot.mass > max_mass) continue;
-        // A copy of the struct would be a call of `memcpy` on small processors. No later stage uses
-        // the mass.
+        // Copies only the centre, because no later stage uses the mass. On small processors,
+        // copying the whole struct would call `memcpy`.
         kept->centre_q8.x = dot.centre_q8.x;
         kept->centre_q8.y = dot.centre_q8.y;
         ++kept;

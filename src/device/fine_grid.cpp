@@ -131,7 +131,8 @@ DOTPOSE_NOINLINE void FineGrid::fit_phases() {
     PhasesOfAxis along_x;
     PhasesOfAxis along_y;
     const FixedVec middle_q8{at_q24_.x >> 16, at_q24_.y >> 16};
-    // Farther dots may be off by more than half a spacing, because of the error of the turn.
+    // Maximum distance of the used dots from the middle. The predicted places of farther dots may
+    // be wrong by more than half a spacing, because the predicted rotation is inaccurate.
     constexpr std::int32_t kNear_q8 = 7 * 128;
     int count = 0;
     for (const DetectedDot& dot : all()) {
@@ -178,7 +179,7 @@ DOTPOSE_NOINLINE void FineGrid::fit_roughly() {
     if (fit.count() >= kMinDots / 2 && fit.correct(plane_)) take_slopes();
 }
 
-/// Notes the bits of a dot, unless it is nearly as far from two of its four places.
+/// Records the bits of a dot. Ignores a dot that is about equally close to two of its four places.
 DOTPOSE_NOINLINE void FineGrid::note(const ReadDot& dot) {
     const auto [cell, from_q24, symbol] = dot;
     const int first = tracking_.first_cell;
@@ -249,7 +250,7 @@ bool agrees(const Tracking& tracking, FixedVec shift) {
 /// the prediction.
 DOTPOSE_NOINLINE bool find_place(FixedVec phase_q8, CodeVariant code, Tracking& tracking) {
     // If the phase is at least this number of cells, the shift of the pattern may also be the phase
-    // minus or plus one cell. Its magnitude is then at most 3/5 of a cell.
+    // minus or plus one cell. The magnitude of this shift is then at most 3/5 of a cell.
     constexpr int kLarge_q8 = 256 * 2 / 5;
     const auto other = [](int phase) {
         return magnitude(phase) < kLarge_q8 ? 0 : phase > 0 ? 1 : -1;

@@ -56,8 +56,8 @@ Regularity visit_cells(std::span<const DetectedDot> dots, int reach_cells, const
     int farthest_cell = 0;
     int beyond = 0;
     const Square reach = cells_within(reach_cells);
-    // Cells that are within reach and not farther from cell (0, 0) than the farthest dot so far.
-    // Most dots are in these cells and need no further test.
+    // The cells that are within reach and at most as far from cell (0, 0) as the farthest dot so
+    // far. Most dots are in these cells and need no further test.
     Square common = cells_within(0);
     for (const DetectedDot& dot : dots) {
         const FixedVec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));

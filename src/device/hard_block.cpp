@@ -54,8 +54,8 @@ int HardLines::wrong_with(const std::uint8_t* rolls, std::uint32_t added, int li
 }
 
 int HardLines::wrong_at(const code::RollsAhead& rolls, std::uint32_t added, int limit) const {
-    // In a rotated view, the first and last lines have few bits. The count begins with lines in the
-    // middle, which have more, so it exceeds `limit` sooner.
+    // In a rotated view, the first and last lines have few bits. The count begins with the middle
+    // lines, which have more bits, so that it exceeds `limit` sooner.
     const int begin = count / 4;
     int wrong = 0;
     int i = begin;

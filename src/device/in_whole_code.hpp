@@ -8,8 +8,8 @@ namespace dotpose::core {
 
 struct DeviceWorkspace;
 
-/// Functions for the whole code. DeviceWorkspace calls them through a pointer, so that a program
-/// whose frames are so small that only known sheets are read does not contain them.
+/// Functions for the whole code. DeviceWorkspace calls these functions through a pointer. A program
+/// whose frames are so small that only known sheets are read therefore does not contain them.
 struct WholeCodeFunctions {
     /// Finds the place of a frame without a prediction, and verifies it. Sets the place and the
     /// orientation in the decoding (paper, section II-B.5-7).

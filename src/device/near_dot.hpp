@@ -17,8 +17,8 @@ namespace dotpose::core {
 /// Half sides of the squares in which dots are read, in px. A square with the half side n has 2 n +
 /// 1 px per side. The square of kHalf_px is around an intersection and contains the dot at any of
 /// its four places, at spacings of 7 to 14 px. If the dots are displaced by little, symbols are
-/// read in the square of kSmallHalf_px, so that more dots near the border are read. The square of
-/// kDotHalf_px is around the centre of a dot.
+/// read in the square of kSmallHalf_px, so that more dots near the image border are read. The
+/// square of kDotHalf_px is around the centre of a dot.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kSmallHalf_px = 3;
 inline constexpr int kDotHalf_px = 2;
@@ -74,8 +74,8 @@ class ReadSymbol {
 
 /// Reads the symbol of the dot at an intersection: the darkest of its four possible places. The
 /// result is unclear if no place is clearly the darkest and dark enough for a dot. Requires that
-/// the square around the intersection and a border of one pixel are stored. Not inlined, because
-/// small processors would otherwise not have enough registers.
+/// the square around the intersection and a border of one pixel are stored. This function is not
+/// inlined, because small processors would otherwise not have enough registers.
 DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
                                                const FixedVec& intersection_q16) {
     const std::int32_t stride = tracking.stride_px;

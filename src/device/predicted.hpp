@@ -17,7 +17,7 @@ inline constexpr int kRowsAtOnce = 12;
 /// must have at most 4096 px per side. The prediction may have any values. Returns not_tracked in
 /// each of these cases:
 /// - a value of the prediction is out of range,
-/// - the spacing is not 7 to 13 px (5 to 13 px if sheets are known),
+/// - the spacing is not from 7 to 14 px (from 5 to 14 px if sheets are known),
 /// - the angle between the grid axes is less than 45 degrees, or the spacing along one axis is more
 ///   than about 1.6 times the spacing along the other,
 /// - the memory is too small,

@@ -35,10 +35,10 @@ TrackedView view_of(const Tracking& tracking) {
             extent_q16(tracking.height_px)};
 }
 
-/// Finds the first visible cell, in the reading direction, of each row of cells from row `j` in
-/// steps of `j_step`. Stops at a row without a visible cell. The visible cells of a row are
-/// contiguous and close to those of the previous row, so each search starts at the result of the
-/// previous one.
+/// Finds the first visible cell, in the reading direction, of each row of cells: row `j`, row `j` +
+/// `j_step`, and so on. Stops at a row without a visible cell. The visible cells of a row are
+/// contiguous, and close to the visible cells of the previous row. Each search therefore starts at
+/// the result of the previous search.
 void lay_rows(Tracking& tracking, int j, int j_step) {
     const TrackedView view = tracking.view;
     const RowDirection direction = row_direction(tracking);
@@ -68,7 +68,7 @@ void lay_rows(Tracking& tracking, int j, int j_step) {
     }
 }
 
-/// Marks both bits of a cell as read, and marks those that contradict the code as wrong. Returns
+/// Marks both bits of a cell as read, and marks the bits that contradict the code as wrong. Returns
 /// true if both bits agree with the code.
 DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
     ComparedLine& column = column_of(tracking, i);

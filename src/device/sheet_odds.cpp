@@ -37,9 +37,9 @@ std::uint32_t added_to_rolls(std::uint32_t section, std::uint32_t position_acros
     return code::modulo_sections(section + code::modulo_sections(position_across));
 }
 
-/// Sum of the odds of alternatives to a given place, which are other places on the known sheets.
-/// Includes the alternatives that agree with the given place on one axis. Only the lines of the
-/// other axis distinguish such an alternative from the given place.
+/// Sum of the odds of alternatives to a given place. The alternatives are other places on the known
+/// sheets that agree with the given place on one axis. The lines of the other axis distinguish such
+/// an alternative from the given place.
 class OddsOfOthers {
   public:
     OddsOfOthers(CodeVariant code, int odds_per_bit_q8)

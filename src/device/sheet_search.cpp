@@ -49,9 +49,9 @@ struct LinePair {
     AgreeingRolls second;
 };
 
-/// Returns the first line of the pair of adjacent lines that has the most bits. The bits of a pair
-/// are counted in the line that has fewer. Skips the lines in the bit set `tried`, and adds the
-/// pair to this set. Returns nullopt if no pair with bits is left.
+/// Returns the first line of the pair of adjacent lines that has the most bits. The number of bits
+/// of a pair is the number of bits in the line that has fewer bits. Skips the lines in the bit set
+/// `tried`, and adds the pair to this set. Returns nullopt if no pair with bits is left.
 std::optional<int> longest_pair(const HardLines& lines, std::uint32_t& tried) {
     std::optional<int> longest;
     int most_bits = 0;
@@ -132,7 +132,7 @@ class SheetSearch {
 
   private:
     /// Tests the places at which the first line of a pair is at `position` and has an agreeing
-    /// roll. `step` is the difference from this roll to that of the next line.
+    /// roll. `step` is the roll of the next line minus this roll.
     void test_pair(const KnownRegion& region, const PairsOfLines& pairs, int quarters,
                    const Rolls& rolls, std::uint32_t position, std::uint32_t step);
     /// Tests the places at which the first line of an axis is at `position`. `wrong` bits of this

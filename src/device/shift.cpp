@@ -100,8 +100,9 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 }
 
 void Shifts::divide_by_dots() {
-    // Minimum number by which a sum of darkness is divided. If a sum has fewer dots, its mean is
-    // thereby reduced, because a mean over a few dots may be large by chance.
+    // Minimum number by which a sum of darkness is divided. Sums over fewer dots are also divided
+    // by this number, which reduces their means, because a mean over a few dots may be large by
+    // chance.
     constexpr int kMinDivisor = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kMinDivisor);

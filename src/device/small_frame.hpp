@@ -1,6 +1,7 @@
-// Small frame: finds the dots of a small frame on known sheets. Such a frame has few more dots than
-// needed, so its rows are stored, and dots are also found where they are close to the border or to
-// each other. The detection of blobs (core/detect/blobs.hpp) loses these dots.
+// Small frame: finds the dots of a small frame on known sheets. Such a frame has only a few more
+// dots than necessary, so dots close to the border or to each other must also be found. Blob
+// detection (core/detect/blobs.hpp) misses these dots. The search for darkest pixels finds them,
+// but requires that the rows are stored.
 #pragma once
 
 #include "dotpose/device_options.hpp"
@@ -10,8 +11,8 @@ namespace dotpose::core {
 
 struct DeviceWorkspace;
 
-/// Maximum width and height of small frames. Grids of which they show enough dots have spacings of
-/// up to 15 px.
+/// Maximum width and height of small frames. In a frame of this size, enough dots are in view at
+/// spacings of up to 15 px.
 inline constexpr int kMaxSmallSide_px = 80;
 
 /// Starts to store the rows of a frame. Returns false if the frame is not small, or if the memory

@@ -16,7 +16,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Maximum number of shifts to try. Almost always, one of the first two is correct.
+/// Maximum number of shifts to try. One of the first two shifts is almost always correct.
 constexpr int kMaxShifts = 4;
 
 /// Shifts and rotates the predicted cells to fit the dots in the first rows. Error: not_tracked.

@@ -12,8 +12,8 @@ namespace {
 
 /// Returns the number of bits by which masses and mass-weighted sums must be shifted right so that
 /// the total mass is less than 2^16. All sums are then less than 2^31, because cell coordinates are
-/// at most 16 from the middle and offsets at most 416/256 px, which is an eighth of the maximum
-/// spacing of 13 px.
+/// at most 16 from the middle and offsets are at most 448/256 px, which is an eighth of the maximum
+/// spacing of 14 px.
 int excess_bits(const Tracking& tracking) {
     std::uint32_t mass = 0;
     for (const TrackedRow& row : tracking.grid_rows)
@@ -66,7 +66,8 @@ bool invert(const CellMap& cells, FixedVec centre_q8, PlaneFromImage& plane) {
     const FixedVec x = cells.along_x_q16;
     const FixedVec y = cells.along_y_q16;
     const std::int64_t det_q24 = cross(x, y) >> 8;
-    // Prevents overflow of the slopes, because a fit to only a few dots may be arbitrarily wrong.
+    // A fit to only a few dots may be arbitrarily wrong. This test prevents an overflow of the
+    // slopes.
     if (det_q24 < 1 << 24) return false;
     const auto slope_q24 = [&](std::int32_t a_q16) {
         return short_quotient(std::int64_t{a_q16} << 32, det_q24);

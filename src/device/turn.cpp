@@ -20,15 +20,16 @@ constexpr int kMinFraction_q3 = 6;
 constexpr int kMinMeasured = 8;
 
 /// A shift, a rotation and a stretch of the pattern: a cell at c, relative to the middle cell,
-/// moves by shift + stretch c + turn J c, where J is a rotation by 90 degrees. The shear of a
-/// rolling shutter is in the cell map, so it does not change with the rotation.
+/// moves by shift + stretch c + turn J c, where J is a rotation by 90 degrees. The cell map
+/// contains the shear of a rolling shutter, so the shear does not change with the rotation.
 struct Similarity {
     std::int32_t stretch_q20 = 0;
     std::int32_t turn_q20 = 0;
     FixedVec shift_q12;  ///< in 2^-12 spacings
 };
 
-/// Returns stretch v + turn J v. Not inlined, because 64-bit products need a lot of code.
+/// Returns stretch v + turn J v. This function is not inlined, because 64-bit products need a lot
+/// of code.
 [[gnu::noinline]] FixedVec change(const Similarity& s, FixedVec v) {
     const auto part = [](std::int64_t a_q20) { return static_cast<std::int32_t>(a_q20 >> 20); };
     return {part(std::int64_t{s.stretch_q20} * v.x - std::int64_t{s.turn_q20} * v.y),

@@ -98,8 +98,8 @@ class DeviceWorkspaceOf : public DeviceWorkspace {
                       kCapacity.height_px <= kMaxSideWithLowTiles_px,
                   "the workspace has memory for low tiles only");
 
-    // With the braces, all members are cleared in one call. Separate stores would take 800 bytes
-    // more code.
+    // With the braces, all members are cleared in one call. Separate stores would need 800 more
+    // bytes of code.
     DeviceWorkspaceOf() : DeviceWorkspace{} {
         max_width_px = kCapacity.width_px;
         if constexpr (kCapacity.height_px != kMaxFrameSide_px) max_height_px = kCapacity.height_px;

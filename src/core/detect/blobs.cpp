@@ -51,8 +51,8 @@ void keep_dots(DotList list, Predicate is_to_keep) {
 }
 
 /// Makes room for dots near the image centre: reduces `kept_within_px`, and removes the dots beyond
-/// this distance. Returns false if `kept_within_px` is already 0. Inlining this rare path would
-/// occupy registers that the frequent path of the caller needs.
+/// this distance. Returns false if `kept_within_px` is already 0. This function is not inlined,
+/// because it is rarely called and would occupy registers that the caller needs.
 [[gnu::noinline]] bool make_room(const AdaptiveThreshold& threshold, DotList list) {
     if (list.kept_within_px == 0) return false;
     list.kept_within_px -= list.kept_within_px / 8 + 1;

@@ -7,8 +7,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Number of adjacent pixels for which one quadratic interpolates the source points. The error of
-/// the interpolation is at most 0.003 px at a rotation of 60 degrees in 120 rows.
+/// Number of adjacent pixels whose source points are interpolated with the same quadratic. The
+/// error of the interpolation is at most 0.003 px at a rotation of 60 degrees in 120 rows.
 constexpr int kStep_px = 16;
 /// Factor that converts px to the unit of source points, 2^-8 px.
 constexpr float kUnit = 256;

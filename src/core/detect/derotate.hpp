@@ -9,10 +9,10 @@
 
 namespace dotpose::core {
 
-/// Returns the image that the camera would see if the scene did not rotate, but kept its
-/// orientation from the time when the middle row is read. Levels between pixels are interpolated
-/// linearly, and border pixels replace pixels outside the image. `memory` receives the pixels, and
-/// must have one byte per pixel.
+/// Returns the image that the camera would see if the scene did not rotate during the readout. The
+/// scene keeps the orientation that it had when the middle row was read. Levels between pixels are
+/// interpolated linearly, and border pixels replace pixels outside the image. `memory` receives the
+/// pixels, and must have one byte per pixel.
 ImageView derotated(const ImageView& image, const ReadoutTurn& turn,
                     std::span<std::uint8_t> memory);
 

@@ -65,8 +65,8 @@ bool measure_contrast(Patch& patch, DotTiles tiles) {
     const int dark_tiles = rows * columns - counts[kFlat];
     const bool is_small = std::min(patch.width_px, patch.height_px) < tuned::kSmall_px;
     if (dark_tiles < (is_small ? rows * columns / 2 : tuned::kMinTiles)) return false;
-    // Returns the smallest darkness that more than one in `parts` of the tiles with contrast do not
-    // exceed.
+    // Returns the smallest darkness d for which more than 1/`parts` of the tiles with contrast have
+    // a darkness of at most d.
     const auto darkness_of_part = [&](int parts) {
         std::size_t darkness = 0;
         for (int below = counts[0]; parts * below <= dark_tiles; below += counts[++darkness]) {

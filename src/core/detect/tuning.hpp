@@ -32,11 +32,11 @@ namespace smooth {
 inline constexpr int kMinHalf_px = 4;
 /// Maximum level of a stroke, in tenths of the brightest paper level nearby. Darker pixels count as
 /// paper in the local mean, because this mean represents the illumination and must not depend on
-/// graphics. The values 4 and 9 locate 1,995 frames.
+/// graphics. With 4 or 9, 1,995 frames are located.
 inline constexpr int kStroke_10ths = 7;
 /// Minimum level of the normalised image, in fifths of kNormalLevel. Graphics are clamped to this
 /// level, so they are not darker than a weak dot. Otherwise, the required contrast near dark
-/// graphics would exceed the contrast of dots. The value 2 locates only 1,937 frames.
+/// graphics would exceed the contrast of dots. With 2, only 1,937 frames are located.
 inline constexpr int kMinLevel_5ths = 4;
 }  // namespace smooth
 
@@ -59,7 +59,7 @@ inline constexpr float kMaxPale = 0.75F;
 inline constexpr int kThreshold_q8 = 150;
 /// Distances at which the surroundings of a minimum are tested, along the axes and diagonally, in
 /// px. At most kMaxDark of the eight directions may be dark. The limit is not 0, because
-/// neighbouring dots may darken some directions.
+/// neighbouring dots may be in some of the directions.
 inline constexpr int kAway_px = 4;
 inline constexpr int kDiagonally_px = 3;
 inline constexpr int kMaxDark = 2;

@@ -84,8 +84,8 @@ class NormalEquations {
     }
     /// Returns L^-T `vector`.
     Vector unwhitened(const Vector& vector) const {
-        // The element that was computed last is used in the last subtraction, so that the processor
-        // can compute the other products while it waits for this element.
+        // The last subtraction uses the element that was computed last. While the processor waits
+        // for this element, it can compute the other products.
         Vector result{};
         for (std::size_t i = N; i-- > 0;) {
             float rest = vector[i];

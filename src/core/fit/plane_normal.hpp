@@ -21,7 +21,7 @@ class PlaneSums {
     FitSums all() const;
 
   private:
-    /// Negated number of points with a positive weight, because a vector comparison yields -1 for
+    /// Number of points with a positive weight, times -1, because a vector comparison yields -1 for
     /// true.
     FourInts less_points_{};
     std::array<Four, 4> places_{};

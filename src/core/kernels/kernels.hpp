@@ -166,7 +166,7 @@ struct DotOffsets {
 struct BlockSums {
     static constexpr std::size_t kMaxAlong = 9;
     struct Block {
-        Four sums;  ///< one vector, because each dot then needs only one addition
+        Four sums;  ///< one vector, so that adding a dot takes one addition
         float inliers() const { return sums[0]; }
         float dots() const { return sums[1]; }  ///< number of measured dots, including outliers
         /// Sum of the residuals of the inliers, in spacings.
@@ -203,7 +203,7 @@ struct LineLoss {
 
 /// Places in the secondary sequences at which the bits of an alternative may be similar to those of
 /// the reading. Each entry also contains a line that this alternative shares with the reading, and
-/// a lower bound on its loss, in the unit of the losses of the lines.
+/// a lower bound on the loss of the alternative, in the unit of `LineLoss::loss`.
 struct SimilarPlaceList {
     static constexpr int kMax = 3072;
     struct Entry {
@@ -312,8 +312,8 @@ struct Kernels {
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int max_px, int step_px,
                        FixedVec& shift_px, int& cut_q8);
     /// Sets `x` and `y` to the centroids of the dark pixels in the windows of the dots. Drops dots
-    /// with less than 1/4 or more than 3.5 times the typical mass. Returns the typical mass
-    /// relative to the paper level.
+    /// whose mass is less than 1/4 or more than 3.5 times the typical mass. Returns the typical
+    /// mass relative to the paper level.
     float (*measure_windows)(const ImageView& image, const CellsInView& view,
                              const WindowOptions& options, MeasuredDots& dots);
     /// Replaces the centres with centroids that are weighted by centroid windows. Uses no

@@ -188,9 +188,9 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
     // neighbours.
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;
-    // Unlike the paper, which uses both medians as axes, this estimate averages u and v, rotated by
-    // -90 degrees, into one axis of a square grid. The medians deviate from a square grid mostly by
-    // random errors, not by tilt, so averaging halves the variance.
+    // Unlike the paper, which uses both medians as axes, this function rotates v by -90 degrees and
+    // averages it with u. The mean is one axis of a square grid. The medians deviate from a square
+    // grid mostly by random errors, not by tilt, so averaging halves the variance.
     const FixedVec twice_u{u.x + v.y, u.y - v.x};
     lattice.u_q16 = {twice_u.x * kLengthening_q8 / 2, twice_u.y * kLengthening_q8 / 2};
     lattice.v_q16 = {-lattice.u_q16.y, lattice.u_q16.x};

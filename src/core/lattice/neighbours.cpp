@@ -48,8 +48,8 @@ Buckets::Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_
         corner = {std::min(corner.x, p.x), std::min(corner.y, p.y)};
         end = {std::max(end.x, p.x), std::max(end.y, p.y)};
     }
-    // Chooses a size for which a bucket contains one to four seeds on average. The 3 x 3 buckets
-    // around a seed then usually contain its four nearest neighbours.
+    // Chooses the size of the buckets so that a bucket contains one to four seeds on average. The 3
+    // x 3 buckets around a seed then usually contain its four nearest neighbours.
     const int max_buckets = static_cast<int>(seeds.size());
     do {
         ++shift_;

@@ -1,7 +1,7 @@
 // Outwards: finds the grid of a patch, starting near its middle (paper, sections II-B.2 and
-// II-B.3). Two plane waves that fit the central dots give a first plane. The search then refits the
-// plane to more and more dots. The fit includes perspective once it uses dots more than four
-// spacings from the middle.
+// II-B.3). Two plane waves that fit the central dots give a first plane. The search then fits the
+// plane repeatedly, each time to more dots. The fit includes perspective once it uses dots more
+// than four spacings from the middle.
 #pragma once
 
 #include "core/kernels/kernels.hpp"

@@ -13,10 +13,10 @@ namespace dotpose::core {
 /// Nominal displacement of a dot from its intersection, in 2^-16 spacings.
 inline constexpr std::int32_t kDisplacement_q16 = 65536 / 6;
 
-/// The first estimate is reliable up to this distance from the origin, in cells. Up to there,
-/// errors of 3 % in spacing, 1 degree in direction and 1/20 cell in the origin add up to less than
-/// 1/3 cell. Each dot is then assigned to the correct cell, because displaced dots are 1/3 cell
-/// from the nearest border of their cells.
+/// The first estimate is reliable up to this distance from the origin, in cells. Up to this
+/// distance, errors of 3 % in spacing, 1 degree in direction and 1/20 cell in the origin add up to
+/// less than 1/3 cell. Each dot is then assigned to the correct cell, because displaced dots are
+/// 1/3 cell from the nearest border of their cells.
 inline constexpr int kFirstReach_cells = 4;
 
 /// Statistics of the dots within the reach of a fit.
@@ -37,7 +37,8 @@ struct Regularity {
     /// `mean_square_q20` is the mean squared distance from the dots to their nearest intersections,
     /// in 2^-20 spacings^2. In spacings^2, the mean is 1/6 for dots at random places, 1/36 for
     /// displaced dots on a grid, and 0 for a plain dot grid. In a grid, at least kMin_10ths / 10 of
-    /// the dots must be near an intersection. At random places, half the dots are.
+    /// the dots must be near an intersection. Of dots at random places, half are near an
+    /// intersection.
     Status verdict(std::int64_t mean_square_q20) const {
         constexpr std::int64_t kScattered_q20 = (1 << 20) / 10;
         constexpr std::int64_t kUndisplaced_q20 = (1 << 20) / 256;

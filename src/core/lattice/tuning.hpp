@@ -28,7 +28,7 @@ inline constexpr int kMedianSample = 256;
 inline constexpr int kMaxRounds = 4;
 /// Maximum distance between a dot and the nearest of the four places of its cell, in 2^-16
 /// spacings. Dots at a larger distance count as false dots. The limit is slightly less than the
-/// displacement. Half and twice this value also locate 1,994 frames.
+/// displacement. With half or twice this value, 1,994 frames are located as well.
 inline constexpr int kFar_q16 = 65536 / 8;
 /// Number of fits to the nearest places. The second fit starts from a more precise plane, and
 /// assigns more dots to their correct places.
@@ -40,7 +40,7 @@ namespace periodogram_search {
 /// Half side of the central square whose dots are in the periodogram, in spacings. Raster searches
 /// use kNear_cells, because the periodogram of a small square has a wide peak, which a coarse
 /// raster cannot miss. The ascent uses kWider_cells, because the peak of a larger square is more
-/// precise. For kNear_cells, the value 3 locates 1,964 frames, and the value 10 locates 1,993.
+/// precise. If kNear_cells is 3, 1,964 frames are located. If it is 10, 1,993 frames are located.
 inline constexpr int kNear_cells = 5;
 inline constexpr int kWider_cells = 8;
 /// Raster of the first search. kTurn_deg is the direction step. kStretchPart is the ratio of the

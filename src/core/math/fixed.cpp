@@ -136,9 +136,9 @@ std::int32_t angle_bam(FixedVec direction) {
             angle -= static_cast<std::uint32_t>(kAtan[i]);
         }
     };
-    // First step in which |y| fits in 32 bits. The rotations lengthen the vector to at most 1.65 *
-    // 2^41, and before step i, |y| is at most 2^(1 - i) times this length. From step 12 on, |y| and
-    // the terms subtracted from it therefore fit in 32 bits.
+    // Index of the first step in which |y| fits in 32 bits. The rotations lengthen the vector to at
+    // most 1.65 * 2^41, and before step i, |y| is at most 2^(1 - i) times this length. From step 12
+    // on, |y| and the terms subtracted from it therefore fit in 32 bits.
     constexpr std::size_t kNarrow = 12;
     for (std::size_t i = 0; i < kNarrow; ++i)
         turn(x, y, x >> i, i);

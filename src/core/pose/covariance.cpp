@@ -24,8 +24,7 @@ Parameters direction_gradient(const FourVecs& places, float scale, std::size_t f
 }
 
 /// Multiplies the covariance of the whitened parameters by a vector. Only adjacent parameters are
-/// correlated, so the covariance is tridiagonal, and the function skips the other elements, which
-/// are 0.
+/// correlated, so the covariance is tridiagonal. The function skips the elements that are always 0.
 Parameters times(const std::array<Parameters, kPoseParameters>& covariance, const Parameters& a) {
     Parameters product;
     for (std::size_t k = 0; k < kPoseParameters; ++k) {

@@ -42,7 +42,7 @@ class DotShape {
     /// respect to the terms. This is the variance from the normal equations times `misfit()`,
     /// because residuals larger than the noise make the terms less certain.
     float variance(const Terms& derivatives) const;
-    /// Returns the reduced chi-squared of the fit, but at least 1. The misfit is about 1 if the
+    /// Returns the misfit: the reduced chi-squared of the fit, but at least 1. It is about 1 if the
     /// residuals contain only noise.
     float misfit() const { return misfit_; }
 

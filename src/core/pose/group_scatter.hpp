@@ -30,8 +30,8 @@ struct GroupScatter {
         return std::max(squares - between, 0.0F) / std::max(2 * (dots - groups), 1.0F) + kExact;
     }
     /// Returns how far the scatter between groups exceeds its expected value for uncorrelated
-    /// residuals, in standard deviations of this scatter. Negative if the scatter is smaller than
-    /// expected.
+    /// residuals, in standard deviations of this scatter. The result is negative if the scatter is
+    /// smaller than expected.
     float excess() const {
         return (between / (freedom() * variance_within()) - 1) * std::sqrt(freedom() / 2);
     }

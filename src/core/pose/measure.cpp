@@ -177,8 +177,8 @@ class DotFit {
     }
 
   private:
-    // Weighted by the squared profile: sums of 1, x, y, x^2, xy and y^2. Weighted by the profile:
-    // sums of the darkness, and of the darkness times x and y.
+    // Sums of 1, x, y, x^2, xy and y^2, weighted by the squared profile. Sums of the darkness, the
+    // darkness times x and the darkness times y, weighted by the profile.
     Four one_x_y_xx_{};
     Four xy_yy_dark_{};
     Four dark_y_{};

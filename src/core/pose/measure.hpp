@@ -17,8 +17,8 @@ namespace dotpose::core {
 ///
 /// Centres are Gaussian-windowed centroids (Bertin, SExtractor: XWIN), iterated from the predicted
 /// places. Windows are cropped at the image border. The mass of a dot is its peak darkness relative
-/// to the paper level, in units of 2^-14. If the mass is untypical, the dot remains in `dots`, but
-/// `GridCell::dot` is kNoDot.
+/// to the paper level, in units of 2^-14. If the mass of a dot is not typical, the dot remains in
+/// `dots`, but the `GridCell::dot` of its cell is kNoDot.
 ///
 /// Returns the number of dots in `dots`.
 int measure_dots(const ImageView& image, const FixedLens& lens,

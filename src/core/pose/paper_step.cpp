@@ -150,9 +150,9 @@ class AffineFit {
     }
 
   private:
-    /// Minimum spread at which the dots determine a step. The spread measures how badly an affine
-    /// map imitates a step: if an affine map is fitted to the value 1 for dots beyond the line and
-    /// 0 for all other dots, the spread is the sum of its squared residuals.
+    /// Minimum spread at which the dots determine a step. The spread measures how poorly an affine
+    /// map approximates a step: if an affine map is fitted to the value 1 for dots beyond the line
+    /// and 0 for all other dots, the spread is the sum of its squared residuals.
     static constexpr float kMinSpread = 1;
 
     Symmetric3 inverse_{};
@@ -296,9 +296,9 @@ class Search {
 
     /// Returns the log likelihood ratio between separate planes and one plane for the whole sheet.
     /// Both parts have a separate plane, because the plane of the whole sheet may fit neither of
-    /// them. If its own plane explains the part beyond the line worse than random places do, the
-    /// log odds of this part are 0. If its own plane explains the part on this side worse than the
-    /// plane of the whole sheet does, this part adds nothing.
+    /// them. If the dots beyond the line fit their own plane worse than they fit random places,
+    /// their log odds are 0. If the dots on this side fit their own plane worse than they fit the
+    /// plane of the whole sheet, they add nothing to the result.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));
@@ -310,8 +310,8 @@ class Search {
     PartSums all_{};
     AffineFit affine_;
     float variance_;
-    /// Log odds (natural) that an outlier contributes for a plane, and lower limit of the log odds
-    /// of every dot (see tuned::kOnPlane).
+    /// Natural log of the odds that an outlier contributes to the evidence for a plane. It is also
+    /// the lower limit of the log odds of every dot (see tuned::kOnPlane).
     float off_plane_;
     float weight_ = 1;  ///< number of dots that each sample represents
     std::size_t lines_ = 0;

@@ -13,9 +13,9 @@ namespace {
 
 namespace tuned = tuning::paper_step;
 
-/// Finds the residual with which the largest number of dots near a point agree, within kAgreement.
-/// Sets `common` to this residual, in spacings. Returns false if fewer than kMinAgreeing dots agree
-/// with it.
+/// Finds the residual that the largest number of dots near a point have in common, to within
+/// kAgreement. Sets `common` to this residual, in spacings. Returns false if fewer than
+/// kMinAgreeing dots agree with this residual.
 bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                         FloatVec near, FloatVec& common) {
     constexpr std::size_t kMaxDots = 256;

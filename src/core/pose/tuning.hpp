@@ -17,8 +17,8 @@ namespace measure {
 inline constexpr int kHalf_32nds = 9;
 inline constexpr int kMinHalf_q8 = 768;
 /// Standard deviation of the fitted dot, in 1/128 of the spacing, and its minimum, in 1/256 px.
-/// kSigma_128ths is the sigma of a typical blurred dot. A value of 6 gives 1,994 frames, 2.19 µm
-/// and 5.36 µm. A value of 24 gives only 1,904 frames, 3.58 µm and 9.19 µm.
+/// kSigma_128ths is the sigma of a typical blurred dot. With 6, the results are 1,994 frames, 2.19
+/// µm and 5.36 µm. With 24, they are only 1,904 frames, 3.58 µm and 9.19 µm.
 inline constexpr int kSigma_128ths = 12;
 inline constexpr int kMinSigma_q8 = 230;
 /// Maximum squared distance between a dot and its predicted place, in units of sigma^2. The limit
@@ -136,8 +136,8 @@ inline constexpr float kMaybeLineDots = 200;
 inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
 inline constexpr float kUneven = 5;
-/// Number of outliers that are normal on a flat sheet: a constant, plus a fraction of the number of
-/// dots.
+/// Maximum number of outliers that is normal on a flat sheet: kFewOutliers plus kOutlierFraction
+/// times the number of dots.
 inline constexpr float kFewOutliers = 3;
 inline constexpr float kOutlierFraction = 0.02F;
 /// Number of dots above which each image side is divided into nine blocks instead of at most
@@ -202,8 +202,8 @@ namespace turn {
 inline constexpr float kStep_px = 0.3F;
 inline constexpr float kDriftStep = 0.02F;
 /// Standard deviation of the error of the drift that `drift_of` computes from the plane, in px per
-/// row. For example, a camera tilted by 14 degrees sees the paper foreshortened by 3 %, like a
-/// drift of 0.03.
+/// row. For example, a tilt of the camera by 14 degrees foreshortens the paper by 3 %, which looks
+/// like a drift of 0.03.
 inline constexpr float kDrift = 0.02F;
 }  // namespace turn
 

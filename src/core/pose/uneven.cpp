@@ -52,8 +52,8 @@ class Blocks {
     float outliers() const { return outliers_; }
     float side() const { return side_; }  ///< side of a block, in spacings
     /// Returns the variance of the displacement of the sheet at a block, along one axis, in
-    /// spacings^2. This is the variance of the block displacements minus that due to pixel bias,
-    /// but at least 0.
+    /// spacings^2. This is the variance of the block displacements minus the variance due to pixel
+    /// bias, but at least 0.
     float variance_of_sheet() const {
         return std::max(scatter_.variance_between() - variance_of_bias_, 0.0F);
     }
@@ -170,8 +170,8 @@ void fit_uneven_from(float min_excess, const Kernels& kernels, MeasuredDots& dot
 
 /// Returns the value of `GroupScatter::excess` above which the second attempt searches for a line.
 /// The limit increases with the number of dots, because with more dots, even the small block
-/// residuals of a flat sheet are significant, for example those due to pixel bias. The residuals at
-/// a line become more significant, too, and still exceed the limit.
+/// residuals of a flat sheet are significant, for example those due to pixel bias. At a dividing
+/// line, the residuals also become more significant, so they still exceed the limit.
 float patient_excess(const Blocks& blocks) {
     return tuned::kMaybeLine *
            std::sqrt(std::max(blocks.scatter().dots / tuned::kMaybeLineDots, 1.0F));

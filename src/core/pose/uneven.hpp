@@ -15,8 +15,8 @@ void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_p
                 FloatPlane& plane, PoseFit& fit);
 
 /// Overload for a plane that was fitted to observations. It takes longer, because it searches for a
-/// line at a much lower correlation. `dots` provides memory for the observations. If this memory is
-/// too small, the surface counts as even.
+/// line even if the correlation is much weaker. `dots` provides memory for the observations. If
+/// this memory is too small, the surface counts as even.
 void fit_uneven(const Kernels& kernels, const Observations& observations, FixedVec reference_q8,
                 MeasuredDots& dots, PlaneFromImage& plane, PoseFit& fit);
 

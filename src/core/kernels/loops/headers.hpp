@@ -20,7 +20,7 @@
 namespace dotpose::core {
 
 /// True if each loop has only its general version, without faster special cases. This is the case
-/// in WebAssembly, because its code must be small.
+/// in WebAssembly builds, because their code must be small.
 #if defined(__wasm__)
 inline constexpr bool kOneForm = true;
 #else
