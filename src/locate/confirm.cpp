@@ -50,6 +50,16 @@ bool is_clean(const BitsRead& bits) {
                std::max(tuned::kMaxWrong, bits.read / tuned::kDotsPerWrong);
 }
 
+/// Returns true if most of the dots seen are not clear, and a significant fraction of the bits read
+/// is wrong. Such a frame may show two patterns on top of each other whose grids are shifted by a
+/// fraction of the spacing. The x bits that are read may then be those of one pattern, and the y
+/// bits those of the other pattern.
+bool shows_overlay(const BitsRead& bits) {
+    return bits.right < tuned::kMinRight * static_cast<float>(bits.seen) &&
+           static_cast<float>(bits.wrong_x + bits.wrong_y) >
+               tuned::kMaxWrongInOverlay * static_cast<float>(2 * bits.read);
+}
+
 /// Returns true if the image shows too few cells for a certain position (see `are_too_few_cells`).
 /// Overwrites the list of dots.
 bool shows_too_few_cells(const Frame& frame, CellsInView view, MeasuredDots& dots) {
@@ -183,7 +193,7 @@ struct Reach {
 /// Corrects biases, fits the rotation during the readout if a rotation was removed from the image,
 /// tests for uneven paper, and writes the results. Returns implausible if the rotation cannot be
 /// fitted or if the fitted plane is not plausible. Returns uncertain if the fit does not explain
-/// the frame well (see `is_implausible`).
+/// the frame well (see `is_implausible` and `shows_overlay`).
 Confirmation finish(const Frame& frame, const DotReader& reader, const CellsInView& view,
                     const BitsRead& bits, Hypothesis& hypothesis, PoseFit& fit,
                     Measurement& measurement, Fix& fix) {
@@ -200,7 +210,7 @@ Confirmation finish(const Frame& frame, const DotReader& reader, const CellsInVi
     add_variance(bias_px2, plane, fit);
     if (frame.removed_turn != nullptr) add_covariance(measurement.turn.pose_covariance, fit);
     if (!is_plausible(frame.image, plane)) return Confirmation::implausible;
-    if (is_implausible(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))
+    if (is_implausible(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y) || shows_overlay(bits))
         return Confirmation::uncertain;
     write_results(frame, hypothesis, bits, fit, measurement, fix);
     return Confirmation::ok;
