@@ -56,7 +56,7 @@ CameraPoint turned(CameraPoint from, CameraPoint to, double angle_rad) {
 
 /// Fits the pose to the dots at their mapped places. `reference` is the reference point. For a
 /// rolling shutter, the equation is linearised at `turn_rad`, and the fit is repeated with the turn
-/// that it finds.
+/// found by the previous fit.
 PoseFit fit_pose(const std::vector<MappedDot>& dots, const Camera& camera, const AxisScale& print,
                  CameraPoint reference, double turn_rad) {
     std::vector<CameraPoint> points;
