@@ -19,9 +19,9 @@ constexpr double kBeyondPage_mm = 400;
 /// reliable.
 constexpr std::size_t kMinViewDots = 30;
 constexpr int kFieldsPerSide = 8;
-/// The search in a frame ends when the located sheets cover this number of its 64 fields
-/// (SheetView::fields). The number of dots is not a suitable criterion, because a fix includes the
-/// dots of only one sheet.
+/// The search in a frame ends when the located sheets cover this number of the 64 fields of the
+/// frame (SheetView::fields). The number of dots is not a suitable criterion, because a fix
+/// contains only the dots of one sheet.
 constexpr int kNearlyAllFields = 58;
 
 /// Part of the image along one axis: begin and length, as fractions of the side.
