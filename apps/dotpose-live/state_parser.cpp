@@ -33,8 +33,8 @@ int digits(std::string_view text, std::size_t first, std::size_t count) {
     return error == std::errc() && stop == begin + count ? value : -1;
 }
 
-/// Parses a fraction of a second such as ".123456" into microseconds. Returns 0 for an empty string
-/// and none for any other string.
+/// Parses a fraction of a second such as ".123456" into microseconds. Returns 0 for an empty
+/// string, and an empty optional for any other string.
 std::optional<std::int64_t> parse_decimals_us(std::string_view text) {
     if (text.empty()) return 0;
     double fraction_s = 0;
@@ -78,7 +78,7 @@ std::size_t refused_index(std::string_view text) {
     return i;
 }
 
-/// Returns the report of the camera, or none if the message does not contain it.
+/// Returns the report of the camera, or an empty optional if the message does not contain one.
 std::optional<CameraReport> camera_in(const object& message) {
     constexpr double kMax_hz = 1e5;
     object values;
