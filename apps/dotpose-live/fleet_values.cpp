@@ -266,7 +266,7 @@ std::string table_value(const FleetSnapshot& snapshot, const FleetMap& map, Deli
                         const serve::Command& request) {
     const std::vector<const FleetEntry*> chosen = RowChoice(request, map).rows_of(snapshot.robots);
     const std::size_t count = count_in(request, "rows", kMaxTableRows);
-    // If fewer than `count` rows follow the first requested row, the last `count` rows are
+    // If the requested range extends beyond the end of the table, the last `count` rows are
     // returned.
     const std::size_t last = chosen.size() - std::min(chosen.size(), count);
     const std::size_t first = count_in(request, "first", last);

@@ -102,7 +102,7 @@ Quaternion rotation_in(const object& values) {
 }
 
 /// Returns the pose of the tracked camera or, if there is none, the pose of the camera in the
-/// newest frame. Returns none if the message contains neither.
+/// newest frame. Returns an empty optional if the message contains neither pose.
 std::optional<CameraInWorld> camera_pose_in(const object& message, double max_m) {
     object values;
     if (message["cameraTrack"].get(values) != simdjson::SUCCESS &&
@@ -169,11 +169,11 @@ simdjson::dom::parser make_parser() {
     return parser;
 }
 
-/// Returns `read(message)`, or none if the message is invalid.
+/// Returns `read(message)`, or an empty optional if the message is invalid.
 template <typename Read>
 auto parsed(std::string_view json, const Read& read) -> std::optional<decltype(read(object()))> {
-    // A robot is removed with an empty message. Its data pointer may be null, and the parser must
-    // not copy from a null pointer.
+    // An empty message removes a robot. Its data pointer may be null, and the parser must not copy
+    // from a null pointer.
     if (json.empty()) return std::nullopt;
     thread_local simdjson::dom::parser parser = make_parser();
     try {
