@@ -1,6 +1,5 @@
-// Reference values for the errors of a calibration: the errors of the dots with the true
-// parameters, and the Cramer-Rao bounds of the parameters that follow from the jitter of the
-// printed dots.
+// Reference values for the errors of a calibration: the residuals of the dots with the true
+// parameters, and the Cramer-Rao bounds of the parameters for the given jitter of the printed dots.
 #pragma once
 
 #include <map>

@@ -1,6 +1,5 @@
-/// The image of one dot, computed from its geometry, and frames drawn with it. Independent of the
-/// simulator (`render`) and of the core, so a fault of the simulator is
-/// detected.
+/// The image of one dot, computed from its geometry, and frames drawn with it. This renderer shares
+/// no code with the simulator (`render`) or the core, so it can detect faults of the simulator.
 #pragma once
 
 #include <vector>
@@ -21,8 +20,8 @@ class DotImage {
     Vec2 derivative(Vec2 from_dot) const;
 
   private:
-    /// Returns the fraction of a point's light that a pixel at this distance receives, along one
-    /// axis.
+    /// Returns the factor of one axis in the fraction of a point's light that a pixel receives.
+    /// `distance_px` is the distance along this axis.
     double share(double distance_px) const;
     double derivative_of_share(double distance_px) const;
 
@@ -31,8 +30,8 @@ class DotImage {
     double blur_px_;
 };
 
-/// Darkness of a dot for pixels at most kReach_px away along each axis, 0 beyond. Interpolates
-/// `DotImage::darkness` between the points of a fine grid.
+/// Table of the darkness of a dot. Interpolates `DotImage::darkness` between the points of a fine
+/// grid. The darkness is 0 for pixels that are more than kReach_px away along either axis.
 class DotTable {
   public:
     explicit DotTable(const DotImage& dot);

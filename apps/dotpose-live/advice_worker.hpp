@@ -33,8 +33,8 @@ class AdviceWorker {
     AdviceWorker(const AdviceWorker&) = delete;
     AdviceWorker& operator=(const AdviceWorker&) = delete;
 
-    /// Queues a search. A queued search that has not started is discarded, so only the newest frame
-    /// waits.
+    /// Queues a search. Replaces a queued search that has not started, so at most one frame is
+    /// waiting.
     void ask(Job job);
 
   private:

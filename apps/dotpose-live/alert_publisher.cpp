@@ -11,7 +11,7 @@ namespace dotpose::cli {
 namespace {
 
 publish::MqttOptions with_queue(publish::MqttOptions options) {
-    // The queue has room for an alert of each robot, because all conditions may change at the same
+    // The queue can contain one alert of each robot, because all conditions may change at the same
     // time, for example when the network fails.
     options.queue = FleetState::kMaxRobots;
     options.qos = 1;

@@ -16,7 +16,7 @@ class AlertPublisher {
     /// Publishes an alert for each change of a condition since the previous call.
     void check(const FleetRobots& robots, const Now& now);
 
-    /// Waits up to 2 s until all alerts are sent, and reports their number.
+    /// Waits up to 2 s for all alerts to be sent, and reports the number of sent alerts.
     void finish();
 
   private:

@@ -18,18 +18,18 @@ using namespace std::chrono_literals;
 
 /// Minimum time between two frames that are copied for the thread that calibrates the lens.
 constexpr std::chrono::milliseconds kOfferPeriod = 50ms;
-/// Maximum number of waiting jobs. If this number is reached, further commands of a page are
-/// ignored.
+/// Maximum number of waiting jobs. Further commands of a page are ignored while this number of jobs
+/// is waiting.
 constexpr std::size_t kMaxJobs = 8;
-/// Number of consecutive frames without a fix after which the advice is to keep the camera over the
-/// dots.
+/// Number of consecutive frames without a fix after which the user is advised to keep the camera
+/// over the dots.
 constexpr int kManyLost = 10;
 
 constexpr std::array<const char*, 5> kSteps = {"lens", "spin", "drive", "readout", "pivot"};
 constexpr std::array<const char*, 6> kPhases = {"idle",   "collecting", "solving",
                                                 "solved", "failed",     "saved"};
 
-/// Returns the reason why a step cannot start with this camera, or an empty string.
+/// Returns the reason why a step cannot start with this camera, or an empty string if it can start.
 std::string problem_before(GuideStep step, const std::optional<Camera>& camera) {
     if (step == GuideStep::readout && !(camera && camera->paper)) {
         return "the camera file has no view of the paper: first calibrate the lens of the mounted "
@@ -359,8 +359,8 @@ void CalibrationGuide::write() {
         update([&error](GuideState& state) { state.problem = error.what(); });
         return;
     }
-    // The file contains the flip for later runs. The source of this run already flips the frames,
-    // so the camera of this run must not contain it.
+    // The camera in the file contains the flip, because later runs need it. The camera of this run
+    // must not contain it, because the source of this run already flips the frames.
     camera.flip = false;
     update([&](GuideState& state) {
         state.phase = GuidePhase::saved;

@@ -32,7 +32,7 @@ namespace dotpose::cli {
 enum class GuideStep { lens, spin, drive, readout, pivot };
 /// Returns the identifier, such as "spin".
 const char* name(GuideStep step);
-/// Returns the step with the identifier `name`, or none if there is no such step.
+/// Returns the step with the identifier `name`, or an empty optional if there is no such step.
 std::optional<GuideStep> guide_step(const std::string& name);
 
 /// State of the current step.
@@ -72,8 +72,8 @@ struct GuideState {
     std::vector<video::Gauge> gauges;
     std::string advice;                     ///< what to do now
     std::optional<CalibrationStatus> lens;  ///< coverage; only for the step `lens`
-    /// One element for each direction of the robot in a turn, or of the tilt of a pen. True if the
-    /// frames of this direction are sufficient.
+    /// One element for each direction of a turning robot, or of the tilt of a pen. True if there
+    /// are enough frames with this direction.
     std::vector<bool> directions;
     std::vector<PenLean> leans;      ///< tilts of a pen
     std::vector<std::string> needs;  ///< unmet requirements of a step with a moving robot
@@ -90,10 +90,10 @@ class CalibrationGuide {
     CalibrationGuide(const CalibrationGuide&) = delete;
     CalibrationGuide& operator=(const CalibrationGuide&) = delete;
 
-    /// Cancels the running step, if there is one, and starts another step.
+    /// Cancels the running step, if there is one, and starts `step`.
     void start(GuideStep step);
-    /// Computes the result of the step from the frames taken so far. If these frames do not
-    /// determine it, the step fails.
+    /// Computes the result of the step from the frames taken so far. The step fails if these frames
+    /// do not determine the result.
     void finish();
     void cancel();
     /// Writes the result of the current step into the file. Does nothing if there is no result.
@@ -107,7 +107,8 @@ class CalibrationGuide {
     void take(const capture::Frame& frame, const Reading& reading, ImageView image,
               double bits_per_px);
 
-    /// Returns the camera that was saved since the previous call, or none.
+    /// Returns the camera that was saved since the previous call, or an empty optional if none was
+    /// saved.
     std::optional<Camera> take_camera();
 
     const std::string& file() const { return options_.file; }

@@ -20,7 +20,8 @@ class CalibrationJob {
     using Frames = std::vector<std::shared_ptr<const GreyImage>>;
 
     explicit CalibrationJob(const CalibrateOptions& options);
-    /// Waits until a running calibration stops. It stops after its current frame or fit.
+    /// Waits for a running calibration to stop. The calibration stops after its current frame or
+    /// fit.
     ~CalibrationJob();
     CalibrationJob(const CalibrationJob&) = delete;
     CalibrationJob& operator=(const CalibrationJob&) = delete;
@@ -30,8 +31,8 @@ class CalibrationJob {
     /// Starts a calibration with these frames. No other calibration may be running.
     void start(Frames frames);
 
-    /// Waits at most `patience` for the end of the running calibration. Returns true if it has
-    /// ended. Requires a running calibration.
+    /// Waits at most `patience` for the end of the running calibration. Returns true if the
+    /// calibration has ended. A calibration must be running.
     bool wait(std::chrono::milliseconds patience);
 
     /// Returns the result of the newest finished calibration, or none if it failed or if no

@@ -11,8 +11,8 @@
 namespace dotpose::cli {
 
 /// Tilt of the camera in one frame, along the u and v axes of the image. Each value is the relative
-/// change of the image scale over a distance along the axis. This distance is that of a corner from
-/// the middle of the image.
+/// change of the image scale over a distance along the axis. The distance is half the image
+/// diagonal.
 struct FrameTilt {
     double u = 0;
     double v = 0;
@@ -24,7 +24,7 @@ struct CalibrationStatus {
     CalibrationCoverage coverage;
     std::vector<CalibrationNeed> needs;  ///< unmet requirements, most urgent first
     /// Standard deviation of the undistorted position of the farthest image corner, from the newest
-    /// finished calibration. None if there is no calibration or if it failed.
+    /// finished calibration. Empty if no calibration has finished or if the newest one failed.
     std::optional<double> corner_sigma_px;
     std::optional<double> theta_rad;  ///< direction of the newest frame, if it was located
     std::vector<FrameTilt> tilts;     ///< tilts of the frames that were taken

@@ -8,9 +8,9 @@
 
 namespace dotpose::cli {
 
-/// A message is delayed by the network and by queues, but never arrives before it was sent. The
-/// estimate is therefore the minimum of (received - sent) over the newest messages. The minimum is
-/// taken over a limited time, because clocks drift.
+/// Estimates the offset as the minimum of (received - sent) over the newest messages. The network
+/// and queues delay messages, but no message arrives before it was sent, so the minimum is the best
+/// estimate. Older messages are not used, because clocks drift.
 class ClockOffset {
   public:
     void take(std::int64_t received_us, std::int64_t sent_us) {

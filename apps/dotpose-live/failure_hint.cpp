@@ -13,11 +13,11 @@ namespace dotpose::cli {
 namespace {
 
 constexpr std::int64_t kWindow_us = 1'000'000;
-/// Minimum number of failed frames in a second for a hint. The number is small, because slow
-/// cameras deliver only a few frames per second.
+/// Minimum number of failed frames within a second for which a hint is given. The number is small,
+/// because slow cameras deliver only a few frames per second.
 constexpr std::size_t kMinFrames = 3;
-/// Maximum number of remembered frames. Limits the memory if the timestamps of a source do not
-/// advance.
+/// Maximum number of remembered frames. Without this limit, the memory would grow if the timestamps
+/// of a source do not advance.
 constexpr std::size_t kMaxFrames = 2000;
 
 std::string reason_with_advice(Record record, ImageView image, const DeviceOptions& options,
@@ -31,9 +31,9 @@ std::string reason_with_advice(Record record, ImageView image, const DeviceOptio
 }  // namespace
 
 /// Counts the frames that failed with each status, and keeps a copy of one frame of each status for
-/// the report at the end of the run. The copy is replaced by the first, second, fourth, eighth (and
-/// so on) frame of the status, so few frames are copied, but the copy is always from the second
-/// half of these frames.
+/// the report at the end of the run. Copies the first, second, fourth, eighth (and so on) frame of
+/// each status, and replaces the previous copy. Few frames are therefore copied, but the copy is
+/// always from the second half of the frames of its status.
 void FailureHint::remember(const Record& record, ImageView image, const DeviceOptions& options,
                            double bits_per_px) {
     ++frames_;

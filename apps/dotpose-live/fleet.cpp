@@ -100,8 +100,8 @@ std::optional<store::QueueStatus> store_status(const std::optional<FleetStore>& 
     return store ? std::optional(store->status()) : std::nullopt;
 }
 
-/// Returns the options of the page, or none without --web. The caller must set `now` and
-/// `services`.
+/// Returns the options of the page, or an empty optional without --web. The caller must set `now`
+/// and `services`.
 std::optional<FleetWebOptions> web_options(const FleetArguments& arguments,
                                            const publish::MqttOptions& mqtt) {
     auto server = arguments.web.options();

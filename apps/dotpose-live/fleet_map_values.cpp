@@ -29,7 +29,8 @@ void append(std::string& bytes, const draw::Point& at, const draw::Point& origin
     append(bytes, static_cast<float>(at.y - origin.y));
 }
 
-/// Returns the beginning of a message: the size of the JSON in bytes (32 bits) and the JSON.
+/// Returns the beginning of a message: the size of `head` as JSON in bytes (32 bits), followed by
+/// this JSON.
 std::string message_with(const nlohmann::json& head) {
     const std::string text = head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     std::string bytes;
@@ -59,9 +60,9 @@ class Window {
         for (const FleetEntry& entry : robots) {
             if (is_inside(entry.second)) visible_.push_back(&entry);
         }
-        // Positions are sent in single precision, relative to an origin in the window. Relative to
-        // the origin of the pattern, which extends over 200 km, the resolution of single precision
-        // would be only about a centimetre.
+        // Positions are sent in single precision, relative to an origin in the window. If they were
+        // relative to the origin of the pattern, which extends over 200 km, their resolution would
+        // be only about a centimetre.
         const draw::Point middle{(x_min_ + x_max_) / 2, (y_min_ + y_max_) / 2};
         const bool is_finite = std::isfinite(middle.x) && std::isfinite(middle.y);
         if (is_finite) {

@@ -36,8 +36,8 @@ void FleetState::take_connection(std::string_view name, const RobotConnection& c
                                  const Now& now) {
     FleetRobot& shown = touch(name).shown;
     shown.presence = connection.presence;
-    // The retained message of a robot may be days old when it is received, so its age is computed
-    // from its time stamp.
+    // The age of the message is computed from its time stamp, because a retained message may be
+    // days old when it is received.
     const std::int64_t age_us = std::max<std::int64_t>(now.system_us - connection.sent_us, 0);
     shown.alive_us = std::max(shown.alive_us, now.watched_us - age_us);
 }
@@ -63,7 +63,7 @@ void FleetState::take_state(std::string_view name, RobotState state, const Now& 
         count_frames(*state.camera, shown.camera);
         shown.camera = state.camera;
     }
-    // Coordinates on different maps are not comparable, so the path begins again.
+    // Coordinates on different maps are not comparable, so a new path begins.
     if (state.is_localized && state.map_id != shown.newest.map_id) robot.path_mm.clear();
     if (!state.is_localized && (shown.newest.is_localized || shown.newest.sent_us == 0)) {
         shown.lost_since_us = now.watched_us;
@@ -128,9 +128,9 @@ void LatencyHistogram::add(double latency_s) {
 }
 
 /// Adds the frames between two consecutive reports of a robot to the totals. Adds nothing if there
-/// is no previous report, or if the number of frames has decreased or has increased by more than a
-/// million, because the robot was then restarted. Each call compares with the previous report, so
-/// counting continues after a restart.
+/// is no previous report, or if the robot was restarted. A restart is assumed if the number of
+/// frames has decreased or has increased by more than a million. Each call compares with the
+/// previous report, so counting continues after a restart.
 void FleetState::count_frames(const CameraReport& report,
                               const std::optional<CameraReport>& previous) {
     constexpr std::uint64_t kMaxFrames = 1'000'000;

@@ -134,8 +134,8 @@ nlohmann::json camera_json(const CameraReport& camera) {
     return {{"rate_hz", camera.rate_hz}, {"frames", camera.frames}, {"refused", refused}};
 }
 
-/// Returns height and tilt of a camera. In a world, z points out of the paper and the optical axis
-/// into it; without a world, z points into the paper.
+/// Returns the height and tilt of a camera. In a world, z points out of the paper, and the optical
+/// axis points into the paper. Without a world, z points into the paper.
 nlohmann::json space_json(const CameraInWorld& camera) {
     const double tilt_rad = lean_of(camera.rotation).tilt_rad;
     return {{"height_mm", rounded(std::abs(camera.z_m) * kMm_per_m, 1000)},
@@ -266,7 +266,7 @@ std::string table_value(const FleetSnapshot& snapshot, const FleetMap& map, Deli
                         const serve::Command& request) {
     const std::vector<const FleetEntry*> chosen = RowChoice(request, map).rows_of(snapshot.robots);
     const std::size_t count = count_in(request, "rows", kMaxTableRows);
-    // If the first requested row is too close to the end, or beyond it, the last `count` rows are
+    // If the requested range extends beyond the end of the table, the last `count` rows are
     // returned.
     const std::size_t last = chosen.size() - std::min(chosen.size(), count);
     const std::size_t first = count_in(request, "first", last);

@@ -148,8 +148,8 @@ void FleetWeb::obey() {
 }
 
 /// Removes a robot like `dotpose fleet remove`. The command contains the number and the name of the
-/// robot, and both must match: after a restart of the program, the number may belong to another
-/// robot.
+/// robot. Both must match, because the number may belong to a different robot after a restart of
+/// the program.
 void FleetWeb::remove(const serve::Command& command) {
     const auto* id = command.argument<double>("robot");
     const auto* name = command.argument<std::string>("name");

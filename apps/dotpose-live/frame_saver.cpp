@@ -35,8 +35,8 @@ const char* ending_of(ImageEncoding format) {
     return ".png";
 }
 
-/// Returns the number of the next frame in a folder: the highest number of its frames plus one, or
-/// 0 if it contains no frames.
+/// Returns the number of the next frame in a folder: the highest number of the frames in the folder
+/// plus one, or 0 if there are none.
 std::int64_t number_after(const fs::path& folder) {
     std::int64_t next = 0;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {

@@ -12,15 +12,15 @@
 namespace dotpose::cli {
 namespace {
 
-/// Minimum distance between two frames of a straight drive, so kWantedLength_mm needs at most 40
-/// steps.
+/// Minimum distance between two frames of a straight drive. With this distance, a drive of
+/// kWantedLength_mm has at most 40 steps.
 constexpr double kStep_mm = 1.5;
 /// Required length of a straight drive. At this length, a residual of 0.01 mm at one end changes
 /// the direction by 0.01 degrees.
 constexpr double kWantedLength_mm = 60;
 /// Number of consecutive frames at which a fast drive is complete.
 constexpr std::size_t kWantedRun = 40;
-/// Number of consecutive frames that suffices if the next frame does not continue the drive.
+/// Minimum number of consecutive frames of a drive that ends early.
 constexpr std::size_t kMinRun = 15;
 /// Minimum motion between two frames of a fast drive, in spacings.
 constexpr double kMinMotion = 0.5;
@@ -29,13 +29,13 @@ constexpr double kMinMotion = 0.5;
 /// number at which it ends in any case.
 constexpr std::size_t kWantedPivots = 30;
 constexpr std::size_t kMaxPivots = 80;
-/// Minimum distance of the tilt of a frame from those of all frames taken before, as a tangent.
+/// Minimum distance between the tilt of a frame and that of each frame taken before, as a tangent.
 constexpr double kMinLeanStep = 0.08;
 /// A direction is covered if at least kMinLeans frames are tilted towards it by at least
 /// kMinLean_deg.
 constexpr double kMinLean_deg = 10;
 constexpr int kMinLeans = 2;
-/// Tilt that at least one of the frames must reach.
+/// Minimum of the largest tilt of all frames.
 constexpr double kWantedLean_deg = 20;
 constexpr std::array<const char*, PivotFrames::kDirections> kSides = {
     "right edge", "lower right corner", "bottom edge", "lower left corner",
@@ -131,8 +131,8 @@ void ReadoutFrames::take(const GuidedFrame& frame) {
     if (seen_.size() > 1) advice_ = "go on at this speed";
 }
 
-/// Ends the run of consecutive frames. Completes the step if the run is long enough, otherwise
-/// discards it.
+/// Ends the run of consecutive frames. Completes the step if the run is long enough. Otherwise
+/// discards the run.
 void ReadoutFrames::end_run() {
     is_complete_ = is_complete_ || images_.size() >= kMinRun;
     if (is_complete_) return;
@@ -151,9 +151,9 @@ double ReadoutFrames::interval_ms() const {
     return static_cast<double>(seen_.back().time_us - seen_.front().time_us) / 1000 / steps;
 }
 
-/// Computes the tilt from the perspective of the dots: per pixel, the image scale changes by the
-/// tangent of the tilt divided by the focal length. The camera is tilted away from the part of the
-/// paper that is farther from it.
+/// Computes the tilt from the perspective of the dots. The relative change of the image scale per
+/// pixel is the tangent of the tilt divided by the focal length. The camera is tilted away from the
+/// part of the paper that is farther from it.
 PenLean lean_in(const Fix& fix, double focal_px) {
     const FixedVec& perspective_q30 = fix.pattern_from_image.perspective_q30;
     const double u = std::ldexp(focal_px * perspective_q30.x, -30);

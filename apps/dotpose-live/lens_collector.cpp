@@ -14,11 +14,11 @@
 namespace dotpose::cli {
 namespace {
 
-/// Maximum number of frames that are taken. More frames would take longer without improving the
-/// result.
+/// Maximum number of frames that are taken. With more frames, the calibration would take longer,
+/// but the result would not improve.
 constexpr std::size_t kMaxFrames = 50;
 /// Maximum image speed of a steady camera, in px/s. At this speed, the image moves by at most a
-/// pixel during an exposure or the readout of a rolling shutter, if these take up to 1/30 s.
+/// pixel during an exposure or a readout of up to 1/30 s.
 constexpr double kSteady_px_s = 30;
 /// Time without a steady frame after which frames of a moving camera are accepted, for example if
 /// the robot does not stop.
@@ -155,11 +155,11 @@ std::optional<Camera> LensCollector::lens() const {
     return job_.newest() ? std::optional(job_.newest()->camera) : std::nullopt;
 }
 
-/// Returns true if another calibration is likely to improve on the newest one. Because each
-/// calibration takes longer than the previous one, the number of frames must double between two
-/// calibrations. If only the accuracy of the lens is insufficient, a smaller growth may suffice:
-/// standard deviations are inversely proportional to the square root of the number of frames, so
-/// the growth is the square of the ratio of the present to the required standard deviation.
+/// Returns true if another calibration is likely to be better than the newest one. The number of
+/// frames must double between two calibrations, because each calibration takes longer than the
+/// previous one. If only the accuracy of the lens is insufficient, a smaller growth may be enough.
+/// Because standard deviations are inversely proportional to the square root of the number of
+/// frames, the growth is the square of the ratio of the present to the required standard deviation.
 bool LensCollector::is_worth_calibrating() const {
     if (taken_.size() < std::size_t{kWantedFrames} || taken_.size() == job_.frames()) return false;
     const std::vector<CalibrationNeed> missing = needs();

@@ -79,8 +79,8 @@ bool LiveCalibration::go_on_calibrating() {
     return true;
 }
 
-/// Returns the calibration with all frames. Throws Error if there are not enough frames or if
-/// interrupted.
+/// Returns the calibration with all frames. Throws Error if there are not enough frames or if the
+/// user interrupts the calculation.
 LensCalibration LiveCalibration::result() {
     // The first Ctrl-C only ended the acquisition of frames.
     take_ctrl_c();

@@ -158,7 +158,7 @@ bool SheetEdits::is_unchanged(const SheetStep& step) const {
     return entry != nullptr && is_same_sheet(*entry, *step.before);
 }
 
-/// Makes the change of a step in the file.
+/// Applies the change of a step to the file.
 void SheetEdits::apply(SheetFile& file, const SheetStep& step) {
     if (!step.after) {
         file.remove(step.before->name);

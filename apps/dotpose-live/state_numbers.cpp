@@ -27,8 +27,9 @@ StateNumbers::Arrival StateNumbers::take(const RobotState& state, StateCounts& c
         counts.missed = std::max<std::int64_t>(counts.missed - 1, 0);
         return Arrival::late;
     }
-    // Numbers between this state and the previous one belong to missing states. A lower number
-    // means that the robot was restarted, so there are no missing states.
+    // The numbers between the number of the previous state and that of this state belong to missing
+    // states. A lower number means that the robot was restarted. In this case, no states are
+    // missing.
     if (!is_first && sent.number > newest_.number) {
         constexpr std::uint64_t kMax = 1'000'000'000;
         counts.missed +=

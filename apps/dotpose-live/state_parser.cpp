@@ -33,8 +33,8 @@ int digits(std::string_view text, std::size_t first, std::size_t count) {
     return error == std::errc() && stop == begin + count ? value : -1;
 }
 
-/// Parses a fraction of a second such as ".123456" into microseconds. Returns 0 for an empty string
-/// and none for any other string.
+/// Parses a fraction of a second such as ".123456" into microseconds. Returns 0 for an empty
+/// string, and an empty optional for any other string.
 std::optional<std::int64_t> parse_decimals_us(std::string_view text) {
     if (text.empty()) return 0;
     double fraction_s = 0;
@@ -78,7 +78,7 @@ std::size_t refused_index(std::string_view text) {
     return i;
 }
 
-/// Returns the report of the camera, or none if the message does not contain it.
+/// Returns the report of the camera, or an empty optional if the message does not contain one.
 std::optional<CameraReport> camera_in(const object& message) {
     constexpr double kMax_hz = 1e5;
     object values;
@@ -102,7 +102,7 @@ Quaternion rotation_in(const object& values) {
 }
 
 /// Returns the pose of the tracked camera or, if there is none, the pose of the camera in the
-/// newest frame. Returns none if the message contains neither.
+/// newest frame. Returns an empty optional if the message contains neither pose.
 std::optional<CameraInWorld> camera_pose_in(const object& message, double max_m) {
     object values;
     if (message["cameraTrack"].get(values) != simdjson::SUCCESS &&
@@ -169,11 +169,11 @@ simdjson::dom::parser make_parser() {
     return parser;
 }
 
-/// Returns `read(message)`, or none if the message is invalid.
+/// Returns `read(message)`, or an empty optional if the message is invalid.
 template <typename Read>
 auto parsed(std::string_view json, const Read& read) -> std::optional<decltype(read(object()))> {
-    // A robot is removed with an empty message. Its data pointer may be null, and the parser must
-    // not copy from a null pointer.
+    // An empty message removes a robot. Its data pointer may be null, and the parser must not copy
+    // from a null pointer.
     if (json.empty()) return std::nullopt;
     thread_local simdjson::dom::parser parser = make_parser();
     try {

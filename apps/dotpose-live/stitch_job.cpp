@@ -13,8 +13,8 @@ namespace {
 /// Maximum memory for frames.
 constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
 
-/// Returns true if the dots in the frame may belong to two sheets: the frame reaches beyond the
-/// edge of its sheet, or the sheet is not known.
+/// Returns true if the dots in the frame may be on two sheets. This is the case if the frame
+/// extends beyond the edge of its sheet, or if the sheet is not known.
 bool is_near_edge(const Record& record, ImageView image) {
     if (!record.place) return true;
     const Sheet& sheet = record.place->entry->sheet;
@@ -55,8 +55,8 @@ void StitchJob::offer(const Reading& reading, ImageView image) {
         if (!is_near_edge(reading.record, image) || !places_.take(reading.record.fix, image))
             return;
     } else {
-        // A frame that is not located is also offered, because it may show a seam: two patterns in
-        // one frame prevent a fix.
+        // A frame without a fix is also offered, because it may show a seam between two sheets. The
+        // two patterns then prevent a fix.
         constexpr std::chrono::milliseconds kPause(500);
         const Clock::time_point now = Clock::now();
         if (now < unlocated_at_ + kPause) return;
@@ -100,8 +100,9 @@ void StitchJob::run() {
 /// Returns true if the frame shows two sheets.
 bool StitchJob::shows_seam(const GreyImage& frame) const {
     std::vector<SheetEntry> sheets = sheets_;
-    // `stitch_sheets` throws Error if some sheets of the file have a world pose, but none of those
-    // in the frame. This check must not depend on the poses, so they are removed.
+    // `stitch_sheets` throws Error if some sheets of the file have a world pose, but no sheet in
+    // the frame has one. The poses are removed, because this function only checks whether the frame
+    // shows two sheets.
     for (SheetEntry& entry : sheets)
         entry.world.reset();
     try {

@@ -119,12 +119,13 @@ class Pace {
     }
 
   private:
-    /// Steady time at which the time of the source is 0. None before the first recorded frame.
+    /// Value of the steady clock at which the time of the source is 0. Empty before the first
+    /// recorded frame.
     std::optional<std::chrono::steady_clock::time_point> begun_;
 };
 
-/// Warns on standard error if a sheet has no world pose, or if poses are published without sheets
-/// and therefore not in world coordinates.
+/// Warns on standard error if a sheet has no world pose. Also warns if poses are published without
+/// sheets, because these poses are not in world coordinates.
 void tell_frame_of_poses(const WatchArguments& arguments, const Follower& follower) {
     const OutputOptions& outputs = arguments.outputs;
     const bool is_published = !outputs.publish.mqtt.url.empty() || outputs.messages.is_wanted();
@@ -204,7 +205,7 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
     } catch (const BadArgument&) {
         throw;
     } catch (const Error& error) {
-        // Returns an exit status instead of throwing, so that the map and the report still include
+        // Returns an exit status instead of throwing, because the map and the report must include
         // the frames before the failure.
         tell(error.what());
         return kExitFailed;
@@ -212,7 +213,7 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
     return 0;
 }
 
-/// Returns the options of the page, or none without --web.
+/// Returns the options of the page, or an empty optional without --web.
 std::optional<WebOptions> web_options(const WatchArguments& arguments, const Follower& follower) {
     const auto server = arguments.web.options();
     if (!server) return std::nullopt;

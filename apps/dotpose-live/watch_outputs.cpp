@@ -130,7 +130,7 @@ std::optional<std::vector<SheetEntry>> WatchOutputs::take_changed_sheets() {
 
 void WatchOutputs::use_sheets(bool was_in_world) {
     sheets_ = map_sheets(follower_.sheets(), plane_of(follower_));
-    // The path so far is in another plane, so its points cannot be continued.
+    // Starts a new path, because the previous points are in a different plane.
     if (was_in_world != follower_.is_in_world()) path_ = PathMemory();
     if (web_) web_->use_sheets();
 }

@@ -22,7 +22,8 @@
 
 namespace dotpose::cli {
 
-/// Time span that a page shows. `last_s` is set, or `from_s` and `to_s`, in s since 1970.
+/// Time span that a page shows, in s: either the last `last_s`, or from `from_s` to `to_s`, which
+/// are relative to 1970.
 struct HistoryRequest {
     std::string robot;
     double last_s = 0;
@@ -52,7 +53,8 @@ double seconds_of(const serve::Command& request, std::string_view key, double ma
     throw BadArgument(fmt::format("{} must be a number from 0 to {:.0f}", key, max));
 }
 
-/// Returns the request, or none if no robot is given. Throws BadArgument.
+/// Returns the request, or an empty optional if no robot is given. Throws BadArgument if the
+/// request is invalid.
 std::optional<HistoryRequest> request_of(const serve::Command& command) {
     const auto* robot = command.argument<std::string>("robot");
     if (robot == nullptr) return std::nullopt;

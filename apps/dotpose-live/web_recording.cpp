@@ -85,8 +85,8 @@ void WebRecordings::stop() {
     files_.push_back(name_ + kMessagesEnding);
 }
 
-/// Measures the free space of the disk at most once a second. Returns true if it was measured in
-/// this call and is less than 256 MiB, otherwise false.
+/// Measures the free space of the disk at most once a second. Returns true only if this call has
+/// measured the space and found less than 256 MiB.
 bool WebRecordings::is_disk_full() {
     constexpr std::uintmax_t kReserve_bytes = 256 << 20;
     const auto now = std::chrono::steady_clock::now();

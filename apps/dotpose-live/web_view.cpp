@@ -79,7 +79,8 @@ WebView::WebView(WebOptions options, const Follower& follower)
     }
     server_.start();
     if (sheet_view_) sheet_view_->start();
-    // The page offers the log only if it is a regular file. The data of a pipe go to its reader.
+    // The page offers the log only if the log is a regular file, because the data of a pipe are
+    // available only to its reader.
     if (!std::filesystem::is_regular_file(options_.log)) options_.log.clear();
     if (!options_.log.empty()) {
         server_.set_route("/log.csv", [log = options_.log] {
@@ -137,7 +138,7 @@ void WebView::take(const capture::Frame& frame, const Reading& reading, const Wa
                       source.bits_per_px);
 }
 
-/// If the located image is a reduced copy of the frame, returns the frame, otherwise the located
+/// Returns the frame if the located image is a reduced copy of it. Otherwise returns the located
 /// image.
 ImageView WebView::image_for_calibration(const capture::Frame& frame) const {
     const ImageView located = follower_.image();
@@ -272,8 +273,8 @@ void WebView::obey() {
     }
 }
 
-/// Adds the routes of completed recordings. Each file has a route of its own, so a request cannot
-/// name any other file.
+/// Adds the routes of completed recordings. Each file has its own route, so requests cannot read
+/// any other file.
 void WebView::offer_recordings() {
     const std::vector<std::string>& files = recordings_.files();
     for (; offered_ < files.size(); ++offered_) {

@@ -230,8 +230,8 @@ std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
     return stitching_report(stitching);
 }
 
-/// If --camera is not given, uses the camera file that -o replaces as the camera. Values that this
-/// calibration does not determine, such as the mount, are thus kept.
+/// If --camera is not given, uses the camera file that -o replaces. This preserves the values that
+/// the calibration does not determine, such as the mount.
 void keep_camera_of(const std::string& out, CameraArgument& camera) {
     if (!camera.path.empty()) return;
     camera.camera = replaced_camera("-o", out);
@@ -262,8 +262,8 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
     } else {
         files.reads("--sheets", arguments.sheets);
     }
-    // -o and --camera may name the same file. The file is then updated: values that are not
-    // calibrated are kept.
+    // -o and --camera may name the same file. In this case, the calibrated values in the file are
+    // replaced, and all others are preserved.
     const auto camera = identity_of(arguments.camera.path);
     if (camera && camera == identity_of(arguments.out) &&
         !is_camera_info(system::path_of(arguments.camera.path))) {

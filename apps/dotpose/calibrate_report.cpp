@@ -183,7 +183,8 @@ std::string print_scale_text(double scale, double sigma) {
                        is_scale_known(sigma) ? "" : " (UNKNOWN)");
 }
 
-/// Appends the print scales of the sheets, and the sheet or camera that the scales refer to.
+/// Appends the print scales of the sheets, and the sheet or camera to which the scales are
+/// relative.
 void add_print_scales(std::string& text, const Stitching& stitching) {
     bool is_all_told = true;
     std::string fixed;

@@ -19,8 +19,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Maximum number of frames from one source. More frames take more time and do not improve the
-/// result.
+/// Maximum number of frames from one source. With more frames, the calibration would take longer,
+/// but the result would not improve.
 constexpr std::size_t kMaxChosen = 50;
 
 Follower follower_for(const CalibrateOptions& calibration) {

@@ -63,8 +63,9 @@ void require_svg(const std::string& path) {
     throw BadArgument(fmt::format("'{}': the name of the map must end in .svg", path));
 }
 
-/// Returns true if the scale deviates from 1 by at most 25 % along x and y, as it may after scaling
-/// by a printer driver. If not, the resolution of the scan or the spacing was probably given wrong.
+/// Returns true if the scale deviates from 1 by at most 25 % along x and y, which scaling by a
+/// printer driver can cause. Larger deviations are probably due to a wrong resolution of the scan
+/// or a wrong spacing.
 bool is_plausible(const PrintScale& scale) {
     constexpr double kMaxDeviation = 0.25;
     return std::abs(scale.scale_x - 1) <= kMaxDeviation &&
@@ -100,9 +101,9 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
     }
 }
 
-/// Returns a remark for the user about the largest shift of the dots on the page that scaling by
-/// the printer driver can cause. The shift cannot be measured, because the edges of the paper are
-/// not visible in the scan.
+/// Returns a remark for the user about the maximum shift of the dots that scaling by the printer
+/// driver can cause. The actual shift cannot be measured, because the edges of the paper are not
+/// visible in the scan.
 std::string offset_remark(const SheetEntry& entry) {
     const Sheet& sheet = entry.sheet;
     // Returns the largest shift of the first dot along one axis, if the driver scales the page
@@ -126,8 +127,8 @@ std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& s
     std::string done;
     std::set<std::size_t> fitted;
     for (const PrintField& field : check.fields) {
-        // If several parts of a sheet are visible, each is a field. Only the first one is used,
-        // because it is the largest.
+        // If several parts of a sheet are visible, each part is a separate field. Only the first
+        // field is used, because it is the largest.
         if (!field.scale || !field.sheet || !fitted.insert(*field.sheet).second) continue;
         // The entry is read again, because another process may have changed it during the check.
         const std::string& name = sheets[*field.sheet].name;

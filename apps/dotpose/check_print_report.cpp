@@ -161,8 +161,8 @@ ordered_json json_of(const Pattern& pattern) {
     return {{"spacing_mm", rounded(pattern.spacing_mm, 6)}, {"dot_mm", rounded(pattern.dot_mm, 6)}};
 }
 
-/// Returns a remark to append to the name of a detected code. It is empty if the probability that
-/// another code was printed is below 1 %.
+/// Returns a remark to append to the name of a detected code, or an empty string if the probability
+/// of a different code is below 1 %.
 std::string code_remark(const PrintCheck& check) {
     constexpr double kDoubtful = 0.01;
     if (check.code_p_wrong < kDoubtful) return "";

@@ -105,9 +105,9 @@ std::pair<std::string, std::string> split(const std::string& text, std::string_v
     return {text.substr(0, at), text.substr(at + separator.size())};
 }
 
-/// Returns a message for a CLI11 error. The messages of CLI11 are not used, because they contain
-/// type names and counts. However, the name of the option and its value are extracted from them,
-/// because CLI11 does not report the two separately.
+/// Returns a message for a CLI11 error. The messages of CLI11 are not suitable for users, because
+/// they contain type names and counts. Only the name of the option and its value are extracted from
+/// them, because CLI11 does not report these separately.
 std::string message_of(const CLI::ParseError& error) {
     const std::string text = error.what();
     if (text == "A subcommand is required") return "no command given";

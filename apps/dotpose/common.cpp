@@ -53,8 +53,8 @@ std::string require_positive(const std::string& text) {
 }
 
 /// Rejects a spacing that was probably given in micrometres or metres instead of millimetres. The
-/// minimum is about ten dots of a printer with 25,000 dpi. At the maximum, a view of 8 x 8 dots,
-/// the smallest that determines a position, is 0.8 m wide.
+/// minimum is about ten dots of a printer with 25,000 dpi. At the maximum, a view of 8 x 8 dots is
+/// 0.8 m wide. A smaller view does not determine a position.
 std::string require_spacing(const std::string& text) {
     constexpr double kMin_mm = 0.01;
     constexpr double kMax_mm = 100;
@@ -244,7 +244,7 @@ FrameSize parse_frame_size(const std::string& flag, const std::string& text) {
 
 void refuse_non_finite_numbers(Command& app) {
     // Values of these types are texts, even if they can be parsed as numbers. For example, a file
-    // may be called "nan".
+    // name may be "nan".
     const std::set<std::string> texts = {"DIR",   "FILE", "FILE|-", "FILE|-|DIR", "NAME", "PART",
                                          "RANGE", "SCAN", "SOURCE", "TEXT",       "URL"};
     const auto is_finite = [](const std::string& text) -> std::string {

@@ -79,7 +79,7 @@ struct EvaluateArguments {
     TruthOf truth_of = TruthOf::image;
     double spacing_mm = kDefaultSpacing_mm;
     bool spacing_given = false;
-    std::optional<CodeVariant> code;   ///< code of all frames, or none if --code does not name one
+    std::optional<CodeVariant> code;   ///< code of all frames; empty if --code does not name one
     bool ignores_truth_codes = false;  ///< true to ignore the codes in truth.csv
     int threads = 0;
 };
@@ -175,8 +175,8 @@ int evaluate_run(const EvaluateArguments& arguments, const std::string& what, Fr
     return outcomes.size() < static_cast<std::size_t>(run.frames) ? kExitFailed : exit_code;
 }
 
-/// Makes `run` locate the frames with the camera file, as `locate --camera` does. A frame of
-/// another size than the camera file gets a problem instead of a result.
+/// Makes `run` locate the frames with the camera file, as `locate --camera` does. If the size of a
+/// frame differs from that in the camera file, its outcome is a problem instead of a result.
 void locate_with(const Camera& camera, const std::vector<TruthRow>& rows, FrameRun& run) {
     run.frame_at = [camera, rows, read = run.frame_at](int index) {
         KnownFrame frame = read(index);
@@ -300,7 +300,7 @@ int evaluate_protocol(const EvaluateArguments& arguments) {
 int run(EvaluateArguments& arguments) {
     const bool writes = arguments.sweep || arguments.protocol;
     const bool has_sources = arguments.sources.is_given();
-    // With --sweep or --protocol, --preset sets the conditions. Otherwise, it is a job of its own.
+    // With --sweep or --protocol, --preset sets the conditions. Otherwise, it is a separate job.
     const int jobs = static_cast<int>(has_sources) + static_cast<int>(arguments.sweep.has_value()) +
                      static_cast<int>(arguments.protocol) +
                      static_cast<int>(arguments.preset && !writes);

@@ -48,8 +48,8 @@ std::string extension_of(const std::string& out) {
 }
 
 /// Reads the tip of the pen from the row with this index in the log. If the row contains no tip, or
-/// if the tip is not on a sheet, the sample has no standard deviations, which marks it as a sample
-/// without a tip.
+/// if the tip is not on a sheet, the standard deviations of the sample are not set. This marks the
+/// sample as one without a tip.
 InkSample sample_of(const LogCells& row, std::int64_t index, double fps) {
     if (row.number("tip_x_pattern_m")) throw Error("its lengths are in m; write it in --units mm");
     InkSample sample;

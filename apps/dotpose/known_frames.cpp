@@ -104,8 +104,9 @@ KnownFrames known_images(const std::vector<std::string>& names,
 }
 
 /// Frames of sources that can only be read in order. Several threads may request frames, but each
-/// frame only once. A request reads all frames up to its index, and keeps the frames before it in
-/// memory until they are requested. The requests should therefore be roughly in order.
+/// frame can be requested only once. A request reads all frames up to its index, and keeps the
+/// earlier frames in memory until they are requested. The requests should therefore be roughly in
+/// order.
 class FramesInOrder {
   public:
     /// Opens the first source. Throws Error or BadArgument if the source cannot be opened.

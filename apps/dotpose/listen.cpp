@@ -73,8 +73,8 @@ class ByteSource {
     ByteSource(const ByteSource&) = delete;
     ByteSource& operator=(const ByteSource&) = delete;
 
-    /// Returns at least one byte, or none at the end of the input or after Ctrl-C. Throws Error if
-    /// reading fails.
+    /// Returns at least one byte, or an empty span at the end of the input or after Ctrl-C. Throws
+    /// Error if reading fails.
     std::span<const std::uint8_t> next() {
         while (!interrupted()) {
             const auto size = read();

@@ -14,8 +14,8 @@
 namespace dotpose::cli {
 namespace {
 
-/// Returns the path of dotpose-live, which is in the libexec directory if dotpose is installed, and
-/// otherwise beside this program.
+/// Returns the path of dotpose-live. If dotpose is installed, dotpose-live is in the libexec
+/// directory. Otherwise, it is beside this program.
 std::string live_program() {
     std::error_code failed;
     const auto folder = system::program_folder();

@@ -170,8 +170,8 @@ class LocateRun {
           frames_(sources.open(options_of(arguments))),
           images_(sources.number_of_images()),
           progress_("locating", arguments.lines.out) {
-        // Signals are not caught if names come from a pipe: while the tool waits for a name, a
-        // signal must end it immediately. No line is lost, because each line is flushed.
+        // Signals are not caught if names come from a pipe, because a signal must end the tool
+        // immediately while it waits for a name. No line is lost, because each line is flushed.
         if (!sources.has_pipe()) catch_interrupts();
     }
 

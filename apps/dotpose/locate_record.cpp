@@ -54,8 +54,8 @@ std::string uncertainty_reason(const Record& record) {
                               : fmt::format("{} instead of at most {}", p_wrong_text(fix.p_wrong()),
                                             p_wrong_text(std::ldexp(1.0, record.max_p_wrong_log2)));
     // The total number of bits is not reported, because it would look inconsistent with the number
-    // of dots: bits are also read in cells without a detected dot, so it is not twice the number of
-    // dots.
+    // of dots. It is not twice the number of dots, because bits are also read in cells without a
+    // detected dot.
     if (fix.bit_errors > 0) {
         return fmt::format("{}; {} of the bits read contradict it", odds, fix.bit_errors);
     }
@@ -113,7 +113,7 @@ std::vector<Field> code_fields(const Record& record, Units units) {
     };
 }
 
-/// Returns `text` if the fix is ok and has a covariance, otherwise an empty string.
+/// Returns `text` if the fix is ok and has a covariance. Otherwise returns an empty string.
 std::string if_judged(const Fix& fix, std::string text) {
     return fix.status == Status::ok && fix.has_covariance() ? std::move(text) : std::string();
 }

@@ -60,8 +60,8 @@ std::optional<ros::PlanarCovariance> covariance_in(const LogCells& row,
     return covariance;
 }
 
-/// Returns the pose and the velocities of a row. The log contains one standard deviation for the
-/// velocity, which is used for both components.
+/// Returns the pose and the velocities of a row. The log contains only one standard deviation of
+/// the velocity, which is therefore used for both components.
 ros::PlanarMotion motion_in(const LogCells& row, const ros::PlanarPose& pose,
                             const PoseColumns& columns) {
     const auto value = [&row](const char* column) { return row.number(column).value_or(0); };
@@ -98,8 +98,8 @@ constexpr SpaceColumns kSpaceInWorld = {"m", "quaternion_world_xyzw", "covarianc
 constexpr SpaceColumns kSpaceInPattern = {"mm", "quaternion_xyzw", "covariance_mm_deg", kRadians};
 
 /// Reads a pose of the camera in space from the columns whose names begin with `prefix`. The pose
-/// is in the world or, if `is_in_world` is false, in the pattern frame with y up. Returns none if
-/// the row does not contain the pose.
+/// is in the world or, if `is_in_world` is false, in the pattern frame with y up. Returns an empty
+/// optional if the row does not contain the pose.
 std::optional<CameraInWorld> space_pose_in(const LogCells& row, const std::string& prefix,
                                            bool is_in_world) {
     const SpaceColumns& columns = is_in_world ? kSpaceInWorld : kSpaceInPattern;
@@ -125,15 +125,15 @@ std::optional<CameraInWorld> space_pose_in(const LogCells& row, const std::strin
                     WorldPose{});
 }
 
-/// Returns the pose of the camera in space that was fitted to the frame alone. Returns none if it
-/// is unknown or ambiguous.
+/// Returns the pose of the camera in space that was fitted to the frame alone. Returns an empty
+/// optional if the pose is unknown or ambiguous.
 std::optional<CameraInWorld> camera_in(const LogCells& row, bool is_in_world) {
     if (row.text("camera_is_ambiguous") != "false") return std::nullopt;
     return space_pose_in(row, "camera_", is_in_world);
 }
 
-/// Returns the motion of the tracked camera. The log contains one standard deviation for the
-/// velocity and one for the angular velocity, which are used for all components.
+/// Returns the motion of the tracked camera. The log contains only one standard deviation of the
+/// velocity and one of the angular velocity, which are therefore used for all components.
 std::optional<CameraMotion> camera_motion_in(const LogCells& row, bool is_in_world) {
     const auto pose = space_pose_in(row, "camera_track_", is_in_world);
     if (!pose) return std::nullopt;

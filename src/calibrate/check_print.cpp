@@ -23,8 +23,8 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// Maximum ratio between the measured spacing and the spacing at the stated resolution. Beyond this
-/// ratio, in either direction, the resolution is ignored.
+/// Maximum ratio of the measured spacing to the spacing at the stated resolution. The resolution is
+/// ignored if the ratio is greater than this value or less than its reciprocal.
 constexpr double kMaxSpacingRatio = 2;
 constexpr std::size_t kMinFieldDots = 30;
 
@@ -70,7 +70,8 @@ void validate(const CheckPrintOptions& options) {
     }
 }
 
-/// Returns the index of the sheet whose region contains the cell, or an empty optional.
+/// Returns the index of the sheet whose region contains the cell, or an empty optional if no sheet
+/// contains it.
 std::optional<std::size_t> sheet_at(const CheckPrintOptions& options, Section section, Cell cell) {
     Sheet place;
     place.pattern.code = options.pattern.code;

@@ -27,8 +27,8 @@ constexpr double kFitRadius = 0.36;
 /// Maximum distance of a dot from its expected place, in spacings.
 constexpr double kMaxOffset = 0.25;
 constexpr int kPasses = 4;
-/// Initial value of the variance due to blur and pixels, in px^2. The two constants below are the
-/// limits of the fitted value.
+/// Initial value of the variance that blur and the area of a pixel add to the image of a dot, in
+/// px^2. The two constants below are the limits of the fitted value.
 constexpr double kUsualBlur_px2 = 0.5;
 constexpr double kMinBlur_px2 = 0.1;
 constexpr double kMaxBlur_px2 = 4;
@@ -41,7 +41,7 @@ struct DotImage {
     double contrast = 0;
     double level = 0;
     Vector2d centre;
-    Matrix2d covariance;  ///< covariance of the centre, for noise of one grey level
+    Matrix2d covariance;  ///< covariance of the centre, for image noise of 1 grey level
     bool is_valid = false;
 };
 
@@ -66,7 +66,8 @@ class Light {
         if (count >= kMinDots) values_ = equations.solution();
     }
 
-    /// Returns the gradient of the light at a pixel, divided by the light, per px.
+    /// Returns the relative gradient of the light at a pixel, per px: the gradient divided by the
+    /// light.
     Vector2d slope(const Vector2d& pixel) const {
         if (values_.empty()) return Vector2d::Zero();
         const auto& c = values_;

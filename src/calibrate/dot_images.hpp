@@ -23,18 +23,18 @@ struct ExpectedDot {
 /// spacings, the images of neighbouring dots overlap.
 inline constexpr double kMinSpacing_px = 4;
 
-/// Returns true if a dot is completely in the image and its spacing is long enough.
+/// Returns true if a dot is completely in the image and its spacing is at least kMinSpacing_px.
 bool is_measurable(const ImageView& image, const ExpectedDot& dot);
 
 /// Centre of a dot in an image.
 struct DotCentre {
     Eigen::Vector2d pixel;
-    /// Covariance for noise of the image with a standard deviation of one grey level.
+    /// Covariance for image noise with a standard deviation of one grey level.
     Eigen::Matrix2d covariance;
 };
 
-/// Returns the centres of measurable dots. The centre is nullopt if the dot is missing, or if it is
-/// much paler than the other dots.
+/// Returns one element per dot: its centre, or nullopt if the dot is missing or much paler than the
+/// other dots. All dots must be measurable.
 std::vector<std::optional<DotCentre>> measured_centres(const ImageView& image,
                                                        const std::vector<ExpectedDot>& dots);
 

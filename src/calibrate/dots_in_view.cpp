@@ -180,7 +180,8 @@ std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& 
     }
     if (read.size() < kMinDots) return std::nullopt;
     const Eigen::Vector2d focal_px(view.pinhole.focal_u_px, view.pinhole.focal_v_px);
-    // Maximum number of dots in the first fit, which only needs to predict the places of all dots.
+    // Maximum number of dots in the first fit. This fit only needs to predict the places of all
+    // dots.
     constexpr std::size_t kPart = 300;
     std::vector<SpaceDot> part;
     for (std::size_t i = 0; i < read.size(); i += 1 + read.size() / kPart)
@@ -188,8 +189,8 @@ std::optional<SpaceFit> fit_to_image(const ImageView& image, const PatternView& 
     const auto first = fit_space(part, focal_px);
     if (!first) return std::nullopt;
     const std::vector<SpaceDot> all = dots_in_view(image, view, trace, first->state);
-    // Few measured dots mean that the dots are too small in the image. In this case, the fit uses
-    // the dots of `locate`.
+    // If fewer than half as many dots are measured as `locate` read, the dots are too small in the
+    // image. In this case, the fit uses the dots of `locate`.
     return fit_space(2 * all.size() < read.size() ? read : all, focal_px);
 }
 

@@ -18,7 +18,8 @@ struct PatternView {
     const Camera& camera;
     Pinhole pinhole;
     AxisScale spacing_mm;
-    /// Map of the page, or null. With a map, only the dots that the map has seen are used.
+    /// Map of the page, or null. With a map, only the dots with at least one view in the map are
+    /// used.
     const MapPage* map = nullptr;
 };
 
@@ -26,14 +27,15 @@ struct PatternView {
 struct CodeDot {
     FixedVec step;  ///< intersection, in spacings from `trace.decoding.place`
     Symbol symbol;
-    Eigen::Vector2d offset = Eigen::Vector2d::Zero();  ///< in the print map, in spacings
+    Eigen::Vector2d offset = Eigen::Vector2d::Zero();  ///< offset in the print map, in spacings
 };
 
-/// Returns the dot of the code at a step from `trace.decoding.place`. Returns none if the view has
-/// a map that has not seen the dot.
+/// Returns the dot of the code at a step from `trace.decoding.place`. Returns nullopt if the view
+/// has a map in which the dot has no views.
 std::optional<CodeDot> code_dot(const PatternView& view, const Trace& trace, FixedVec step);
 
-/// Returns the dot, seen at an undistorted pixel.
+/// Returns the place of a dot on the paper, together with the undistorted pixel at which it was
+/// seen.
 SpaceDot space_dot(const PatternView& view, const CodeDot& dot, PixelPoint undistorted);
 
 /// Measures the dots that `state` predicts in the image. Measures at most `trace.options.max_dots`

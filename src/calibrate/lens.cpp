@@ -154,7 +154,7 @@ Camera camera_of(const LensFit& fit, const FitSetting& setting) {
     return camera;
 }
 
-/// Returns true if all frames show about the same dots.
+/// Returns true if the places of all frames are within kSamePlace of the first place.
 bool is_same_place(const std::vector<LocatedFrame>& located, const LensFit& fit,
                    double spacing_mm) {
     for (std::size_t i = 1; i < located.size(); ++i) {

@@ -14,10 +14,10 @@ namespace dotpose::calibrate {
 enum class Stand {
     ideal,    ///< camera perpendicular to the paper, at one height, without lens distortion
     mounted,  ///< same height and tilt in all frames
-    by_hand,  ///< individual height and tilt in each frame
+    by_hand,  ///< a different height and tilt in each frame
 };
 
-/// Parameters that all frames share. The member of `Stand` determines which parameters are fitted.
+/// Parameters that all frames share. The value of `Stand` determines which parameters are fitted.
 /// Lengths in the image are in px from the image centre. `reach` is half the diagonal of the image.
 struct SharedModel {
     std::array<double, 3> lens{};  ///< k reach^2, and the distortion centre in px

@@ -44,7 +44,7 @@ struct LocatedFrame {
 /// Locates frames. If the lens is not known, tries several lenses.
 class FrameReader {
   public:
-    /// If `code` is empty, the reader detects the code variant from the frames.
+    /// If `code` is an empty optional, the reader detects the code variant from the frames.
     explicit FrameReader(std::optional<CodeVariant> code);
 
     /// Sets the lens for all following frames. The reader tries no other lens afterwards.

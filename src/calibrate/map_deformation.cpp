@@ -50,8 +50,8 @@ MapDeformation::MapDeformation(const MapGrid& grid, const EarlierOffsets& earlie
     add_frames(grid, observations, solution, matrix);
     add_dots(grid, earlier, solution, matrix);
     add_smoothness(solution.field, matrix);
-    // The observations do not determine shifts and turns of the whole page. This term makes the
-    // matrix invertible nevertheless.
+    // The observations do not determine the shift and the turn of the whole page, so the matrix may
+    // be singular. The added term makes it invertible.
     matrix.diagonal().array() += 1e-9 * matrix.diagonal().maxCoeff();
     equations_.compute(matrix);
 }
@@ -140,8 +140,8 @@ void MapDeformation::add_dots(const MapGrid& grid, const EarlierOffsets& earlier
         NodeBlock square = NodeBlock::Zero();
         if (!earlier.views.empty())
             square = weight * static_cast<double>(earlier.views[dot]) * offset.transpose() * offset;
-        // The prior applies to the difference between the offset and the field. Shifts change both
-        // equally, so only a change of the displacement contributes.
+        // The prior applies to the difference between the offset and the field. A shift changes the
+        // offset and the field equally, so only a change of the displacement contributes.
         square(2, 2) += prior_weight;
         const MapField::Around near = around_dot(nodes_, grid, dot);
         for (std::size_t i = 0; i < 4; ++i) {
@@ -155,8 +155,8 @@ void MapDeformation::add_dots(const MapGrid& grid, const EarlierOffsets& earlier
 }
 
 void MapDeformation::add_smoothness(const MapField& field, MatrixXd& matrix) const {
-    // A difference depends on at most 4 nodes of the field, and each of these depends on 4 coarse
-    // nodes.
+    // A difference depends on at most 4 nodes of the field, and each node of the field depends on 4
+    // coarse nodes.
     field.for_each_difference([&](const auto& fine, const auto& coefficients) {
         std::array<std::pair<Eigen::Index, double>, 16> terms;
         std::size_t count = 0;

@@ -1,7 +1,8 @@
-// Map deformation: the part of the preconditioner for slow deformations of the page. A slow
-// deformation moves all dots in a frame together, so a different pose of the frame nearly cancels
-// it in the residuals. The diagonal blocks of single frames therefore correct slow deformations
-// only in many iterations. This part solves for the deformation and the poses together.
+// Map deformation: the part of the preconditioner that corrects slow deformations of the page. A
+// slow deformation moves all dots in a frame together, so a different pose of the frame nearly
+// cancels its effect on the residuals. With only the diagonal blocks of single frames as a
+// preconditioner, slow deformations therefore converge in many iterations. This part solves for the
+// deformation and the poses together.
 #pragma once
 
 #include <cstdint>
@@ -49,7 +50,8 @@ class MapDeformation {
         std::vector<std::uint32_t> nodes;
         Following terms;  ///< columns: shifts and displacement of each node
     };
-    /// Response of a frame, and its part of the matrix. The matrix has the nodes of the response.
+    /// Response of a frame, and the contribution of the frame to the matrix. The rows of the
+    /// contribution belong to the nodes of the response.
     struct FrameEquations {
         Follower follower;
         Eigen::MatrixXd matrix;
@@ -60,7 +62,7 @@ class MapDeformation {
                                 const MapSolution& solution, const MapFrame& frame) const;
     void add_frames(const MapGrid& grid, const std::vector<MapObservation>& observations,
                     const MapSolution& solution, Eigen::MatrixXd& matrix);
-    /// Adds the equations of earlier offsets and of the prior of the offsets.
+    /// Adds the equations of the offsets in the earlier map, and those of the prior of the offsets.
     void add_dots(const MapGrid& grid, const EarlierOffsets& earlier, const MapSolution& solution,
                   Eigen::MatrixXd& matrix) const;
     void add_smoothness(const MapField& field, Eigen::MatrixXd& matrix) const;

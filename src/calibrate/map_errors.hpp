@@ -1,5 +1,5 @@
-// Map errors: covariances of the errors that the dots of a view have in common, because the map
-// bends slowly.
+// Map errors: covariances of the errors that all dots of a view share, because the errors of the
+// map change slowly over the page.
 #pragma once
 
 #include "calibrate/map_deformation.hpp"
@@ -7,12 +7,13 @@
 
 namespace dotpose::calibrate {
 
-/// Whether the mean offset, turn and scale of the seen dots are 0 (`fix_gauge`). If not, they are
-/// those of an earlier map.
+/// Source of the mean offset, turn and scale of the seen dots. They are those of an earlier map, or
+/// fixed at 0 by `fix_gauge`.
 enum class Gauge : bool { earlier, fixed };
 
-/// Returns the covariances of shift and turn of a view at the nodes of a grid over the page. They
-/// follow from the equations for slow deformations. The views have the reach of the solution.
+/// Returns the covariances of the shift and turn of a view, at the nodes of a grid over the page.
+/// They are computed from the equations for slow deformations. The size of the views is the reach
+/// of the solution.
 MapErrorGrid map_errors(const MapGrid& grid, const MapSolution& solution,
                         const MapDeformation& deformation, Gauge gauge);
 

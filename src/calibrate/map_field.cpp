@@ -6,8 +6,8 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Distance between nodes, in mm. Interpolation reproduces a wave with a wavelength of 40 mm with
-/// errors of at most 8 % of its amplitude.
+/// Distance between nodes, in mm. For a wave with a wavelength of 40 mm, the interpolation error is
+/// at most 8 % of the amplitude.
 constexpr double kNodePitch_mm = 5;
 
 }  // namespace

@@ -48,8 +48,8 @@ class MapField {
     /// Weight of a squared second difference.
     static constexpr double kDifferenceWeight = 1 / (kDifference_mm * kDifference_mm);
 
-    /// Calls `use` with the nodes of each second difference along x, along y, and of each mixed
-    /// difference, with their coefficients.
+    /// Calls `use` for each second difference along x, along y, and for each mixed difference. The
+    /// arguments are the nodes of the difference and their coefficients.
     template <typename Use>
     void for_each_difference(Use use) const;
 

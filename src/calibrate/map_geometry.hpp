@@ -28,7 +28,7 @@ class MapView {
     }
 
     /// Place of an observation, in units of the reach, and direction of the displacement of its
-    /// dot. The derivatives of the residual are computed from them.
+    /// dot. The derivatives of the residual are functions of the place and the direction.
     struct Terms {
         double x;
         double y;
@@ -81,8 +81,9 @@ class MapView {
     Eigen::Matrix2d rotation_;
 };
 
-/// Adds the prior of the view terms to the normal equations of a frame, which are in units of
-/// 1 / `variance`. Makes the block invertible if the dots of the frame do not determine all terms.
+/// Adds the prior of the view terms to the normal equations of a frame, which are in units of 1 /
+/// `variance`. The block is then invertible even if the dots of the frame do not determine all
+/// terms.
 inline void add_view_prior(const MapSolution& solution, double variance, FrameBlock& block) {
     for (int k = 0; k < kViewTerms; ++k) {
         const double sigma = solution.view_sigma[static_cast<std::size_t>(k)];

@@ -19,16 +19,17 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Number of linearisations. After each, the variances are estimated and the outliers are marked
-/// again.
+/// Number of linearisations. After each of them, the variances are estimated and the outliers are
+/// marked again.
 constexpr int kRounds = 3;
 /// Mean square of the preconditioned residual at which conjugate gradients end, in units of the
-/// variance of an unknown. Smaller values do not change the errors of the map. kFirstConverged
-/// applies to all rounds but the last one, because they only estimate variances and find outliers.
+/// variance of an unknown. Smaller values do not change the errors of the map. All rounds but the
+/// last use kFirstConverged, because they only estimate variances and find outliers.
 constexpr double kConverged = 1e-6;
 constexpr double kFirstConverged = 1e-4;
 /// Maximum squared residual of an observation in the first round, in units of the variance per
-/// axis. It exceeds kMaxSquaredLength, because the offsets of the dots are not known yet.
+/// axis. The limit is greater than kMaxSquaredLength, because the offsets of the dots are not known
+/// yet.
 constexpr double kFirstOutlier = 30;
 constexpr double kMinNoise_mm = 1e-4;
 constexpr double kMinJitter_mm = 5e-4;
@@ -58,8 +59,8 @@ FreeView free_view(const FrameBlock& block, const FrameVector& right, const MapF
             variance * inverse.diagonal().tail<kViewTerms>()};
 }
 
-/// Returns the standard deviations of the view terms between frames. They are nearly 0 if the terms
-/// do not differ by more than their errors, because the camera is then considered rigid.
+/// Returns the standard deviations of the view terms between frames. If the terms do not differ by
+/// more than their errors, the camera is considered rigid and the result is nearly 0.
 std::array<double, kViewTerms> view_sigma_of(const std::vector<FreeView>& views) {
     std::array<double, kViewTerms> result{};
     for (int k = 0; k < kViewTerms; ++k) {
@@ -86,7 +87,7 @@ Vector2d residual_of(const MapView& view, const MapView::Terms& terms, const Map
            view.page_from_camera().transpose() * solution.offset_mm[seen.index()].cast<double>();
 }
 
-/// Returns the median of the squares. Uses at most about a million of them.
+/// Returns the median of the squares, or of a sample of about a million squares if there are more.
 double typical_square(const std::vector<float>& squares) {
     constexpr std::size_t kMaxSamples = 1'000'000;
     const std::size_t step = 1 + squares.size() / kMaxSamples;
@@ -96,8 +97,8 @@ double typical_square(const std::vector<float>& squares) {
     return upper_median(std::move(samples));
 }
 
-/// Computes the squared residuals of a frame. Adds those that are not outliers to `sum`. Returns
-/// the view terms estimated from this frame alone.
+/// Computes the squared residuals of a frame, and adds the residuals that are not outliers to
+/// `sum`. Returns the view terms estimated from this frame alone.
 FreeView measure_frame(const MapGrid& grid, const MapSolution& solution, const MapFrame& frame,
                        const std::vector<MapObservation>& observations, std::vector<float>& squares,
                        double& sum) {
@@ -174,8 +175,9 @@ void estimate_variances(const MapGrid& grid, double squares, std::size_t used,
 }
 
 /// Removes the mean offset, scale and turn of the seen dots from the offsets, because views of the
-/// page do not determine them. Applies the inverse similarity to the places of the dots, because a
-/// turn of the page by 0.003 also turns a feed wave of 40 µm, by 0.13 µm.
+/// page do not determine them. Applies the inverse similarity to the places of the dots, because
+/// the offsets turn with the page. For example, a turn by 0.003 rad changes the offsets of a feed
+/// wave of 40 µm by 0.13 µm.
 void fix_gauge(const MapGrid& grid, MapSolution& solution) {
     const Vector2d middle =
         grid.pitch_mm.cwiseProduct(Vector2d(grid.columns - 1, grid.rows - 1)) / 2;

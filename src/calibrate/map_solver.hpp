@@ -19,7 +19,7 @@ namespace dotpose::calibrate {
 /// A dot in one frame: its index on the page, and its place on the paper in mm, in the frame of the
 /// camera.
 struct MapObservation {
-    /// Marks observations that are not used, because their residuals are too large.
+    /// Bit that marks an observation as an outlier. Outliers are not used.
     static constexpr std::uint32_t kOutlier = 1U << 31;
     std::uint32_t dot = 0;
     float x_mm = 0;
@@ -29,7 +29,7 @@ struct MapObservation {
     std::uint32_t index() const { return dot & ~kOutlier; }
 };
 
-/// Number of terms of the view that may differ between frames: scale, two shears, two perspectives.
+/// Number of view terms, which may differ between frames: scale, two shears, two perspectives.
 inline constexpr int kViewTerms = 5;
 /// Number of terms that all frames have in common: the view terms and the lens distortion.
 inline constexpr int kCameraTerms = kViewTerms + 1;

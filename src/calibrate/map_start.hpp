@@ -17,7 +17,7 @@ namespace dotpose::calibrate {
 /// Returns the dots of a page at their nominal places, scaled by the print scales of the sheet.
 MapGrid grid_of(const SheetEntry& entry);
 
-/// A frame of a page, with its view from the fix.
+/// A frame of a page, and its view computed from the fix.
 struct MapSighting {
     std::size_t first = 0;  ///< index of its first observation
     std::size_t count = 0;

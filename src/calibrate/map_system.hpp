@@ -12,7 +12,7 @@
 
 namespace dotpose::calibrate {
 
-/// Equations, linearised at the frames of a solution.
+/// Equations of a map, linearised at the frames of a solution.
 class MapSystem {
   public:
     MapSystem(const MapGrid& grid, const EarlierOffsets& earlier,
@@ -51,9 +51,9 @@ class MapSystem {
     const MapSolution& solution_;
     double weight_;                    ///< weight of an observation: 1 / noise^2
     double prior_weight_;              ///< weight of the field in the offset of a dot: 1 / jitter^2
-    std::vector<double> information_;  ///< for each offset, sum of all its weights
+    std::vector<double> information_;  ///< for each offset, sum of the weights of its equations
     std::vector<Eigen::Vector2d> offsets_;
-    std::vector<std::vector<Eigen::Vector2d>> sums_;  ///< for each part, sums by dot
+    std::vector<std::vector<Eigen::Vector2d>> sums_;  ///< for each part of the work, a sum per dot
     std::vector<Eigen::LLT<Eigen::Matrix<double, kFrameTerms, kFrameTerms>>> frame_blocks_;
     Eigen::LLT<Eigen::Matrix<double, kCameraTerms, kCameraTerms>> camera_block_;
     std::vector<double> field_diagonal_;

@@ -39,9 +39,10 @@ void add_map_error(const MapPage& page, Fix& fix) {
 }
 
 bool is_same_print(double variance_with_map, double variance_without, double noise) {
-    // A map of another print would double the variance.
+    // With the map of a different print, the ratio would be about 2.
     constexpr double kMaxRatio = 0.8;
-    // In a print without jitter, the residuals are only noise, so the map hardly changes them.
+    // In a print without jitter, the residuals contain only noise, so the map hardly changes their
+    // variance.
     constexpr double kMaxNoise_2 = 2;
     return variance_with_map <= kMaxRatio * variance_without ||
            variance_with_map <= kMaxNoise_2 * noise * noise;

@@ -18,7 +18,8 @@ struct MappedDot {
     Eigen::Vector2d offset = Eigen::Vector2d::Zero();
 };
 
-/// Dots of a fix whose offsets the map contains. They are sufficient only if `use` is MapUse::used.
+/// Dots of a fix whose offsets the map contains. There are enough dots for a fit only if `use` is
+/// MapUse::used.
 struct MappedDots {
     MapUse use = MapUse::no_map;
     const MapPage* page = nullptr;  ///< the map of the page
@@ -31,8 +32,8 @@ MappedDots mapped_dots(const Fix& fix, const PrintMap& map, const Trace& trace);
 /// Adds the error of the map at the place of a fix to the covariance of the fix.
 void add_map_error(const MapPage& page, Fix& fix);
 
-/// Returns true if the variances of the residuals with and without the map show that the map is of
-/// this print. `noise` is the noise of the map, in the unit of the residuals.
+/// Returns true if the map belongs to this print, according to the variances of the residuals with
+/// and without the map. `noise` is the noise of the map, in the unit of the residuals.
 bool is_same_print(double variance_with_map, double variance_without, double noise);
 
 }  // namespace dotpose::calibrate

@@ -113,7 +113,7 @@ Correction fit_terms(const FixPlane& plane, const std::vector<MapDot>& dots, dou
 }
 
 /// Prior of the two terms of the shear or of the perspective: a mixture of Gaussians with mean 0.
-/// Both terms are 0 if the camera looks straight at the paper.
+/// The terms are 0 if the camera axis is perpendicular to the paper.
 struct ViewPrior {
     struct Kind {
         double probability;

@@ -27,11 +27,10 @@ using Eigen::Vector2d;
 constexpr int kMinSpinFrames = 3;
 constexpr double kMinTurn_rad = std::numbers::pi / 6;
 constexpr double kMinDrive_mm = 5;
-/// Maximum angle by which the robot may turn during a straight drive. Also the maximum angle
-/// between the mean line of the drive and the direction of a place, as seen from the middle of the
-/// drive.
+/// Maximum angle by which the robot may turn during a straight drive. It also limits the angle
+/// between the mean line of the drive and the direction from the middle of the drive to any place.
 constexpr double kMaxSwerve_rad = std::numbers::pi / 36;
-/// Probability that noise is mistaken for a drift if the robot stays on the spot.
+/// Probability that noise is mistaken for a drift although the robot stays on the spot.
 constexpr double kFalseDrift = 1e-3;
 /// Minimum number of frames required to distinguish a drift from noise.
 constexpr int kMinDriftFrames = 5;
@@ -213,8 +212,9 @@ SpotTurn fit_turn(const std::vector<Station>& stations, bool has_drift) {
 }
 
 /// Returns the error of the offset, per axis, that a drift of the robot causes. Returns 0 if noise
-/// explains the drift. The drift has two parameters. The F test therefore has 2 and m = 2 n - 6
-/// degrees of freedom, and its p-value is (squares with drift / squares without drift) ^ (m / 2).
+/// explains the drift, according to an F test. Because the drift has two parameters, the test has 2
+/// and m = 2 n - 6 degrees of freedom, and its p-value is (squares with drift / squares without
+/// drift) ^ (m / 2).
 double bias_of_drift_mm(const std::vector<Station>& stations, const SpotTurn& on_the_spot) {
     if (stations.size() < kMinDriftFrames) return 0;
     const SpotTurn drifting = fit_turn(stations, true);
@@ -224,9 +224,9 @@ double bias_of_drift_mm(const std::vector<Station>& stations, const SpotTurn& on
     return (drifting.offset - on_the_spot.offset).norm() / std::numbers::sqrt2;
 }
 
-/// Throws Error if the centre of rotation is not accurate enough, relative to the spacing. If the
-/// residual is above one spacing, the centre left its cell and was not at rest. If the uncertainty
-/// is above half a spacing, the cell under the centre is not known.
+/// Throws Error if the centre of rotation is not accurate enough. If the residual is above one
+/// spacing, the robot did not turn on the spot. If the uncertainty is above half a spacing, the
+/// cell under the centre is not known.
 void require_spin(const SpinCalibration& spin, double spacing_mm) {
     if (spin.residual_mm > spacing_mm) {
         throw Error(
@@ -262,8 +262,8 @@ Vector2d direction_of_line(const std::vector<Station>& stations, const Vector2d&
 }
 
 /// Throws Error unless the frames are in the order of the drive and all places are close to the
-/// line. The maximum distance is the distance that a robot reaches if it turns by kMaxSwerve_rad in
-/// the middle of the drive.
+/// line. The limit is the distance from the line that a robot reaches if it turns by kMaxSwerve_rad
+/// in the middle of the drive.
 void require_straight(const std::vector<Vector2d>& on_line, double length_mm) {
     const double max_mm = std::tan(kMaxSwerve_rad) * length_mm / 2;
     double farthest_mm = on_line.front().x();

@@ -56,7 +56,7 @@ CameraPoint turned(CameraPoint from, CameraPoint to, double angle_rad) {
 
 /// Fits the pose to the dots at their mapped places. `reference` is the reference point. For a
 /// rolling shutter, the equation is linearised at `turn_rad`, and the fit is repeated with the turn
-/// that it finds.
+/// found by the previous fit.
 PoseFit fit_pose(const std::vector<MappedDot>& dots, const Camera& camera, const AxisScale& print,
                  CameraPoint reference, double turn_rad) {
     std::vector<CameraPoint> points;
@@ -158,9 +158,9 @@ void write_place(double x, double y, CodeVariant code, const Place& place, Fix& 
     fix.fraction_y_q16 = static_cast<std::uint16_t>(y_q16 & 65535);
 }
 
-/// Sets the covariance at the reference point (`x`, `y`), in mm from the middle of the dots. Uses
-/// the variance of the angle on the paper for the nominal angle, because the two variances are
-/// nearly equal.
+/// Sets the covariance at the reference point (`x`, `y`), in mm from the middle of the dots. The
+/// variance of the nominal angle is set to that of the angle on the paper, because these variances
+/// are nearly equal.
 void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& print, Fix& out) {
     const double c = fit.parameters[2];
     const double s = fit.parameters[3];
@@ -179,9 +179,8 @@ void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& p
 /// Returns the velocity during the readout of a rolling shutter, from the last three parameters.
 ReadoutVelocity velocity_of(const PoseFit& pose, double readout_ms, const AxisScale& print) {
     constexpr int kFirst = kParameters;
-    // Factors that convert the motion during the readout to velocities. The motion along x and y
-    // becomes a velocity in nominal spacings per second, and the turn a turn rate in rad per
-    // second.
+    // Factors that convert the motion during the readout to velocities: the motion along x and y to
+    // nominal spacings per second, and the turn to rad per second.
     const std::array per_s{1000 / (readout_ms * print.x), 1000 / (readout_ms * print.y),
                            1000 / readout_ms};
     ReadoutVelocity velocity{per_s[0] * pose.parameters[kFirst],
@@ -239,8 +238,8 @@ MappedMovingFix with_camera_and_map(const Fix& seen, const Camera& camera, const
     const Fix& fix = mapped.fix;
     Fix result = fix;
     std::optional<ReadoutVelocity> velocity;
-    // Angle on the paper. The nominal angle differs slightly if the print scales of the axes
-    // differ.
+    // Angle on the paper. It differs slightly from the nominal angle if the print scales of the
+    // axes differ.
     double theta_rad =
         std::atan2(std::sin(fix.theta_rad()) * print.y, std::cos(fix.theta_rad()) * print.x);
     if (camera.paper && dots_read(trace).size() >= kMinPoseDots) {
@@ -261,8 +260,8 @@ MappedMovingFix with_camera_and_map(const Fix& seen, const Camera& camera, const
         result.dots_used = pose.dots;
         result.dots_seen = std::max(result.dots_seen, result.dots_used);
         result.residual_px = static_cast<float>(std::sqrt(pose.variance) * fix.spacing_px());
-        // The angle is defined at the image centre. Elsewhere, the image rows of a tilted camera
-        // have another direction on the paper.
+        // The angle is defined at the image centre. At other pixels, the image rows of a tilted
+        // camera have a different direction on the paper.
         const PixelPoint centre{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
         theta_rad =
             std::atan2(pose.parameters[3], pose.parameters[2]) + image_axis_rad(camera, centre);

@@ -62,8 +62,8 @@ struct TiltResidual {
 using CentrePose = std::array<double, 3>;
 
 /// Returns the pose of the image centre of `camera` relative to the view of `other`. Like
-/// `with_camera`, aligns the view of `camera` with the view of `other` by the place, angle and
-/// scale that fit best at the same pixels.
+/// `with_camera`, aligns the two views by the place, angle and scale for which they differ least at
+/// the same pixels.
 CentrePose centre_pose(const Camera& camera, const Camera& other) {
     using Point = std::complex<double>;
     const auto seen = [](const Camera& by, PixelPoint straight) {
@@ -128,7 +128,7 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
     const auto residual =
         new TiltResidual{paper, whitening_of(fit.mounted_covariance.bottomRightCorner(5, 5))};
     // Initial values. The perspective is approximately the tilt divided by the focal length. A
-    // typical ratio of reach and focal length is 0.5.
+    // typical ratio of reach to focal length is 0.5.
     std::array tilt{std::sqrt(paper[0] * paper[1]), -2 * paper[4], 2 * paper[3], 0.5};
     ceres::Problem problem;
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<TiltResidual, 5, 4>(residual), nullptr,
@@ -150,8 +150,8 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
 }
 
 void describe_centre(const LensFit& fit, double reach_px, Camera& camera) {
-    // Step of the difference quotients, in standard deviations. The step is small enough for the
-    // quotients to approximate the derivatives with respect to all parameters.
+    // Step of the difference quotients, in standard deviations. With this small step, the quotients
+    // are good approximations of the derivatives with respect to all parameters.
     constexpr double kStep_sigmas = 0.01;
     const CentrePose here = centre_pose(camera, camera);
     Eigen::MatrixXd derivative(3, 8);

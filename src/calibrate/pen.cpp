@@ -50,7 +50,7 @@ TipPose tip_of(const SpacePose& pose, const PenTip& tip,
     }
     Matrix3d covariance = by_pose * pose_covariance * by_pose.transpose() +
                           rotation * tip_covariance(sigma) * rotation.transpose();
-    // The height points out of the paper, and z into the paper.
+    // The height is positive above the paper, whereas z points into the paper.
     const Vector3d signs(1, 1, -1);
     covariance = signs.asDiagonal() * covariance * signs.asDiagonal();
     TipPose result{pose.camera.x_mm + turned.x(),

@@ -25,8 +25,8 @@ using calibrate::PivotFit;
 using calibrate::PivotView;
 
 constexpr int kMinPivotFrames = 6;
-/// Minimum pivot angle. At smaller angles, the errors of the tip are more than about 10 times the
-/// errors of the poses.
+/// Minimum pivot angle. At smaller angles, the error of the tip is more than about 10 times that of
+/// the poses.
 constexpr double kMinPivot_rad = 3 / kDegrees;
 constexpr double kMinUsed = 2.0 / 3;
 
@@ -36,8 +36,8 @@ struct PivotViews {
     double spacing_mm = 0;  ///< spacing of the sheet in the last of these frames
 };
 
-/// Returns the printed spacing of the sheet of a fix. Returns none if the fix is not on any of the
-/// sheets.
+/// Returns the printed spacing of the sheet of a fix, or an empty optional if the fix is not on any
+/// of the sheets.
 std::optional<AxisScale> spacing_of(const CalibrateOptions& options, CodeVariant code,
                                     const Fix& fix) {
     const double mm = options.pattern.spacing_mm;
@@ -49,8 +49,8 @@ std::optional<AxisScale> spacing_of(const CalibrateOptions& options, CodeVariant
                      sheet_mm * place->entry->print_scale_y};
 }
 
-/// Returns the pose of the camera in the pattern frame. Returns none if there is no pose, or if it
-/// is ambiguous.
+/// Returns the pose of the camera in the pattern frame, or an empty optional if there is no pose or
+/// if the pose is ambiguous.
 std::optional<PivotView> view_of(const GreyImage& image, const Camera& camera, const Trace& trace,
                                  const AxisScale& spacing_mm) {
     const auto fit =

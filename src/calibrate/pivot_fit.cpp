@@ -71,8 +71,8 @@ Points points_of(const NormalEquations& equations) {
     return {{solved[0], solved[1], solved[2]}, {solved[3], solved[4], solved[5]}};
 }
 
-/// Returns the fit to a small subset of the views for which the median of all residuals is smallest
-/// (Rousseeuw 1984). Almost half of the views may be wrong.
+/// Fits many small subsets of the views. Returns the fit with the smallest median of all residuals
+/// (Rousseeuw 1984), which tolerates almost half of the views being wrong.
 Points robust_start(const std::vector<PivotView>& views) {
     Points best;
     double best_mm = std::numeric_limits<double>::infinity();
@@ -127,8 +127,8 @@ Step improved(const std::vector<PivotView>& views, const Points& start) {
     return step;
 }
 
-/// Returns the covariance of the points due to the errors of the dots, which all frames that show a
-/// dot have in common.
+/// Returns the covariance of the points due to the errors of the dots. All frames that show a dot
+/// share the error of this dot.
 Matrix6d covariance_of_dots(const std::vector<PivotView>& views, const Step& step) {
     std::unordered_map<std::uint64_t, Vector6d> shifts;
     for (std::size_t i = 0; i < views.size(); ++i) {

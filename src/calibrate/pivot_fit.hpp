@@ -1,4 +1,4 @@
-// Pivot fit: the point of a device that rests while the device turns about this point.
+// Pivot fit: finds the point of a device that is at rest while the device turns about this point.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,8 @@ struct PivotView {
 };
 
 struct PivotFit {
-    Eigen::Vector3d tip_mm;   ///< in the camera frame
-    Eigen::Vector3d rest_mm;  ///< on the paper, in the frame of the views
+    Eigen::Vector3d tip_mm;   ///< tip in the camera frame
+    Eigen::Vector3d rest_mm;  ///< resting point on the paper, in the frame of the views
     /// Covariance of the tip and of the resting point. Frames that show the same dots have
     /// correlated errors, because the print errors of these dots shift all poses. The covariance is
     /// therefore computed from the residuals of each dot in all frames. It is larger if the tip
@@ -36,8 +36,9 @@ struct PivotFit {
     double error_ratio = 1;     ///< rms residual, in standard deviations of the poses
 };
 
-/// Returns the rms angle of the rotations about the axis with the smallest rotations. Rotations
-/// about a single axis give 0: they do not determine the tip along this axis.
+/// Returns the rms rotation angle about the axis with the smallest rotations. If all rotations are
+/// about the same axis, returns 0, because the position of the tip along this axis is then not
+/// determined.
 double pivot_angle_rad(const std::vector<PivotView>& views);
 
 /// Fits the tip by weighted least squares. Views that contradict the majority are not used.

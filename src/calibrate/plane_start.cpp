@@ -56,8 +56,8 @@ std::optional<std::array<SpaceState, 2>> plane_starts(const std::vector<SpaceDot
                                                       const Vector2d& focal_px) {
     const LocalView view = local_view(dots, focal_px);
     if (!view.per_mm.allFinite() || !view.ray.allFinite()) return std::nullopt;
-    // Rotates the camera to look at the middle of the dots. In this camera, the derivative is the
-    // upper left part of the rotation of the paper, divided by the distance.
+    // Rotates the camera towards the middle of the dots. In the frame of this camera, the
+    // derivative is the upper left part of the rotation of the paper, divided by the distance.
     const Matrix3d turn =
         Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), view.ray.homogeneous())
             .toRotationMatrix();

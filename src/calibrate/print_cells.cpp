@@ -13,13 +13,13 @@ using Eigen::Vector2d;
 /// Minimum number of correct dots in an outer line of a field, as a fraction of the cells of the
 /// line.
 constexpr double kMinLineShare = 0.5;
-/// Lower limit on the number of correct dots in an outer line, as a fraction of the number of
-/// correct dots in the longest line.
+/// Minimum number of correct dots in an outer line, as a fraction of the number of correct dots in
+/// the line with the most correct dots.
 constexpr double kMinLength = 0.15;
 
 /// Minimum number of correct dots in an outer line, as a fraction of the dots of the line. By
-/// chance, a quarter of the dots are correct. In another region of the code, half of the dots are
-/// correct if the columns happen to agree.
+/// chance, a quarter of the dots are correct. In a different region of the code, half of the dots
+/// are correct if the columns happen to agree.
 constexpr double kMinRightShare = 0.7;
 
 /// Returns the located tiles whose maps predict the cells of a tile. The result contains the tile
@@ -49,8 +49,8 @@ bool is_nearest(const LocatedTile& view, const SeenCell& cell,
     });
 }
 
-/// Returns a grid without measurements. According to the maps of the tiles, the grid covers the
-/// cells of all tiles of a field, plus a margin of two cells.
+/// Returns a grid without measurements. The grid covers the cells of all tiles of a field, which
+/// the maps of the tiles predict, plus a margin of two cells.
 CellGrid empty_grid(const Tiling& tiling, const Field& field) {
     Vector2d low = Vector2d::Constant(1e18);
     Vector2d high = -low;
@@ -204,8 +204,8 @@ CellGrid collect_cells(const ImageView& scan, const Tiling& tiling, const Field&
                 const std::int64_t j = std::int64_t{cell.y} - grid.origin.y;
                 if (i < 0 || j < 0 || i >= grid.columns || j >= grid.rows) continue;
                 const auto index = static_cast<std::size_t>(j * grid.columns + i);
-                // Neighbouring tiles share cells along their border. A correct measurement takes
-                // precedence.
+                // Neighbouring tiles share cells along their border. If one of the measurements of
+                // a cell is correct, it takes precedence.
                 if (!grid.cells[index].is_right()) grid.cells[index] = cell;
                 seen[index] = true;
             }

@@ -11,7 +11,7 @@ using Eigen::Vector2d;
 
 constexpr std::array kSymbols = {Symbol::up, Symbol::left, Symbol::right, Symbol::down};
 /// Maximum distance of a dot from its intersection along x and y, in spacings. Ink at a larger
-/// distance belongs to another dot.
+/// distance belongs to a different dot.
 constexpr double kMaxOffset = 0.42;
 /// Minimum darkness of a dot, relative to a typical dot.
 constexpr double kMinShare = 0.35;
@@ -21,12 +21,13 @@ constexpr double kFloorShare = 0.15;
 /// Radius for sums over the pixels of a dot, in spacings: half the distance to the nearest possible
 /// dot.
 constexpr double kReach = 1.0 / 3;
-/// Minimum darkness of other print, such as text or pictures, on the border of a cell. The first
-/// limit is relative to the darkness of a dot. The second limit is in standard deviations of blank
-/// paper, and is at most the darkness of a dot. The larger limit applies.
+/// Minimum darkness at which the border of a cell is considered other print, such as text or
+/// pictures. The first limit is relative to the darkness of a dot. The second limit is in standard
+/// deviations of blank paper, and is at most the darkness of a dot. The larger limit applies.
 constexpr double kOtherPrintShare = 0.35;
 constexpr double kOtherPrint_sigmas = 6;
-/// Displacement for the measurement of levels, in spacings. It need not be exact.
+/// Displacement that is assumed while levels are measured, in spacings. An approximate value is
+/// sufficient.
 constexpr double kUsualDisplacement = 1.0 / 6;
 constexpr int kCentrings = 4;
 constexpr double kCentred_px = 0.01;
@@ -158,10 +159,10 @@ class Meter {
         return offset;
     }
 
-    /// Returns true if the border of a cell is not blank, that is, if its darkness differs from the
-    /// paper by more than `min_darkness` in either direction. The border may be lighter than
-    /// `paper_`, because grey print that fills most of the tile makes `paper_` too dark. The
-    /// middles of the four sides are not checked, because swollen dots may merge there.
+    /// Returns true if the darkness on the border of a cell differs from that of the paper by more
+    /// than `min_darkness`. The border may be lighter than `paper_`, because `paper_` is too dark
+    /// if grey print fills most of the tile. The middles of the four sides are not checked, because
+    /// swollen dots may merge there.
     bool is_covered(const Vector2d& intersection_px, double min_darkness) const {
         const Vector2d x = map_.px_per_cell.col(0);
         const Vector2d y = map_.px_per_cell.col(1);
@@ -246,8 +247,9 @@ Symbol nearest_symbol(const Vector2d& offset) {
 }
 
 /// Reads the symbols of the dots from their offsets in spacings. First subtracts the mean error of
-/// the offsets, ignoring large errors. A renderer or scanner that rounds dots to whole pixels
-/// displaces all dots equally. The map of a fix does not include this displacement.
+/// the offsets, ignoring large errors. This correction is necessary because a renderer or scanner
+/// that rounds dots to whole pixels displaces all dots equally, and the map of a fix does not
+/// include this displacement.
 void read_symbols(const std::vector<Vector2d>& offsets, double displacement,
                   std::vector<SeenCell>& cells) {
     constexpr double kMaxError = 0.25;
@@ -287,7 +289,8 @@ PrintLevels measure_levels(const ImageView& scan, const TileMap& map,
     std::vector<double> levels;
     std::vector<double> strengths;
     for (const Vector2d& dot_px : dots_px) {
-        // Takes the level of the paper at a corner of the cell, which dots do not reach.
+        // Measures the level of the paper at a corner of the cell, because dots do not extend to
+        // the corners.
         const Vector2d cell = map.cell(dot_px);
         const double level =
             level_at(scan, map.pixel({std::round(cell.x()) + 0.5, std::round(cell.y()) + 0.5}));

@@ -12,16 +12,16 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Maximum difference between the positions that the maps of two tiles of one field predict for the
-/// same pixel, in cells. The maximum is kAgree_cells plus kAgreeShare times the distance between
-/// the centres of the tiles. The difference is not 0, because paper stretches and a camera adds
-/// perspective.
+/// Maximum difference, in cells, between the positions that the maps of two tiles of one field
+/// predict for the same pixel. The maximum is kAgree_cells plus kAgreeShare times the distance
+/// between the centres of the tiles. A difference is permitted because paper stretches and a camera
+/// adds perspective.
 constexpr double kAgree_cells = 1.5;
 constexpr double kAgreeShare = 0.05;
 
 using Group = std::vector<LocatedTile>;
 
-/// Returns true if the map of a tile is consistent with the map of the nearest tile in a group.
+/// Returns true if the map of a tile agrees with the map of the nearest tile in a group.
 bool continues(const Group& group, const LocatedTile& tile) {
     if (group.front().section != tile.section) return false;
     const auto distance_px2 = [&](const LocatedTile& other) {

@@ -32,9 +32,9 @@ constexpr double kSwollenGain = 0.5;
 constexpr double kThinGain = -0.3;
 constexpr double kNotableShare = 0.01;
 constexpr double kMinContrast = 0.2;
-/// Below kCoarse_px per spacing, faults of single dots may be due to the scan. These faults are
-/// attributed to the scan if the dots scatter by more than kCoarseScatter spacings, or if more than
-/// kCoarseWrongShare of the bits are wrong.
+/// If a spacing is less than kCoarse_px in the scan, faults of single dots may be due to the scan.
+/// These faults are attributed to the scan if the scatter of the dots is more than kCoarseScatter
+/// spacings, or if more than kCoarseWrongShare of the bits are wrong.
 constexpr double kCoarse_px = 10;
 constexpr double kCoarseScatter = 0.05;
 constexpr double kCoarseWrongShare = 0.001;
@@ -101,8 +101,8 @@ class Findings {
         }
     }
 
-    /// Reports cells that are repeated on the page, and fields that belong to none of the given
-    /// sheets.
+    /// Reports cells that occur more than once on the page, and fields that are not part of any
+    /// given sheet.
     void judge_place(const PrintField& field) {
         const auto is_part = [this](const RepeatedCells& cells) {
             return cells.first == *field_ || cells.second == *field_;
@@ -251,7 +251,8 @@ class Findings {
                           percent(std::abs(ratio), 2), percent(field.scale_ratio->uncertainty, 2)));
     }
 
-    /// Adds a remark if the photo is too coarse to show the sizes or the faults of dots.
+    /// Adds a remark if the resolution of the photo is too low to show the sizes or the faults of
+    /// dots.
     void remark_unresolved(const PrintField& field, bool are_dots_told) {
         if (field.are_sizes_told && are_dots_told) return;
         const double dot_px = field.dot_mm * field.spacing_px / field.pattern.spacing_mm;
@@ -337,8 +338,8 @@ class Findings {
     std::optional<std::size_t> field_;  ///< index of the field being judged
 };
 
-/// Returns the difference between the size of the printed dots and the optimum, on a logarithmic
-/// scale. The optimum is a sixth of the spacing.
+/// Returns the absolute difference between the logarithms of the printed dot diameter and of the
+/// optimum, which is a sixth of the spacing.
 double dot_error(const PrintField& field) {
     const double wanted_mm = field.pattern.spacing_mm / 6;
     return std::abs(std::log(std::max(field.dot_mm, 1e-6) / wanted_mm));

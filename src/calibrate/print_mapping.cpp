@@ -20,8 +20,8 @@ namespace {
 using namespace dotpose::calibrate;
 
 constexpr std::size_t kMinDots = 20;
-/// Maximum ratio of the squared residuals with and without an earlier map, if the map is of the
-/// same print.
+/// Maximum ratio of the squared residuals with an earlier map to those without it. If the ratio is
+/// greater, the map belongs to a different print.
 constexpr double kSamePrint = 0.8;
 
 MapPage empty_page(const SheetEntry& entry) {
@@ -54,9 +54,9 @@ std::int16_t to_q14(double spacings) {
     return static_cast<std::int16_t>(std::clamp(std::lround(spacings * 16384), -32767L, 32767L));
 }
 
-/// Converts covariances to spacings. The errors of an update are added to those of the earlier map,
-/// because the equations assume that the earlier offsets have independent errors, so the slow
-/// errors of the earlier map remain.
+/// Converts covariances to spacings. For an update, adds the errors of the earlier map, because the
+/// slow errors of this map remain in the result. The equations do not include them, because they
+/// assume that the earlier offsets have independent errors.
 MapErrors errors_of(const MapGrid& grid, const MapErrorGrid& found, const EarlierOffsets& earlier,
                     const MapPage& page) {
     if (!earlier.views.empty() && page.errors.nodes.empty()) return {};
@@ -98,8 +98,8 @@ void write_page(const MapGrid& grid, const EarlierOffsets& earlier, const MapSol
     }
 }
 
-/// Returns the standard deviation of the error of a map per axis, in spacings, as rms over the dots
-/// that were seen.
+/// Returns the standard deviation of the error of a map per axis, in spacings: the rms value over
+/// the dots that were seen.
 double typical_error(const MapPage& map) {
     double sum = 0;
     double seen = 0;

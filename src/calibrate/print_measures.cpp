@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kInch_mm = 25.4;
-/// Darkness between two dots, relative to the dots, above which the two dots count as merged.
+/// Minimum darkness between two merged dots, relative to the darkness of the dots.
 constexpr double kMergedShare = 0.6;
 /// Minimum number of dots in a part of the page for which distortion is reported.
 constexpr int kMinBinDots = 60;
@@ -43,8 +43,8 @@ struct Units {
     Vector2d to_px(const Vector2d& value) const { return value.cwiseQuotient(per_px); }
 };
 
-/// Returns the nominal position of the dot of a cell, in mm from the first cell of the region. The
-/// relative position keeps the numbers small.
+/// Returns the nominal position of the dot of a cell, in mm from the first cell of the region.
+/// Positions relative to this cell are small numbers, which preserves precision.
 Vector2d nominal_mm(const CellGrid& grid, const Field& field, const Pattern& pattern,
                     const SeenCell& cell) {
     const Vector2d origin(grid.origin.x, grid.origin.y);
@@ -85,7 +85,7 @@ struct Fitted {
 };
 
 /// Returns the scatter of individual dots, computed from the differences between neighbouring dots.
-/// Distortion displaces neighbours equally, so it cancels in the differences.
+/// These differences are almost free of distortion, because it displaces neighbours equally.
 double measure_scatter_mm(const Measuring& m, const Fitted& fitted, const Pattern& pattern) {
     std::vector<double> steps_mm;
     const auto off_mm = [&](const SeenCell& cell) {

@@ -12,9 +12,10 @@ namespace {
 
 constexpr double kTileCells = 24;
 constexpr int kMaxTile_px = 2048;
-/// Spacing below which tiles are magnified, because `locate` needs a spacing of at least 6 px.
+/// Minimum spacing of tiles that are not magnified. At smaller spacings, tiles are magnified
+/// because `locate` needs a spacing of at least 6 px.
 constexpr double kSmallSpacing_px = 9;
-/// Number of crops that suffices to determine the spacing or the code.
+/// Number of crops that is sufficient to determine the spacing or the code.
 constexpr std::size_t kEnoughProbes = 40;
 /// Total number of pixels in the sample of crops of one size. The sample is spread over the page.
 constexpr int kSample_px = 8'000'000;
@@ -73,8 +74,8 @@ std::optional<LocatedTile> TileLocator::locate_whole() {
 /// Returns the spacing of the pattern in crops of the scan. Returns 0 if no crop shows the pattern.
 double TileLocator::find_spacing_px() {
     for (const bool thorough : {true, false}) {
-        // First, some crops are located with `Effort::twice`. If none of these crops has a fix, all
-        // crops are located with `Effort::once`.
+        // The first pass locates some crops with `Effort::twice`. If none of these crops has a fix,
+        // the second pass locates all crops with `Effort::once`.
         use_effort(thorough ? Effort::twice : Effort::once);
         for (const Probe& probe : kProbes) {
             zoom_ = probe.zoom;

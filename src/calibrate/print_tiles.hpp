@@ -39,7 +39,7 @@ class TileLocator {
     /// Returns an empty optional if neither the whole scan nor a crop of any size shows a pattern.
     std::optional<LocatedTiles> locate();
 
-    /// Locates a sample of the tiles again without a given code. Returns the evidence for each
+    /// Locates a sample of the tiles again, without assuming a code. Returns the evidence for each
     /// code.
     CodeReader read_without_code(const LocatedTiles& tiles);
 

@@ -8,13 +8,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Relative change of lengths, due to perspective or lens distortion, above which an image may be a
-/// photo. A camera held straight by hand is tilted by about a degree. Such a tilt changes lengths
-/// by 1 %. Scanners change lengths by less than 0.1 %.
+/// Minimum relative change of lengths, due to perspective or lens distortion, for an image to be
+/// considered a photo. Scanners change lengths by less than 0.1 %. A hand-held camera that is meant
+/// to be perpendicular to the paper is tilted by about a degree, which changes lengths by 1 %.
 constexpr double kMinSign = 0.003;
-/// Residual of the fit of a camera, divided by the residual of the fit of a flat page, below which
-/// an image may be a photo. Uneven motion of a scanner's carriage displaces dots along one axis
-/// only, so the fit of a camera hardly reduces the residual.
+/// Maximum ratio of the residual of the fit of a camera to that of a flat page, for an image to be
+/// considered a photo. Uneven motion of a scanner's carriage displaces dots along one axis only, so
+/// the fit of a camera hardly reduces the residual of a scan.
 constexpr double kMaxResidual = 0.8;
 
 /// Plane of the paper as seen by a camera with a given focal length and principal point.
@@ -64,8 +64,8 @@ std::optional<ScaleRatio> scale_ratio_of(const PlaneFit& fit, double longer_side
         }
     }
     if (least > most || most - least > 2 * kMaxUncertainty) return std::nullopt;
-    // Uncertainty due to the lens. Real lenses have more distortion terms than the single term that
-    // is fitted.
+    // Uncertainty due to the lens. The fit has only one distortion term, whereas real lenses have
+    // more.
     constexpr double kLensUncertainty = 0.0005;
     return ScaleRatio{0.5 * (least + most), 0.5 * (most - least) + kLensUncertainty};
 }

@@ -9,14 +9,14 @@
 
 namespace dotpose::calibrate {
 
-/// Returns the perspective and the lens distortion if they are larger than a scanner can cause.
-/// Otherwise returns an empty optional.
+/// Returns the perspective and the lens distortion, or an empty optional if a scanner can cause
+/// effects of this size.
 std::optional<CameraSigns> signs_of_camera(const std::vector<Match>& matches,
                                            const Eigen::Vector2d& middle_px);
 
-/// Returns the ratio of the two scales of a page, from a photo with square pixels. `fit` is a fit
-/// of ViewModel::camera with the middle of the image as `lens_centre`. Returns an empty optional if
-/// the ratio is too uncertain.
+/// Returns the ratio of the scales along the two axes of a page, measured in a photo with square
+/// pixels. `fit` is a fit of ViewModel::camera with the middle of the image as `lens_centre`.
+/// Returns an empty optional if the ratio is too uncertain.
 std::optional<ScaleRatio> scale_ratio_of(const PlaneFit& fit, double longer_side_px);
 
 }  // namespace dotpose::calibrate

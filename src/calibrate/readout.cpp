@@ -1,6 +1,6 @@
-// Finds the readout time of a rolling shutter from a drive. The motion during the readout of each
-// frame is the velocity at that time, multiplied by the readout time. The velocity is computed from
-// the previous and the next frame.
+// Finds the readout time of a rolling shutter from a drive. The motion during the readout of a
+// frame is the velocity of the camera during this frame, multiplied by the readout time. The
+// velocity is computed from the previous and the next frame.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -87,7 +87,8 @@ ReadoutCalibration calibrate_readout(int frames, const FrameAt& frame_at, const 
     const auto drive = locate_drive(frames, frame_at, result.camera, options);
     double products = 0;
     double squares = 0;
-    // For each frame used: the motion during the readout, and the mean motion per frame interval.
+    // One element for each frame that is used: the motion during the readout, and the mean motion
+    // per frame interval.
     std::vector<std::array<Vector2d, 2>> used;
     for (std::size_t i = 0; i < drive.size(); ++i) {
         result.located += drive[i] ? 1 : 0;

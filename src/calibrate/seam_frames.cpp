@@ -15,13 +15,13 @@ namespace {
 
 /// Maximum distance of the image centre from the page whose dots the frame shows, in mm.
 constexpr double kBeyondPage_mm = 400;
-/// Minimum number of dots of a view. With fewer dots, the scales of the view along the axes are not
+/// Minimum number of dots of a view. With fewer dots, the scales along the axes of the view are not
 /// reliable.
 constexpr std::size_t kMinViewDots = 30;
 constexpr int kFieldsPerSide = 8;
-/// The search in a frame ends when the located sheets cover this number of its 64 fields
-/// (SheetView::fields). The number of dots is not a suitable criterion, because a fix includes the
-/// dots of only one sheet.
+/// The search in a frame ends when the located sheets cover this number of the 64 fields of the
+/// frame (SheetView::fields). The number of dots is not a suitable criterion, because a fix
+/// contains only the dots of one sheet.
 constexpr int kNearlyAllFields = 58;
 
 /// Part of the image along one axis: begin and length, as fractions of the side.
@@ -135,8 +135,9 @@ void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacin
     }
     const Eigen::MatrixXd whitening = whitening_of(covariance);
     for (Eigen::Index i = 0; i < 3; ++i) {
-        // Only the errors of the place and of the x axis are known. An error of the angle moves the
-        // x axis along (-s, c), perpendicular to its direction.
+        // Only the errors of the place and of the x axis are known. The error of the x axis is
+        // perpendicular to the axis, along (-s, c), because only the angle of the axis was
+        // measured.
         view.whitening.row(i) << whitening(i, 0), whitening(i, 1), -s * whitening(i, 2),
             c * whitening(i, 2), 0, 0;
     }
@@ -153,8 +154,8 @@ SeamLocator::SeamLocator(const std::vector<SheetEntry>& sheets, const std::optio
     }
 }
 
-/// Returns the parts in the order in which they are located. The whole image is first. Halves,
-/// corners, and overlapping parts of two thirds of a side follow.
+/// Returns the parts in the order in which they are located: first the whole image, and then
+/// halves, corners, and overlapping parts of two thirds of a side.
 std::vector<SeamLocator::Part> SeamLocator::parts_of(const GreyImage& image) {
     std::vector<Part> parts;
     const auto cut = [](const Stretch& stretch, int side, int& begin, int& length) {
@@ -251,7 +252,7 @@ std::optional<SheetView> SeamLocator::view_of(const GreyImage& image, const Part
     const double spacing_mm = entry.sheet.pattern.spacing_mm;
     SheetView view;
     view.sheet = static_cast<std::size_t>(&entry - sheets_.data());
-    // Dots beyond the edge of the sheet belong to another sheet.
+    // Dots beyond the edge of the sheet are part of a different sheet.
     std::erase_if(dots, [&](const LocatedDot& dot) {
         const Cell cell = moved(code, trace.decoding.place, dot.step.x, dot.step.y).cell;
         const bool is_on = cell.x - entry.sheet.origin.x < unsigned(entry.sheet.columns) &&

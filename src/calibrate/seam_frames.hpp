@@ -24,8 +24,9 @@ struct SheetView {
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     Eigen::Vector2d place = Eigen::Vector2d::Zero();
     Eigen::Matrix2d axes = Eigen::Matrix2d::Identity();
-    /// Transforms the errors of place and axes (column by column) to standard deviation 1. Rows
-    /// with an index of `rows` or more are 0, because these combinations are not known.
+    /// Transforms the errors of place and axes (column by column) to errors with standard deviation
+    /// 1. Rows with an index of `rows` or more are 0, because the corresponding combinations of
+    /// place and axes are not known.
     Eigen::Matrix<double, 6, 6> whitening = Eigen::Matrix<double, 6, 6>::Zero();
     int rows = 0;
     /// Cells of the dots: column in the upper 32 bits, row in the lower 32 bits.
@@ -37,14 +38,15 @@ struct SheetView {
     bool has_scale() const { return rows == 6; }
 };
 
-/// Locates parts of frames. A frame that shows two patterns cannot be located as a whole.
+/// Locates parts of frames separately, because a frame that shows two patterns cannot be located as
+/// a whole.
 class SeamLocator {
   public:
     SeamLocator(const std::vector<SheetEntry>& sheets, const std::optional<Camera>& camera);
 
-    /// Returns a view for each sheet in the frame, from the part of the image that shows the most
-    /// dots of the sheet. Throws Error if the size of the image is not the image size of the
-    /// camera.
+    /// Returns a view for each sheet in the frame. The view is computed from the part of the image
+    /// that shows the most dots of the sheet. Throws Error if the size of the image differs from
+    /// the image size in the camera file.
     std::vector<SheetView> views(const GreyImage& image);
 
     /// Rectangle of the image, in px.

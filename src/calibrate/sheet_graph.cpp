@@ -15,12 +15,12 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Residual of a view, whitened (scaled to a standard deviation of 1), above which the weight of
-/// the view decreases. By chance, one view in 70 exceeds this residual.
+/// Whitened residual of a view (scaled to a standard deviation of 1) above which the weight of the
+/// view decreases. By chance, one view in 70 exceeds this limit.
 constexpr double kRobust_sigmas = 4;
-/// Standard deviation of parameters that must not change.
+/// Standard deviation that practically fixes a parameter.
 constexpr double kPinned = 1e-7;
-/// Prior standard deviation of the scale of a camera, as a fraction of this scale.
+/// Prior relative standard deviation of the scale of a camera.
 constexpr double kCameraPrior = 0.03;
 /// Prior standard deviation of the aspect and the skew of a camera whose file does not contain
 /// them. The standard deviation is small, because the pixels of sensors are square.
@@ -113,8 +113,8 @@ void pin_one(ceres::Problem& problem, std::array<double, kSize>& block, std::siz
     pin(problem, block, weights, expected, sigma);
 }
 
-/// Converts a pose from the coordinate frame of the camera to the page of the sheet of a view. The
-/// pose is at the point `in_camera`, in the direction of the x axis of the camera frame.
+/// Converts a pose from the coordinate frame of the camera to the page of the sheet in a view. The
+/// pose is at the point `in_camera`, and its direction is the x axis of the camera frame.
 PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const Sheet& sheet,
                   const AxisScale& scale) {
     const Eigen::Vector2d at = view.place + view.axes * (in_camera - view.middle);
@@ -122,8 +122,8 @@ PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const
             std::atan2(scale.y * view.axes(1, 0), scale.x * view.axes(0, 0))};
 }
 
-/// Returns the relative standard deviation of a value of the camera file. Returns 0 if the file
-/// contains no standard deviation for this value.
+/// Returns the relative standard deviation of a value in the camera file, or 0 if the file contains
+/// no standard deviation for this value.
 double relative_sigma(const Camera& camera, const char* key, double value) {
     const auto found = camera.sigma.find(key);
     return found == camera.sigma.end() ? 0 : found->second / value;
@@ -205,8 +205,8 @@ PlanePose SheetGraph::image_centre(const SheetView& view) const {
 }
 
 /// Sets initial poses of the sheets by a breadth-first search from the fixed sheet. If several
-/// frames show the same two sheets, the search uses the frame in which the sheet with fewer dots
-/// has the most dots.
+/// frames show the same two sheets, the search compares the smaller of the two numbers of dots in
+/// each frame, and uses the frame in which this number is largest.
 void SheetGraph::spread_from_fixed() {
     const auto start = [this](std::size_t sheet, const PlanePose& pose) {
         const AxisScale scale = sheets_[sheet].print_scale();
@@ -239,7 +239,7 @@ void SheetGraph::spread_from_fixed() {
     }
 }
 
-/// Sets initial poses of the frames. Removes views that do not contribute to the poses of sheets.
+/// Sets initial poses of the frames. Removes views that do not affect the poses of sheets.
 void SheetGraph::start_frames() {
     std::map<int, int> counts;
     std::erase_if(views_, [this](const SheetView& view) { return !is_connected(view.sheet); });
@@ -294,7 +294,7 @@ void SheetGraph::pin_sheets(ceres::Problem& problem) {
         }
         if (i == fixed_ && !has_scale()) {
             // The aspect is fixed to its value in the sheet file. Views from parts of frames would
-            // determine it, but with an error that all these views have in common.
+            // determine it, but all these views share the same error.
             pin<5>(problem, node, {0, 0, 0, 1, -1}, logs[0] - logs[1], kPinned);
         }
         if (i == fixed_ && reference_.by == By::fixed_sheet) {
@@ -325,9 +325,9 @@ void SheetGraph::pin_camera(ceres::Problem& problem) {
     pin_one(problem, camera_scale_, 2, 0, skew > 0 ? skew : kSquarePrior);
 }
 
-/// Returns the DotShare of each dot, for an affine map fitted to all dots. The derivatives are
-/// scaled such that errors of the dots with standard deviation 1 cause whitened residuals with
-/// standard deviation 1.
+/// Returns the DotShare of each dot, for an affine map fitted to all dots. The shares are scaled
+/// such that dot errors with standard deviation 1 cause whitened residuals with standard deviation
+/// 1.
 std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) const {
     const Pattern& pattern = sheets_[view.sheet].sheet.pattern;
     const Cell first = sheets_[view.sheet].sheet.origin;
@@ -392,8 +392,8 @@ void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
     const int parameters =
         problem.NumParameters() - (has_scale() ? 0 : static_cast<int>(camera_scale_.size()));
     if (has_scale()) shared.push_back(camera_scale_.data());
-    // The residuals within frames do not include the bending of sheets, so the variances are scaled
-    // by the misfit between frames.
+    // The variances are scaled by the misfit between frames, because the residuals within frames do
+    // not include the bending of sheets.
     const double misfit = std::max(2 * cost / std::max(residuals - parameters, 1), 1.0);
     const Eigen::MatrixXd gain = normal_gain(problem, shared);
     const auto pins = gain.rightCols(gain.cols() - 6 * static_cast<Eigen::Index>(views_.size()));
@@ -406,7 +406,7 @@ void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
             ++row;
         }
         if (has_scale()) continue;
-        // Adds the print error of the fixed sheet, to which all scales are relative.
+        // Adds the print error of the fixed sheet, because all scales are relative to this sheet.
         for (const std::size_t scale : {3, 4})
             variances_[i][scale] += kUsualPrintError * kUsualPrintError;
     }

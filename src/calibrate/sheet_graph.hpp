@@ -14,7 +14,8 @@
 
 namespace dotpose::calibrate {
 
-/// Pose in a plane with x right and y DOWN: x and y in mm, turn in radians from +x towards +y.
+/// Pose in a plane with x to the right and y DOWN: x and y in mm, and turn in radians from +x
+/// towards +y.
 struct PlanePose {
     double x = 0;
     double y = 0;
@@ -25,7 +26,7 @@ struct PlanePose {
     PlanePose inverse() const;
 };
 
-/// Graph of sheets and frames. Least squares determine the poses.
+/// Graph of sheets and frames. The poses are determined by least squares.
 class SheetGraph {
   public:
     /// `fixed` is the index of the fixed sheet. The corner and the upper edge of its page define

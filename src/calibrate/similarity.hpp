@@ -1,4 +1,4 @@
-// Similarity: the place, angle and scale at which the dots of a frame are seen.
+// Similarity: fits the place, angle and scale of a frame to its dots.
 #pragma once
 
 #include <vector>
@@ -21,8 +21,8 @@ struct Similarity {
     double displacement = 0;
 };
 
-/// Fits intersection + displacement * direction = place + scale * R(angle) * seen by least squares,
-/// without points whose residuals exceed four standard deviations.
+/// Fits intersection + displacement * direction = place + scale * R(angle) * seen by least squares.
+/// Points whose residuals exceed four standard deviations are not used.
 Similarity fit_similarity(const std::vector<SimilarPoint>& points);
 
 }  // namespace dotpose::calibrate

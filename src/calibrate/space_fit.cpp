@@ -28,8 +28,8 @@ using Parameters = Eigen::Matrix<double, kParameters, 1>;
 using Information = Eigen::Matrix<double, kParameters, kParameters>;
 using Derivative = Eigen::Matrix<double, 2, kParameters>;
 
-/// A dot that the fit uses. `whitening` transforms its residual to independent errors of equal
-/// variance.
+/// A dot that the fit uses. `whitening` transforms its residual to one with independent errors of
+/// equal variance.
 struct WeightedDot {
     SpaceDot dot;
     Matrix2d whitening = Matrix2d::Identity();
@@ -154,8 +154,9 @@ std::vector<WeightedDot> inliers(const SpaceState& state, const std::vector<Weig
     return kept;
 }
 
-/// Error model of the dots. A fraction of the variance is due to print errors, whose variance on
-/// the paper is equal in all directions. The rest is due to the measurement of the centres.
+/// Error model of the dots. The variance is the sum of the variance of the print errors, which is
+/// equal in all directions on the paper, and the variance of the measured centres. The model
+/// estimates the fraction of the print errors in this sum.
 class NoiseModel {
   public:
     NoiseModel(const SpaceState& state, const std::vector<WeightedDot>& dots,
@@ -182,8 +183,8 @@ class NoiseModel {
     }
 
   private:
-    /// Divides the covariances by the harmonic mean of their mean variances per axis. A few large
-    /// covariances hardly change this mean.
+    /// Divides the covariances by the harmonic mean of their mean variances per axis. The harmonic
+    /// mean is used because a few large covariances hardly change it.
     static void normalize(std::vector<Matrix2d>& covariances) {
         double sum = 0;
         for (const Matrix2d& covariance : covariances)
@@ -207,8 +208,8 @@ class NoiseModel {
         return 2 * static_cast<double>(residuals_.size()) * std::log(squares) + log_determinants;
     }
     double likeliest_fraction() const {
-        // Golden-section search. The fraction 1 is excluded, because the covariances of print
-        // errors are singular if the plane is seen edge-on.
+        // Golden-section search. The fraction 1 is excluded, because the image covariances of print
+        // errors are singular if the camera sees the plane edge-on.
         constexpr double kMaxFraction = 0.999;
         constexpr double kTolerance = 0.02;
         double low = 0;
@@ -235,7 +236,7 @@ class NoiseModel {
     }
 
     std::vector<Matrix2d> print_;   ///< covariances in the image due to the print
-    std::vector<Matrix2d> centre_;  ///< covariances due to the measurement
+    std::vector<Matrix2d> centre_;  ///< covariances in the image due to the measurement
     std::vector<Vector2d> residuals_;
 };
 
@@ -261,7 +262,7 @@ bool is_same(const SpaceState& a, const SpaceState& b) {
            kSame_rad;
 }
 
-/// Returns the solutions for a subset of the dots, to save time.
+/// Returns the solutions for a subset of the dots. A subset is used to save time.
 Solutions rough_solutions(const std::array<SpaceState, 2>& starts,
                           const std::vector<WeightedDot>& all, const Vector2d& focal_px) {
     constexpr std::size_t kDots = 300;

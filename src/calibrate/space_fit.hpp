@@ -33,11 +33,11 @@ struct SpaceFit {
     /// rotation * exp(vector).
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
     std::vector<SpaceDot> used;  ///< dots that are not outliers
-    /// Shift of the pose caused by the residual of each of these dots, in the coordinates of the
-    /// covariance. If two frames show the same dots, the shifts that their poses have in common can
-    /// be computed from these values.
+    /// Shift of the pose caused by the residual of each dot in `used`, in the coordinates of the
+    /// covariance. These values determine the common part of the errors of two frames that show the
+    /// same dots.
     std::vector<Eigen::Matrix<double, 6, 1>> influences;
-    double residual_px = 0;  ///< rms residual of these dots, per axis
+    double residual_px = 0;  ///< rms residual of the dots in `used`, per axis
     std::optional<SpaceState> second;
     double second_odds_log2 = 0;
 };

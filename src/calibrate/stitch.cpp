@@ -65,8 +65,8 @@ void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph
         });
         for (; first != last; ++first) {
             if (first == best || !graph.is_connected(first->sheet)) continue;
-            // Orders the two sheets by index, because the disagreements are summed per ordered
-            // pair.
+            // Orders the two sheets by index, because the disagreements of a pair are summed
+            // regardless of the order of its sheets.
             const bool is_lower = first->sheet < best->sheet;
             const SheetView& a = is_lower ? *first : *best;
             const SheetView& b = is_lower ? *best : *first;
@@ -89,9 +89,10 @@ void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph
     }
 }
 
-/// Returns the index of the fixed sheet. Candidates are the sheets that a frame shows beside
-/// another sheet. The fixed sheet is the first candidate with a world pose, or the first candidate
-/// if no sheet has a world pose. Throws Error if only other sheets have a world pose.
+/// Returns the index of the fixed sheet. Candidates are the sheets that at least one frame shows
+/// together with another sheet. The fixed sheet is the first candidate with a world pose, or the
+/// first candidate if no sheet has a world pose. Throws Error if there are sheets with a world
+/// pose, but none of them is a candidate.
 std::size_t fixed_sheet(const std::vector<SheetEntry>& sheets,
                         const std::vector<SheetView>& views) {
     std::set<std::size_t> joined;
@@ -130,7 +131,7 @@ void require_reference(const ScaleReference& reference, const std::vector<SheetE
     }
 }
 
-/// Throws Error if a print scale is not plausible for any printer. In this case, the view in the
+/// Throws Error if no printer can cause a print scale of this size. In this case, the view in the
 /// camera file or the spacing in the sheet file is wrong.
 void require_plausible(const AxisScale& scale, const SheetEntry& entry) {
     constexpr double kMaxScaleError = 0.25;

@@ -97,8 +97,8 @@ Camera camera_of(const YamlMap& file, const std::string& name) {
     return camera;
 }
 
-/// Formats a number with 10 significant digits. The rounding error is far below any standard
-/// deviation.
+/// Formats a number with 10 significant digits. The rounding error is much smaller than the
+/// standard deviation of any value in the file.
 std::string text_of(double value) {
     return fmt::format("{:.10g}", value);
 }

@@ -14,9 +14,9 @@ namespace {
 /// Maximum undistorted coordinate. A larger coordinate shows that the iteration did not converge.
 constexpr double kMaxUndistorted_px = 1e6;
 
-/// Number of parameters: k, the two coordinates of the centre, and an affine map. The affine map is
-/// fitted as well, because every fit of a pose includes one. Lengths are in units of half the image
-/// diagonal.
+/// Number of parameters: k, the two coordinates of the centre, and the six of an affine map. The
+/// affine map is fitted as well, because every fit of a pose includes such a map. Lengths are in
+/// units of half the image diagonal.
 constexpr std::size_t kParameters = 9;
 using Fit = LeastSquares<kParameters>;
 using Parameters = Fit::Vector;
@@ -27,8 +27,8 @@ struct Pair {
     PixelPoint wanted;
 };
 
-/// Residual of a pair, and its derivatives. The seen point is undistorted by eq. 2 and then mapped
-/// by the affine map. The residual is the result minus the wanted point.
+/// Residual of a pair, and its derivatives. The residual is the distorted point, undistorted by eq.
+/// 2 and transformed by the affine map, minus the undistorted point of the pair.
 struct Misfit {
     double u = 0;
     double v = 0;
@@ -87,7 +87,8 @@ Parameters step_of(const std::vector<Pair>& pairs, const Parameters& parameters,
     return fit.solve();
 }
 
-/// Iterates until the steps are smaller than rounding errors. Returns the sum of squared residuals.
+/// Minimises the sum of squared residuals, until the steps are smaller than rounding errors.
+/// Returns the minimum.
 double minimise(const std::vector<Pair>& pairs, Parameters& parameters) {
     constexpr int kMaxSteps = 500;
     constexpr double kMaxDamping = 1e9;
@@ -139,7 +140,7 @@ double fit_division_model(const PlumbBob& lens, Camera& camera) {
     camera.k_per_px2 = 0;
     camera.centre_px = {lens.cx, lens.cy};
     camera.pinhole = Pinhole{lens.fx, lens.fy, camera.centre_px};
-    // Without distortion, the distortion centre is not determined.
+    // If the lens has no distortion, its distortion centre is arbitrary.
     if (lens.is_straight()) return 0;
     constexpr int kSteps = 16;
     const double reach_px = std::hypot(camera.width_px, camera.height_px) / 2;

@@ -49,7 +49,7 @@ void append(std::string& bytes, float number) {
     append(bytes, __builtin_bit_cast(std::uint32_t, number));
 }
 
-/// Takes numbers from the front of a text. Throws Error at the end of the text.
+/// Reads numbers from the front of a byte string. Throws Error at the end of the string.
 class Bytes {
   public:
     explicit Bytes(std::string_view text) : text_(text) {}
@@ -78,7 +78,7 @@ class Bytes {
     std::string_view text_;
 };
 
-/// Returns the reason why the header of a page is invalid, or an empty text.
+/// Returns the reason why the header of a page is invalid, or an empty text if it is valid.
 std::string fault_of(const MapPage& page) {
     if (static_cast<int>(page.code) >= kCodeVariantCount) return "unknown code variant";
     if (page.section.u >= kSections || page.section.v >= kSections) return "unknown section";
@@ -101,8 +101,8 @@ std::size_t dots_of(std::uint64_t columns, std::uint64_t rows) {
     return static_cast<std::size_t>(columns * rows);
 }
 
-/// Returns true if a node contains a covariance: finite, and no correlation above 1 (with a margin
-/// for rounding).
+/// Returns true if the matrix of a node is a covariance: all elements are finite, and no
+/// correlation is above 1 (with a margin for rounding).
 bool is_covariance(const MapErrors::Node& node) {
     constexpr float kMaxVariance = 1e6F;
     const auto& [xx, xy, yy, xr, yr, rr] = node;

@@ -29,8 +29,8 @@ std::vector<double> coefficients(const YamlMap& file, const char* nested, const 
     return file.numbers(file.has(lower) ? lower : file.has(upper) ? upper : nested, count);
 }
 
-/// The plumb_bob model extended by a divisor (k4 to k6). Some drivers report this model for every
-/// camera.
+/// Name of the plumb_bob model extended by a divisor with the coefficients k4 to k6. Some drivers
+/// report this model for every camera.
 constexpr const char* kRational = "rational_polynomial";
 
 /// Returns the plumb_bob coefficients of a rational polynomial. Throws Error unless the other

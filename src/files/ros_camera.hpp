@@ -10,8 +10,8 @@ namespace dotpose::files {
 /// camera_info message.
 bool is_camera_info(const YamlMap& file);
 
-/// Returns the camera of a camera_info file. Throws Error, naming the key, if a value is missing or
-/// out of range, or the lens cannot be converted.
+/// Returns the camera of a camera_info file. Throws Error if a value is missing or out of range,
+/// with the key in the message, or if the lens cannot be converted.
 Camera camera_from_camera_info(const YamlMap& file);
 
 }  // namespace dotpose::files

@@ -52,7 +52,7 @@ void validate_name(const std::string& name) {
 }
 
 /// Returns the leftmost column at which `columns` columns are free in the given rows, or an empty
-/// optional.
+/// optional if there is none.
 std::optional<std::uint32_t> free_column(const std::vector<SheetEntry>& sheets, Range rows,
                                          int columns) {
     std::vector<Range> taken;

@@ -7,12 +7,13 @@
 
 namespace dotpose::files {
 
-/// Throws BadArgument if `entry` is invalid, or if one of `sheets` except `ignored` has the same
-/// name or a cell in common.
+/// Throws BadArgument if `entry` is invalid, or if it has the same name as one of `sheets` or
+/// shares a cell with it. `ignored` is not compared.
 void check_beside(const SheetEntry& entry, const std::vector<SheetEntry>& sheets,
                   const SheetEntry* ignored = nullptr);
 
-/// Appends `entry` to `sheets`. Throws BadArgument like `check_beside`.
+/// Appends `entry` to `sheets`. Throws BadArgument if `entry` is invalid, or if its name or one of
+/// its cells is already used.
 void append(const SheetEntry& entry, std::vector<SheetEntry>& sheets);
 
 /// Returns the top left cell of a free region of the given size. Chooses the region as

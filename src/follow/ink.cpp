@@ -15,7 +15,7 @@ namespace {
 using follow::AxisPlace;
 using follow::AxisSample;
 
-/// A sample next to a lift belongs to the lift if its smoothed height exceeds this height.
+/// A sample next to a lift is part of the lift if its smoothed height is above this value.
 constexpr double kRest_mm = 0.02;
 
 /// Consecutive samples on one page.
@@ -56,8 +56,8 @@ std::vector<AxisSample> along(const Axis& axis, Run run) {
 double fitted_noise(const std::vector<Run>& runs, std::initializer_list<Axis> axes) {
     double best = 0;
     double best_likelihood = -std::numeric_limits<double>::infinity();
-    // The noise ranges from that of a resting pen to that of a very fast pen. A factor of 3 changes
-    // the result little, so coarse steps are sufficient.
+    // The noise ranges from that of a resting pen to that of a very fast pen. The steps are coarse,
+    // because a factor of 3 hardly changes the result.
     for (double noise = 1e3; noise < 1e13; noise *= std::sqrt(10)) {
         double likelihood = 0;
         for (const Run& run : runs) {

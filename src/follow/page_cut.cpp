@@ -10,8 +10,8 @@
 namespace dotpose::follow_detail {
 namespace {
 
-/// Maps pixels to a page. The map ignores tilt and lens distortion, so its error is up to a few
-/// pixels.
+/// Maps pixels to a page. The map ignores tilt and lens distortion, which causes errors of up to a
+/// few pixels.
 class PixelsOnPage {
   public:
     PixelsOnPage(ImageView image, const DeviceOptions& options, const Fix& fix,

@@ -12,14 +12,14 @@
 namespace dotpose::follow_detail {
 
 /// Returns a copy of the image in which everything outside the page is masked. Returns an empty
-/// optional if the whole image shows the page. `fix` and `place` are the results of locating the
+/// optional if the image shows only the page. `fix` and `place` are the results of locating the
 /// image with `options`.
 std::optional<GreyImage> cut_to_page(ImageView image, const DeviceOptions& options, const Fix& fix,
                                      const SheetPlace& place);
 
 /// Returns a copy of the image in which everything outside the dots of the sheet is masked, such as
-/// labels in its margins and the table beside it. Returns an empty optional if the whole image
-/// shows dots. `fix` must be on the sheet.
+/// labels in its margins and the table beside it. Returns an empty optional if nothing needs to be
+/// masked. `fix` must be on the sheet.
 std::optional<GreyImage> cut_to_dots(ImageView image, const DeviceOptions& options, const Fix& fix,
                                      const Sheet& sheet);
 

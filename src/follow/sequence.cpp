@@ -26,14 +26,15 @@ Followed Follower::follow(ImageView image, std::int64_t time_us) {
     Found found = find(options_.track.max_p_wrong_log2, predict(time_us));
     const Fix strict = found.fix;
     if (strict.status == Status::not_certain && tracker_.has_prior()) {
-        // The tracker applies its prior to the result, so the result must not already depend on it.
-        // The image is therefore located without a prediction.
+        // The tracker applies its prior to the result, which must therefore not already depend on
+        // this prior. The image is therefore located without a prediction.
         found = find(options_.track.max_weak_p_wrong_log2, {});
     }
     const auto sighting = sighting_of(found, time_us);
     Followed result;
     result.track = tracker_.update(time_us, sighting ? &*sighting : nullptr);
-    // A fix that is not certain on its own counts only if the tracker accepted it with its prior.
+    // A fix that is not certain without the prior counts only if the tracker accepted it with the
+    // prior.
     const bool is_with_prior = result.track.verdict == Verdict::with_prior;
     const bool is_fix = strict.status == Status::ok || is_with_prior;
     if (is_fix) {
@@ -97,8 +98,8 @@ Follower::Found Follower::find(int max_p_wrong_log2, const std::optional<Predict
 
 Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
                                const std::optional<Prediction>& expected) {
-    // The given code may be wrong. If there is no prediction, the other codes are therefore tried
-    // too, to warn that another code is in view.
+    // The given code may be wrong. If there is no prediction, the other codes are therefore also
+    // tried, to warn that a different code is in view.
     if (!expected && options_.sheets.empty()) {
         const CodeReading reading = locator(options).locate_in_code(image);
         return by_camera_file(reading.fix, {}, reading);
@@ -139,7 +140,8 @@ Follower::Found Follower::look_in_any_code(const std::optional<Prediction>& expe
 }
 
 /// If an image shows more than the page of the fix, masks everything outside this page and locates
-/// the image again. Returns `found` if the second attempt does not find the same sheet.
+/// the image again. Returns `found` if the second attempt does not find the same sheet as the
+/// first.
 Follower::Found Follower::without_neighbours(const Found& found) {
     Found guess = found;
     if (found.seen.status == Status::not_certain) {

@@ -22,7 +22,8 @@ struct AxisPlace {
 /// drives the acceleration, in mm^2/s^5.
 double log_likelihood(std::span<const AxisSample> samples, double noise);
 
-/// Returns the most probable places given all samples (Rauch, Tung and Striebel 1965).
+/// Returns the most probable place at each sample, given all samples (Rauch, Tung and Striebel
+/// 1965).
 std::vector<AxisPlace> smoothed(std::span<const AxisSample> samples, double noise);
 
 }  // namespace dotpose::follow

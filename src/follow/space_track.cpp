@@ -34,10 +34,11 @@ constexpr double kAgilityDecrease = -0.405;
 /// exceeds its mean, which is 1. `dotpose_tables space_track` shows the effect.
 constexpr double kAgilityGain = 0.2;
 constexpr double kMinAgility = 1e-6;
-/// Innovations above this number of standard deviations are not considered noise.
+/// Minimum innovation, in standard deviations, that is not attributed to noise.
 constexpr double kSurprise = 4;
-/// Minimum of twice the log-likelihood ratio of the two poses of an ambiguous sighting. With a
-/// smaller ratio, the track does not decide between the poses. The value is 2 ln 1000.
+/// Minimum of twice the natural logarithm of the likelihood ratio of the two poses of an ambiguous
+/// sighting. The value corresponds to a ratio of 1000. If the ratio is smaller, the track does not
+/// decide between the poses.
 constexpr double kMinContrast = 13.8;
 
 Eigen::Map<const Vector6> vector_of(const std::array<double, 6>& values) {
@@ -158,13 +159,13 @@ double squared_innovation(const Motion& motion, const SpaceSighting& sighting,
     return innovation.dot(covariance.ldlt().solve(innovation));
 }
 
-/// Adapts the agility to an innovation by two criteria. Their weights depend on the fraction of the
-/// innovation's variance that is due to the prediction. If this fraction is small, the agility
-/// determines the gain of the filter, and the signs of consecutive innovations show whether the
-/// gain is correct: equal signs are then as frequent as opposite signs. Equal signs increase the
-/// agility, and opposite signs decrease it. If the fraction is large, the gain is about 1 with any
-/// agility. The agility then determines only the covariance of predictions, and the square of the
-/// normalised innovation, whose mean is 1, shows whether this covariance is correct.
+/// Adapts the agility to an innovation by two criteria. The weights of the criteria depend on the
+/// fraction of the innovation's variance that is due to the prediction. If this fraction is small,
+/// the agility determines the gain of the filter. If the gain is correct, consecutive innovations
+/// have equal signs as often as opposite signs. Equal signs therefore increase the agility, and
+/// opposite signs decrease it. If the fraction is large, the gain is about 1 with any agility, so
+/// the agility determines only the covariance of predictions. If this covariance is correct, the
+/// mean square of the normalised innovation is 1.
 void adapt(Motion& motion, const Vector6& innovation, const Matrix6& covariance,
            const Matrix6& noise) {
     for (std::size_t i = 0; i < 6; ++i) {
@@ -195,7 +196,7 @@ void correct(Motion& motion, const CameraInSpace& camera, const Matrix6& noise) 
     covariance = (kept * covariance * kept.transpose() + gain * noise * gain.transpose()).eval();
 }
 
-/// Returns the state of a motion. The verdict is `none`.
+/// Converts a motion to a SpaceTrack with the verdict `none`.
 SpaceTrack track_of(const Motion& motion, std::uint32_t plane) {
     SpaceTrack track;
     track.is_lost = false;
@@ -289,8 +290,8 @@ bool SpaceTracker::take(const SpaceSighting& sighting) {
     if (is_ambiguous(sighting)) {
         const double second =
             squared_innovation(motion_, sighting, sighting.second->camera, options_);
-        // Twice the natural logarithm of the likelihood of the first pose divided by that of the
-        // second pose.
+        // Twice the natural logarithm of the ratio of the likelihood of the first pose to that of
+        // the second pose.
         const double contrast = second - first - 2 * std::numbers::ln2 * sighting.second->odds_log2;
         if (std::abs(contrast) < kMinContrast) return false;
         if (contrast < 0) {
@@ -314,8 +315,8 @@ bool SpaceTracker::take(const SpaceSighting& sighting) {
     return true;
 }
 
-/// Counts rejected sightings that are consistent with each other. After enough of them, starts
-/// again.
+/// Counts rejected sightings that are consistent with each other. After enough of them, starts a
+/// new track.
 void SpaceTracker::reject(const SpaceSighting& sighting) {
     update(sighting.time_us);
     track_.verdict = SpaceVerdict::rejected;

@@ -49,8 +49,8 @@ bool begins_like_pdf(const fs::path& path) {
     throw Error(fmt::format("{}: its objects are nested too deeply", path.string()));
 }
 
-/// Returns the warnings of qpdf about faults that it has repaired in the new file. Throws Error for
-/// faults in content or stream data, because qpdf would copy them unchanged.
+/// Returns the warnings of qpdf about faults that are repaired in the new file. Throws Error for
+/// faults in the content or in stream data, because qpdf would copy such faults unchanged.
 std::set<std::string> repaired_faults(QPDF& pdf, const fs::path& path) {
     std::set<std::string> faults;
     for (const QPDFExc& warning : pdf.getWarnings()) {
@@ -115,8 +115,8 @@ auto with_damage_errors(const fs::path& path, const Work& work) {
     }
 }
 
-/// Throws Error if the page would need more than kMaxDots dots. Such pages exist because a PDF page
-/// may have any size. For example, /UserUnit can make a side kilometres long.
+/// Throws Error if the page would need more than kMaxDots dots. This check is necessary because a
+/// PDF page may have any size. For example, /UserUnit can make a side kilometres long.
 void require_few_dots(const Sheet& sheet) {
     constexpr double kMaxDots = 5e7;
     const double dots = double{1} * sheet.columns * sheet.rows;

@@ -40,7 +40,7 @@ constexpr std::array<Glyph, 15> kGlyphs = {{
     {'m', {0b00000, 0b00000, 0b11010, 0b10101, 0b10101, 0b10101, 0b10101}},
 }};
 
-/// Image of a whole page with 8 pixels per byte. A set bit is ink.
+/// Image of a whole page with one bit per pixel and 8 pixels per byte. A set bit is ink.
 class Bitmap {
   public:
     explicit Bitmap(print::RasterSize size)

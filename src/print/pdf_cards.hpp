@@ -27,8 +27,8 @@ struct CardGrid {
 CardGrid card_grid(Paper paper, Paper card);
 
 /// Returns the sheet of a card in the coordinate frame of the page. `slot` is the index of the card
-/// on the page, row by row. The card is shifted by less than a pixel at 300 dpi so that its dots
-/// are aligned with the pixels of the printer, as they are on a separate page.
+/// on the page, row by row. The card is shifted by less than a pixel at 300 dpi. This shift aligns
+/// its dots with the pixels of the printer, as on a separate page.
 Sheet on_page(const CardGrid& grid, int slot, Sheet card);
 
 /// Returns the cut marks as PDF content, in points from the bottom left corner of the page.

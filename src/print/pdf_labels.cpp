@@ -71,8 +71,9 @@ std::string beginning(const std::string& utf8, std::size_t max_characters) {
     return utf8.substr(0, end);
 }
 
-/// Returns the text in the encoding of Helvetica, or nullopt if Helvetica lacks a letter. If no
-/// other font can be used, missing letters become question marks instead.
+/// Returns the text in the encoding of Helvetica, or nullopt if Helvetica lacks one of its letters
+/// and a different font is available. If no other font is available, missing letters become
+/// question marks.
 std::optional<std::string> in_helvetica(const std::string& utf8) {
     std::string text;
     const bool has_all_letters = QUtil::utf8_to_win_ansi(utf8, text, '?');

@@ -72,8 +72,8 @@ View::View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperf
                 std::hypot(blurred.motion_px.x, blurred.motion_px.y) / 2) {}
 
 OffsetBox visible_offsets(const View& view) {
-    // Number of steps along each side of the image. If the sides are distorted, the extreme offsets
-    // may be at the corners or in between.
+    // Number of steps along each side of the image. If the lens distorts the sides, the extreme
+    // offsets may be anywhere on them.
     constexpr int kSteps = 16;
     OffsetBox box{{1e300, 1e300}, {-1e300, -1e300}};
     const auto include = [&](double along_u, double along_v) {
@@ -123,9 +123,9 @@ void add_dots(Ink& ink, const View& view, const Page& page, const Imperfections&
     const Pattern& pattern = page.pattern;
     const OffsetBox box = visible_offsets(view);
     const CameraPose& pose = view.pose;
-    // Cells are counted from the cell of the pose, so offsets are exact anywhere on the plane. The
-    // range has one more cell on each side, because dots outside the view may be displaced or
-    // jittered into it.
+    // Cells are relative to the cell of the pose, so offsets are exact anywhere on the plane. The
+    // range has one more cell on each side, because displacement or jitter may move dots from
+    // outside the view into it.
     const AxisScale scale = page.print_scale;
     const Vec2 spacing_mm{scale.x * pattern.spacing_mm, scale.y * pattern.spacing_mm};
     const auto first = [](double low, double fraction) {

@@ -20,8 +20,8 @@ namespace {
 constexpr std::size_t kLanes = 4;
 
 // Computes the light in each pixel: the light of bare paper minus the light that ink absorbs. The
-// convolution with the kernel is computed separately for the sub-pixels with ink, which are only a
-// few percent of all.
+// convolution with the kernel covers only the sub-pixels with ink, which are a few percent of all
+// sub-pixels.
 class Sensor {
   public:
     Sensor(const CameraModel& camera, const Kernel& kernel, const std::vector<float>& paper)
@@ -162,7 +162,8 @@ class Sensor {
         const auto height = static_cast<std::size_t>(height_);
         const std::size_t reach = 2 * border_ + 1;
         const std::size_t stride = row_.size();
-        // Zeros precede the light, because taps to the left of the first pixel read them.
+        // Zeros precede the light, because the taps of the first pixels read elements to the left
+        // of them.
         std::vector<float> light(2 * border_ + stride);
         std::vector<float> along_rows(stride * (height + 2 * border_));
         for (const Kernel::Moment& moment : kernel_.moments) {

@@ -34,8 +34,8 @@ struct View {
     CameraModel camera;
     CameraPose pose;
     Projection projection;
-    /// Maximum distance from the image, in px, at which ink outside the image affects it because of
-    /// blur and motion.
+    /// Maximum distance from the image border, in px, of ink that blur and motion spread into the
+    /// image.
     double margin_px;
 
     View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperfections& blurred);
@@ -95,16 +95,16 @@ void add_dirt(Ink& ink, const View& view, double dot_mm, const Imperfections& im
 void check(const Page& page, const CameraModel& camera, const CameraPose& pose,
            const Imperfections& imperfections);
 
-/// Computes the grey levels of a frame, row by row, from paper, light and ink, with blur, motion
-/// and the area of the pixels. The levels contain no noise and are not rounded.
+/// Computes the grey levels of a frame from paper, light and ink. Blur, motion and the area of the
+/// pixels are simulated. The levels are in row-major order, contain no noise and are not rounded.
 std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
                           const Imperfections& imperfections);
-/// Computes the grey levels of a frame of a page image, row by row. The levels contain no noise and
-/// are not rounded.
+/// Computes the grey levels of a frame that shows a page image. The levels are in row-major order,
+/// contain no noise and are not rounded.
 std::vector<float> expose(const PageImage& page, const View& view,
                           const Imperfections& imperfections);
 
-/// Adds noise to grey levels, limits them to 0 to 255 and rounds them.
+/// Adds noise to the grey levels, clamps them to 0 to 255 and rounds them.
 GreyImage read_out(const std::vector<float>& levels, const CameraModel& camera,
                    const Imperfections& imperfections, Rng& rng);
 

@@ -22,8 +22,8 @@ double integral_of_edge(double x, double sigma) {
 Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, double share) {
     const auto pixels = static_cast<std::size_t>(2 * kernel.border_px + 1);
     const auto per_pixel = static_cast<std::size_t>(kernel.per_pixel);
-    // edges[i] is `integral_of_edge` half a pixel to the left of the border before sub-pixel i of
-    // the kernel.
+    // edges[i] is `integral_of_edge` at the position half a pixel to the left of sub-pixel i of the
+    // kernel.
     std::vector<double> edges;
     for (std::size_t i = 0; i <= (pixels + 1) * per_pixel; ++i) {
         edges.push_back(integral_of_edge(
@@ -41,9 +41,9 @@ Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, 
     }
     Kernel::Weights result(per_pixel, std::vector<float>(kernel.taps));
     for (std::size_t i = 0; i < exact.size(); ++i) {
-        // The weights are stored by the position of the pixel relative to the sub-pixel. It is the
-        // negative of the position of the sub-pixel relative to the pixel, so the order is
-        // reversed.
+        // The weights are indexed by the position of the pixel relative to the sub-pixel, which is
+        // the negative of the position of the sub-pixel relative to the pixel. The order is
+        // therefore reversed.
         result[i % per_pixel][pixels - 1 - i / per_pixel] =
             static_cast<float>(exact[i] * share / sum);
     }
@@ -66,8 +66,9 @@ Kernel make_kernel(const Imperfections& imperfections, double dot_px) {
     Kernel kernel;
     kernel.per_pixel =
         imperfections.sub_pixels > 0 ? imperfections.sub_pixels : sub_pixels_for(dot_px);
-    // Drawing on sub-pixels blurs like a triangle filter that is two sub-pixels wide, with a
-    // variance of 1/6 sub-pixel^2. The Gaussian adds the rest of the requested blur.
+    // Drawing ink as the covered fractions of sub-pixels blurs it like a triangle filter two
+    // sub-pixels wide, with a variance of 1/6 sub-pixel^2. The Gaussian adds the rest of the
+    // requested blur.
     const double raster_variance = 1.0 / (6.0 * kernel.per_pixel * kernel.per_pixel);
     const double sigma_px = std::sqrt(
         std::max(0.0, imperfections.blur_sigma_px * imperfections.blur_sigma_px - raster_variance));

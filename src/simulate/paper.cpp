@@ -35,8 +35,8 @@ class Texture {
           nodes_per_mm_(1 / (Imperfections::kGrain_px * view.camera.mm_per_px)),
           origin_{x_grid(view.pose) * page.pattern.spacing_mm * nodes_per_mm_,
                   y_grid(view.pose) * page.pattern.spacing_mm * nodes_per_mm_},
-          // A uniform value in [-1, 1) has the standard deviation 1/sqrt(3), which the
-          // interpolation multiplies by 2/3.
+          // The standard deviation of a uniform value in [-1, 1) is 1/sqrt(3). Interpolation
+          // multiplies it by 2/3.
           amplitude_(deviation * std::sqrt(3.0) * 1.5) {
         if (deviation > 0) tabulate(view);
     }
@@ -67,7 +67,7 @@ class Texture {
     }
 
     // Computes the values of the nodes in view in advance, because about 36 pixels use each node.
-    // If the camera is tilted so much that more nodes than pixels are in view, makes no table.
+    // Makes no table if the view contains more nodes than pixels, as it does at an extreme tilt.
     void tabulate(const View& view) {
         const OffsetBox box = visible_offsets(view);
         const double width = (box.high_mm.x - box.low_mm.x) * nodes_per_mm_ + 3;
@@ -95,7 +95,7 @@ class Texture {
 };
 
 /// The table under the paper, which is visible beyond the edge of the paper. Pixels on this edge
-/// show a mix of both.
+/// show a mix of paper and table.
 class Table {
   public:
     Table(const Page& page, const View& view)

@@ -83,7 +83,8 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
 }
 
 /// Draws a random rectangle of pattern that contains enough dots. Its centre is far enough from the
-/// border of the image that the rectangle is mostly in view. The caller tests whether all of it is.
+/// border of the image that most of the rectangle is in view. The caller checks that the whole
+/// rectangle is in view.
 PageArea draw_island(const Shot& shot, Rng& rng) {
     constexpr double kMinDots = PartialView::kMinIslandDots * 1.05;
     PageArea area;

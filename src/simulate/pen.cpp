@@ -106,7 +106,7 @@ std::vector<Stroke> strokes_of(const Handwriting& options) {
     return strokes;
 }
 
-/// Sets the angles of the pen at the time `t_s` as in a writing hand.
+/// Sets the angles of the pen at the time `t_s`. They vary like those of a pen in a writing hand.
 void lean(double t_s, std::uint64_t seed, PenPose& pose) {
     Rng rng(seed, 2);
     const double phase = rng.uniform(0, kTurn_rad);

@@ -32,8 +32,8 @@ void check_camera(const CameraModel& camera, const CameraPose& pose) {
     require(within(camera.readout_px.x, -kMaxReadout * half_u, kMaxReadout * half_u) &&
                 within(camera.readout_px.y, -kMaxReadout * half_v, kMaxReadout * half_v),
             "the motion during the readout must be at most 75 % of the image");
-    // Maximum downward motion of a point of a rotating scene, in rows, while the camera reads one
-    // row. A point appears only once in the image if this motion is less than one row.
+    // Maximum downward motion of a point while the camera reads one row of a rotating scene, in
+    // rows. A point appears only once in the image if this motion is less than one row.
     constexpr double kMaxFall = 0.95;
     require(std::abs(camera.readout_turn_rad) * half_u + std::abs(camera.readout_px.y) <=
                 kMaxFall * camera.height_px,

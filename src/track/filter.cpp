@@ -15,10 +15,10 @@ constexpr float kHold_s = 0.5F;
 /// variance.
 constexpr float kAgility_step = 1.5F;
 constexpr float kMinAgility = 1e-6F;
-/// Innovations above this number of standard deviations are not considered noise.
+/// Minimum innovation, in standard deviations, that is not attributed to noise.
 constexpr float kSurprise = 4;
 /// Number of sightings over which the scatter is averaged. The scatter is the ratio of the squared
-/// innovations to the innovations' covariance.
+/// innovations to the variances that the filter expects.
 constexpr float kScatter_sightings = 32;
 constexpr float kMinScatter = 0.01F;
 constexpr float kMaxScatter = 9;
@@ -75,12 +75,14 @@ void advance(const State& at, float dt_s) {
     }
 }
 
-/// Returns the standard deviation of acceleration along an axis, for an agility of 1.
+/// Returns the stationary standard deviation of the acceleration along an axis, for an agility of
+/// 1.
 float spread(std::size_t axis, const TrackOptions& options) {
     return axis < 2 ? options.acceleration_mm_s2 : options.angular_acceleration_rad_s2;
 }
 
-/// Returns the variance of new acceleration after `dt_s`, for an agility of 1.
+/// Returns the variance of the acceleration that process noise adds within `dt_s`, for an agility
+/// of 1.
 float push(std::size_t axis, float dt_s, const TrackOptions& options) {
     return squared(spread(axis, options)) * (1 - squared(kept(dt_s)));
 }
@@ -94,9 +96,9 @@ void add_noise(Covariance9& covariance, std::size_t axis, float variance, const 
     }
 }
 
-/// Sets the pose covariance. If sightings scatter less than their covariances predict, a part of
-/// their errors is common to all of them. Averaging does not reduce the common part, so the
-/// covariance includes it.
+/// Sets the pose covariance. If sightings scatter less than their covariances predict, some of the
+/// error is common to all sightings. The covariance includes this common error, because averaging
+/// does not reduce it.
 void set_pose_covariance(MotionEstimate& motion) {
     const float common = std::max(1 - motion.scatter, 0.0F);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -141,9 +143,9 @@ Right product(const Left& left, const Right& right) {
     return result;
 }
 
-/// Updates the covariance P for a sighting: replaces P by (I - K H) P. K is the gain, and H selects
-/// the pose from the state. `weighted` is S^-1 H P, the transpose of K, where S is the covariance
-/// of the innovation. `noise` is R, the covariance of the sighting.
+/// Updates the covariance P for a sighting: replaces P with (I - K H) P. K is the gain, and H
+/// selects the pose from the state. S is the covariance of the innovation. `weighted` is S^-1 H P,
+/// the transpose of K. `noise` is R, the covariance of the sighting.
 void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, const Matrix3& noise) {
     const Covariance9 before = p;
     for (std::size_t i = 3; i < 9; ++i) {
@@ -298,8 +300,8 @@ MotionEstimate carried(const MotionEstimate& motion, const MeasuredMotion& measu
         }
         later.covariance[i][i] += kRounding * before[i][i];
     }
-    // A scatter below 1 does not apply to a motion, because odometry errors are independent of
-    // sighting errors.
+    // A scatter below 1 is a property of sightings. It does not apply to a motion, because odometry
+    // errors are independent of sighting errors.
     const float scatter = later.scatter;
     later.scatter = std::max(scatter, 1.0F);
     set_pose_covariance(later);

@@ -21,8 +21,8 @@ std::int32_t turn_bam(std::int32_t a, std::int32_t b) {
 bool FramePacer::has_moved(const Fix& fix) const {
     const bool was_seen = rest_.status == Status::ok;
     if (fix.status != Status::ok) {
-        // If a moving device gets no fix, this does not prove further motion. A stationary device
-        // that had a fix should get a fix again, unless it was moved.
+        // A frame without a fix does not prove that a moving device is still moving. In contrast, a
+        // stationary device that had a fix loses it only if it was moved.
         return options_.lost_is_moved && was_seen && motion_ == Motion::stationary;
     }
     if (!was_seen) return true;
