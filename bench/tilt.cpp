@@ -15,7 +15,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// Returns a frame of a tilted camera. Each frame has another tilt axis.
+/// Returns a frame of a tilted camera. Each frame has a different tilt axis.
 KnownFrame tilted_frame(const Setup& setup, int tilt_deg, int index) {
     Shot shot = draw_shot(setup, static_cast<std::uint64_t>(index));
     const double axis_rad = index * std::numbers::phi * 2 * std::numbers::pi;

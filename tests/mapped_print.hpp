@@ -118,9 +118,9 @@ class PlaceErrors {
 
     /// Returns the rms error per axis after a fit of offset, scale and turn.
     double absolute_um() const { return left_um(4, 0); }
-    /// Returns the rms error per axis, without errors that change slowly over the page. Adds
-    /// `wave_share` times the wave to each error, because a displaced dot moves the fix in the
-    /// opposite direction, and then subtracts a fit of cubic polynomials.
+    /// Returns the rms error per axis, without errors that change slowly over the page. First adds
+    /// `wave_share` times the wave of the print to each error, because a displaced dot moves the
+    /// fix in the opposite direction. Then subtracts a fit of cubic polynomials.
     double repeatability_um(double wave_share) const { return left_um(20, wave_share); }
     double sigma_um() const {
         return 1000 * std::sqrt(variance_ / static_cast<double>(places_.size()));

@@ -113,7 +113,7 @@ std::string json_of(const RobotConnection& connection);
 /// Parses a message with the subject `connection`. Returns none if the message is invalid.
 std::optional<RobotConnection> parse_connection(std::string_view json);
 
-/// A change of the condition of a robot that requires attention, or the end of such a condition.
+/// Reports that a robot has entered or left a condition that requires attention.
 struct RobotAlert {
     std::string robot;
     std::uint64_t header_id = 0;

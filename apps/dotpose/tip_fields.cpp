@@ -16,8 +16,8 @@ TipPose tip_on(const TipPose& tip, const std::optional<SheetPlace>& place) {
     return place ? on_sheet(tip, *place->entry) : tip;
 }
 
-/// Returns x and y in the world, in metres. The texts are empty if the page has no place in the
-/// world.
+/// Returns the world coordinates x and y of the tip as text, in metres. Both strings are empty if
+/// the world pose of the page is not known.
 std::array<std::string, 2> world_texts(const TipPose& tip, const std::optional<SheetPlace>& place) {
     if (!place || !place->entry->world) return {};
     const TipPose on_page = tip_on(tip, place);

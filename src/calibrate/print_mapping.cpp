@@ -54,9 +54,9 @@ std::int16_t to_q14(double spacings) {
     return static_cast<std::int16_t>(std::clamp(std::lround(spacings * 16384), -32767L, 32767L));
 }
 
-/// Converts covariances to spacings. For an update, adds the errors of the earlier map, because the
-/// slow errors of this map remain in the result. The equations do not include them, because they
-/// assume that the earlier offsets have independent errors.
+/// Converts covariances to spacings. For an update, adds the errors of the earlier map, because its
+/// slowly varying errors remain in the result. The equations do not include these errors, because
+/// the equations assume that the errors of the earlier offsets are independent.
 MapErrors errors_of(const MapGrid& grid, const MapErrorGrid& found, const EarlierOffsets& earlier,
                     const MapPage& page) {
     if (!earlier.views.empty() && page.errors.nodes.empty()) return {};

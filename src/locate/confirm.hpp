@@ -54,9 +54,10 @@ struct Measurement {
     /// if its view is small, its dots are clear, and the position is not certain. Further attempts
     /// are then skipped. Computed only if the result is `too_few_bits`.
     bool shows_too_few_cells = false;
-    /// True if the result of the first attempt is `too_few_bits`. In this case, the scene did not
-    /// rotate during the readout, because some dots would otherwise be away from their predicted
-    /// places.
+    /// True if the result of the first attempt is `too_few_bits`, that is, its bits are clear but
+    /// too few for a certain position. The scene then did not rotate during the readout. A rotation
+    /// would have moved some dots away from their predicted places, and their bits would not be
+    /// clear.
     bool has_clear_bits = false;
 };
 

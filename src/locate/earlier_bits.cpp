@@ -137,7 +137,8 @@ struct Match {
     }
 };
 
-/// Returns log2 of the ratio of a normal density at `distance` from its mean to its maximum.
+/// Returns log2 of a normal density at `distance` from the mean, relative to the maximum of the
+/// density.
 float normal_log2(float distance, float variance) {
     return -0.5F * std::numbers::log2e_v<float> * distance * distance / variance;
 }

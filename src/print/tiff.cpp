@@ -8,7 +8,7 @@
 namespace dotpose::print {
 namespace {
 
-// File size from which BigTIFF is written, because offsets in a classic TIFF have only 32 bits.
+// Minimum size of a file that is written as BigTIFF. Offsets in a classic TIFF have only 32 bits.
 constexpr std::int64_t kBigTiff_bytes = std::int64_t{1} << 31;
 constexpr std::uint32_t kRowsPerStrip = 64;
 

@@ -60,8 +60,8 @@ std::vector<capture::Frame> frames_of_sheet() {
 
 /// Starts the step `lens`, and offers each frame to the guide until the guide takes it.
 void collect(CalibrationGuide& guide, const std::vector<capture::Frame>& frames) {
-    // The guide ignores a command while eight others wait, so this first waits until the earlier
-    // commands have been executed.
+    // The guide ignores a command while eight other commands are pending. `collect` therefore first
+    // waits until all earlier commands have been executed.
     ASSERT_TRUE(reaches(guide, [&](const GuideState& state) {
         guide.cancel();
         return state.phase == GuidePhase::idle;

@@ -111,9 +111,10 @@ struct Followed {
     std::optional<SpaceTrack> space_track;
 };
 
-/// Converts a fix to a sighting in the world of its sheet, for the Tracker of a robot that drives
-/// over several sheets. `place` is the place of the fix. Returns none if the world pose of the
-/// sheet is not known. The fix must be ok, and its `spacing_nm` must be known, that is, above 0.
+/// Converts a fix on a sheet to a sighting in the world frame, for the Tracker of a robot that
+/// drives over several sheets. `place` is the place of the fix. Returns none if the world pose of
+/// the sheet is not known. The fix must be ok, and its `spacing_nm` must be known, that is, above
+/// 0.
 std::optional<Sighting> world_sighting(const Fix& fix, const SheetPlace& place,
                                        std::int64_t time_us);
 

@@ -122,8 +122,8 @@ struct Motion {
     std::array<double, 6> velocity{};      ///< mm/s, rad/s
     std::array<double, 6> acceleration{};  ///< mm/s^2, rad/s^2
     std::array<double, kStates * kStates> covariance{};
-    /// Process noise along each axis: the variance of new accelerations, relative to the variance
-    /// in the options.
+    /// Process noise along each axis: the ratio of the variance of the acceleration noise to the
+    /// variance in the options.
     std::array<double, 6> agility{1, 1, 1, 1, 1, 1};
     std::array<double, 6> innovation{};  ///< of the latest accepted sighting
 };

@@ -28,9 +28,9 @@ inline constexpr int kShadePart = 5;
 /// stroke that touches the dot.
 inline constexpr int kBeside_60th = 8;
 inline constexpr int kBesideDiagonally_60th = 5;
-/// Darkness of solid ink relative to the paper level, in 1/256. A shade above the geometric mean of
-/// this value and the shade of a typical dot counts as graphics. With half or twice the value,
-/// 1,992 frames are located.
+/// Darkness of solid ink relative to the paper level, in 1/256. A place counts as graphics if its
+/// darkness exceeds the geometric mean of this value and the darkness of a typical dot. If this
+/// value is halved or doubled, only 1,992 frames are located.
 inline constexpr int kSolidInk_q8 = 230;
 /// Reliability of the bits in a cell: a factor for their weights, in 1/16. The index is the number
 /// of places of the cell that are in the image.

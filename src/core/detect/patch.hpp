@@ -16,7 +16,8 @@ namespace dotpose::core {
 bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int width_px,
                  int height_px, int scale, Patch& patch);
 
-/// Selects the tile of a patch whose darkness is used as the contrast of its dots.
+/// Selects one tile of a patch. The darkness of this tile is used as the dot contrast of the whole
+/// patch.
 enum class DotTiles : std::uint8_t {
     median,  ///< the tile of median darkness among the tiles with contrast
     /// A pale tile, for patches in which most tiles contain graphics. Blurred dots are paler than

@@ -1,5 +1,5 @@
-// Codes in view: computes the odds of all codes except the code of the reading, from all dots in
-// view. The certainty test may use fewer dots.
+// Codes in view: computes the odds of all codes other than the code that was read. Uses all dots in
+// view, whereas the certainty test may use only some of them.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"

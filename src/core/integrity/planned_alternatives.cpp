@@ -113,10 +113,11 @@ class KeyedPlaces {
 };
 
 /// Finds the far alternatives that share given sets of lines, and adds their odds. Two positions
-/// share two adjacent lines only if, in the step between these lines, they have the same digit in
-/// each of the four sequences. The search stores each pair of places in two of the sequences in a
-/// table, by the change of the roll offset across the gaps. For each pair of places in the other
-/// two sequences, it looks up the pairs with the opposite change.
+/// share two adjacent lines only if each of the four sequences has the same digit at both
+/// positions, in the step between these lines. The search builds a table of all pairs of places in
+/// two of the sequences. The key of the table is the change of the roll offset across the gaps
+/// between the shared lines. For each pair of places in the other two sequences, the search looks
+/// up the pairs with the opposite change.
 class SetSearch {
   public:
     SetSearch(const RankedLines& lines, float max_odds, WorkLimit& work)

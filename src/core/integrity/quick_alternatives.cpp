@@ -17,8 +17,8 @@ constexpr int kSingles_q8 = 2441;
 /// Limit for the odds of the far alternatives, as log2 in units of 2^-8. If a bound is below this
 /// limit, no tighter bound is computed.
 constexpr int kSmallOdds_q8 = -36 * 256;
-/// Default limit of the error probability, as log2 in units of 2^-8. Even if the limit of the
-/// caller is larger, bounds are at least as tight as the default limit requires.
+/// Largest limit of the error probability that is used, as log2 in units of 2^-8. If the limit of
+/// the caller is larger, the bounds are still computed as tightly as for this limit.
 constexpr int kUsualLimit_q8 = -30 * 256;
 /// Upper bound on the odds of a single alternative that is not evaluated, as log2 in units of 2^-8.
 constexpr int kSkippedOdds_q8 = -52 * 256;

@@ -23,8 +23,9 @@ inline constexpr int kFirstReach_cells = 4;
 struct Regularity {
     int dots = 0;
     int near_intersections = 0;
-    /// Largest distance between the origin and the cell of a dot, in cells. Unlike the other
-    /// members, it includes dots beyond the reach. Callers ignore dots beyond kFarthest_cells.
+    /// Largest distance from the origin to the cell of a dot, in cells. Unlike for the other
+    /// members, dots beyond the reach also count, up to kFarthest_cells. Callers skip dots that are
+    /// farther away.
     int farthest_cell = 0;
 
     /// Returns true if at least kSettled_20th / 20 of the dots are near an intersection. Repeating

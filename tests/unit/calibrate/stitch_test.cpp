@@ -208,8 +208,8 @@ TEST(StitchSheets, SaysWhichScalesTheFramesDoNotTell) {
     entries[1].print_scale_x = 1.002;
     const auto stitching = stitch_sheets(12, upper_seam(kTable, model), entries, camera, {});
     ASSERT_EQ(stitching.stitched.size(), 2U);
-    // The frames do not determine the ratio of the scales of the first sheet along its axes, so the
-    // scales are unknown.
+    // The frames do not determine the ratio of the first sheet's x scale to its y scale, so the
+    // scales of all sheets are unknown.
     for (const StitchedSheet& sheet : stitching.stitched) {
         EXPECT_FALSE(is_scale_known(sheet.sigma_scale_x)) << sheet.name;
         EXPECT_FALSE(is_scale_known(sheet.sigma_scale_y)) << sheet.name;

@@ -1,6 +1,6 @@
-// Passes the simulated drive over two sheets through the element, in all supported formats. The
-// poses must be those of `dotpose watch`, no frame may be lost, and times and pixels must not
-// change.
+// Sends the frames of a simulated drive over two sheets through the element, in all supported
+// formats. The poses must equal those of `dotpose watch`, no frame may be lost, and timestamps and
+// pixels must not change.
 #include <string>
 #include <vector>
 

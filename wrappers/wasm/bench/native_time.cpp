@@ -53,7 +53,8 @@ Fix timed(double& took_us, const Call& call) {
     return fix;
 }
 
-/// Locates each frame, and its next frame with a prediction from the first fix.
+/// Locates the first frame of each pair, and then the second frame with a prediction from the first
+/// fix.
 void measure(Locator& locator, const std::vector<GreyImage>& images, bool prints) {
     for (std::size_t i = 0; i + 1 < images.size(); i += 2) {
         const ImageView image = images[i].view();
