@@ -55,7 +55,7 @@ bool is_clean(const BitsRead& bits) {
 /// fraction of the spacing. The x bits that are read may then be those of one pattern, and the y
 /// bits those of the other pattern.
 bool shows_overlay(const BitsRead& bits) {
-    return bits.right < tuned::kMinRight * static_cast<float>(bits.seen) &&
+    return static_cast<float>(bits.right) < tuned::kMinRight * static_cast<float>(bits.seen) &&
            static_cast<float>(bits.wrong_x + bits.wrong_y) >
                tuned::kMaxWrongInOverlay * static_cast<float>(2 * bits.read);
 }
@@ -287,11 +287,11 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
 }
 
 /// Returns true if the image contains few cells. In such an image, the position may be certain only
-/// if dots cut by the image border are also read, and the sums over alternatives take long.
-bool is_small_view(const Frame& frame, const Hypothesis& hypothesis) {
+/// if dots cut by the image border are also read.
+bool has_few_cells(const Frame& frame, const Hypothesis& hypothesis) {
     const float spacing = spacing_px(hypothesis.pattern_from_image);
     const auto pixels = static_cast<float>(frame.image.width_px * frame.image.height_px);
-    return !frame.known.any() && pixels < tuned::kMaxCellsOfSmallView * spacing * spacing;
+    return !frame.known.any() && pixels < tuned::kMaxCellsWithCutDots * spacing * spacing;
 }
 
 }  // namespace
@@ -342,8 +342,10 @@ Confirmation confirm(const Frame& frame, Hypothesis hypothesis, const PlaceEvide
         if (before) *evidence.others = *before;
         return {};
     };
-    hypothesis.is_small_view = is_small_view(frame, hypothesis);
-    if (hypothesis.is_small_view && !hypothesis.is_partial_view && !hypothesis.is_certain) {
+    const bool has_few = has_few_cells(frame, hypothesis);
+    hypothesis.is_small_view =
+        has_few && frame.image.width_px * frame.image.height_px <= tuned::kMaxPixelsOfSmallView;
+    if (has_few && !hypothesis.is_partial_view && !hypothesis.is_certain) {
         if (const auto result = measure_with(&Hypothesis::reads_cut_dots)) return *result;
     }
     if (hypothesis.is_predicted && can_sample_directly(hypothesis)) {

@@ -179,10 +179,13 @@ inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
 /// cache. Larger parts would evict their own first rows.
 inline constexpr int kMinFetched_bytes = 32 << 10;
 inline constexpr int kMaxFetched_bytes = 1 << 20;
-/// Number of cells in the image below which a view is small: the bits are also read from dots that
-/// the image border cuts, and the work of the sums over alternatives is limited. Views with more
-/// cells are certain without these dots, and the sums take little time there.
-inline constexpr float kMaxCellsOfSmallView = 144;
+/// Number of cells in the image below which the bits are also read from dots that the image border
+/// cuts. Views with more cells are certain without these dots.
+inline constexpr float kMaxCellsWithCutDots = 144;
+/// Maximum number of pixels of an image with few cells in which the work of the sums over
+/// alternatives is limited. In larger images, few cells are rare, for example if a rolling shutter
+/// stretches them.
+inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
 /// Maximum distance of an intersection from the image, in spacings, at which the dot of the cell
 /// may be partly visible.
 inline constexpr float kBeyondBorder = 0.2F;
