@@ -32,12 +32,7 @@ class PlaceList {
         for (std::size_t n = 0; n < count_; ++n) {
             RollOffsets& offsets = offsets_[n];
             lines.set_offsets(sequence, places_[n], offsets);
-            const auto back = static_cast<std::uint8_t>(
-                kSections - offsets[static_cast<std::size_t>(gaps.before[0])]);
-            for (std::size_t line = 0; line < line_count; line += sizeof(Bytes)) {
-                const Bytes relative = modulo_sections(bytes_at(offsets, line) + back);
-                std::memcpy(offsets.data() + line, &relative, sizeof relative);
-            }
+            make_relative(line_count, gaps.before[0], offsets);
             const auto across = [&](std::size_t gap) {
                 return roll_offset(offsets[static_cast<std::size_t>(gaps.before[gap])],
                                    offsets[static_cast<std::size_t>(gaps.after[gap])]);
@@ -79,28 +74,21 @@ unsigned opposite(unsigned key) {
 
 /// Finds the likely alternatives. Visits all sets of lines whose minimum losses add up to less than
 /// the loss limit. For each set, lists the places in each sequence at which an alternative may
-/// share all other lines, and adds the odds of the alternatives that share exactly these other
-/// lines. Two positions share two adjacent lines only if, in the step between these lines, they
-/// have the same digit in each of the four sequences.
+/// share all other lines (see EqualPlaces), and adds the odds of the alternatives that share
+/// exactly these other lines.
 class Finder {
   public:
     Finder(const RankedLines& lines, int loss_limit, float max_odds)
-        : lines_(lines), count_(lines.count()), loss_limit_(loss_limit), max_odds_(max_odds) {
-        for (std::size_t k = 0; k < all_.size(); ++k) {
-            const code::Secondary& sequence = lines.ratios.basis[k];
-            all_[k].fill(0);
-            for (std::size_t place = 0; place < sequence.length; ++place)
-                all_[k][place / 32] |= std::uint32_t{1} << place % 32;
-            const std::uint32_t own = lines.ratios.places[k];
-            own_[k].fill(0);
-            own_[k][own / 32] = std::uint32_t{1} << own % 32;
-            set_equal_places(sequence, k);
-        }
+        : lines_(lines),
+          count_(lines.count()),
+          loss_limit_(loss_limit),
+          max_odds_(max_odds),
+          equal_places_(lines) {
         newest_.fill(kNone);
     }
 
     std::optional<float> sum() {
-        const bool is_complete = visit(0, 0, all_, 0);
+        const bool is_complete = visit(0, 0, equal_places_.all(), 0);
         return is_complete || sum_ > max_odds_ ? std::optional(sum_) : std::nullopt;
     }
     /// Returns the smallest sum of minimum losses, in the sets of lines that `sum` skipped. It is
@@ -117,18 +105,6 @@ class Finder {
     static constexpr std::uint16_t kNone = 0xFFFF;
     static_assert(code::kA4Restored.size() <= kLastPlaces);
     static_assert(kMaxPairs < kNone);
-
-    void set_equal_places(const code::Secondary& sequence, std::size_t k) {
-        std::uint32_t place = lines_.ratios.places[k];
-        for (std::size_t step = 0; step + 1 < static_cast<std::size_t>(count_); ++step) {
-            const std::uint32_t* equal = sequence.places_of[sequence.digit(place)] + step / 32;
-            const std::size_t ahead = step % 32;
-            PlaceBits& places = equal_[step][k];
-            for (std::size_t word = 0; word < places.size(); ++word)
-                places[word] = equal[word] >> ahead | equal[word + 1] << 1 << (31 - ahead);
-            if (++place == sequence.length) place = 0;
-        }
-    }
 
     /// Visits all sets of shared lines that continue `shared`, which contains the shared lines
     /// before `line`. `places` contains the places at which an alternative may share the lines in
@@ -154,18 +130,9 @@ class Finder {
         const LineSet with_line = shared | LineSet{1} << line;
         if (line == 0 || (shared >> (line - 1) & 1) == 0)
             return visit(line + 1, lost, places, with_line);
-        PlaceSets fewer;
-        const PlaceSets& equal = equal_[static_cast<std::size_t>(line - 1)];
-        int different = 0;  // number of sequences with other places than the place of the reading
-        for (std::size_t k = 0; k < fewer.size(); ++k) {
-            std::uint32_t others = 0;
-            for (std::size_t word = 0; word < fewer[k].size(); ++word) {
-                fewer[k][word] = places[k][word] & equal[k][word];
-                others |= fewer[k][word] & ~own_[k][word];
-            }
-            different += others != 0 ? 1 : 0;
-        }
-        return different < 2 || visit(line + 1, lost, fewer, with_line);
+        PlaceSets fewer = places;
+        equal_places_.keep_equal(static_cast<std::size_t>(line - 1), fewer);
+        return equal_places_.count_different(fewer) < 2 || visit(line + 1, lost, fewer, with_line);
     }
 
     /// Adds the odds of all combinations of the given places that share exactly the lines `shared`.
@@ -261,10 +228,7 @@ class Finder {
     int count_;
     int loss_limit_;
     float max_odds_;
-    PlaceSets all_;  ///< all places
-    PlaceSets own_;  ///< the places of the reading
-    /// For each step, the places at which the digit is equal to the digit of the reading.
-    std::array<PlaceSets, kMaxLines> equal_;
+    EqualPlaces equal_places_;
     std::array<PlaceList, 4> lists_;
     /// Masks with one byte for each line, which is 0 or 255. `is_compared_` selects the lines with
     /// a positive minimum loss, and `is_shared_` selects the lines that must be shared.

@@ -1,4 +1,5 @@
-// Line sets: sets of lines that an alternative shares, and roll offsets of 16 lines at a time.
+// Line sets: sets of lines that an alternative shares, the places at which it shares them, and roll
+// offsets of 16 lines at a time.
 // likelihood_ratios.hpp defines the terms.
 #pragma once
 
@@ -8,8 +9,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "core/integrity/likelihood_ratios.hpp"
-#include "core/kernels/kernels.hpp"
+#include "core/integrity/ranked_lines.hpp"
 
 namespace dotpose::core {
 
@@ -34,6 +34,30 @@ inline Bytes bytes_at(const RollOffsets& offsets, std::size_t line) {
 inline Bytes modulo_sections(Bytes offsets) {
     return offsets - (static_cast<Bytes>(offsets >= kSections) & kSections);
 }
+
+/// Subtracts the roll offset of the line `first_shared` from the roll offsets of all lines.
+void make_relative(std::size_t line_count, int first_shared, RollOffsets& offsets);
+
+/// The places at which a position and the reading have the same digit in a step. Two positions
+/// share two adjacent lines only if, in the step between these lines, they have the same digit in
+/// each of the four sequences.
+class EqualPlaces {
+  public:
+    explicit EqualPlaces(const RankedLines& lines);
+
+    /// All places.
+    const PlaceSets& all() const { return all_; }
+    /// Removes the places whose digit differs in the step from line `step` to the next line.
+    void keep_equal(std::size_t step, PlaceSets& places) const;
+    /// Returns the number of sequences with places other than the place of the reading.
+    int count_different(const PlaceSets& places) const;
+
+  private:
+    PlaceSets all_;
+    PlaceSets own_;  ///< the places of the reading
+    /// For each step, the places at which the digit is equal to the digit of the reading.
+    std::array<PlaceSets, kMaxLines> equal_;
+};
 
 /// The first two gaps between shared lines. A gap consists of adjacent lines that are not shared.
 /// `before` and `after` are the shared lines directly before and after each gap. For a missing gap,

@@ -61,7 +61,8 @@ class KeyedPlaces {
                 lines.set_offsets(sequence, place, offsets_[count_]);
                 is_other_[count_] = place != lines.ratios.places[sequence] ? 1 : 0;
                 set_key(pattern.gaps, negates);
-                make_relative(static_cast<std::size_t>(lines.count()), pattern.gaps.before[0]);
+                make_relative(static_cast<std::size_t>(lines.count()), pattern.gaps.before[0],
+                              offsets_[count_]);
                 pack(pattern);
                 ++count_;
             }
@@ -86,15 +87,6 @@ class KeyedPlaces {
             return negates ? roll_offset(after, before) : roll_offset(before, after);
         };
         keys_[count_] = static_cast<std::uint16_t>(kKeyStep * across(0) + across(1));
-    }
-    void make_relative(std::size_t line_count, int first_shared) {
-        RollOffsets& offsets = offsets_[count_];
-        const auto back =
-            static_cast<std::uint8_t>(kSections - offsets[static_cast<std::size_t>(first_shared)]);
-        for (std::size_t line = 0; line < line_count; line += sizeof(Bytes)) {
-            const Bytes relative = modulo_sections(bytes_at(offsets, line) + back);
-            std::memcpy(offsets.data() + line, &relative, sizeof relative);
-        }
     }
     void pack(const Pattern& pattern) {
         std::uint64_t packed = 0;
@@ -125,17 +117,8 @@ class SetSearch {
           count_(static_cast<std::size_t>(lines.count())),
           max_odds_(max_odds),
           skipped_loss_(lines.ratios.loss_for(-256 * kSkippedBits) + lines.ratios.max_gain()),
-          work_(work) {
-        for (std::size_t k = 0; k < all_.size(); ++k) {
-            const std::size_t length = lines.ratios.basis[k].length;
-            all_[k].fill(0);
-            std::fill_n(all_[k].begin(), length / 32, ~std::uint32_t{0});
-            all_[k][length / 32] = (std::uint32_t{1} << length % 32) - 1;
-            own_[k].fill(0);
-            const std::uint32_t own = lines.ratios.places[k];
-            own_[k][own / 32] = std::uint32_t{1} << own % 32;
-            set_equal_places(k);
-        }
+          work_(work),
+          equal_places_(lines) {
         newest_.fill(kNone);
     }
 
@@ -143,15 +126,10 @@ class SetSearch {
     /// be empty. Lines with a minimum loss of 0 may be shared or not. Returns false if the search
     /// must end, because the sum exceeds `max_odds` or the work does not suffice.
     bool add(LineSet shared) {
-        PlaceSets places = all_;
-        for (LineSet steps = shared & shared >> 1; steps != 0; steps &= steps - 1) {
-            const PlaceSets& equal = equal_[static_cast<std::size_t>(std::countr_zero(steps))];
-            for (std::size_t k = 0; k < places.size(); ++k) {
-                for (std::size_t word = 0; word < places[k].size(); ++word)
-                    places[k][word] &= equal[k][word];
-            }
-        }
-        if (count_different(places) < 2) return work_.spend(kWorkPerSet);
+        PlaceSets places = equal_places_.all();
+        for (LineSet steps = shared & shared >> 1; steps != 0; steps &= steps - 1)
+            equal_places_.keep_equal(static_cast<std::size_t>(std::countr_zero(steps)), places);
+        if (equal_places_.count_different(places) < 2) return work_.spend(kWorkPerSet);
         const Pattern pattern(lines_, shared);
         if (!list(places, pattern)) return false;
         add_matches(pattern);
@@ -168,32 +146,6 @@ class SetSearch {
     static constexpr std::size_t kMaxPairs = code::kA3.size() * kPlaces;
     static constexpr std::uint16_t kNone = kMaxPairs;
     static_assert(code::kA1.size() <= kPlaces);
-
-    void set_equal_places(std::size_t k) {
-        const code::Secondary& sequence = lines_.ratios.basis[k];
-        std::uint32_t place = lines_.ratios.places[k];
-        for (std::size_t step = 0; step + 1 < count_; ++step) {
-            const std::uint32_t* equal = sequence.places_of[sequence.digit(place)] + step / 32;
-            const std::size_t ahead = step % 32;
-            PlaceBits& places = equal_[step][k];
-            for (std::size_t word = 0; word < places.size(); ++word)
-                places[word] = equal[word] >> ahead | equal[word + 1] << 1 << (31 - ahead);
-            if (++place == sequence.length) place = 0;
-        }
-    }
-
-    /// Returns the number of sequences in which `places` contains a place other than the place of
-    /// the reading.
-    int count_different(const PlaceSets& places) const {
-        int different = 0;
-        for (std::size_t k = 0; k < places.size(); ++k) {
-            std::uint32_t others = 0;
-            for (std::size_t word = 0; word < places[k].size(); ++word)
-                others |= places[k][word] & ~own_[k][word];
-            different += others != 0 ? 1 : 0;
-        }
-        return different;
-    }
 
     /// Lists the places in all sequences. Returns false if the work does not suffice.
     bool list(const PlaceSets& places, const Pattern& pattern) {
@@ -295,10 +247,7 @@ class SetSearch {
     float max_odds_;
     int skipped_loss_;  ///< kSkippedBits as a loss, plus the maximum gain in other lines
     WorkLimit& work_;
-    PlaceSets all_;  ///< all places
-    PlaceSets own_;  ///< the places of the reading
-    /// For each step, the places at which the digit is equal to the digit of the reading.
-    std::array<PlaceSets, kMaxLines> equal_;
+    EqualPlaces equal_places_;
     std::array<KeyedPlaces, 4> lists_;
     /// Losses in the first lines that are not shared, by roll offset (see `RankedLines::losses`).
     std::array<const std::int16_t*, sizeof(std::uint64_t)> losses_{};
