@@ -186,15 +186,15 @@ std::string print_scale_text(double scale, double sigma) {
 /// Appends the print scales of the sheets, and the sheet or camera to which the scales are
 /// relative.
 void add_print_scales(std::string& text, const Stitching& stitching) {
-    bool is_all_told = true;
+    bool are_all_scales_known = true;
     std::string fixed;
     for (const StitchedSheet& sheet : stitching.stitched) {
         const auto entry = std::ranges::find(stitching.sheets, sheet.name, &SheetEntry::name);
         add(text, "print       {}: {} along x, {} along y", sheet.name,
             print_scale_text(entry->print_scale_x, sheet.sigma_scale_x),
             print_scale_text(entry->print_scale_y, sheet.sigma_scale_y));
-        is_all_told = is_all_told && is_scale_known(sheet.sigma_scale_x) &&
-                      is_scale_known(sheet.sigma_scale_y);
+        are_all_scales_known = are_all_scales_known && is_scale_known(sheet.sigma_scale_x) &&
+                               is_scale_known(sheet.sigma_scale_y);
         if (sheet.is_fixed) fixed = sheet.name;
     }
     using By = ScaleReference::By;
@@ -212,7 +212,7 @@ void add_print_scales(std::string& text, const Stitching& stitching) {
                 "true millimetres",
                 fixed);
     }
-    if (!is_all_told) {
+    if (!are_all_scales_known) {
         add(text,
             "UNKNOWN:    these frames do not determine the scales: use the camera file of a "
             "mounted camera (with mm_per_px) and frames at several angles");

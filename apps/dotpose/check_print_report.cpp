@@ -55,7 +55,7 @@ void add_field(std::string& text, const CheckedScan& scan, const PrintField& fie
         "places      off by {:.4f} mm (rms per axis): single dots by {:.4f} mm, parts of the page "
         "by up to {:.3f} mm",
         field.residual_mm, field.scatter_mm, field.largest_distortion_mm);
-    if (field.are_sizes_told) {
+    if (field.are_sizes_measured) {
         add(text, "dots        {:.4f} mm (nominal {:.4f} mm, gain {:+.0f} %), spread {:.4f} mm",
             field.dot_mm, field.pattern.dot_mm, 100 * field.gain(), field.dot_sigma_mm);
         add(text, "contrast    {:.0f} % of the paper's level {:.0f}", 100 * field.contrast,
@@ -63,11 +63,11 @@ void add_field(std::string& text, const CheckedScan& scan, const PrintField& fie
     }
     add(text, "covered     {} of {} ({:.2f} %), not counted below", field.covered,
         field.covered + field.cells, 100 * field.covered_share());
-    if (field.are_dots_told) {
+    if (field.are_dots_checked) {
         add(text, "missing     {} of {} ({:.2f} %)", field.missing, field.cells,
             100 * field.missing_share());
     }
-    if (field.are_sizes_told) {
+    if (field.are_sizes_measured) {
         add(text, "merged      {} ({:.2f} %)", field.merged, 100 * field.merged_share());
     }
     add(text, "bits wrong  {} of {} ({:.2f} %)", field.bits_wrong, 2 * field.dots,
@@ -152,8 +152,8 @@ ordered_json json_of(const CheckedScan& scan, const PrintField& field) {
     object["missing"] = field.missing;
     object["merged"] = field.merged;
     object["bits_wrong"] = field.bits_wrong;
-    object["sizes_told"] = field.are_sizes_told;
-    object["dots_told"] = field.are_dots_told;
+    object["sizes_measured"] = field.are_sizes_measured;
+    object["dots_checked"] = field.are_dots_checked;
     return object;
 }
 

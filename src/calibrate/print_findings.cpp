@@ -82,7 +82,7 @@ class Findings {
         if (has_fault) return;
         const bool is_complete =
             check_.is_test_page || !field_ ||
-            (check_.fields[*field_].are_sizes_told && check_.fields[*field_].are_dots_told);
+            (check_.fields[*field_].are_sizes_measured && check_.fields[*field_].are_dots_checked);
         remark(FindingKind::good,
                is_complete ? "the print can be used as it is"
                            : "as far as this photo shows, the print can be used as it is");
@@ -173,10 +173,10 @@ class Findings {
                       "and their places scatter by {:.3f} mm; scan at 600 dpi, as PNG or TIFF",
                       field.spacing_px, field.scatter_mm));
         } else {
-            const bool are_dots_told = field.are_dots_told && !is_coarse;
-            if (field.are_sizes_told && !is_coarse) judge_size(field);
-            if (are_dots_told) judge_faulty_dots(field);
-            remark_unresolved(field, are_dots_told);
+            const bool are_dots_checked = field.are_dots_checked && !is_coarse;
+            if (field.are_sizes_measured && !is_coarse) judge_size(field);
+            if (are_dots_checked) judge_faulty_dots(field);
+            remark_unresolved(field, are_dots_checked);
         }
         if (field.covered_share() > kNotableShare) {
             remark(FindingKind::covered,
@@ -253,16 +253,16 @@ class Findings {
 
     /// Adds a remark if the resolution of the photo is too low to show the sizes or the faults of
     /// dots.
-    void remark_unresolved(const PrintField& field, bool are_dots_told) {
-        if (field.are_sizes_told && are_dots_told) return;
+    void remark_unresolved(const PrintField& field, bool are_dots_checked) {
+        if (field.are_sizes_measured && are_dots_checked) return;
         const double dot_px = field.dot_mm * field.spacing_px / field.pattern.spacing_mm;
         remark(FindingKind::unresolved,
                fmt::format("the dots are {:.1f} pixels across in this photo: it does not show {}; "
                            "scan at 600 dpi, or come closer",
                            dot_px,
-                           are_dots_told ? "their size and how black they are"
-                                         : "how large and black they are, and which of them are "
-                                           "missing or misplaced"));
+                           are_dots_checked ? "their size and how black they are"
+                                            : "how large and black they are, and which of them are "
+                                              "missing or misplaced"));
     }
 
     void judge_size(const PrintField& field) {

@@ -206,7 +206,7 @@ void judge_photo_of_dots(const Measuring& m, PrintField& result) {
     // cannot be distinguished from a dot with a third of the usual darkness.
     constexpr double kMaxSpread = 0.12;
     const double mm_per_px = result.pattern.spacing_mm / result.spacing_px;
-    result.are_sizes_told = result.dot_mm / mm_per_px >= kMinDot_px;
+    result.are_sizes_measured = result.dot_mm / mm_per_px >= kMinDot_px;
     std::vector<double> strengths;
     for (const SeenCell& cell : m.grid.cells) {
         if (cell.has_dot && !cell.is_covered) strengths.push_back(double(cell.strength));
@@ -214,7 +214,7 @@ void judge_photo_of_dots(const Measuring& m, PrintField& result) {
     const double middle = quantile(strengths, 0.5);
     for (double& strength : strengths)
         strength = std::abs(strength - middle);
-    result.are_dots_told = kSigmaPerDeviation * quantile(strengths, 0.5) <= kMaxSpread * middle;
+    result.are_dots_checked = kSigmaPerDeviation * quantile(strengths, 0.5) <= kMaxSpread * middle;
 }
 
 }  // namespace

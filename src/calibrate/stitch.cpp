@@ -79,7 +79,8 @@ void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph
             sums.rad2 += turn * turn;
             const Eigen::Vector2d on_a = graph.centre_on_sheet(a);
             const Eigen::Vector2d on_b = graph.centre_on_sheet(b);
-            result.sightings.push_back({a.sheet, b.sheet, on_a.x(), on_a.y(), on_b.x(), on_b.y()});
+            result.measurements.push_back(
+                {a.sheet, b.sheet, on_a.x(), on_a.y(), on_b.x(), on_b.y()});
         }
     }
     for (const auto& [pair, sums] : seams) {

@@ -44,7 +44,7 @@ Point in_world_from_first(const SheetEntry& entry, double x_mm, double y_mm) {
 std::vector<Disagreement> disagreements(std::span<const SheetEntry> sheets,
                                         const Stitching& stitching) {
     std::vector<Disagreement> result;
-    for (const SeamSighting& seen : stitching.sightings) {
+    for (const SeamMeasurement& seen : stitching.measurements) {
         const SheetEntry& first = sheets[seen.first];
         const SheetEntry& second = sheets[seen.second];
         if (!first.world || !second.world) continue;

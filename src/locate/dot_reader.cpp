@@ -54,7 +54,7 @@ void drop_table(MeasuredDots& dots, float& paper) {
 float dot_radius_px(const Hypothesis& hypothesis) {
     constexpr float kPi = 3.14159265F;
     const float beyond_cut =
-        static_cast<float>(hypothesis.depth_q8 * (256 - kCutOfDepth_q8)) / 65536;
+        static_cast<float>(hypothesis.dot_contrast_q8 * (256 - kContrastCut_q8)) / 65536;
     return std::sqrt(hypothesis.typical_mass / (kPi * std::max(beyond_cut, 1.0F / 256)));
 }
 
@@ -97,7 +97,7 @@ bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px) {
 }
 
 WindowOptions DotReader::window_options(const Hypothesis& hypothesis) const {
-    return {spacing_px_, 0.36F, hypothesis.depth_q8 * kCutOfDepth_q8 >> 8};
+    return {spacing_px_, 0.36F, hypothesis.dot_contrast_q8 * kContrastCut_q8 >> 8};
 }
 
 BitsRead DotReader::read(const CellsInView& view, Hypothesis& hypothesis, BitBlock* block) {
@@ -105,7 +105,7 @@ BitsRead DotReader::read(const CellsInView& view, Hypothesis& hypothesis, BitBlo
     BitLines* const columns = block != nullptr ? &block->columns : nullptr;
     BitLines* const rows = block != nullptr ? &block->rows : nullptr;
     if (hypothesis.is_exact)
-        return kernels_.read_levels(image_, view, hypothesis.depth_q8, dots_, columns, rows);
+        return kernels_.read_levels(image_, view, hypothesis.dot_contrast_q8, dots_, columns, rows);
     WindowOptions window = window_options(hypothesis);
     // In later rounds of a partial view, most windows may be empty. A typical mass estimated from
     // them would be wrong, so these rounds use the typical mass of the first round.

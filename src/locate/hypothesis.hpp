@@ -32,7 +32,7 @@ struct Hypothesis {
     /// `PlaceEvidence::work`).
     bool is_small_view = false;
     /// Contrast of a typical dot after a 1-2-1 filter along both axes, in 1/256 of the paper level.
-    int depth_q8 = 0;
+    int dot_contrast_q8 = 0;
     /// Mass of a typical dot: the darkness beyond the threshold, relative to the paper level,
     /// summed over the pixels of the dot. The value is 0 if the mass is unknown.
     float typical_mass = 0;
@@ -58,7 +58,7 @@ struct RollMemory {
 
 /// Threshold for the contrast of a pixel in a window, in 1/256 of the contrast of a typical dot.
 /// Pixels above the threshold count as part of a dot.
-inline constexpr int kCutOfDepth_q8 = 160;
+inline constexpr int kContrastCut_q8 = 160;
 
 /// Returns the minimum distance of a dot centre to the image border at which the border does not
 /// cut the dot.

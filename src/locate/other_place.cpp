@@ -99,7 +99,8 @@ void name_other_place(CodeVariant read, CodeVariant other, const OtherCodes& oth
 
 void note_other_reading(const CodeReading& any, CodeReading& reading) {
     const bool is_read = any.fix.status == Status::ok || any.fix.status == Status::ambiguous_code;
-    if (!is_read || tuning::cascade::kBitsPerError * any.fix.bit_errors > any.fix.dots_seen) return;
+    if (!is_read || tuning::cascade::kMinDotsPerBitError * any.fix.bit_errors > any.fix.dots_seen)
+        return;
     const bool is_first = any.code != reading.code;
     reading.has_other = is_first || any.has_other;
     reading.other_code = is_first ? any.code : any.other_code;

@@ -22,7 +22,7 @@ void name_other_place(CodeVariant read, CodeVariant other, const OtherCodes& oth
 /// reading of the same frame in any code. If its code differs from the code of `reading`, the other
 /// place is the place of `any`. If both codes are equal, it is the other place of `any`, if there
 /// is one. Does nothing if `any` has no place, or if `any` has more than one bit error per
-/// kBitsPerError dots.
+/// kMinDotsPerBitError dots.
 void note_other_reading(const CodeReading& any, CodeReading& reading);
 
 }  // namespace dotpose::core

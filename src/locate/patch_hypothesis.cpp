@@ -58,7 +58,7 @@ std::optional<Hypothesis> read_grid(const Patch& patch, const PatchGrid& grid, F
                       .from_centre = from_centre,
                       .place = found->place,
                       .displacement = grid.displacement,
-                      .depth_q8 = patch.dot_contrast_q8};
+                      .dot_contrast_q8 = patch.dot_contrast_q8};
 }
 
 std::optional<Hypothesis> read_hypothesis(const Patch& patch, const PatchView& view,

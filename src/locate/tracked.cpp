@@ -90,7 +90,8 @@ bool correct_by_dots(const Frame& frame, int max_px, Hypothesis& hypothesis,
     // Tests at most thirteen shifts along each axis, in steps of about max_px / 6.
     const int step_px = std::max((max_px + 3) / 6, 1);
     FixedVec shift;
-    if (!kernels.find_shift(image, dots, max_px, step_px, shift, hypothesis.depth_q8)) return false;
+    if (!kernels.find_shift(image, dots, max_px, step_px, shift, hypothesis.dot_contrast_q8))
+        return false;
     const FloatVec shift_px{static_cast<float>(shift.x), static_cast<float>(shift.y)};
     plane = recentred(plane, {-shift_px.x, -shift_px.y});
     view.plane = plane;
@@ -108,8 +109,8 @@ bool correct_by_dots(const Frame& frame, int max_px, Hypothesis& hypothesis,
     // Uses windows around intersections, because they can measure larger offsets than centroid
     // windows.
     kernels.list_cells(view, dots);
-    kernels.measure_windows(image, view, {spacing, 0.3F, hypothesis.depth_q8 * kCutOfDepth_q8 >> 8},
-                            dots);
+    kernels.measure_windows(
+        image, view, {spacing, 0.3F, hypothesis.dot_contrast_q8 * kContrastCut_q8 >> 8}, dots);
     return fit_similarity(kernels, dots, reach, hypothesis.displacement, tuned::kFirstOff, plane) &&
            fit_similarity(kernels, dots, reach, hypothesis.displacement, tuned::kSecondOff, plane);
 }

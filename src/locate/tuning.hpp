@@ -270,7 +270,7 @@ inline constexpr float kBetterOdds = 2;
 /// Minimum number of dots per wrong bit at which a reading in another code is reported. A dot has
 /// two bits, so in such a reading, at most one bit in a hundred is wrong. Misread bits can cause
 /// such an error rate even if the reading is correct.
-inline constexpr int kBitsPerError = 50;
+inline constexpr int kMinDotsPerBitError = 50;
 /// Minimum odds, relative to the fix, at which a different place in another code is reported in
 /// addition to a certain fix.
 inline constexpr float kNamedElsewhere = 0.99F;

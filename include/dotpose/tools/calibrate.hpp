@@ -311,7 +311,7 @@ struct Seam {
 };
 /// Position of the image centre of one frame on two sheets, relative to the first intersection of
 /// each sheet, in nominal mm.
-struct SeamSighting {
+struct SeamMeasurement {
     std::size_t first = 0;  ///< index of the first sheet
     std::size_t second = 0;
     double first_x_mm = 0;
@@ -325,7 +325,7 @@ struct Stitching {
     std::vector<SheetEntry> sheets;
     std::vector<StitchedSheet> stitched;
     std::vector<Seam> seams;
-    std::vector<SeamSighting> sightings;  ///< sightings of pairs of connected sheets
+    std::vector<SeamMeasurement> measurements;  ///< measurements of pairs of connected sheets
     /// Names of the sheets that no chain of frames connects to the fixed sheet.
     std::vector<std::string> unconnected;
     int frames = 0;

@@ -133,9 +133,9 @@ struct PrintField {
     double contrast = 0;      ///< darkness at the centres of the dots relative to the paper, 0 to 1
     /// False if the sizes and the contrast cannot be measured, because of the blur and the tone
     /// curve of a photo.
-    bool are_sizes_told = true;
+    bool are_sizes_measured = true;
     /// False if missing and wrong dots cannot be detected, because of the noise of a photo.
-    bool are_dots_told = true;
+    bool are_dots_checked = true;
 
     double covered_share() const { return covered > 0 ? double(covered) / (covered + cells) : 0; }
     double missing_share() const { return cells > 0 ? double(missing) / cells : 0; }

@@ -323,12 +323,12 @@ struct Kernels {
     void (*refine_centres)(const ImageView& image, const CellsInView& view, float radius_px,
                            MeasuredDots& dots);
     /// Reads cell bits from the grey levels at the four places. The darkest place counts as the
-    /// dot, so the places must be predicted to within a fraction of the displacement. `depth_q8` is
-    /// the contrast of a typical dot, in 1/256 of the paper level. Compares the bits with the code,
-    /// and adds them to lines, as `read_bits` does. Drops dots that are not read or have a wrong
-    /// bit. Sets `projected` and `squares` to 0. Reads nothing if stride_bytes * height_px of the
-    /// image may exceed INT32_MAX.
-    BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int depth_q8,
+    /// dot, so the places must be predicted to within a fraction of the displacement.
+    /// `dot_contrast_q8` is the contrast of a typical dot, in 1/256 of the paper level. Compares
+    /// the bits with the code, and adds them to lines, as `read_bits` does. Drops dots that are not
+    /// read or have a wrong bit. Sets `projected` and `squares` to 0. Reads nothing if stride_bytes
+    /// * height_px of the image may exceed INT32_MAX.
+    BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int dot_contrast_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Measures predicted dots as `refine_centres` does, with radius kPredictedCentroidRadius_px.
     /// Drops dots whose offset exceeds `max_off_px`. The offset of a dot is `weight_px` times the

@@ -265,8 +265,8 @@ TEST(CheckPrint, photos_of_a_flawless_print_have_no_faults_and_no_scale) {
 TEST(CheckPrint, photos_tell_missing_dots) {
     const PrintCheck result = check(phone_photo(10 * kDegree_rad, 0.04, 0.04), 72);
     ASSERT_EQ(result.fields.size(), 1U);
-    EXPECT_TRUE(result.fields[0].are_dots_told);
-    EXPECT_FALSE(result.fields[0].are_sizes_told);
+    EXPECT_TRUE(result.fields[0].are_dots_checked);
+    EXPECT_FALSE(result.fields[0].are_sizes_measured);
     EXPECT_NEAR(result.fields[0].missing_share(), 0.04, 0.006);
     EXPECT_THAT(faults(result), ElementsAre("missing"));
 }

@@ -180,7 +180,7 @@ TEST(DrawStitching, ShowsSheetsBeforeAndAfter) {
     before[0].world = WorldPose{0, 0, 0};
     const auto stitching =
         stitch_sheets(6, upper_seam(kTable, model), before, true_camera(model), {});
-    ASSERT_EQ(stitching.sightings.size(), 6U);
+    ASSERT_EQ(stitching.measurements.size(), 6U);
     const test::TemporaryDirectory directory;
     const auto path = directory.path() / "stitching.svg";
     const auto picture = [&] {

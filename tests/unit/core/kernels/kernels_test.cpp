@@ -253,15 +253,15 @@ TEST_F(KernelsTest, LevelsAndCentresOfPredictedDotsAreTheSame) {
         RandomView random(picture.view.width_px, picture.view.height_px, spacing_px,
                           rng.below(2) * 0.03, rng);
         random.view.first_column = random.view.first_row = -60;
-        const int depth_q8 = whole(rng, 0, 256);
+        const int dot_contrast_q8 = whole(rng, 0, 256);
         DotTable listed(4096);
         portable_kernels().list_cells(random.view, listed.dots);
         expect_same([&](const Kernels& kernels, Record& all) {
             DotTable table(listed);
             BitLines columns;
             BitLines rows;
-            all.add(kernels.read_levels(picture.view, random.view, depth_q8, table.dots, &columns,
-                                        &rows));
+            all.add(kernels.read_levels(picture.view, random.view, dot_contrast_q8, table.dots,
+                                        &columns, &rows));
             record(columns, all);
             record(rows, all);
             all.add(kernels.find_centres(picture.view, random.view, 1, 0, table.dots));
