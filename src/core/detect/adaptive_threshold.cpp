@@ -12,8 +12,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Half of the threshold 256, which is above all grey levels. With this sentinel after the last
-/// column, the search for dark pixels always ends.
+/// Half of 256, a threshold above all grey levels. It is stored after the last column as a
+/// sentinel, so that the search for dark pixels always ends.
 constexpr std::uint8_t kAlwaysDark = 128;
 
 constexpr int kBandsKept = 4;  // three bands suffice, but indexing is faster with a power of two
@@ -24,7 +24,8 @@ std::span<Tile> tiles_of(const AdaptiveThreshold& threshold, int band) {
     return threshold.tiles.subspan(static_cast<std::size_t>(band & (kBandsKept - 1)) * n, n);
 }
 
-/// Copies all whole blocks of kBlock bytes. Advances both pointers to the end of the last block.
+/// Copies as many whole blocks of kBlock bytes as fit. Advances both pointers to the end of the
+/// last block.
 template <std::size_t kBlock>
 void copy_blocks(const std::uint8_t*& from, const std::uint8_t* end, std::uint8_t*& to) {
     for (; end - from >= static_cast<std::ptrdiff_t>(kBlock); from += kBlock, to += kBlock)
@@ -36,8 +37,8 @@ void keep_row(const std::uint8_t* pixels, const AdaptiveThreshold& threshold, st
     const std::uint8_t* const end = pixels + threshold.width_px;
     std::uint8_t* const whole = row + whole_width(threshold);
     if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {
-        // Compilers inline copies of constant size. The `memcpy` functions of small devices copy
-        // single bytes, which is slower.
+        // Compilers inline copies of constant size. On small devices, the library's `memcpy` is
+        // slower, because it copies byte by byte.
         copy_blocks<28>(pixels, end, row);
         copy_blocks<12>(pixels, end, row);
         copy_blocks<4>(pixels, end, row);
@@ -99,7 +100,7 @@ inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     return column + kTileWidth_px;
 }
 
-/// Number of tiles for each contrast. The contrast is a fraction of the paper level, in bins of
+/// Histogram of tile contrasts. A contrast is a fraction of the paper level, and the bin width is
 /// 1/kContrastBins.
 using Histogram = std::array<std::uint16_t, kContrastBins>;
 
@@ -128,9 +129,9 @@ int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::siz
 }
 
 /// Returns the typical contrast of dots in a band relative to the paper level, in 1/256, or 0 if no
-/// tile has contrast. The relative contrast does not depend on the light, because ink reflects the
-/// same fraction of it everywhere. The 30 % quantile over the tiles is typical of dots even if
-/// strokes of graphics, which have more contrast, cross the band.
+/// tile has contrast. The relative contrast does not depend on the illumination, because ink
+/// reflects the same fraction of the light everywhere. The 30 % quantile over the tiles is typical
+/// of dots even if graphics, which have more contrast, cross the band.
 unsigned typical_contrast_q8(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                              int min_contrast, int& max_contrast) {
     Histogram histogram{};
@@ -200,13 +201,13 @@ int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold) {
 
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold) {
     const auto tiles = static_cast<std::size_t>(threshold.tiles_per_band);
-    // The memory for thresholds temporarily stores one value per tile. The paper levels are at the
-    // end of `half_low_levels`, because `set_levels` overwrites the end last.
+    // The threshold buffers temporarily store one value per tile. The paper levels are at the end
+    // of `half_low_levels`, because `set_levels` overwrites the end last.
     std::uint8_t* const papers = threshold.half_low_levels.data() + whole_width(threshold) - tiles;
     std::uint8_t* const darknesses = threshold.high_levels.data();
     join_bands(three_bands(threshold, band), tiles, papers, darknesses);
-    // Takes the maximum darkness of each tile and its two neighbours, because the dot spacing may
-    // exceed the tile width, so a tile may contain no dot. The paper level needs no such maximum,
+    // Takes the maximum darkness over each tile and its two neighbours, because a tile may contain
+    // no dot if the dot spacing exceeds the tile width. The paper level needs no such maximum,
     // because every tile contains paper.
     join_neighbours(darknesses, tiles);
     // If the last tile is mostly padding, raises its paper level to at least that of the preceding

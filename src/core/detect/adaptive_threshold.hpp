@@ -63,9 +63,9 @@ int take_row(const std::uint8_t* pixels, AdaptiveThreshold& threshold);
 /// be called for each band in order, when `take_row` reports the band as ready.
 void measure_levels(int band, const ThresholdOptions& options, AdaptiveThreshold& threshold);
 
-/// Returns the contrast below which a tile in the next band is blank, in grey levels. The limit
-/// grows with the largest contrast so far, from `options.min_contrast` to twice this value, so that
-/// noise in blank tiles is rejected once tiles with dots have been measured.
+/// Returns the contrast below which a tile in the next band is considered blank, in grey levels.
+/// The limit increases with the largest contrast so far, from `options.min_contrast` to twice this
+/// value. Once tiles with dots have been measured, it therefore rejects noise in blank tiles.
 int min_tile_contrast(const ThresholdOptions& options, const AdaptiveThreshold& threshold);
 
 inline int band_count(const AdaptiveThreshold& threshold) {
@@ -78,7 +78,7 @@ inline int band_begin(const AdaptiveThreshold& threshold, int band) {
 inline int band_end(const AdaptiveThreshold& threshold, int band) {
     return std::min((band + 1) * threshold.band_px, threshold.height_px);
 }
-/// Returns the width of all tiles in a band together, which is also the stride of the stored rows.
+/// Returns the total width of the tiles in a band, which is also the stride of the stored rows.
 inline int whole_width(const AdaptiveThreshold& threshold) {
     return threshold.tiles_per_band * kTileWidth_px;
 }

@@ -18,13 +18,13 @@ constexpr std::uint32_t kMaxMass = 65535;
 /// Value of `OpenBlob::last_v` for a blob that was merged into another blob.
 constexpr std::uint16_t kNoRow = UINT16_MAX;
 
-/// Returns an upper bound on the distance between a dot and the image centre, per axis.
+/// Returns an upper bound on the distance from the image centre to any dot, along each axis.
 int all_within_px(const AdaptiveThreshold& threshold) {
     return std::max(threshold.width_px, threshold.height_px);
 }
 
-/// Predicate that is true if a dot is at most `DotList::kept_within_px` from the image centre, per
-/// axis.
+/// Predicate that is true if a dot is at most `DotList::kept_within_px` from the image centre along
+/// each axis.
 struct IsKept {
     FixedVec image_centre_q8;
     std::int32_t within_q8;
@@ -60,8 +60,8 @@ void keep_dots(DotList list, Predicate is_to_keep) {
     return true;
 }
 
-/// Returns sum / mass in units of 1/256, rounded. For the largest blobs, drops the lowest bits to
-/// stay within 32 bits.
+/// Returns sum / mass in units of 1/256, rounded. For the largest blobs, discards the lowest bits
+/// to avoid overflow of 32 bits.
 std::int32_t mean_q8(std::uint32_t sum, std::uint32_t mass) {
     for (; sum >= 1U << 23; sum /= 2)
         mass /= 2;

@@ -56,8 +56,8 @@ struct DotList {
 /// Starts a new frame. Discards all blobs and dots.
 void begin_blobs(const AdaptiveThreshold& threshold, OpenBlobs& open, DotList list);
 
-/// Finds the runs of row `v`, and adds them to the blobs above. A blob that ended in the row above
-/// is added to the list if it may be a dot.
+/// Finds the runs of row `v`, and connects them to the open blobs. Closes the blobs that do not
+/// continue in this row, and adds a closed blob to the list if it may be a dot.
 void grow_blobs(int v, const AdaptiveThreshold& threshold, OpenBlobs& open, DotList list);
 
 /// Removes blobs with too few pixels, a mass far below the upper quartile, or an area far above the

@@ -48,7 +48,7 @@ ImageView derotated(const ImageView& image, const ReadoutTurn& turn,
     std::uint8_t* out = memory.data();
     for (int v = 0; v < image.height_px; ++v) {
         const float y = static_cast<float>(v) - centre_v;
-        // The first source point of a row is computed with six Newton steps. For each further
+        // The first source point of a row is computed with six Newton steps. For each subsequent
         // point, the iteration starts from an extrapolated row, so one step suffices.
         FloatVec first = turn.seen_from({-centre_u, y}, y, 6);
         float down = 0;
@@ -65,7 +65,7 @@ ImageView derotated(const ImageView& image, const ReadoutTurn& turn,
             const Quadratic v_q8(to_q8(first.y, centre_v), to_q8(middle.y, centre_v),
                                  to_q8(last.y, centre_v));
             const int count = std::min(kStep_px, image.width_px - u);
-            // These are two loops, because compilers vectorise the first loop but not the second.
+            // The work is split into two loops, because compilers can vectorise only the first one.
             std::array<int, kStep_px> us;
             std::array<int, kStep_px> vs;
             for (int i = 0; i < kStep_px; ++i) {

@@ -1,4 +1,4 @@
-// Derotate: removes the rotation of the scene from an image of a rolling shutter.
+// Derotate: removes the rotation of the scene from a rolling-shutter image.
 #pragma once
 
 #include <cstdint>

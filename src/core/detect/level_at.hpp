@@ -1,4 +1,4 @@
-// Level at: the grey level of an image at a sub-pixel point.
+// Level at: interpolates the grey level of an image at a sub-pixel point.
 #pragma once
 
 #include "dotpose/geometry.hpp"

@@ -16,8 +16,8 @@ int blocks_along(int length_px, int side) {
     return (length_px - 1) / side + 1;
 }
 
-/// Returns the paper level of a block: the highest grey level that at least a third of the sampled
-/// pixels reach. The samples are evenly spaced.
+/// Returns the paper level of a block: the highest grey level that at least a third of the evenly
+/// spaced samples reach or exceed.
 std::uint8_t paper_of_block(const ImageView& image, int u0, int v0, int side) {
     static_assert(kSamplesPerSide * kSamplesPerSide <= UINT8_MAX);
     std::array<std::uint8_t, 256> pixels_of_level{};

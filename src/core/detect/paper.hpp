@@ -20,10 +20,10 @@ struct PaperMap {
     std::span<std::uint8_t> brightest;
 };
 
-/// Measures the paper level of each block, which is the highest grey level that at least a third of
-/// the sampled pixels reach. If a block is much darker than an adjacent block, it is assumed to be
-/// under graphics, and its level is replaced with that of its brightest neighbour. The block side
-/// is a tenth of the shorter image side.
+/// Measures the paper level of each block: the highest grey level that at least a third of the
+/// sampled pixels reach or exceed. If a block is much darker than an adjacent block, it is assumed
+/// to be under graphics, and its level is replaced with that of its brightest neighbour. The block
+/// side is a tenth of the shorter image side.
 void measure_paper(const ImageView& image, PaperMap& map);
 
 /// Returns the index of the block at a pixel. Pixels outside the image belong to the nearest block.

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kWord_px = sizeof(Word);
 
-/// Returns a word in which the top bit of each byte is set if the pixel is light, which means not
+/// Returns a word in which the top bit of each byte is set if the pixel is light, that is, not
 /// darker than the low threshold. The lower bits are undefined.
 Word light_tops(Word pixels, Word half_low) {
     return (pixels >> 1 | kTops) - half_low;
@@ -26,8 +26,8 @@ bool is_group_light(const std::uint8_t* pixels, const std::uint8_t* half_low_lev
     return tops == kTops;
 }
 
-/// Returns the first dark pixel of a row at or after `begin`, or the row end. The search never
-/// passes the row end, because the sentinel after the last threshold makes every pixel there dark.
+/// Returns the first dark pixel of a row at or after `begin`, or the row end. The search never goes
+/// past the row end, because the sentinel after the last threshold makes any pixel there dark.
 const std::uint8_t* find_dark(const std::uint8_t* begin, const std::uint8_t* row,
                               const std::uint8_t* half_low_levels) {
     const auto before = static_cast<std::size_t>(begin - row) % kWord_px;

@@ -1,6 +1,7 @@
-// Smooth: the image filter of the second attempt. The filter normalises the light, averages noise
-// over about the area of a blurred dot, and removes single defective pixels. Unlike the paper, the
-// second attempt filters the image before it detects dots. See docs/differs-from-paper.md.
+// Smooth: the image filter of the second attempt. The filter normalises the illumination, averages
+// noise over about the area of a blurred dot, and removes isolated defective pixels. Unlike the
+// paper, the second attempt filters the image before it detects dots. See
+// docs/differs-from-paper.md.
 #pragma once
 
 #include <cstdint>

@@ -8,8 +8,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Distance between the rows of a band that are measured. It is small enough that the measured rows
-/// cross some of the dots in each tile.
+/// Distance between the measured rows of a band. It is small enough that these rows cross some of
+/// the dots in each tile.
 constexpr int kRowsEvery = 4;
 
 struct Rows {

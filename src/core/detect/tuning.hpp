@@ -54,11 +54,11 @@ inline constexpr int kMinTiles = 12;
 /// darkness.
 inline constexpr int kPaleParts = 6;
 inline constexpr float kMaxPale = 0.75F;
-/// Minimum darkness of a dot divided by the darkness of a typical dot, in 1/256. Lighter minima
-/// count as noise.
+/// Minimum darkness of a dot, in 1/256 of the darkness of a typical dot. Lighter minima are treated
+/// as noise.
 inline constexpr int kThreshold_q8 = 150;
-/// Distances at which the surroundings of a minimum are tested, along the axes and diagonally, in
-/// px. At most kMaxDark of the eight directions may be dark. The limit is not 0, because
+/// Distances from a minimum at which its surroundings are tested, along the axes and diagonally, in
+/// patch pixels. At most kMaxDark of the eight directions may be dark. The limit is not 0, because
 /// neighbouring dots may be in some of the directions.
 inline constexpr int kAway_px = 4;
 inline constexpr int kDiagonally_px = 3;

@@ -13,7 +13,7 @@ void undistort(const FixedLens& lens, FixedVec image_centre_q8, std::span<Detect
 
 /// Adds the distortion to an undistorted image point: r_d = 2 r_u / (1 + sqrt(1 - 4 k r_u^2)). This
 /// is the inverse of `undistorted` (paper, eq. 2). If the point is so far from the distortion
-/// centre that no image point corresponds to it, the root counts as 0.
+/// centre that no image point corresponds to it, the root is replaced with 0.
 FixedVec distorted(const FixedLens& lens, FixedVec image_centre_q8, FixedVec point_q8);
 
 /// Returns the distorted image point of a plane point, in 2^-8 px. The centre of the plane is the

@@ -1,6 +1,7 @@
-// Kernels: the inner loops over pixels, dots and cells. The desktop attempts spend most of their
-// time in these loops. There is one implementation per vector width. All implementations return
-// bit-identical results, and `select.hpp` chooses the fastest. Image lengths are in px.
+// Kernels: the inner loops over pixels, dots and cells. On desktop processors, locating a frame
+// spends most of its time in these loops. There is one implementation per vector width. All
+// implementations return bit-identical results, and `select.hpp` chooses the fastest. Lengths in
+// the image are in px.
 //
 // A cell is a grid intersection with its dot. The *places* of a cell are the four points where its
 // dot may be printed: above, left, right and below the intersection.
@@ -26,7 +27,7 @@ struct Waves {
     std::array<float, 2> kx{};
     std::array<float, 2> ky{};
     /// Total power: the sum of phase_cos^2 + phase_sin^2 over both waves. It is about 2 n^2 for n
-    /// dots on intersections.
+    /// dots that are exactly on intersections.
     float power = 0;
     /// Sums over all dots of cos(p) and sin(p), where p = 2 pi (kx x + ky y). The phase of a wave
     /// is atan2(phase_sin, phase_cos).
@@ -68,16 +69,15 @@ struct CellSums {
 /// Maximum number of columns in view, at any rotation of the grid. The same limit applies to rows.
 inline constexpr int kMaxLinesInView = 1024;
 
-/// Positions at which `list_cells` places the measurement windows.
+/// Where `list_cells` centres the measurement windows.
 enum class Windows : std::uint8_t { none, on_intersections, on_dots };
 
 /// Options for `list_cells`, which lists the cells with a visible dot.
 struct CellsInView {
-    /// Map from image points to the upright pattern. Image points are relative to (centre_x,
-    /// centre_y).
+    /// Map from image points, relative to (centre_x, centre_y), to the upright pattern.
     FloatPlane plane;
     FloatLens lens;
-    float centre_x = 0;  ///< origin of image points, in px from the image's first pixel
+    float centre_x = 0;  ///< origin of the image points, relative to the first pixel of the image
     float centre_y = 0;
     float width_px = 0;
     float height_px = 0;
@@ -103,11 +103,11 @@ struct CellsInView {
 /// Options for `measure_windows`.
 struct WindowOptions {
     float spacing_px = 11;  ///< spacing at the centre of the view
-    /// Half the window side, in spacings. In px, the half side is clamped to [2,
+    /// Half the side of a window, in spacings. After conversion to px, it is clamped to [2,
     /// kMaxHalfWindow_px].
     float reach = 0.36F;
-    /// A pixel belongs to a dot if its level is below the paper level by more than `cut_q8` / 256
-    /// of the paper level.
+    /// A pixel belongs to a dot if it is darker than the paper by more than `cut_q8` / 256 of the
+    /// paper level.
     int cut_q8 = 128;
     /// Typical mass of a dot, relative to the paper level. The mass is the summed darkness of the
     /// dot's pixels. If 0, `measure_windows` estimates the typical mass from the windows.
@@ -117,8 +117,8 @@ struct WindowOptions {
 inline constexpr int kMaxHalfWindow_px = 24;
 /// Maximum radius of a centroid window.
 inline constexpr float kMaxCentroidRadius_px = 24;
-/// Maximum radius of a small centroid window. Small windows take a tenth of the time of larger
-/// windows.
+/// Maximum radius of a small centroid window. Measuring a small window is ten times as fast as
+/// measuring a larger one.
 inline constexpr float kSmallCentroidRadius_px = 4;
 /// Radius of the centroid window for predicted dots. It is small enough to limit noise, and large
 /// enough to include the edge of a dot at 8 to 13 px per spacing.
@@ -131,8 +131,8 @@ struct FitSums {
     int points = 0;      ///< number of inliers
     int outliers = 0;    ///< number of measured dots that are not inliers
     float farthest = 0;  ///< largest squared residual of an inlier, in spacings^2
-    /// Sum of the offsets of the dots from their intersections, in spacings. Each offset is
-    /// projected onto the direction of the coded displacement.
+    /// Sum of the inliers' offsets from their intersections, in spacings. Each offset is projected
+    /// onto the direction of the dot's coded displacement.
     float projected = 0;
     float squares = 0;  ///< sum of the squared residuals, in spacings^2
     /// Sums of 1, u, v, uu, uv, vv, uuu, uuv, uvv, vvv, quu, quv, qvv, qqu, qqv and qqq, with q =
@@ -166,7 +166,7 @@ struct DotOffsets {
 struct BlockSums {
     static constexpr std::size_t kMaxAlong = 9;
     struct Block {
-        Four sums;  ///< one vector, so that adding a dot takes one addition
+        Four sums;  ///< stored as one vector, so that a dot is added in a single operation
         float inliers() const { return sums[0]; }
         float dots() const { return sums[1]; }  ///< number of measured dots, including outliers
         /// Sum of the residuals of the inliers, in spacings.
@@ -180,7 +180,7 @@ struct BlockSums {
 /// Result of comparing cell bits with the code.
 struct BitsRead {
     int seen = 0;     ///< number of cells with a dark spot
-    int read = 0;     ///< number of `seen` cells whose spot is clearly at one place
+    int read = 0;     ///< number of `seen` cells whose spot is clearly at one of the four places
     int wrong_x = 0;  ///< number of `read` cells whose x bit contradicts the code
     int wrong_y = 0;
     int right = 0;  ///< number of `read` cells without a wrong bit
@@ -191,19 +191,19 @@ struct BitsRead {
     float squares = 0;
 };
 
-/// A line, and the minimum loss of an alternative that does not share it, in a unit that the caller
-/// chooses. The *reading* is the position that was read, and an *alternative* is any other
-/// position. The *loss* of an alternative in a line is the score of the reading minus the score of
-/// the alternative. An alternative *shares* a line if its roll in this line is the roll of the
-/// reading.
+/// A line, with a lower bound on the loss of any alternative that does not share it. The caller
+/// chooses the unit of the loss. The *reading* is the position that was read, and an *alternative*
+/// is any other position. The *loss* of an alternative in a line is the score of the reading minus
+/// the score of the alternative. An alternative *shares* a line if its roll in this line is the
+/// roll of the reading.
 struct LineLoss {
     std::uint8_t line = 0;
     std::uint8_t loss = 0;
 };
 
-/// Places in the secondary sequences at which the bits of an alternative may be similar to those of
-/// the reading. Each entry also contains a line that this alternative shares with the reading, and
-/// a lower bound on the loss of the alternative, in the unit of `LineLoss::loss`.
+/// Places in the secondary sequences at which an alternative may have bits similar to those of the
+/// reading. Each entry also contains a line that the alternative shares with the reading, and a
+/// lower bound on the loss of the alternative, in the unit of `LineLoss::loss`.
 struct SimilarPlaceList {
     static constexpr int kMax = 3072;
     struct Entry {
@@ -247,18 +247,18 @@ struct OffsetBatch {
     std::array<std::array<std::uint8_t, 32>, kMaxLines> offsets;
 };
 
-/// Odds by roll offset. The last element is padding.
+/// Odds, indexed by roll offset. The last element is padding.
 using OddsByOffset = std::array<float, kRollEntries>;
 
-/// Expected odds by the number of shared anchors, from 0 to 6. *Anchors* are the lines with the
-/// most information (docs/integrity.md, "Alternatives: odds").
+/// Expected odds, indexed by the number of shared anchors (0 to 6). *Anchors* are the lines with
+/// the most information (docs/integrity.md, "Alternatives: odds").
 using OddsByShared = std::array<float, 7>;
 
 /// Sums of the n smallest losses, indexed by n from 0 to 8.
 using SmallestSums = std::array<std::int32_t, 9>;
 
-/// Bits of 64 lines with 64 cells each, one word per line. A bit in `valid` is 1 if its cell was
-/// read.
+/// Bits of 64 lines with 64 cells each, one word per line. A bit in `valid` is 1 if the
+/// corresponding cell was read.
 struct BitLines {
     std::array<std::uint64_t, 64> bits{};
     std::array<std::uint64_t, 64> valid{};
@@ -267,17 +267,17 @@ struct BitLines {
 /// Function table for one kernel implementation.
 struct Kernels {
     const char* name;
-    /// Copies the part of the image that the patch covers, downscaled by `Patch::scale`. Adds a
+    /// Copies the image area of the patch, downscaled by `Patch::scale`, and surrounds it with a
     /// white margin.
     void (*fill_patch)(const ImageView& image, Patch& patch);
     /// Smooths the patch with a 1-2-1 filter along both axes. Stores the brightest and the darkest
     /// level in each tile. The brightest level excludes the pixels at the patch border, which the
     /// white margin brightens.
     void (*smooth_patch)(Patch& patch);
-    /// Lists the dots. A dot is a minimum of the smoothed patch that is at most as bright as the
+    /// Lists the dots. A dot is a minimum of the smoothed patch that is no brighter than the
     /// threshold of its tile. Minima in the two outermost rows and columns are ignored. The
-    /// coordinates are in image px relative to the patch centre, with sub-pixel accuracy from
-    /// parabolas through the minimum and its neighbours.
+    /// coordinates are in image px relative to the patch centre. Parabolas through the minimum and
+    /// its neighbours give sub-pixel accuracy.
     void (*find_minima)(Patch& patch);
     /// Returns the strongest pair of perpendicular waves with frequency `per_px`, in cycles per px.
     /// Tries 12 directions in steps of 7.5 degrees.
@@ -290,25 +290,27 @@ struct Kernels {
     /// Assigns each dot to a cell. Returns the sums over the dots near a place of their cell.
     CellSums (*sum_cells)(const PatchDots& dots, const FloatPlane& plane, const CellPass& pass);
     /// Sets the bits of cells whose dots are clearly at one of the four places. The first column
-    /// and row belong to cell (-32, -32). A bit is invalid if two dots in a cell disagree. The bits
-    /// of a cell with three or more dots may be wrong.
+    /// and the first row intersect in cell (-32, -32). A bit is invalid if two dots in a cell
+    /// disagree. The bits of a cell with three or more dots may be wrong.
     void (*read_cells)(const PatchDots& dots, const FloatPlane& plane, float displacement,
                        BitLines& columns, BitLines& rows);
     /// Scores a line of 64 cells at each roll. Each valid cell adds 127 if its bit agrees with the
     /// main sequence, and subtracts 127 otherwise.
     void (*score_line)(std::uint64_t bits, std::uint64_t valid, ScoredLine& line);
-    /// Sums the scores of all lines, for `positions` consecutive positions of the first line.
-    /// `rolls` contains the rolls of consecutive lines of the code, starting at the first position.
+    /// For each of `positions` consecutive positions of the first line, sums the scores of all
+    /// lines. `rolls` contains the rolls of consecutive lines of the code, starting at the first of
+    /// these positions.
     void (*sum_rolls)(const RollScores& scores, const std::uint8_t* rolls, int positions,
                       RollSums* sums);
     /// Lists the cells in view, with their window centres and coded symbols. Sets `x` and `y` to
     /// the expected image points of the dots, including lens distortion. Stops when `dots` is full.
     void (*list_cells)(const CellsInView& view, MeasuredDots& dots);
-    /// Finds the shift from the window centres to the dots: sums the image areas around the first
-    /// 16 dots that are far enough from the image border, and finds the darkest point of the sum.
-    /// Searches shifts up to `max_px` along each axis, in steps of `step_px`, with at most 6 steps
-    /// per direction. Sets `cut_q8` to the contrast at the darkest point, in 1/256 of the paper
-    /// level. Returns false if there are fewer than 8 such dots, or if the sum is black.
+    /// Finds the shift from the window centres to the dots: adds up the pixels around the first 16
+    /// dots that are far enough from the image border, and finds the darkest point of the summed
+    /// image. Searches shifts up to `max_px` along each axis, in steps of `step_px`, with at most 6
+    /// steps per direction. Sets `cut_q8` to the contrast at the darkest point, in 1/256 of the
+    /// paper level. Returns false if there are fewer than 8 such dots, or if the summed image is
+    /// black.
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int max_px, int step_px,
                        FixedVec& shift_px, int& cut_q8);
     /// Sets `x` and `y` to the centroids of the dark pixels in the windows of the dots. Drops dots
@@ -316,17 +318,17 @@ struct Kernels {
     /// mass relative to the paper level.
     float (*measure_windows)(const ImageView& image, const CellsInView& view,
                              const WindowOptions& options, MeasuredDots& dots);
-    /// Replaces the centres with centroids that are weighted by centroid windows. Uses no
-    /// threshold, because a threshold would bias the centres. `radius_px` is at most
-    /// kMaxCentroidRadius_px, and is reduced near the image border. A centre does not change if its
-    /// correction would be 1 px or more. Does nothing if the image is too small for a window.
+    /// Replaces each centre with the weighted centroid of a centroid window. No threshold is
+    /// applied, because a threshold would bias the centres. `radius_px` is at most
+    /// kMaxCentroidRadius_px, and is reduced near the image border. Corrections of 1 px or more are
+    /// not applied. Does nothing if the image is smaller than a window.
     void (*refine_centres)(const ImageView& image, const CellsInView& view, float radius_px,
                            MeasuredDots& dots);
-    /// Reads cell bits from the grey levels at the four places. The darkest place counts as the
-    /// dot, so the places must be predicted to within a fraction of the displacement.
+    /// Reads cell bits from the grey levels at the four places. The dot is assumed to be at the
+    /// darkest place, so the places must be predicted to within a fraction of the displacement.
     /// `dot_contrast_q8` is the contrast of a typical dot, in 1/256 of the paper level. Compares
     /// the bits with the code, and adds them to lines, as `read_bits` does. Drops dots that are not
-    /// read or have a wrong bit. Sets `projected` and `squares` to 0. Reads nothing if stride_bytes
+    /// read or have a wrong bit. Sets `projected` and `squares` to 0. Reads no bits if stride_bytes
     /// * height_px of the image may exceed INT32_MAX.
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int dot_contrast_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
@@ -337,8 +339,8 @@ struct Kernels {
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float max_off_px,
                                float weight_px, MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with the code. Adds the bits to `columns`
-    /// and `rows`, unless either pointer is null. The first column and the first row belong to cell
-    /// (-32, -32). The lines must be empty, and no cell may have two dots.
+    /// and `rows`, unless either pointer is null. The first column and the first row intersect in
+    /// cell (-32, -32). The lines must be empty on entry, and no cell may have two dots.
     BitsRead (*read_bits)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                           BitLines* columns, BitLines* rows);
     /// Returns the sums over the inliers. A dot is an inlier if its squared residual is at most
@@ -347,7 +349,7 @@ struct Kernels {
                        float scale, float limit);
     /// Sums the residuals of the inliers (see `sum_fit`) in each block of a square grid. The grid
     /// has `side` blocks along each axis, and its border is `reach_px` from the plane centre in
-    /// each direction. Dots outside the grid count in the nearest block.
+    /// each direction. Dots outside the grid are added to the nearest block.
     BlockSums (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                             float limit, float reach_px, int side);
     /// Returns the places in a sequence where an alternative may lose less than the loss limit,
@@ -385,8 +387,8 @@ struct Kernels {
     /// sequences `different` (one bit per sequence), and share at most `max_shared` (up to 8)
     /// adjacent lines with it. Assumes that the digits of the alternatives are uniformly
     /// distributed, except for the safety factor `kUnevenness`. `places` are the places of the
-    /// first line. `lines` contains the odds of an alternative in each line, by roll offset. The
-    /// odds at offset 0 are 1, and the padding is 0.
+    /// reading at the first line. `lines` contains the odds of an alternative in each line, by roll
+    /// offset. The odds at offset 0 are 1, and the padding is 0.
     float (*sum_expected_alternatives)(const code::Basis& basis,
                                        const std::array<std::uint32_t, 4>& places,
                                        unsigned different, std::span<const OddsByOffset> lines,

@@ -27,19 +27,19 @@ struct ScoredLine {
     BestScore best;
 };
 
-/// Size of a table indexed by roll: kSections rounded up to whole vectors. The last entry is
-/// unused.
+/// Size of a table indexed by roll: kSections rounded up to a whole number of vectors. The last
+/// entry is unused.
 inline constexpr std::size_t kRollEntries = 64;
 
 /// Scores of up to kMaxLines adjacent lines, indexed by roll. A score is the number of cells that
-/// agree with the main sequence. Each line stores its scores twice in succession, because a load of
-/// kRollEntries scores may start at any roll.
+/// agree with the main sequence. Each line stores its scores twice in succession, so that
+/// kRollEntries consecutive scores can be loaded from any roll.
 struct RollScores {
     int count = 0;  ///< number of lines
     std::array<std::array<std::uint16_t, 2 * kRollEntries>, kMaxLines> lines;
 };
 
-/// Total scores of all lines, indexed by the offset that is added to every roll.
+/// Total score of all lines, indexed by the offset that is added to every roll.
 using RollSums = std::array<std::uint16_t, kRollEntries>;
 
 }  // namespace dotpose::core

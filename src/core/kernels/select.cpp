@@ -4,8 +4,8 @@ namespace dotpose::core {
 
 const Kernels& kernels() {
 #if defined(__wasm__) && !defined(__wasm_simd128__)
-    // Without SIMD instructions, compilers would split each vector into scalars, so scalar code is
-    // better.
+    // Without SIMD instructions, compilers would split each vector into scalars, so the scalar
+    // kernels are faster.
     return portable_kernels();
 #else
     const Kernels* avx2 = avx2_kernels();

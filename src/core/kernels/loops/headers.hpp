@@ -19,8 +19,8 @@
 
 namespace dotpose::core {
 
-/// True if each loop has only its general version, without faster special cases. This is the case
-/// in WebAssembly builds, because their code must be small.
+/// True if only the general version of each loop is compiled, without faster special cases.
+/// WebAssembly builds use this to keep the code small.
 #if defined(__wasm__)
 inline constexpr bool kOneForm = true;
 #else

@@ -22,8 +22,9 @@ struct DarkSums {
 inline constexpr int kHalfOfDiamond = 2;
 
 /// Returns the sums of a square with 2 Half + 1 pixels per side, or of a diamond if Half is
-/// kHalfOfDiamond. `row` is its upper left pixel. The size is a template argument so that compilers
-/// unroll the loops. Inlined code would need more registers than small processors have.
+/// kHalfOfDiamond. `row` points to the upper left pixel of the square. The size is a template
+/// argument so that compilers unroll the loops. The function is not inlined, because its caller
+/// would then need more registers than small processors have.
 template <int Half>
 DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t stride,
                                            std::int32_t level) {
@@ -33,8 +34,8 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
     const auto add_row = [&](int reach) {
 #pragma GCC unroll 16
         for (int x = -reach; x <= reach; ++x) {
-            // Skips paper, which covers most of the pixels. The sign of the difference shows that a
-            // pixel is paper, so a second comparison is not necessary.
+            // Skips paper, which makes up most of the pixels. The sign of the difference already
+            // identifies paper, so no second comparison is needed.
             const std::int32_t darkness = level - row[Half + x];
             if (darkness < 0) continue;
             mass += darkness;
