@@ -9,9 +9,9 @@
 
 namespace dotpose::core {
 
-/// Range of positions along one axis: if the first line of a block is in this range, the block
-/// overlaps a region. The block has `lines` adjacent lines. The region begins at `region_first` and
-/// has `region_size` positions.
+/// Range of positions along one axis at which a block of `lines` adjacent lines overlaps a region.
+/// The position of a block is the position of its first line. The region begins at `region_first`
+/// and has `region_size` positions.
 struct PositionRange {
     std::uint32_t first;
     std::uint32_t count;

@@ -1,4 +1,4 @@
-// Other codes: how well a frame agrees with each code other than the code that was read. The
+// Other codes: the agreement of a frame with each code other than the one that was read. The
 // attempts compute this agreement, and `Locator` compares the codes.
 #pragma once
 
@@ -15,7 +15,7 @@ struct OtherAxis {
     float here = 1;  ///< ratio of the same place in the other code
     /// Upper bound on the summed ratios of all other places.
     float elsewhere = 0;
-    /// Largest ratio among the examined places, without the place that was read.
+    /// Largest ratio among the examined places, excluding the place that was read.
     float best = 0;
     std::uint32_t position = 0;  ///< position of the first compared line at the place with the
                                  ///< ratio `best`

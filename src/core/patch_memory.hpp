@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// Dots in a patch, in px of the image. Coordinates are relative to the middle of the patch, or to
-/// an origin chosen by `move_origin_to_densest`.
+/// Dots in a patch, in image pixels. Coordinates are relative to the middle of the patch, or to an
+/// origin chosen by `move_origin_to_densest`.
 struct PatchDots {
     static constexpr int kMax = 2048;
     int count = 0;
@@ -36,9 +36,9 @@ struct Patch {
     static constexpr int kMinSide_px = 48;
 
     int min_side_px = kMinSide_px;
-    int left_px = 0;  ///< left edge of the patch, in px of the image
+    int left_px = 0;  ///< left edge of the patch, in image pixels
     int top_px = 0;
-    int scale = 1;  ///< side of a patch pixel, in px of the image
+    int scale = 1;  ///< side of a patch pixel, in image pixels
     int width_px = 0;
     int height_px = 0;
     int stride = 0;

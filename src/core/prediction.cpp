@@ -36,8 +36,8 @@ Prediction moved(const Prediction& prediction, CodeVariant code, FixedVec by_q16
     plane.dv_q24 = turned(plane.dv_q24, unit);
     const FixedVec pivot_q16 = plane_point_q16(prediction.pattern_from_image, pivot_q8);
     const FixedVec centre_q16 = pivot_q16 + turned(plane.at_centre_q16 - pivot_q16, unit) + by_q16;
-    // Moves the origin to an intersection near the plane's centre, because the coordinates would
-    // otherwise grow with the distance that the camera moves.
+    // Moves the origin to an intersection near the plane's centre. Otherwise, the coordinates would
+    // grow with the distance that the camera has moved.
     next.place = moved(code, prediction.place, centre_q16.x >> 16, centre_q16.y >> 16);
     plane.at_centre_q16 = {centre_q16.x & 0xFFFF, centre_q16.y & 0xFFFF};
     return next;

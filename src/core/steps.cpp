@@ -94,8 +94,8 @@ Status find_dots(const DeviceOptions& options, Workspace& w) {
     sift_dots(options.blobs, dot_list(w));
     w.fix.dots_seen = w.dot_count;
     if (!w.threshold.has_contrast) return Status::no_contrast;
-    // Requires at least one dot even if min_dots is 0, because later stages compute means over the
-    // dots.
+    // Requires at least one dot even if `min_dots` is 0, because later stages compute means over
+    // the dots.
     if (w.dot_count < std::max(min_dots(options, w), 1)) return Status::too_few_dots;
     undistort(options.lens, image_centre_q8(w.threshold), first(w.dots, w.dot_count));  // eq. 1-2
     return Status::ok;

@@ -46,7 +46,7 @@ inline void detect_row(const std::uint8_t* pixels, const DeviceOptions& options,
 
 void detect_image(const ImageView& image, const DeviceOptions& options, Workspace& w);
 
-/// Returns the minimum number of dots of a grid. Known sheets need fewer dots.
+/// Returns the minimum number of dots in a grid. With known sheets, fewer dots are sufficient.
 inline int min_dots(const DeviceOptions& options, const Workspace& w) {
     return w.known.any() ? std::min(options.lattice.min_dots, kMinKnownDots)
                          : options.lattice.min_dots;
@@ -59,8 +59,7 @@ Status find_dots(const DeviceOptions& options, Workspace& w);
 /// `max_seeds` dots, in a square around `start_q8`. Error: no_grid.
 Status find_axes(FixedVec start_q8, int max_seeds, Workspace& w);
 
-/// Chooses the region of the grid to decode. The size of the region is limited by the memory for
-/// lines.
+/// Chooses the region of the grid to decode. The memory for lines limits the size of the region.
 void choose_region(Workspace& w);
 
 /// Returns `mirrored` if the bits agree with a mirrored pattern, and `reason` otherwise.

@@ -20,8 +20,8 @@ namespace dotpose::core {
 /// the position is doubtful. It takes three times as long as `second`.
 enum class Step : std::uint8_t { first, turning, second, resampled, device };
 
-/// Returns true if the status means that there is a grid of dots, but that its bits do not give a
-/// certain position in this code. Another code may succeed.
+/// Returns true if the status means that the image shows a grid of dots whose bits do not determine
+/// a certain position in this code. An attempt in another code may succeed.
 bool leaves_code_open(Status status);
 
 /// Makes attempts at one frame. The results of the last attempt are in the workspace.
@@ -36,15 +36,15 @@ class Attempts {
     /// Makes an attempt in one code. Returns true if there is a fix.
     bool make(Step step, CodeVariant code);
 
-    /// Returns the codes in which the step should be tried, most likely code first. If several
-    /// codes are possible, returns at most one code for `resampled`: the code with the fewest bit
-    /// errors among the codes in which `second` was not certain.
+    /// Returns the codes in which the step should be tried, starting with the most likely code. If
+    /// several codes are possible, returns at most one code for `resampled`: the code with the
+    /// fewest bit errors among the codes in which `second` was not certain.
     std::span<const CodeVariant> codes_for(Step step) const;
     /// Returns true if the options allow a second attempt and the image is large enough for one.
     bool may_try_twice() const;
 
-    /// Returns the certainty of the fix of the last attempt, and the odds of the other codes. The
-    /// attempt was made in the code `read`.
+    /// Judges the fix of the last attempt, which was made in the code `read`. Returns its certainty
+    /// and the odds of the other codes.
     Judgement judge(CodeVariant read) const;
     /// Returns true if a rotation of the scene during the readout may explain the residuals of the
     /// fix. A search for this rotation (`Step::turning`) may then give a better fix.

@@ -8,11 +8,11 @@
 namespace dotpose {
 namespace {
 
-/// Two frames count as frames of the same place if their distance along each axis is below this
+/// Two frames are considered to show the same place if their distance along each axis is below this
 /// limit, in cells. Such frames may contain the same dots.
 constexpr std::uint32_t kSamePlace_cells = 64;
-/// Maximum number of frames counted at one place. Further frames are ignored. A float represents
-/// all integers up to this number exactly.
+/// Maximum number of frames that are counted at one place. Further frames are ignored. A float
+/// represents all integers up to this limit exactly.
 constexpr std::uint32_t kMaxFrames = 1U << 23;
 
 bool is_near(std::uint32_t a, std::uint32_t b) {

@@ -50,10 +50,10 @@ bool is_clean(const BitsRead& bits) {
                std::max(tuned::kMaxWrong, bits.read / tuned::kDotsPerWrong);
 }
 
-/// Returns true if most of the dots seen are not clear, and a significant fraction of the bits read
-/// is wrong. Such a frame may show two patterns on top of each other whose grids are shifted by a
-/// fraction of the spacing. The x bits that are read may then be those of one pattern, and the y
-/// bits those of the other pattern.
+/// Returns true if few of the dots seen were read without a wrong bit, and a significant fraction
+/// of the bits read is wrong. Such a frame may show two overlapping patterns whose grids are offset
+/// by a fraction of the spacing. The x bits may then come from one pattern, and the y bits from the
+/// other.
 bool shows_overlay(const BitsRead& bits) {
     return static_cast<float>(bits.right) < tuned::kMinRight * static_cast<float>(bits.seen) &&
            static_cast<float>(bits.wrong_x + bits.wrong_y) >
@@ -135,16 +135,16 @@ void write_results(const Frame& frame, const Hypothesis& hypothesis, const BitsR
     fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536);
     write_pose(plane, reference, frame.options.code, hypothesis.place, fix);
     estimate_covariance(fit, plane, reference, fix);
-    // Makes the plane relative to the image centre, because predictions require this.
+    // Predictions require a plane that is relative to the image centre.
     if (!(from_q8 == FixedVec{}))
         fix.pattern_from_image = fixed_plane(centred_plane(hypothesis), middle_q8);
     fix.status = Status::ok;
 }
 
-/// Returns true if the fit moved a corner of the measured part by more than kFar spacings along an
-/// axis. The dots must then be measured again, because small centroid windows do not measure such
-/// large offsets accurately. The measured part is the part of the image within `reach_px` of the
-/// image centre.
+/// Returns true if the fit moved a corner of the measured area by more than kFar spacings along an
+/// axis. The measured area is the part of the image within `reach_px` of the image centre. After
+/// such a motion, the dots must be measured again, because small centroid windows do not measure
+/// large offsets accurately.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
                  float reach_px) {
     const FloatVec centre = centre_px(image);
@@ -168,8 +168,8 @@ FloatVec reference_px(const DeviceOptions& options, const Hypothesis& hypothesis
 /// distance grows from round to round.
 struct Reach {
     float full;  ///< distance that includes the whole image
-    /// Distance within which the bits must make the position certain. Bits beyond this distance do
-    /// not count as evidence for the position.
+    /// Distance within which the bits must make the position certain. Bits beyond this distance are
+    /// not used as evidence for the position.
     float deciding;
     float now;  ///< distance of the current round
 
@@ -287,7 +287,7 @@ Confirmation measure_and_compare(const Frame& frame, Hypothesis hypothesis,
 }
 
 /// Returns true if the image contains few cells. In such an image, the position may be certain only
-/// if dots cut by the image border are also read.
+/// if dots that are cut off by the image border are also read.
 bool has_few_cells(const Frame& frame, const Hypothesis& hypothesis) {
     const float spacing = spacing_px(hypothesis.pattern_from_image);
     const auto pixels = static_cast<float>(frame.image.width_px * frame.image.height_px);

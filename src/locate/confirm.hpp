@@ -32,11 +32,12 @@ bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 /// Result of `confirm`.
 enum class Confirmation : std::uint8_t {
     ok,
-    implausible,   ///< the plane is not plausible, or the dots or their bits contradict the
-                   ///< hypothesis
-    uncertain,     ///< the hypothesis is plausible, but its position is not certain
-    too_few_bits,  ///< same as `uncertain`, but all bits in view are clear and agree with the code,
-                   ///< or in small views nearly all bits
+    implausible,  ///< the plane is not plausible, or the dots or their bits contradict the
+                  ///< hypothesis
+    uncertain,    ///< the hypothesis is plausible, but its position is not certain
+    /// Same as `uncertain`, but all bits in view (in small views, nearly all bits) are clear and
+    /// agree with the code.
+    too_few_bits,
 };
 
 /// Memory and results of `confirm`.
@@ -47,7 +48,7 @@ struct Measurement {
     Hypothesis hypothesis;              ///< with the fitted plane
     PlaneFromImage pattern_from_image;  ///< plane of `hypothesis`, in fixed point
     TurnFit turn;                       ///< fitted rotation, if `Frame::removed_turn` is not null
-    /// Number of bits that were read to decide whether the place is certain, two per dot. Not set
+    /// Number of bits that were used to decide whether the place is certain, two per dot. Not set
     /// if `Hypothesis::is_certain` is true.
     int bits = 0;
     /// True if the frame shows fewer cells than a certain position needs without known sheets, or
@@ -55,9 +56,9 @@ struct Measurement {
     /// are then skipped. Computed only if the result is `too_few_bits`.
     bool shows_too_few_cells = false;
     /// True if the result of the first attempt is `too_few_bits`, that is, its bits are clear but
-    /// too few for a certain position. The scene then did not rotate during the readout. A rotation
-    /// would have moved some dots away from their predicted places, and their bits would not be
-    /// clear.
+    /// too few for a certain position. In this case, the scene did not rotate during the readout,
+    /// because a rotation would have moved some dots away from their predicted places, and their
+    /// bits would not be clear.
     bool has_clear_bits = false;
 };
 

@@ -14,8 +14,8 @@ namespace {
 namespace tuned = tuning::confirm;
 
 /// Prefetches the pixels in view if they occupy kMinFetched_bytes to kMaxFetched_bytes. A new
-/// camera image is not in the cache, and hardware does not prefetch pixels that are read in this
-/// order.
+/// camera image is not in the cache, and hardware prefetchers do not recognise the order in which
+/// the pixels are read.
 void fetch_pixels(const ImageView& image, const CellsInView& view) {
     constexpr std::ptrdiff_t kLine_bytes = 64;
     const auto range = [&](float centre, int size_px) {
@@ -37,7 +37,7 @@ void fetch_pixels(const ImageView& image, const CellsInView& view) {
 
 /// Drops windows that are much darker than the paper. Such windows are on the table beyond the
 /// sheet, where noise can look like dots. `paper` is the mean level around dots. If `paper` is 0,
-/// only sets `paper` to the measured level.
+/// drops nothing and sets `paper` to the measured level.
 void drop_table(MeasuredDots& dots, float& paper) {
     float sum = 0;
     float count = 0;
@@ -90,8 +90,8 @@ bool can_sample_directly(const Hypothesis& hypothesis) {
 
 bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px) {
     if (variance_px2 > tuned::kMaxVariance_px2) return false;
-    // Change of the phase from one dot to the next, in px, if the phase changes by kDriftInView_px
-    // across the view.
+    // Phase difference between adjacent dots, in px, if the phase changes by kDriftInView_px across
+    // the view.
     const float drift_px = tuned::kDriftInView_px * spacing_px(plane) / static_cast<float>(side_px);
     return has_common_phase(plane, drift_px);
 }
@@ -147,9 +147,9 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
         FloatPlane& plane = hypothesis.pattern_from_image;
         const auto points = static_cast<float>(found.points);
         bits.right = found.points;
-        // Sum over all dots of the vector from the intersection to the dot, projected onto the
-        // direction of the coded displacement. This projection is the predicted displacement plus
-        // the projected offset from the predicted point, converted from px to spacings.
+        // Sum of the vectors from the intersections to the dots, each projected onto the direction
+        // of the coded displacement. Each projection is the predicted displacement plus the
+        // projected offset from the predicted point, converted from px to spacings.
         bits.projected = points * hypothesis.displacement + plane.du_x * found.of_x[0] +
                          plane.dv_x * found.of_x[1] + plane.du_y * found.of_y[0] +
                          plane.dv_y * found.of_y[1];

@@ -31,7 +31,8 @@ class DotReader {
     /// Reads the bits of the measured dots again, with the new plane of the hypothesis. Overwrites
     /// `block`.
     BitsRead read_again(const Hypothesis& hypothesis, BitBlock& block) const;
-    /// Drops the measured dots that the image border cuts, because their centroids are biased.
+    /// Drops the measured dots that are cut off by the image border, because their centroids are
+    /// biased.
     void drop_cut_dots(const Hypothesis& hypothesis) const;
     /// Measures the dot centres in centroid windows. If the hypothesis is not exact, does nothing
     /// unless `is_last` is true. If the hypothesis is exact, also fits its plane to the centres,
@@ -40,10 +41,9 @@ class DotReader {
     void find_centres(const CellsInView& view, Hypothesis& hypothesis, bool is_last,
                       BitsRead& bits) const;
     /// Measures the centres again and subtracts the pixel bias if the bias is significant (see
-    /// `may_be_biased`). The plane must be fitted to the current centres before the call, and to
-    /// the corrected centres after the call. Sets `remaining_px2` to the variance of the mean
-    /// centre due to the remaining bias. Returns false without any change if the bias is not
-    /// significant.
+    /// `may_be_biased`). The plane must have been fitted to the current centres, and must be fitted
+    /// again to the corrected centres. Sets `remaining_px2` to the variance of the mean centre due
+    /// to the remaining bias. If the bias is not significant, returns false and changes nothing.
     bool correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                             const PoseFit& fit, FloatVec& remaining_px2) const;
     /// Corrects the bias of facing dots, which are adjacent dots displaced towards each other (see

@@ -58,8 +58,8 @@ void count_overlap(const BitLines& a, const BitLines& b, int across, int along, 
     }
 }
 
-/// Returns log2 of the likelihood ratio of two assumptions, given the bits of the overlap: that
-/// both blocks show the same cells, and that the blocks show unrelated parts of the pattern.
+/// Returns log2 of a likelihood ratio, given the overlapping bits: the likelihood that both blocks
+/// show the same cells, divided by the likelihood that they show unrelated parts of the pattern.
 float log2_ratio(const Overlap& overlap) {
     return tuned::kEqualBit_log2 * static_cast<float>(overlap.shared - overlap.different) +
            tuned::kDifferentBit_log2 * static_cast<float>(overlap.different);

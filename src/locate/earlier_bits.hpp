@@ -1,6 +1,6 @@
 // Earlier bits: the bits of earlier frames, in the grid of the newest earlier frame. A measured
-// motion relates this grid to the current grid. Frames that are not certain alone can be certain
-// together. See docs/integrity.md, "Frames read together".
+// motion relates this grid to the current grid. Frames whose positions are not certain individually
+// may determine a certain position together. See docs/integrity.md, "Frames read together".
 #pragma once
 
 #include <optional>
@@ -30,13 +30,13 @@ struct JoinedBits {
 
 class EarlierBits {
   public:
-    /// Removes all frames.
+    /// Discards the bits of all frames.
     void clear();
     /// Begins a frame. `motion` is the motion since the previous frame. The options must contain
     /// the spacing.
     void begin_frame(const MeasuredMotion& motion, const DeviceOptions& options);
-    /// Ends the frame. Keeps the bits of the frame for the next frames, joined with the earlier
-    /// bits if the grids match. If the frame has no bits, keeps the earlier bits.
+    /// Ends the frame. Keeps its bits for the following frames, joined with the earlier bits if the
+    /// grids match. If the frame has no bits, keeps the earlier bits.
     void end_frame();
 
     /// Stores a block of bits of the current frame. Must be called between `begin_frame` and

@@ -22,9 +22,9 @@ namespace tuned = tuning::first;
 constexpr int kPatchWidth_px = tuned::kPatchWidth_px;
 constexpr int kPatchHeight_px = tuned::kPatchHeight_px;
 
-/// Returns true if the dots of a patch around the image centre show the mirrored code. A grid
-/// counts as mirrored only if adjacent lines without wrong bits determine a place
-/// (`find_place_exactly`). After the call, the x coordinates of the dots in the patch are negated.
+/// Returns true if the dots of a patch around the image centre show the mirrored code. A grid is
+/// considered mirrored only if adjacent lines without wrong bits determine a place
+/// (`find_place_exactly`). Negates the x coordinates of the dots in the patch.
 bool shows_mirror_image(const Kernels& kernels, CodeVariant code, Patch& patch) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(patch.dots.count); ++i)
         patch.dots.x[i] = -patch.dots.x[i];
@@ -41,8 +41,8 @@ bool is_whole_image(const Patch& patch, const ImageView& image) {
     return patch.width_px == image.width_px && patch.height_px == image.height_px;
 }
 
-/// Searches patches of the image for a grid, and tests the hypotheses that the bits of these grids
-/// give.
+/// Searches patches of the image for a grid, and tests the hypotheses that are decoded from the
+/// bits of these grids.
 class PatchSearch {
   public:
     PatchSearch(const Frame& frame, const PlaceEvidence& evidence, Patch& patch,
@@ -56,8 +56,8 @@ class PatchSearch {
             if (!place_patch_in_middle(frame_.image, scale, patch_)) break;
             const Confirmation confirmation = search_middle();
             if (confirmation == Confirmation::ok) return confirmation;
-            // Ends the search if the patch covers the whole image, because every other patch
-            // contains only dots of this patch.
+            // Ends the search if the patch covers the whole image, because no other patch would
+            // contain additional dots.
             if (confirmation == Confirmation::too_few_bits && is_whole_image(patch_, frame_.image))
                 return confirmation;
             is_mirrored =
@@ -86,7 +86,7 @@ class PatchSearch {
     }
 
     /// Finds the grid in the patch at the image centre, and tests its hypothesis. If `is_skewed` is
-    /// true, cells may be arbitrary parallelograms. Otherwise, cells must be about square.
+    /// true, cells may be arbitrary parallelograms. Otherwise, cells must be approximately square.
     Confirmation test_grid(bool is_skewed) {
         PatchView view = whole_view(patch_);
         view.min_dots = frame_.min_dots;
@@ -108,9 +108,9 @@ class PatchSearch {
         return confirm(frame_, *hypothesis, evidence_, measurement_, fix_);
     }
 
-    /// Returns true if the patch is a whole small image, and shows a few dots, but too few for a
-    /// certain position, even if a filtered image shows more of them. Bits of earlier frames may
-    /// add to those of these dots.
+    /// Returns true if the patch covers the whole of a small image and contains some dots, but too
+    /// few for a certain position, even if filtering the image reveals more. Returns false if the
+    /// frame is part of a series, because the bits of earlier frames may make the position certain.
     bool shows_too_few_dots() const {
         const int dots = patch_.dots.count;
         return 2 * dots >= frame_.min_dots && is_whole_image(patch_, frame_.image) &&
@@ -143,7 +143,7 @@ class PatchSearch {
         return tries_left_ < tuned::kMaxTries ? Confirmation::uncertain : Confirmation::implausible;
     }
 
-    /// Searches adjacent patches that cover the image. The patches grow from round to round.
+    /// Searches adjacent patches that cover the image. The patch size doubles from round to round.
     /// Returns true if a hypothesis is confirmed.
     bool search_patches() {
         const ImageView& image = frame_.image;

@@ -7,8 +7,8 @@
 
 namespace dotpose::core {
 
-/// Finds the grid in a part of the image, then measures the dots of the whole image. Returns true
-/// if there is a fix, which is then in the workspace. Otherwise, sets the status to no_contrast,
+/// Finds the grid in a part of the image, then measures the dots of the whole image. If there is a
+/// fix, stores it in the workspace and returns true. Otherwise, sets the status to no_contrast,
 /// too_few_dots, no_grid or not_certain.
 bool locate_first(const Frame& frame, DesktopWorkspace& w);
 

@@ -24,7 +24,7 @@ Extent extent(float min, float max, int room) {
     return {first, std::max(last - first + 1, 0)};
 }
 
-/// Limits the cells by their distance to the image border.
+/// Limits the cells by their distance from the image border.
 void limit_to_image(const Frame& frame, const Hypothesis& hypothesis, CellsInView& view) {
     const float spacing = spacing_px(hypothesis.pattern_from_image);
     if (hypothesis.reads_cut_dots) {
@@ -125,7 +125,7 @@ void count_from_centre(CodeVariant code, Hypothesis& hypothesis) {
 Similarity similarity_of(const DotOffsets& found) {
     // Closed-form least squares for offset = shift + (scale + i turn) * place, in complex numbers.
     const float fraction = 1 / static_cast<float>(found.points);
-    const float u = found.u * fraction;  // mean place
+    const float u = found.u * fraction;  // mean predicted point
     const float v = found.v * fraction;
     const float spread = found.squares - static_cast<float>(found.points) * (u * u + v * v);
     Similarity fit{{found.off_u * fraction, found.off_v * fraction}, 0, 0, 0};

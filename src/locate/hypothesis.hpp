@@ -23,13 +23,13 @@ struct Hypothesis {
     /// True if each dot is closer to its predicted place than to the other places of its cell. Such
     /// dots are sampled directly.
     bool is_exact = false;
-    /// True if the bits are also read from dots that the image border cuts. Such dots are not used
-    /// to fit the pose.
+    /// True if the bits are also read from dots that are cut off by the image border. Such dots are
+    /// not used to fit the pose.
     bool reads_cut_dots = false;
-    /// True if the pattern may cover only a part of the image, around `from_centre`.
+    /// True if the pattern may cover only the part of the image around `from_centre`.
     bool is_partial_view = false;
-    /// True if the image shows so few cells that the work of testing the place is limited (see
-    /// `PlaceEvidence::work`).
+    /// True if the image shows so few cells that the work spent on testing the place is limited
+    /// (see `PlaceEvidence::work`).
     bool is_small_view = false;
     /// Contrast of a typical dot after a 1-2-1 filter along both axes, in 1/256 of the paper level.
     int dot_contrast_q8 = 0;
@@ -57,11 +57,11 @@ struct RollMemory {
 };
 
 /// Threshold for the contrast of a pixel in a window, in 1/256 of the contrast of a typical dot.
-/// Pixels above the threshold count as part of a dot.
+/// Pixels with more contrast belong to a dot.
 inline constexpr int kContrastCut_q8 = 160;
 
-/// Returns the minimum distance of a dot centre to the image border at which the border does not
-/// cut the dot.
+/// Returns the minimum distance from a dot centre to the image border at which the dot is not cut
+/// off by the border.
 float margin_of_whole_dots_px(float spacing_px);
 
 FloatLens float_lens(const FixedLens& lens);
@@ -83,8 +83,8 @@ struct Similarity {
     float squares_px2 = 0;  ///< sum of the squared residuals of the fit
 };
 
-/// Fits a similarity to the offsets of at least one dot. Fits only the shift if all dots are at the
-/// same place.
+/// Fits a similarity to the offsets of at least one dot. Fits only the shift if all dots have the
+/// same predicted point.
 Similarity similarity_of(const DotOffsets& found);
 
 /// Moves, scales and rotates a plane by a similarity.

@@ -1,9 +1,9 @@
 // Locate: chooses the attempts for a frame on a desktop, and the codes to try. Decides whether a
 // fix is accepted. Unlike the paper, dotpose makes up to three attempts:
 //
-//   tracked    measures the dots where a prediction expects them    locate/tracked.hpp
-//   first      finds the grid in a part of the image                locate/first.hpp
-//   second     filters the image and uses all its dots              locate/second.hpp
+//   tracked    measures the dots at their predicted positions    locate/tracked.hpp
+//   first      finds the grid in a part of the image             locate/first.hpp
+//   second     filters the image and uses all its dots           locate/second.hpp
 //
 // A known code is treated as a list of possible codes with one element.
 #include "locate/locate.hpp"
@@ -58,7 +58,7 @@ class Cascade {
     }
 
   private:
-    /// Makes the tracked attempt. Searches for a rotation if the residuals show one. Returns
+    /// Makes the tracked attempt. Searches for a rotation if the residuals indicate one. Returns
     /// nullopt if there is no certain fix.
     std::optional<Judgement> track(const Prediction* prediction) {
         if (prediction == nullptr || options_.effort == Effort::device) return {};
@@ -117,10 +117,9 @@ class Cascade {
 
     /// Returns the certain fix of a step, or a better fix if one of the following attempts finds
     /// it. Reads the frame again in another code if the other code is more likely. After a first
-    /// attempt, searches for a rotation if the residuals show one. If this gives no certain fix, or
-    /// if there is no rotation, makes a second attempt if the residuals are large. If none of these
-    /// attempts gives a certain fix, repeats the original attempt to restore its results in the
-    /// workspace.
+    /// attempt, searches for a rotation if the residuals indicate one. If this does not lead to a
+    /// certain fix, makes a second attempt if the residuals are large. If none of these attempts
+    /// finds a certain fix, repeats the original attempt to restore its results in the workspace.
     CodeReading best_of(Step step, CodeVariant code, Judgement judgement) {
         const auto remake = [&](Step other_step, CodeVariant other) {
             if (!attempts_.make(other_step, other)) return false;

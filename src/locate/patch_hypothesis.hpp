@@ -22,9 +22,9 @@ void undistort(const FixedLens& lens, FloatVec middle, PatchDots& dots);
 /// Returns the middle of a patch, in px relative to the image centre.
 FloatVec middle_of(const Patch& patch, const ImageView& image);
 
-/// Places a patch around a point of the image, in px. The patch is `scale` times as wide and high
-/// as the smallest patch, at 1/`scale` of the resolution. Returns false if the patch is too small
-/// for a grid.
+/// Places a patch around a point of the image, in px. The patch is `scale` times as wide and as
+/// high as the smallest patch, at 1/`scale` of the resolution. Returns false if the patch is too
+/// small for a grid.
 bool place_patch(const ImageView& image, FixedVec around_px, int scale, Patch& patch);
 
 /// Places a patch around the image centre. Returns false if the patch is too small for a grid.

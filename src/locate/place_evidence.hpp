@@ -19,8 +19,8 @@
 
 namespace dotpose::core {
 
-/// Inputs and memory with which the place of a block of bits is found and tested: the options, the
-/// known sheets, and the bits of earlier frames. The block itself is passed separately.
+/// Inputs and memory for finding and testing the place of a block of bits: the options, the known
+/// sheets, and the bits of earlier frames. The block itself is passed separately.
 struct PlaceEvidence {
     const Kernels& kernels;
     const DeviceOptions& options;
@@ -28,7 +28,7 @@ struct PlaceEvidence {
     EarlierBits& earlier;
     std::span<ScoredLine> line_scores;  ///< memory for the scores of the lines of a block
     OtherCodes* others;  ///< receives the odds of the other codes; null if not requested
-    /// Work that may still be done for this frame to test places in small views.
+    /// Remaining work that may be spent on testing places in small views of this frame.
     WorkLimit& work;
 };
 
@@ -49,13 +49,14 @@ std::optional<TurnedPlace> find_turned_place(const PlaceEvidence& evidence, cons
 bool join_earlier(const FloatPlane& grid_from_image, FloatVec from_centre, EarlierBits& earlier,
                   BitBlock& block);
 
-/// Returns how well the bits agree with the code: the numbers of bits read and of wrong bits, for x
-/// and for y.
+/// Returns the agreement of the bits with the code: the number of bits read and the number of wrong
+/// bits, for x and for y.
 std::array<Confidence, 2> confidences_in(const BitsRead& bits);
 
-/// Returns true if the bits make the place of the hypothesis certain. Also uses the bits of earlier
-/// frames while frames are read together. If the place is certain, sets `p_wrong_log2` of the fix.
-/// Also sets `prior` if known sheets were needed, and `frames` if earlier frames were needed.
+/// Returns true if the bits make the place of the hypothesis certain. If frames are being read
+/// together, also uses the bits of earlier frames. If the place is certain, sets `p_wrong_log2` of
+/// the fix. Also sets `prior` if known sheets were needed, and `frames` if earlier frames were
+/// needed.
 bool confirm_place(const PlaceEvidence& evidence, const Hypothesis& hypothesis,
                    const CellsInView& view, const BitBlock& block, const BitsRead& bits, Fix& fix);
 

@@ -18,10 +18,10 @@ class SecondAttempt {
 
     explicit SecondAttempt(DesktopWorkspace& w) : w_(w) {}
 
-    /// Locates the frame in the code of its options. All calls must have the same image. Returns
-    /// true if there is a fix. The workspace then contains the fix. Otherwise, it contains the
-    /// status. If the position is not certain, `Resampling::if_doubtful` fits the grid to the dots
-    /// of the position, and reads and decodes the bits again.
+    /// Locates the frame in the code of its options. All calls must pass the same image. If there
+    /// is a fix, stores it in the workspace and returns true. Otherwise, stores the status. If the
+    /// position is not certain, `Resampling::if_doubtful` fits the grid to the dots that the code
+    /// predicts at this position, and reads and decodes the bits again.
     bool read(const Frame& frame, Resampling resampling);
 
   private:

@@ -1,5 +1,5 @@
 // Tracked attempt: locates an image near a predicted pose. Unlike the paper, this attempt measures
-// the dots only where a prediction expects them.
+// the dots only near their predicted positions.
 #pragma once
 
 #include "dotpose/prediction.hpp"
@@ -18,8 +18,8 @@ bool locate_tracked(const Frame& frame, const Prediction& prediction, DesktopWor
 bool confirm_prediction(const Frame& frame, const Prediction& prediction,
                         const PlaceEvidence& evidence, Measurement& measurement, Fix& fix);
 
-/// Measures the dots of a certain fix again, as the tracked attempt does, and updates the fix.
-/// Returns false without a change of the fix if the dots do not confirm it.
+/// Measures the dots of a certain fix again, as the tracked attempt does, and updates the fix. If
+/// the dots do not confirm the fix, returns false and leaves the fix unchanged.
 bool measure_again(const Frame& frame, const PlaceEvidence& evidence, Measurement& measurement,
                    Fix& fix);
 

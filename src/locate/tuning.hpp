@@ -16,10 +16,11 @@ inline constexpr int kPatchHeight_px = 160;
 /// Minimum spacing at which a patch predicts dots well enough for direct sampling. In finer grids,
 /// direct sampling is less accurate than windows.
 inline constexpr float kMinSpacingForPrediction_px = 9.5F;
-/// Factor by which a filtered image may show more dots than the image itself.
+/// Assumed maximum ratio of the number of dots in the filtered image to the number of dots in the
+/// original image.
 inline constexpr float kDotsOfFilteredImage = 1.25F;
-/// Maximum number of pixels of an image that is refused if it shows too few dots. In larger images,
-/// filtering often shows many more dots.
+/// Maximum number of pixels at which an image with too few dots is refused without further
+/// attempts. In larger images, filtering often reveals many more dots.
 inline constexpr int kMaxPixelsOfFewDots = 96 * 96;
 /// Maximum number of uncertain hypotheses away from the image centre. The number is limited,
 /// because each uncertain hypothesis increases the probability of a wrong fix.
@@ -32,7 +33,7 @@ inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
 inline constexpr float kSpacings[] = {1, 0.965F};
 /// Factors for the estimated spacing if sheets are known. On a known sheet, the place of a strip of
 /// three rows can be certain. The spacing of such a strip is overestimated, because the estimate
-/// assumes that the nearest dots around a dot fill a disc.
+/// assumes that the nearest neighbours of a dot fill a disc.
 inline constexpr float kSpacingsOfKnown[] = {1, 0.965F, 0.75F};
 }  // namespace first
 
@@ -49,7 +50,7 @@ inline constexpr float kMaxDrift = 0.9F;
 /// kStepParts.
 inline constexpr float kStep = 0.4F;
 inline constexpr float kStepParts = 32;
-/// A grid is better than the best grid so far if its agreement is larger by at least this factor.
+/// A grid replaces the best grid so far if its agreement is larger by more than this factor.
 inline constexpr float kBetter = 1.0005F;
 /// Minimum of explained / (dots * variance) for a significant rotation. `explained` is the part of
 /// the squared residuals that the rotation explains, summed over both axes. `variance` is the
@@ -115,9 +116,9 @@ inline constexpr FloatVec kPoints[] = {
 
 /// Measurement of dots at known places (locate/confirm, locate/dot_reader).
 namespace confirm {
-/// Reading distance in the first round, in spacings. The first round measures all dots within this
-/// distance of `Hypothesis::from_centre`. The constant applies if the pattern fills the image and
-/// half the image side exceeds kDenseAtMost. The bits of these dots must make the position certain.
+/// Reading distance in the first round, in spacings, if the pattern fills the image and half the
+/// image side exceeds kDenseAtMost. The first round measures all dots within this distance of
+/// `Hypothesis::from_centre`. The bits of these dots must make the position certain.
 inline constexpr float kDense = 10;
 /// Maximum half side of an image that is measured in a single round, in spacings.
 inline constexpr float kDenseAtMost = 17;
@@ -139,7 +140,7 @@ inline constexpr int kDotsPerWrong = 200;
 /// The mean is over all dots, and the squared residual of a dot is the sum over both coordinates.
 /// The limit is therefore about four standard deviations of one coordinate.
 inline constexpr float kOutlier = 8.3F;
-/// Maximum distance by which a fit may move a corner of the measured part, in spacings along an
+/// Maximum distance by which a fit may move a corner of the measured area, in spacings along an
 /// axis. After a larger motion, the dots are measured again, because small centroid windows do not
 /// measure large offsets accurately.
 inline constexpr float kFar = 0.055F;
@@ -164,9 +165,9 @@ inline constexpr float kMinWindowRadius_px = 3.3F;
 /// between the two dots. Facing dots are adjacent dots that are displaced towards each other. See
 /// pose/facing_dots.hpp.
 inline constexpr float kFacing = 0.55F;
-/// If a grid step deviates from whole pixels by at most this distance, the dots of a row or column
-/// have about the same sub-pixel phase. At larger deviations, the phases in view are evenly
-/// distributed.
+/// If the step between cells deviates from a whole number of pixels by less than this distance, the
+/// dots of a row or column have about the same sub-pixel phase. At larger deviations, the phases in
+/// view are evenly distributed.
 inline constexpr float kDrift_px = 0.05F;
 /// The pixel bias is corrected only if the sub-pixel phases of the dots of a row or column change
 /// by less than this distance across the view. The correction is restricted in this way because it
@@ -175,16 +176,16 @@ inline constexpr float kDriftInView_px = 0.35F;
 /// Maximum variance of the mean centre along one axis at which the pixel bias is significant. At a
 /// larger variance, other errors are larger than the bias.
 inline constexpr float kMaxVariance_px2 = 0.01F * 0.01F;
-/// Minimum and maximum size of image parts that are prefetched. Smaller parts are already in the
-/// cache. Larger parts would evict their own first rows.
+/// Minimum and maximum size of image areas that are prefetched. Smaller areas are already in the
+/// cache. Larger areas would evict their own first rows.
 inline constexpr int kMinFetched_bytes = 32 << 10;
 inline constexpr int kMaxFetched_bytes = 1 << 20;
-/// Number of cells in the image below which the bits are also read from dots that the image border
-/// cuts. Views with more cells are certain without these dots.
+/// Number of cells in the image below which the bits are also read from dots that are cut off by
+/// the image border. With more cells, the position is certain without these dots.
 inline constexpr float kMaxCellsWithCutDots = 144;
-/// Maximum number of pixels of an image with few cells in which the work of the sums over
-/// alternatives is limited. In larger images, few cells are rare, for example if a rolling shutter
-/// stretches them.
+/// Maximum number of pixels of a small view, in which the work spent on the sums over alternatives
+/// is limited. Larger images rarely show so few cells, for example if a rolling shutter stretches
+/// the cells.
 inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
 /// Maximum distance of an intersection from the image, in spacings, at which the dot of the cell
 /// may be partly visible.
@@ -197,11 +198,11 @@ inline constexpr float kMaxOff_px = 1;
 /// Maximum of sqrt(variance) / displacement + bit_errors / bits (`is_implausible`). Positions above
 /// this maximum do not explain the frame well. docs/integrity.md contains the measurements.
 inline constexpr float kMaxImplausible = 0.57F;
-/// Limits of `shows_overlay`: minimum fraction of the dots seen that were read without a wrong bit,
-/// and maximum fraction of wrong bits below it. Of 1,800 fixes in frames with seams, cuts, blank
-/// parts and wrong bits, two had fewer right dots, without any wrong bit, and two had 0.40 to 0.51
-/// of them. The wrong fix of the test `Adversarial.ColumnsAndRowsAreOfOnePattern` had 0.27, and 3.6
-/// % of its bits were wrong.
+/// Limits of `shows_overlay`. If less than kMinRight of the dots seen were read without a wrong
+/// bit, at most kMaxWrongInOverlay of the bits read may be wrong. Among 1,800 fixes in frames with
+/// seams, cuts, blank areas and wrong bits, this fraction of the dots was below kMinRight in two
+/// fixes, which had no wrong bits, and 0.40 to 0.51 in two others. In the wrong fix of the test
+/// `Adversarial.ColumnsAndRowsAreOfOnePattern`, it was 0.27, and 3.6 % of the bits were wrong.
 inline constexpr float kMinRight = 0.375F;
 inline constexpr float kMaxWrongInOverlay = 0.02F;
 /// Minimum residual at which a second attempt may be better: kRough_px or kRough spacings,
@@ -231,11 +232,11 @@ namespace joined {
 /// values are log2(2 * 15 / 16) and log2(2 * 1 / 16), for an error rate of 1 bit in 16.
 inline constexpr float kEqualBit_log2 = 0.907F;
 inline constexpr float kDifferentBit_log2 = -3;
-/// log2 of the weight of a blunder, in which the measured motion is wrong by far more than its
-/// standard deviation.
+/// log2 of the weight of a blunder: a measured motion whose error is far larger than its standard
+/// deviation.
 inline constexpr float kBlunder_log2 = -36;
-/// Standard deviations of the errors in the angle of a grid, in rad, and in its place, in spacings.
-/// The angle error includes the effect of the camera tilt.
+/// Standard deviations of the errors of a grid in angle, in rad, and in position, in spacings. The
+/// angle error includes the effect of the camera tilt.
 inline constexpr float kGridAngle_rad = 0.035F;
 inline constexpr float kGridPhase = 0.06F;
 /// Maximum deviation of a match from the prediction: kReach_sigmas standard deviations, but at most

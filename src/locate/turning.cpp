@@ -77,13 +77,14 @@ class TurnSearch {
     }
 
     float step() const { return step_; }
-    /// Sets whether cells may be arbitrary parallelograms. Otherwise, cells must be about square.
+    /// Sets whether cells may be arbitrary parallelograms. Otherwise, cells must be approximately
+    /// square.
     void accept_skewed(bool is_skewed) { view_.is_skewed = is_skewed; }
 
-    /// Changes a rotation in decreasing steps as long as the dots agree better with a grid.
-    /// Afterwards, `turn` and `grid` return the best rotation and its grid, and this rotation is
-    /// removed from the dots of the patch. Returns false if the dots do not form a grid at the
-    /// first rotation.
+    /// Improves a rotation by hill climbing with decreasing steps, to maximise the agreement of the
+    /// dots with a grid. Afterwards, `turn` and `grid` return the best rotation and its grid, and
+    /// this rotation is removed from the dots of the patch. Returns false if the dots do not form a
+    /// grid at the initial rotation.
     bool climb(float rad_per_row, FloatVec drift) {
         turn_.rad_per_row = rad_per_row;
         turn_.drift = drift;
@@ -136,7 +137,7 @@ class TurnSearch {
     PatchGrid grid_;
 };
 
-/// Moves dots from the image without rotation to their places in the original image.
+/// Maps dots from the image without rotation back to the original image.
 void show_in_original(const ReadoutTurn& turn, const ImageView& image, const FixedLens& lens,
                       std::span<DetectedDot> dots) {
     const FixedVec middle_q8 = centre_q8(image);
@@ -168,12 +169,12 @@ bool is_significant(const TurnFit& fit, int dots, Surface surface) {
            min_gain * static_cast<float>(dots) * fit.variance;
 }
 
-/// Calls `locate` with the frame from which the rotation `turn` is removed. `locate` must call
-/// `confirm`, which fits the rotation to the measured dots. Repeats this with the fitted rotation
-/// until the difference from the previous rotation moves the dots in the image corners by less than
-/// kSettled_px. Sets `turn` to the fitted rotation. `pixels` is memory for the image. Returns the
-/// result of `locate` if it is not ok, and implausible if a rotation is out of range or still
-/// changes after kMaxRounds.
+/// Removes the rotation `turn` from the frame, and passes the result to `locate`, which must call
+/// `confirm` to fit the rotation to the measured dots. Repeats this with the fitted rotation until
+/// a change of the rotation moves the dots in the image corners by less than kSettled_px. Sets
+/// `turn` to the fitted rotation. `pixels` is memory for the image. Returns the result of `locate`
+/// if it is not ok, and implausible if a rotation is out of range or still changes after
+/// kMaxRounds.
 template <typename Locate>
 Confirmation settle(const Frame& frame, std::span<std::uint8_t> pixels,
                     const Measurement& measurement, ReadoutTurn& turn, Locate locate) {
@@ -196,8 +197,8 @@ Confirmation settle(const Frame& frame, std::span<std::uint8_t> pixels,
 }
 
 /// Searches for a grid with a place in the code, first at the rotation `turn` if it is not 0, and
-/// then at rotations of increasing size. Sets `turn` to the rotation of this grid. Returns nullopt
-/// if none of the first kMaxClimbs grids has a place in the code.
+/// then at rotations of increasing magnitude. Sets `turn` to the rotation of the grid that is
+/// found. Returns nullopt if none of the first kMaxClimbs grids has a place in the code.
 std::optional<Hypothesis> find_turning_hypothesis(const Frame& frame, const Patch& patch,
                                                   const PlaceEvidence& evidence, TurnSearch& search,
                                                   ReadoutTurn& turn) {
@@ -234,8 +235,8 @@ std::optional<Hypothesis> search_patch(const Frame& frame, const PlaceEvidence& 
 }
 
 /// Finds the isolated dots of a patch. Returns false if the patch has no contrast, or if less than
-/// kMinIsolated of its dots are isolated. If fewer dots are isolated, the first attempt failed
-/// because of noise and dirt, and not because of a rotation.
+/// kMinIsolated of its dots are isolated. If fewer dots are isolated, the first attempt probably
+/// failed because of noise and dirt, not because of a rotation.
 bool find_isolated_dots(const Frame& frame, Patch& patch, Fix& fix) {
     if (!find_patch_dots(frame, patch, fix)) return false;
     const int seen = patch.dots.count;

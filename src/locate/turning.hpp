@@ -1,4 +1,4 @@
-// Turning: locates images of a rolling shutter in which the scene rotates while the rows are read.
+// Turning: locates rolling-shutter images of scenes that rotate during the readout.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@ bool shows_turn(const Frame& frame, const Fix& fix, std::span<const std::uint8_t
                 Measurement& measurement);
 
 /// Searches a patch at the image centre for a grid and a rotation. Then removes the rotation from
-/// the image, and measures the dots of the whole image. Returns true if a fix was found and its
-/// rotation is significant. The workspace then contains the fix. Otherwise, restores the previous
-/// fix.
+/// the image, and measures the dots of the whole image. If this leads to a fix with a significant
+/// rotation, stores the fix in the workspace and returns true. Otherwise, restores the previous fix
+/// and returns false.
 bool locate_turning(const Frame& frame, DesktopWorkspace& w);
 
 /// Removes the predicted rotation from the image, and measures the dots at their predicted places.
-/// Returns true if their bits confirm the prediction. The workspace then contains the fix. Returns
+/// If their bits confirm the prediction, stores the fix in the workspace and returns true. Returns
 /// false if the bits do not confirm the prediction, if the rotation is out of range, or if the
 /// workspace has no room for the image without rotation.
 bool locate_tracked_turning(const Frame& frame, const Prediction& prediction, DesktopWorkspace& w);

@@ -21,8 +21,8 @@
 
 namespace dotpose::core {
 
-/// Memory of a Locator, and results of its attempts. Only the entry points and the attempts use the
-/// whole workspace, and pass parts of it to the stages. The base class is the memory of a
+/// Memory of a Locator, and results of its attempts. Only the entry points and the attempts access
+/// the whole workspace. They pass parts of it to the stages. The base class is the memory of a
 /// DeviceLocator, which `Effort::device` uses.
 struct DesktopWorkspace : DeviceWorkspace {
     Patch* patch = nullptr;   ///< first attempt, turning
@@ -59,8 +59,8 @@ struct DesktopWorkspace : DeviceWorkspace {
     }
 };
 
-/// A workspace with its memory, for images up to `MaxWidth` px wide. Stores at most `MaxDots` dots,
-/// those nearest to the image centre, and the middle `GridSide` x `GridSide` cells of the grid.
+/// A workspace with its memory, for images up to `MaxWidth` px wide. Stores at most the `MaxDots`
+/// dots nearest to the image centre, and the middle `GridSide` x `GridSide` cells of the grid.
 template <int MaxWidth, int MaxDots, int GridSide>
 class WorkspaceOf : public DesktopWorkspace {
   public:
@@ -117,7 +117,7 @@ class WorkspaceOf : public DesktopWorkspace {
     static constexpr int kTiles = MaxWidth / kTileWidth_px + 1;
     static constexpr int kLevels = kTiles * kTileWidth_px + kReadAhead_px;
     // Maximum number of runs in a row. A run may begin at every second pixel, and each run may
-    // begin a blob.
+    // start a blob.
     static constexpr int kRuns = MaxWidth / 2 + 2;
 
     // Size of the largest image that can be pushed row by row: 188 x 188 px for the paper's sensor,

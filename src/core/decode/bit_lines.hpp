@@ -40,9 +40,9 @@ struct BlockLines {
     Lines rows;
 };
 
-/// Returns the most likely turn from the grid to the pattern, in quarter turns (0 to 3). A few
-/// columns and rows near the middle of the block vote. The result is the argument `quarters` of
-/// `turned` that makes the block upright.
+/// Returns the most likely turn from the grid to the pattern, in quarter turns (0 to 3). The turn
+/// is chosen by a vote of a few columns and rows near the middle of the block. Passing the result
+/// to `turned` as `quarters` makes the block upright.
 int likeliest_turn(const Kernels& kernels, const BitBlock& block);
 
 /// Rotates a block by `quarters` quarter turns. One quarter turn moves cell (i, j) to (-1 - j, i),
@@ -64,7 +64,7 @@ Place place_of_middle(CodeVariant code, int first_column, int first_row, const A
                       const AxisReading& row);
 
 /// Finds the place of cell (0, 0) in an upright block. Returns false if there are fewer than six
-/// columns, fewer than six rows, or no position that agrees with them.
+/// columns or rows, or if no position agrees with them.
 bool find_place(CodeVariant code, const BlockLines& lines, Place& place);
 
 }  // namespace dotpose::core

@@ -40,8 +40,8 @@ std::int32_t sum_at(const Sums& sums, std::uint8_t bytes) {
 
 using Line = std::span<const std::int8_t>;
 
-/// Packs kAtOnce weights of both lines, from index `first` on. Weights beyond the end of a line are
-/// 0.
+/// Packs kAtOnce weights of both lines, starting at index `first`. Weights beyond the end of a line
+/// are 0.
 void gather(Line a, Line b, std::size_t first, Weights& weights) {
     const auto rest = [&](Line line) {
         line = line.subspan(std::min(first, line.size()));
@@ -85,8 +85,8 @@ void take_sums(const std::array<Sums, kGroups>& sums, std::size_t phase, LineSco
         std::int32_t sum = sum_at(sums[0], string[0]);
         for (std::size_t group = 1; group < Groups; ++group)
             sum += sum_at(sums[group], string[group * kGroup]);
-        // Unpacks the sum of line b. (sum + 0x8000) >> 16 has the same result, but its constant
-        // would occupy a register.
+        // Unpacks the sum of line b. (sum + 0x8000) >> 16 would give the same result, but its
+        // constant would occupy a register.
         const std::int32_t of_b = ((sum >> 15) + 1) >> 1;
         *a = static_cast<std::int16_t>(Adds ? *a + sum : sum);
         *b = static_cast<std::int16_t>(Adds ? *b + of_b : of_b);

@@ -14,12 +14,12 @@ struct Match {
     std::uint8_t roll = 0;
 };
 
-/// Computes the score of a line at each roll: the sum of its weights, negated where the main
-/// sequence has a 0. At roll o, the first weight is compared with bit o of the main sequence.
+/// Computes the score of a line at each roll: the sum of its weights, each negated where the main
+/// sequence is 0. At roll o, the first weight is compared with bit o of the main sequence.
 /// `weights` contains at most 256 values in [-127, 127]. Doubtful bits have small weights.
 void correlate(std::span<const std::int8_t> weights, LineScores& scores);
 
-/// Correlates two lines. Takes little more time than `correlate` takes for one line.
+/// Correlates two lines. This takes only slightly longer than `correlate` takes for one line.
 void correlate_both(std::span<const std::int8_t> a, std::span<const std::int8_t> b,
                     LineScores& scores_a, LineScores& scores_b);
 

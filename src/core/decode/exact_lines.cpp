@@ -57,8 +57,8 @@ bool find_axis_exactly(CodeVariant code, const BitLines& lines, const LineRange&
     int wrong = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const int here = below_sections(reading.roll + rolls[i]);
-        // Counts the wrong bits one by one, because most lines have none and many processors have
-        // no popcount instruction.
+        // Counts the wrong bits one at a time, because most lines have none and many processors
+        // have no popcount instruction.
         std::uint64_t differ =
             (bits(i) ^ code::main_bits(static_cast<std::size_t>(here))) & valid(i);
         for (; differ != 0; differ &= differ - 1)

@@ -17,14 +17,14 @@ class Nominal {
     /// Returns the column and row of a grid cell in the upright pattern, relative to
     /// `Decoding::place`.
     FixedVec pattern_step(FixedVec grid_cell) const { return turn_(grid_cell); }
-    /// Returns the symbol in a column and row of the upright pattern. The cell must be in the grid.
+    /// Returns the symbol at a column and row of the upright pattern. The cell must be in the grid.
     Symbol symbol(FixedVec pattern_step) const;
 
   private:
     QuarterTurn turn_;
     FixedVec first_;  ///< smallest column and smallest row of the grid in the upright pattern
-    /// Index in the main sequence of the first cell of each column. `rows_` contains the same for
-    /// each row.
+    /// Main-sequence index of the first cell of each column. `rows_` contains the same for each
+    /// row.
     std::array<std::uint8_t, kMaxGridSide> columns_;
     std::array<std::uint8_t, kMaxGridSide> rows_;
 };

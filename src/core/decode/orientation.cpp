@@ -75,8 +75,8 @@ BothWays agreement(const Voters& voters) {
     return {agreement_by_pairs(voters, false), agreement_by_pairs(voters, true)};
 }
 
-/// Returns the maximum agreement that the voting lines could have, which is the sum of their
-/// absolute weights.
+/// Returns the maximum possible agreement of the voting lines, which is the sum of their absolute
+/// weights.
 std::int32_t max_possible(const Voters& voters) {
     std::int32_t sum = 0;
     Line storage;

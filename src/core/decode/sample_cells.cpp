@@ -60,8 +60,8 @@ class CellSampler {
                 const PlaneFromImage& plane)
         : image_(image), paper_(paper), lens_(lens), plane_(plane) {}
 
-    /// Calls `use(cell, view)` for each cell with at least one place in the image. `view` is not
-    /// sampled yet.
+    /// Calls `use(cell, view)` for each cell with at least one place in the image. The places of
+    /// `view` are not sampled yet.
     template <typename Use>
     void visit(const Grid& grid, Use use) const;
     /// Sets `half_px`, and the darkness and shade of each place in the image.
@@ -223,8 +223,8 @@ class Ink {
     Ink(const CellSampler& sampler, const Grid& grid) : sampler_(sampler) {
         const PlaceView typical = typical_place(sampler, grid);
         contrast_q8_ = typical.darkness_q8;
-        // Shade above which a place counts as graphics. This is the geometric mean of the shades of
-        // a typical dot and of solid ink.
+        // Shade above which a place is considered to be under graphics. This is the geometric mean
+        // of the shades of a typical dot and of solid ink.
         graphics_q8_ = static_cast<int>(
             square_root(static_cast<std::uint64_t>(typical.shade_q8 * tuned::kSolidInk_q8)));
     }
@@ -245,7 +245,7 @@ class Ink {
         const std::array<int, 4> darkest_around_q8 = sampler_.darkest_around_q8(view);
         for (std::size_t i = 0; i < view.places.size(); ++i) {
             const PlaceView& place = view.places[i];
-            // A place outside the image or under graphics counts as half a dot, which favours
+            // A place outside the image or under graphics is treated as half a dot, which favours
             // neither bit value.
             sample.darkness_q8[i] = contrast_q8_ / 2;
             if (!place.is_seen) continue;
@@ -291,8 +291,8 @@ class Ink {
         // of the paper level.
         const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = sample.light_q8 * sample.light_q8;
-        // High contrast does not make a bit more reliable, because its errors are mostly not caused
-        // by noise. The weight is therefore clamped.
+        // The weight is clamped, because errors in bits with high contrast are mostly not caused by
+        // noise. More contrast would not make such bits more reliable.
         const int weight = static_cast<int>(
             std::clamp<std::int64_t>(std::int64_t{difference} * light_q16 >> 16, -127, 127));
         return static_cast<std::int8_t>(weight * sample.reliability_q4 / 16);
@@ -301,7 +301,8 @@ class Ink {
   private:
     const CellSampler& sampler_;
     int contrast_q8_ = 1;  ///< darkness of a typical dot relative to the paper level, in 1/256
-    int graphics_q8_ = 0;  ///< shade above which a place counts as graphics, in 1/256
+    /// shade above which a place is considered to be under graphics, in 1/256
+    int graphics_q8_ = 0;
 };
 
 /// Clears the grid and extends it over the whole image. The extent is computed from the cells at 5

@@ -23,8 +23,8 @@ std::uint8_t roll_of(int score, const LineScores& scores) {
     return static_cast<std::uint8_t>(found - scores.data());
 }
 
-/// The rolls of one line, by decreasing score. Ties are broken by taking the smaller roll. Computes
-/// all rolls after the first on demand, because most searches do not need them.
+/// The rolls of one line, in order of decreasing score. Ties are broken by taking the smaller roll.
+/// All rolls after the first are computed on demand, because most searches do not need them.
 class Choices {
   public:
     Choices() = default;
@@ -123,7 +123,7 @@ void try_run(CodeVariant code, const Lines& lines, int first, int length, int ma
     const auto widths = widen(run, length, max_readings);
     std::array<int, kMaxRunLength> choice{};
     while (true) {
-        // Advances to the next combination. The roll of the last line changes fastest.
+        // Advances to the next combination. The roll of the last line varies fastest.
         std::size_t n = rolls.size();
         while (n > 0 && choice[n - 1] + 1 == widths[n - 1]) {
             choice[--n] = 0;

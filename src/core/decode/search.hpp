@@ -18,14 +18,14 @@ AxisReading reading_of_first(CodeVariant code, std::uint32_t position, int roll,
                              std::span<std::uint8_t> rolls);
 
 /// Finds the position on an axis from runs of consecutive lines, clearest run first. Tries the most
-/// likely rolls of each line, and keeps the position with the highest total score. If the score of
-/// any line at this position is below the highest score of this line, then calls `search_by_steps`.
-/// Error: not_in_code if the code contains none of the combinations of rolls that were tried.
+/// likely rolls of each line, and keeps the position with the highest total score. If any line
+/// scores less at this position than at its best roll, also calls `search_by_steps`. Error:
+/// not_in_code if the code contains none of the combinations of rolls that were tried.
 Status find_axis(CodeVariant code, const Lines& lines, AxisReading& best);
 
-/// Variant of `find_axis` for first attempts and devices. Tries only a few runs with a few readings
-/// each, and does not call `search_by_steps`. A position that takes longer to find is rarely
-/// certain.
+/// Variant of `find_axis` for first attempts and devices. Tries only a few runs, with a few
+/// readings each, and does not call `search_by_steps`. A position that takes longer to find is
+/// rarely certain.
 Status find_axis_briefly(CodeVariant code, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

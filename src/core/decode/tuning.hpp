@@ -24,13 +24,13 @@ inline constexpr std::size_t kMedianSample = 256;
 /// of neighbouring cells.
 inline constexpr int kShadePart = 5;
 /// Offsets from a place to the squares that are tested for graphics, in 1/60 spacing. Four squares
-/// are offset along one axis, and four squares diagonally. Together, the squares detect every
-/// stroke that touches the dot.
+/// are offset along one axis, and four squares diagonally. Together, the squares detect any stroke
+/// that touches the dot.
 inline constexpr int kBeside_60th = 8;
 inline constexpr int kBesideDiagonally_60th = 5;
-/// Darkness of solid ink relative to the paper level, in 1/256. A place counts as graphics if its
-/// darkness exceeds the geometric mean of this value and the darkness of a typical dot. If this
-/// value is halved or doubled, only 1,992 frames are located.
+/// Darkness of solid ink relative to the paper level, in 1/256. A place is considered to be under
+/// graphics if its shade exceeds the geometric mean of this value and the shade of a typical dot.
+/// If this value is halved or doubled, only 1,992 frames are located.
 inline constexpr int kSolidInk_q8 = 230;
 /// Reliability of the bits in a cell: a factor for their weights, in 1/16. The index is the number
 /// of places of the cell that are in the image.
@@ -38,10 +38,10 @@ inline constexpr std::array<int, 5> kReliabilityBySeen_q4{0, 6, 8, 10, 16};
 /// Reliability of a cell with a place under graphics, in 1/16.
 inline constexpr int kReliabilityCovered_q4 = 10;
 /// A cell is near graphics if the shade beside one of its places exceeds kNearGraphics_5ths / 5 of
-/// the shade above which a place counts as graphics.
+/// the shade above which a place is considered to be under graphics.
 inline constexpr int kNearGraphics_5ths = 3;
-/// Reliability of a cell near graphics, in 1/16. The value 3 locates 1,993 frames, and the value
-/// 14 locates 1,994.
+/// Reliability of a cell near graphics, in 1/16. With 3, 1,993 frames are located. With 14, 1,994
+/// frames are located.
 inline constexpr int kReliabilityNearGraphics_q4 = 7;
 /// Darkness above which a cell's darkest place may be dirt, in tenths of the darkness of a typical
 /// dot.
@@ -55,16 +55,17 @@ inline constexpr int kTooDark_10ths = 16;
 inline constexpr int kReliabilityTooDark_q4 = 6;
 /// Bit weight per unit of contrast, before clamping to 127. The contrast of a bit is the difference
 /// in darkness between the places for its two values, relative to a typical dot. A contrast of 0.42
-/// is enough for the maximum weight. The value 150 locates 1,994 frames, and the value 600
-/// locates 1,992.
+/// is enough for the maximum weight. With 150, 1,994 frames are located. With 600, 1,992 frames are
+/// located.
 inline constexpr int kGain = 300;
-/// Maximum ratio of the paper level at a cell to the paper level at the image centre, in 1/256. If
-/// the ratio is larger, the bit weights are those for this maximum.
+/// Maximum ratio of the paper level at a cell to the paper level at the image centre, in 1/256.
+/// Larger ratios are clamped to this maximum.
 inline constexpr int kMaxLight_q8 = 1024;
-/// Test for two patterns in one image. A cell has two dots if the darkness of its second darkest
-/// place is more than kSecondDot_3rds / 3 of a typical dot and more than kSecondDot_4ths / 4 of the
-/// darkest place. The image shows two patterns if more than kMaxCrowded_8ths / 8 of the cells have
-/// two dots. In hard frames, at most a quarter of the cells had two dots.
+/// Test for two patterns in one image. A cell is considered to have two dots if the darkness of its
+/// second darkest place is more than kSecondDot_3rds / 3 of a typical dot and more than
+/// kSecondDot_4ths / 4 of the darkest place. The image shows two patterns if more than
+/// kMaxCrowded_8ths / 8 of the cells have two dots. In hard frames, at most a quarter of the cells
+/// had two dots.
 inline constexpr int kSecondDot_3rds = 2;
 inline constexpr int kSecondDot_4ths = 3;
 inline constexpr int kMaxCrowded_8ths = 3;
@@ -80,8 +81,8 @@ inline constexpr int kChoices = 8;
 inline constexpr int kRuns = 24;
 inline constexpr int kReadings = 64;
 /// Maximum number of runs, and of readings per run, in the first attempt and on devices. These
-/// limits bound the time for unreadable frames. None of 2,000 nominal frames and 4 of 2,000 hard
-/// frames needed more.
+/// limits bound the time for unreadable frames. Higher limits were needed by none of 2,000 nominal
+/// frames, and by 4 of 2,000 hard frames.
 inline constexpr int kRunsBriefly = 3;
 inline constexpr int kReadingsBriefly = 8;
 }  // namespace search

@@ -6,8 +6,8 @@
 namespace dotpose::core {
 
 /// Returns the `side` x `side` window with the highest total quality (see `quality` in
-/// decode/likelihood.hpp). If the grid has fewer than `side` columns or rows, the window contains
-/// all of them.
+/// decode/likelihood.hpp). If the grid has fewer than `side` columns, the window contains all
+/// columns. The same applies to rows.
 GridRegion choose_window(const Grid& grid, int side);
 
 /// Returns the mean quality of a region, in 1/256. The mean is 256 if every dot is exactly at one

@@ -77,9 +77,9 @@ int half_side(int at, int length, int max_half) {
     return std::max(std::min({max_half, at, length - 1 - at}), tuned::kMinHalf_px);
 }
 
-/// Adds a row to the column sums, or subtracts the row if `add` is false. A pixel much darker than
-/// the paper counts as paper, because the local mean represents the illumination and must not
-/// depend on graphics.
+/// Adds a row to the column sums, or subtracts the row if `add` is false. Pixels much darker than
+/// the paper are replaced with the paper level, because the local mean represents the illumination
+/// and must not depend on graphics.
 void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     const std::uint8_t* row = image.row(v);
     std::uint32_t* sums = smoothing.column_sums.data();

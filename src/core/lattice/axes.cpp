@@ -21,7 +21,7 @@ using Values = std::span<std::int32_t>;
 std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
     std::size_t n = 0;
     for (const SeedEdge& edge : edges) {
-        // Without long edges, half the squared length fits in 32 bits.
+        // Half the squared length of the remaining edges fits in 32 bits.
         if (!is_within(edge.step_q8, (1 << 15) - 1)) continue;
         const auto x = static_cast<std::uint32_t>(edge.step_q8.x * edge.step_q8.x);
         const auto y = static_cast<std::uint32_t>(edge.step_q8.y * edge.step_q8.y);
@@ -32,9 +32,9 @@ std::int32_t median_length(std::span<const SeedEdge> edges, Values memory) {
 }
 
 /// Returns the grid direction that is at most 45 degrees from +x, as a binary angle (2^32 units per
-/// turn). If the steps are written as complex numbers, the fourth power is the same for steps in
-/// all four grid directions, so the fourth powers of all edges can be added. `length_q8` is the
-/// median edge length.
+/// turn). If edges are written as complex numbers, edges in all four grid directions have the same
+/// fourth power, so the fourth powers of all edges can be added. `length_q8` is the median edge
+/// length.
 std::int32_t common_direction_bam(std::span<const SeedEdge> edges, std::int32_t length_q8) {
     const std::int32_t inverse_q16 = 1024 * 65536 / length_q8;
     std::int32_t sum_re = 0;
@@ -102,7 +102,7 @@ class Clusters {
             *side++ = now;
         }
     }
-    /// Returns the cluster means. A cluster without edges keeps its mean.
+    /// Returns the cluster means. A cluster without edges keeps its previous mean.
     std::array<FixedVec, 2> means_q8(const Sums& sums) const {
         std::array<FixedVec, 2> means = means_q8_;
         for (std::size_t k = 0; k < 2; ++k) {
@@ -149,7 +149,8 @@ void constrained_k_means(std::span<const SeedEdge> edges, Clusters clusters, Sid
     }
 }
 
-/// Returns the median edge of a cluster, separately in x and y (paper, Fig. 5, last lines).
+/// Returns the median edge of a cluster, computed separately in x and y (paper, Fig. 5, last
+/// lines).
 FixedVec cluster_median(std::span<const SeedEdge> edges, const Sides& sides, std::size_t cluster,
                         Values memory) {
     const Values x = memory.first(edges.size());
@@ -190,7 +191,8 @@ Status estimate_axes(std::span<const SeedEdge> edges, Values memory, Lattice& la
     if (!is_nearly_square(u, v)) return Status::no_grid;
     // Unlike the paper, which uses both medians as axes, this function rotates v by -90 degrees and
     // averages it with u. The mean is one axis of a square grid. The medians deviate from a square
-    // grid mostly by random errors, not by tilt, so averaging halves the variance.
+    // grid mostly because of random errors, not because of camera tilt, so averaging halves the
+    // variance.
     const FixedVec twice_u{u.x + v.y, u.y - v.x};
     lattice.u_q16 = {twice_u.x * kLengthening_q8 / 2, twice_u.y * kLengthening_q8 / 2};
     lattice.v_q16 = {-lattice.u_q16.y, lattice.u_q16.x};

@@ -48,8 +48,8 @@ Buckets::Buckets(std::span<const DetectedDot> dots, std::span<const std::uint16_
         corner = {std::min(corner.x, p.x), std::min(corner.y, p.y)};
         end = {std::max(end.x, p.x), std::max(end.y, p.y)};
     }
-    // Chooses the size of the buckets so that a bucket contains one to four seeds on average. The 3
-    // x 3 buckets around a seed then usually contain its four nearest neighbours.
+    // Chooses a bucket size at which a bucket contains one to four seeds on average. The 3 x 3
+    // buckets around a seed then usually contain its four nearest neighbours.
     const int max_buckets = static_cast<int>(seeds.size());
     do {
         ++shift_;
@@ -157,7 +157,7 @@ void widen(std::array<std::uint16_t, kDistanceBins>& histogram) {
 
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds) {
-    // Histogram of the distances from the centre. The bins have the smallest width for which the
+    // Histogram of the distances from the centre. The bin width is the smallest for which the
     // histogram includes the farthest dot.
     std::array<std::uint16_t, kDistanceBins> histogram{};
     int shift = 0;

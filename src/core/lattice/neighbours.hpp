@@ -1,7 +1,7 @@
 // Neighbours: the nearest neighbours of each seed, and the symmetric edges between seeds (paper,
 // section II-B.2). *Seeds* are the dots nearest the image centre, at most kMaxSeeds. The paper
-// connects all dots. To bound the time for any image, dotpose fits the first grid only to seeds,
-// and later stages extend it outwards (device/grow.hpp, lattice/refine_grid.hpp).
+// connects all dots. dotpose fits the first grid only to the seeds, to bound the time for any
+// image, and later stages extend the grid outwards (device/grow.hpp, lattice/refine_grid.hpp).
 #pragma once
 
 #include <cstdint>
@@ -21,9 +21,9 @@ struct BucketedSeed {
 };
 
 /// Chooses at most `seeds.size()` dots in a square around `centre_q8`. The half side of the square
-/// is a multiple of the bin width of a distance histogram: the largest for which the square
-/// contains at most `seeds.size()` dots, but at least one bin. Writes the dot indices to `seeds`
-/// and returns their number.
+/// is a multiple of the bin width of a distance histogram. It is the largest multiple for which the
+/// square contains at most `seeds.size()` dots, but at least one bin. Writes the dot indices to
+/// `seeds` and returns their number.
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds);
 

@@ -169,8 +169,8 @@ float growth(float fraction) {
     return fraction > tuned::kFairFraction ? tuned::kFairGrowth : tuned::kPoorGrowth;
 }
 
-/// The density of the dots around a dot is measured by the distance to its kNearest-th nearest
-/// neighbour. The first estimate of the grid spacing is computed from the smallest such distance.
+/// The distance from a dot to its kNearest-th nearest neighbour measures the local density of the
+/// dots. The first estimate of the grid spacing is computed from the smallest such distance.
 constexpr std::size_t kNearest = 20;
 
 /// Returns the squared distance from the dot at `of` to its kNearest-th nearest neighbour, in px^2.
@@ -201,10 +201,9 @@ bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle
     PatchDots& dots = patch.dots;
     const int count = dots.count;
     if (count < tuned::kMinDots) return false;
-    // Limits for the number of dots that are tested as origins. The time of one test is
-    // proportional to the number of dots, so if noise adds many dots, fewer of them are tested:
-    // about kMaxDistances distances are computed, unless this would leave fewer than kMinCandidates
-    // dots.
+    // Limits on the number of dots that are tested as origins. Testing one dot takes time
+    // proportional to the number of dots, so fewer dots are tested if noise adds many. About
+    // kMaxDistances distances are computed, but at least kMinCandidates dots are tested.
     constexpr int kMaxCandidates = 64;
     constexpr int kMinCandidates = 16;
     constexpr int kMaxDistances = 32768;
@@ -241,7 +240,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     const float spacing = spacing_px(plane);
     const float full = view.full_reach_px;
     // The first rounds fit the plane as if all dots were on their intersections, so displacements
-    // count as noise.
+    // act as noise.
     CellPass pass{tuned::kFirstReach * spacing, tuned::kFirstMaxOffset, 0};
     CellSums sums;
     for (int round = 0; round < 2; ++round) {
@@ -253,8 +252,8 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     if (mean_square < kUndisplaced) return false;
     grid.displacement =
         std::clamp(std::sqrt(mean_square), tuned::kMinDisplacement, tuned::kMaxDisplacement);
-    // Further rounds assign each dot to the nearest of the four places of its cell, so
-    // displacements no longer count as noise.
+    // Subsequent rounds assign each dot to the nearest of the four places of its cell, so
+    // displacements no longer act as noise.
     pass.displacement = grid.displacement;
     pass.max_off = std::min(tuned::kMaxOffsetPart * grid.displacement, tuned::kMaxOffset);
     for (int round = 0; round < tuned::kMaxRounds; ++round) {

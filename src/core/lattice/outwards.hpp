@@ -1,7 +1,7 @@
 // Outwards: finds the grid of a patch, starting near its middle (paper, sections II-B.2 and
-// II-B.3). Two plane waves that fit the central dots give a first plane. The search then fits the
-// plane repeatedly, each time to more dots. The fit includes perspective once it uses dots more
-// than four spacings from the middle.
+// II-B.3). The search computes a first plane from two plane waves that fit the central dots. It
+// then fits the plane repeatedly, each time to more dots. The fit includes perspective once it uses
+// dots more than four spacings from the middle.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
@@ -19,37 +19,38 @@ struct PatchGrid {
     /// Mean squared offset, per axis, between a dot and the nearest of the four places of its cell,
     /// in spacings^2.
     float variance = 0;
-    /// Agreement of the dots with the grid, in spacings^2, to compare grids of the same dots. If m
-    /// is `CellPass::max_off`, each dot at a distance d <= m from the nearest place of its cell
-    /// contributes m^2 - d^2.
+    /// Agreement of the dots with the grid, in spacings^2. Used to compare grids that were fitted
+    /// to the same dots. If m is `CellPass::max_off`, each dot at a distance d <= m from the
+    /// nearest place of its cell contributes m^2 - d^2.
     float agreement = 0;
 };
 
 /// Parameters of the grid search in a patch, estimated from the dots. The search begins at the
 /// origin of the dot coordinates.
 struct PatchView {
-    float spacing_px = 0;  ///< approximate spacing, in px of the image
+    float spacing_px = 0;  ///< approximate spacing, in image pixels
     /// Upper bound on the distance of every dot from the origin, per axis, in image pixels.
     float full_reach_px = 0;
-    /// Approximate number of central dots, from which the waves are computed; at most 64
+    /// Approximate number of central dots (at most 64), from which the waves are computed.
     float central_dots = 30;
     int min_dots = 40;  ///< minimum number of dots in the patch
     /// True if the cells may be arbitrary parallelograms, because a rolling shutter shears and
-    /// stretches the image. Otherwise, the cells must be about square.
+    /// stretches the image. Otherwise, the cells must be approximately square.
     bool is_skewed = false;
 };
 
-/// Returns the search parameters for a patch that is covered with dots.
+/// Returns the search parameters for a patch that is completely covered with dots.
 PatchView whole_view(const Patch& patch);
 
 /// Moves the origin of the dots to the densest part of the patch, for patches that the pattern
-/// covers only partly. A part is dense if the distance of a dot to its 20th nearest neighbour is
-/// small. Sets `view`, and sets `from_middle_px` to the new origin relative to the patch middle, in
-/// whole px. Returns false without any change if there are fewer than kMinDots dots.
+/// covers only partly. The density around a dot is measured by the distance to its 20th nearest
+/// neighbour. Sets `view`, and sets `from_middle_px` to the new origin relative to the patch
+/// middle, in whole px. Returns false without any change if there are fewer than kMinDots dots.
 bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
 /// Finds the grid. Returns false if there are fewer than `view.min_dots` dots, if the dots do not
-/// form a grid, or if they are not displaced from the intersections. `grid` must then not be used.
+/// form a grid, or if they are not displaced from the intersections. In these cases, `grid` is
+/// unspecified.
 bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view, PatchGrid& grid);
 
 }  // namespace dotpose::core

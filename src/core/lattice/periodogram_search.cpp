@@ -43,7 +43,7 @@ class Periodogram {
         }
     }
 
-    /// Returns the sums of the cosine and of the sine of the wave's phase at the seeds.
+    /// Returns the sums of the cosine and the sine of the wave's phase over the seeds.
     FixedVec sum(const Wave& wave) const {
         const FixedVec wave_q30 = wave.vector_q30();
         FixedVec total;
@@ -68,8 +68,8 @@ class Periodogram {
 
 constexpr std::int32_t kDegree_bam = 11930465;
 
-/// A raster around a given wave: step sizes in direction and spacing, and the number of steps to
-/// each side.
+/// A raster around a given wave: the step sizes in direction and spacing, and the number of steps
+/// to each side.
 struct Raster {
     std::int32_t turn_bam;
     std::int32_t stretch_q16;

@@ -35,8 +35,8 @@ void centre_origin(std::span<const DetectedDot> dots, PlaneFromImage& plane) {
                           FixedVec{median(std::span(x).first(n)), median(std::span(y).first(n))};
 }
 
-/// Agreement of the dots with the grid. Only dots whose cells are at most `reach_cells` from the
-/// origin count.
+/// Agreement of the dots with the grid. Includes only dots whose cells are at most `reach_cells`
+/// from the origin, except in `farthest_cell`.
 struct Judged : Regularity {
     std::int64_t squared_offsets_q20 = 0;
 };
@@ -107,9 +107,9 @@ void fit_to_targets(std::span<const DetectedDot> dots, PlaneFromImage& plane, Ta
 }
 
 /// Fits the plane to the dots whose cells are at most `reach_cells` from the origin. Each dot is
-/// fitted to its nearest intersection, and ignored if its offset exceeds `max_offset_q16` along an
+/// fitted to its nearest intersection, or ignored if its offset exceeds `max_offset_q16` along an
 /// axis. Unlike the paper, which uses median lengths after eq. 6, this fit determines all terms by
-/// least squares. Displacements count as noise.
+/// least squares. Displacements are treated as noise.
 void fit(std::span<const DetectedDot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
     fit_to_targets(dots, plane, [&](const GridPoint& g) {

@@ -13,7 +13,7 @@ namespace dotpose::core {
 /// Nominal displacement of a dot from its intersection, in 2^-16 spacings.
 inline constexpr std::int32_t kDisplacement_q16 = 65536 / 6;
 
-/// The first estimate is reliable up to this distance from the origin, in cells. Up to this
+/// Distance from the origin up to which the first estimate is reliable, in cells. Up to this
 /// distance, errors of 3 % in spacing, 1 degree in direction and 1/20 cell in the origin add up to
 /// less than 1/3 cell. Each dot is then assigned to the correct cell, because displaced dots are
 /// 1/3 cell from the nearest border of their cells.
@@ -23,9 +23,9 @@ inline constexpr int kFirstReach_cells = 4;
 struct Regularity {
     int dots = 0;
     int near_intersections = 0;
-    /// Largest distance from the origin to the cell of a dot, in cells. Unlike for the other
-    /// members, dots beyond the reach also count, up to kFarthest_cells. Callers skip dots that are
-    /// farther away.
+    /// Largest distance from the origin to the cell of a dot, in cells. Unlike the other members,
+    /// it includes dots beyond the reach, up to kFarthest_cells. Callers skip dots that are farther
+    /// away.
     int farthest_cell = 0;
 
     /// Returns true if at least kSettled_20th / 20 of the dots are near an intersection. Repeating
@@ -36,9 +36,9 @@ struct Regularity {
 
     /// Returns no_grid if the dots do not form a grid, and no_displacement for a plain dot grid.
     /// `mean_square_q20` is the mean squared distance from the dots to their nearest intersections,
-    /// in 2^-20 spacings^2. In spacings^2, the mean is 1/6 for dots at random places, 1/36 for
+    /// in 2^-20 spacings^2. In spacings^2, the mean is 1/6 for randomly placed dots, 1/36 for
     /// displaced dots on a grid, and 0 for a plain dot grid. In a grid, at least kMin_10ths / 10 of
-    /// the dots must be near an intersection. Of dots at random places, half are near an
+    /// the dots must be near an intersection. Only half of randomly placed dots are near an
     /// intersection.
     Status verdict(std::int64_t mean_square_q20) const {
         constexpr std::int64_t kScattered_q20 = (1 << 20) / 10;
@@ -52,10 +52,10 @@ struct Regularity {
 };
 
 /// Extends a fit from kFirstReach_cells to the farthest dot. `fit(reach_cells)` must fit the grid
-/// to the dots at most `reach_cells` from the origin, and set `found`. At each reach, repeats the
-/// fit until enough dots are near an intersection, but at most `max_rounds` times, because each fit
-/// assigns more dots to the correct cells. Then extends the reach, even if too few dots are near an
-/// intersection. Returns false if `fit` returns false.
+/// to the dots at most `reach_cells` from the origin, and set `found`. Each fit assigns more dots
+/// to the correct cells, so the fit is repeated at each reach until enough dots are near an
+/// intersection, but at most `max_rounds` times. Then extends the reach, even if too few dots are
+/// near an intersection. Returns false if `fit` returns false.
 template <typename Fit>
 bool fit_outwards(int max_rounds, const Regularity& found, Fit fit) {
     for (int reach = kFirstReach_cells;; reach += reach / 2 + 1) {

@@ -11,23 +11,24 @@ namespace dotpose::core::tuning {
 
 /// Growth of a grid fit (lattice/regularity).
 namespace regularity {
-/// Minimum fraction of dots near an intersection, in 1/20, at which a fit extends to farther dots
-/// without being repeated. The fraction is less than 1, because some dots may be dirt.
+/// Minimum fraction of dots near an intersection, in 1/20, at which a fit is extended to farther
+/// dots without being repeated. The fraction is less than 1, because some detected dots may be
+/// dirt.
 inline constexpr int kSettled_20th = 19;
-/// Minimum fraction of dots near an intersection in a grid, in 1/10. At random places, half the
-/// dots are near an intersection.
+/// Minimum fraction of dots near an intersection in a grid, in 1/10. Half of randomly placed dots
+/// are near an intersection.
 inline constexpr int kMin_10ths = 7;
 }  // namespace regularity
 
 /// Exact grid of the second attempt (lattice/refine_grid).
 namespace refine_grid {
-/// Maximum number of dots whose median offset corrects the origin.
+/// Maximum number of dots in the median offset that corrects the origin.
 inline constexpr int kMedianSample = 256;
 /// Maximum number of fits before the fit extends to farther dots. Each fit assigns more dots to the
 /// correct cells.
 inline constexpr int kMaxRounds = 4;
 /// Maximum distance between a dot and the nearest of the four places of its cell, in 2^-16
-/// spacings. Dots at a larger distance count as false dots. The limit is slightly less than the
+/// spacings. Dots farther away are treated as false dots. The limit is slightly less than the
 /// displacement. With half or twice this value, 1,994 frames are located as well.
 inline constexpr int kFar_q16 = 65536 / 8;
 /// Number of fits to the nearest places. The second fit starts from a more precise plane, and
@@ -37,10 +38,11 @@ inline constexpr int kPlaceRounds = 2;
 
 /// First grid of the second attempt, from the periodogram (lattice/periodogram_search).
 namespace periodogram_search {
-/// Half side of the central square whose dots are in the periodogram, in spacings. Raster searches
-/// use kNear_cells, because the periodogram of a small square has a wide peak, which a coarse
-/// raster cannot miss. The ascent uses kWider_cells, because the peak of a larger square is more
-/// precise. If kNear_cells is 3, 1,964 frames are located. If it is 10, 1,993 frames are located.
+/// Half side of the central square whose dots contribute to the periodogram, in spacings. Raster
+/// searches use kNear_cells, because the periodogram of a small square has a wide peak, which a
+/// coarse raster cannot miss. The ascent uses kWider_cells, because the peak of a larger square is
+/// more precise. If kNear_cells is 3, 1,964 frames are located. If it is 10, 1,993 frames are
+/// located.
 inline constexpr int kNear_cells = 5;
 inline constexpr int kWider_cells = 8;
 /// Raster of the first search. kTurn_deg is the direction step. kStretchPart is the ratio of the
@@ -67,12 +69,12 @@ namespace outwards {
 /// Minimum number of dots in a patch. A position needs at least six lines of six cells, which is 36
 /// dots.
 inline constexpr int kMinDots = 40;
-/// Minimum and maximum number of central dots for the waves. With fewer dots, random places may
-/// give waves as strong as a grid. More dots hardly improve the waves, but each dot is evaluated in
-/// at least 12 directions.
+/// Minimum and maximum number of central dots for the waves. With fewer dots, randomly placed dots
+/// may produce waves as strong as those of a grid. More dots hardly improve the waves, but take
+/// longer, because each dot is evaluated in at least 12 directions.
 inline constexpr int kMinCentralDots = 14;
 inline constexpr int kMaxCentralDots = 64;
-/// Limits for the total power of the two waves, divided by the squared number of dots. A grid
+/// Limits on the total power of the two waves, divided by the squared number of dots. A grid
 /// without displacements reaches about 2. The search stops trying other spacings above kClearWaves,
 /// and rejects waves below kFaintWaves.
 inline constexpr float kClearWaves = 0.2F;
@@ -108,7 +110,7 @@ inline constexpr float kMinFraction = 0.4F;
 inline constexpr int kMaxRounds = 16;
 /// Factors by which `CellPass::reach_px` changes from round to round. The factor depends on the
 /// fraction of dots near one of the four places of their cell: above kGoodFraction, above
-/// kFairFraction, or less. With few such dots, the reach shrinks, because the plane must first
+/// kFairFraction, or lower. With few such dots, the reach shrinks, because the plane must first
 /// improve near the middle.
 inline constexpr float kGoodFraction = 0.9F;
 inline constexpr float kGoodGrowth = 1.8F;
