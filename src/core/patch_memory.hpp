@@ -1,5 +1,5 @@
 // Patch memory: storage for a part of the image and its dots, and for the measured dots of a frame.
-// Only the desktop attempts use patch memory.
+// Devices do not use patch memory.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Attempts: makes single attempts at a frame, each in one code, and judges their fixes.
+// Attempts: makes individual attempts to locate a frame, each in one code, and judges their fixes.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ enum class Step : std::uint8_t { first, turning, second, resampled, device };
 /// a certain position in this code. An attempt in another code may succeed.
 bool leaves_code_open(Status status);
 
-/// Makes attempts at one frame. The results of the last attempt are in the workspace.
+/// Makes attempts to locate one frame. The results of the last attempt are in the workspace.
 class Attempts {
   public:
     Attempts(const ImageView& image, const DeviceOptions& options, const PossibleCodes& codes,

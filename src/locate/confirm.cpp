@@ -158,7 +158,7 @@ bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageVie
     return false;
 }
 
-/// Returns the reference point of the options, in px relative to `Hypothesis::from_centre`.
+/// Returns the reference point from the options, in px relative to `Hypothesis::from_centre`.
 FloatVec reference_px(const DeviceOptions& options, const Hypothesis& hypothesis) {
     return {static_cast<float>(options.reference_dx_q8) / 256 - hypothesis.from_centre.x,
             static_cast<float>(options.reference_dy_q8) / 256 - hypothesis.from_centre.y};

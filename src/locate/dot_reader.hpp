@@ -47,9 +47,9 @@ class DotReader {
     bool correct_pixel_bias(const CellsInView& view, const Hypothesis& hypothesis,
                             const PoseFit& fit, FloatVec& remaining_px2) const;
     /// Corrects the bias of facing dots, which are adjacent dots displaced towards each other (see
-    /// core/pose/facing_dots.hpp). The plane must be fitted again afterwards. Returns false without
-    /// any change if the hypothesis is exact, if the centroid windows do not extend to the facing
-    /// dot, or if the bias is not significant.
+    /// core/pose/facing_dots.hpp). The plane must be fitted again afterwards. Returns false and
+    /// changes nothing if the hypothesis is exact, if the centroid windows do not extend to the
+    /// facing dot, or if the bias is not significant.
     bool correct_neighbour_bias(const Hypothesis& hypothesis, const PoseFit& fit) const;
     const MeasuredDots& dots() const { return dots_; }
 

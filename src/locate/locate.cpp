@@ -26,8 +26,8 @@ namespace {
 
 namespace tuned = tuning::cascade;
 
-/// Makes attempts at one frame, in all possible codes, until there is a certain fix. The workspace
-/// then contains the fix and the results of the stages.
+/// Makes attempts to locate one frame, in all possible codes, until there is a certain fix. The
+/// workspace then contains the fix and the results of the stages.
 class Cascade {
   public:
     Cascade(const ImageView& image, const DeviceOptions& options, const PossibleCodes& codes,

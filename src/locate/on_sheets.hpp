@@ -27,7 +27,7 @@ std::optional<KnownPlace> find_place_on_sheets(const Kernels& kernels, const Dev
 bool is_certain_on_sheets(const Kernels& kernels, const DeviceOptions& options, const Place& place,
                           const BitBlock& block, const KnownSheets& known, Fix& fix);
 
-/// Finds the position of the decoded region on the known sheets. Returns false without any change
+/// Finds the position of the decoded region on the known sheets. Returns false and changes nothing
 /// if there is no position. Otherwise, sets `bit_errors` and `p_wrong_log2` of the fix, and returns
 /// true if the position is certain. If the position is certain, also sets the decoding and `prior`
 /// of the fix.

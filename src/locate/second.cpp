@@ -28,7 +28,7 @@ namespace {
 
 namespace tuned = tuning::second;
 
-/// Returns the options of a frame, with thresholds for a filtered image.
+/// Returns the options of a frame, with the thresholds adapted to the filtered image.
 DeviceOptions for_filtered(const Frame& frame) {
     DeviceOptions options = frame.options;
     options.min_contrast = 0;  // applies only to the original image; see `is_pale`
@@ -91,9 +91,9 @@ Status SecondAttempt::read_filtered_with(const DeviceOptions& filtered, const Im
     return status;
 }
 
-/// Finds dots and grid, and reads the bits. If the status is no_contrast or too_few_dots, tries
-/// again with a lower minimum contrast, but only if the largest contrast in the image reaches the
-/// lower minimum.
+/// Finds the dots and the grid, and reads the bits. If the status is no_contrast or too_few_dots,
+/// tries again with a lower minimum contrast, but only if the largest contrast in the image reaches
+/// the lower minimum.
 Status SecondAttempt::read_filtered(const Frame& frame) {
     DeviceOptions filtered = for_filtered(frame);
     const Status status = read_filtered_with(filtered, frame.image);

@@ -23,7 +23,7 @@ void visit_dots(const MeasuredDots& dots, int grid_side, Use use) {
     }
 }
 
-/// Clears the grid and sets its size to the cells of the dots that were found.
+/// Clears the grid, and resizes it to cover the cells of all dots that were found.
 void clear_grid(const MeasuredDots& dots, Grid& grid) {
     FixedVec first{INT32_MAX, INT32_MAX};
     FixedVec last{INT32_MIN, INT32_MIN};

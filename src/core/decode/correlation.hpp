@@ -1,4 +1,4 @@
-// Correlation: scores a line at each roll (paper, section II-B.7). A *roll* is the place in the
+// Correlation: scores a line at each roll (paper, section II-B.7). A *roll* is the index in the
 // main sequence at which the line starts.
 #pragma once
 

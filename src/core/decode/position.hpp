@@ -9,8 +9,8 @@
 
 namespace dotpose::core {
 
-/// Decodes with the paper's method, as a baseline. A vote determines the turn. The best roll of
-/// each line in the clearest 8 x 8 window determines the position. Errors: not_in_code, ambiguous,
+/// Decodes with the paper's method, as a baseline. A vote determines the turn. The best rolls of
+/// the lines in the clearest 8 x 8 window determine the position. Errors: not_in_code, ambiguous,
 /// grid_too_small. Returns grid_too_small if the window has fewer than 8 columns or rows, or if its
 /// mean quality is below a third of the maximum.
 Status decode_window(const Grid& grid, CodeVariant code, std::span<ScoredLine> storage,

@@ -61,7 +61,7 @@ void keep_dots(DotList list, Predicate is_to_keep) {
 }
 
 /// Returns sum / mass in units of 1/256, rounded. For the largest blobs, discards the lowest bits
-/// to avoid overflow of 32 bits.
+/// to prevent a 32-bit overflow.
 std::int32_t mean_q8(std::uint32_t sum, std::uint32_t mass) {
     for (; sum >= 1U << 23; sum /= 2)
         mass /= 2;

@@ -27,7 +27,7 @@ std::size_t relative_darkness(int darkness, int paper) {
         24);
 }
 
-/// Returns the start of a `length` px interval around `centre`, shifted into [0, size).
+/// Returns the start of an interval of `length` px around `centre`, shifted into [0, size).
 int begin_of(int centre, int length, int size) {
     return std::clamp(centre - length / 2, 0, size - length);
 }

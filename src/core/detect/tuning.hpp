@@ -30,9 +30,9 @@ namespace smooth {
 /// Minimum half side of the averaging window, in px. This is about half the width of a dot. The
 /// window shrinks to this size at the image border.
 inline constexpr int kMinHalf_px = 4;
-/// Maximum level of a stroke, in tenths of the brightest paper level nearby. Darker pixels count as
-/// paper in the local mean, because this mean represents the illumination and must not depend on
-/// graphics. With 4 or 9, 1,995 frames are located.
+/// Maximum level of a stroke, in tenths of the brightest paper level nearby. In the local mean,
+/// darker pixels are replaced with the paper level, because this mean represents the illumination
+/// and must not depend on graphics. With 4 or 9, 1,995 frames are located.
 inline constexpr int kStroke_10ths = 7;
 /// Minimum level of the normalised image, in fifths of kNormalLevel. Graphics are clamped to this
 /// level, so they are not darker than a weak dot. Otherwise, the required contrast near dark

@@ -22,8 +22,8 @@ struct BucketedSeed {
 
 /// Chooses at most `seeds.size()` dots in a square around `centre_q8`. The half side of the square
 /// is a multiple of the bin width of a distance histogram. It is the largest multiple for which the
-/// square contains at most `seeds.size()` dots, but at least one bin. Writes the dot indices to
-/// `seeds` and returns their number.
+/// square contains at most `seeds.size()` dots, but at least one bin width. Writes the dot indices
+/// to `seeds` and returns their number.
 int choose_seeds(std::span<const DetectedDot> dots, FixedVec centre_q8,
                  std::span<std::uint16_t> seeds);
 

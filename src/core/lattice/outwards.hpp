@@ -45,7 +45,7 @@ PatchView whole_view(const Patch& patch);
 /// Moves the origin of the dots to the densest part of the patch, for patches that the pattern
 /// covers only partly. The density around a dot is measured by the distance to its 20th nearest
 /// neighbour. Sets `view`, and sets `from_middle_px` to the new origin relative to the patch
-/// middle, in whole px. Returns false without any change if there are fewer than kMinDots dots.
+/// middle, in whole px. Returns false and changes nothing if there are fewer than kMinDots dots.
 bool move_origin_to_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
 /// Finds the grid. Returns false if there are fewer than `view.min_dots` dots, if the dots do not

@@ -29,7 +29,7 @@ inline constexpr int kMedianSample = 256;
 inline constexpr int kMaxRounds = 4;
 /// Maximum distance between a dot and the nearest of the four places of its cell, in 2^-16
 /// spacings. Dots farther away are treated as false dots. The limit is slightly less than the
-/// displacement. With half or twice this value, 1,994 frames are located as well.
+/// displacement. With half or twice this value, 1,994 frames are still located.
 inline constexpr int kFar_q16 = 65536 / 8;
 /// Number of fits to the nearest places. The second fit starts from a more precise plane, and
 /// assigns more dots to their correct places.
