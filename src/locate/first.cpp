@@ -108,9 +108,10 @@ class PatchSearch {
         return confirm(frame_, *hypothesis, evidence_, measurement_, fix_);
     }
 
-    /// Returns true if the patch covers the whole of a small image and contains some dots, but too
-    /// few for a certain position, even if filtering the image reveals more. Returns false if the
-    /// frame is part of a series, because the bits of earlier frames may make the position certain.
+    /// Returns true if the patch covers the whole of a small image and contains at least half of
+    /// `Frame::min_dots`, but too few dots for a certain position, even if filtering the image
+    /// reveals more. Returns false if the frame is part of a series, because the bits of earlier
+    /// frames may make the position certain.
     bool shows_too_few_dots() const {
         const int dots = patch_.dots.count;
         return 2 * dots >= frame_.min_dots && is_whole_image(patch_, frame_.image) &&

@@ -196,7 +196,7 @@ bool SecondAttempt::read(const Frame& frame, Resampling resampling) {
         is_seen_ = false;
     }
     if (status != Status::ok) return false;
-    is_seen_ = false;  // the dots are measured again
+    is_seen_ = false;  // `measure_pose` overwrites the dots
     status = measure_pose(frame);
     if (status != Status::ok) return false;
     weigh_other_codes(frame.kernels, w_.grid, frame.options.code, w_.decoding, w_.line_scores,

@@ -184,8 +184,8 @@ inline constexpr int kMaxFetched_bytes = 1 << 20;
 /// the image border. With more cells, the position is certain without these dots.
 inline constexpr float kMaxCellsWithCutDots = 144;
 /// Maximum number of pixels of a small view, in which the work spent on the sums over alternatives
-/// is limited. Larger images rarely show so few cells, for example if a rolling shutter stretches
-/// the cells.
+/// is limited. Larger images show so few cells only in rare cases, for example if a rolling shutter
+/// stretches the cells.
 inline constexpr int kMaxPixelsOfSmallView = 96 * 96;
 /// Maximum distance of an intersection from the image, in spacings, at which the dot of the cell
 /// may be partly visible.

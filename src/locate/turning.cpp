@@ -159,10 +159,10 @@ void store_turning(const Frame& frame, const ReadoutTurn& turn, const Measuremen
     show_in_original(turn, frame.image, frame.options.lens, first(w.dots, w.dot_count));
 }
 
-/// Returns true if the rotation explains enough of the squared residuals that the dots have without
-/// the rotation: at least about a fifth, or three fifths if the remaining residuals are correlated
-/// (see kMinGainIfEven and kMinGain). Correlated residuals need the larger fraction, because the
-/// residuals of a wrinkled sheet may be similar to those of a rotation.
+/// Returns true if the rotation explains a significant fraction of the squared residuals of a fit
+/// without rotation: at least about a fifth, or three fifths if the remaining residuals are
+/// correlated (see kMinGainIfEven and kMinGain). Correlated residuals need the larger fraction,
+/// because the residuals of a wrinkled sheet may be similar to those of a rotation.
 bool is_significant(const TurnFit& fit, int dots, Surface surface) {
     const float min_gain = surface == Surface::even ? tuned::kMinGainIfEven : tuned::kMinGain;
     return fit.turn.rad_per_row * fit.turn.rad_per_row >=
@@ -173,8 +173,8 @@ bool is_significant(const TurnFit& fit, int dots, Surface surface) {
 /// `confirm` to fit the rotation to the measured dots. Repeats this with the fitted rotation until
 /// a change of the rotation moves the dots in the image corners by less than kSettled_px. Sets
 /// `turn` to the fitted rotation. `pixels` is memory for the image. Returns the result of `locate`
-/// if it is not ok, and implausible if a rotation is out of range or still changes after
-/// kMaxRounds.
+/// if it is not ok, and implausible if a rotation is out of range or still changes after kMaxRounds
+/// rounds.
 template <typename Locate>
 Confirmation settle(const Frame& frame, std::span<std::uint8_t> pixels,
                     const Measurement& measurement, ReadoutTurn& turn, Locate locate) {
@@ -330,7 +330,7 @@ bool locate_tracked_turning(const Frame& frame, const Prediction& prediction, De
     if (settle(frame, w.rolling_pixels, w.measurement, turn, locate) != Confirmation::ok)
         return false;
     store_turning(frame, turn, w.measurement, w);
-    // Without a significant rotation, the next frame is predicted without a rotation.
+    // If the rotation is not significant, the next frame is predicted without a rotation.
     if (!is_significant(w.measurement.turn, w.fix.dots_used, w.fix.surface))
         w.fix.readout_turn_rad = 0;
     return true;

@@ -124,7 +124,7 @@ class WorkspaceOf : public DesktopWorkspace {
     // and 1280 x 1024 px otherwise.
     static constexpr std::size_t kPushed_px = std::min(MaxWidth * MaxWidth, 1280 * 1024);
 
-    // Maximum number of columns and of rows in view that are read.
+    // Maximum number of columns, and of rows, that are read in one view.
     static constexpr std::size_t kRolls = 1024;
 
     Patch patch_;
