@@ -96,7 +96,8 @@ void add_follower_options(Command& command, FollowerArguments& arguments,
             [&options](const std::string& text) {
                 options.reference_px = parse_reference_px(text);
             },
-            "Pixel whose place is reported; (0, 0) is the centre of the first pixel, undistorted")
+            "Pixel whose place is reported, undistorted; (0, 0) is the centre of the first pixel "
+            "of the frame, or of --roi")
         ->type_name("U,V")
         ->default_str("image centre");
     command

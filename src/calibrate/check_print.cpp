@@ -180,8 +180,8 @@ double PrintField::bad_share() const {
 
 namespace {
 
-/// If the bits contradict the given code variant, checks whether the page has another variant.
-/// Reports the variant that it finds.
+/// If the bits contradict the given code variant, checks whether the page has another variant. If
+/// it has, this fault replaces all other findings, which are consequences of it.
 void check_other_codes(const LocatedTiles& tiles, TileLocator& locator, PrintCheck& check) {
     constexpr double kSuspicious = 0.002;
     constexpr float kSure = 1e-3F;
@@ -191,9 +191,9 @@ void check_other_codes(const LocatedTiles& tiles, TileLocator& locator, PrintChe
     const CodeReader reader = locator.read_without_code(tiles);
     const CodeVariant code = reader.code();
     if (code == check.code || reader.evidence().p_wrong(code) > kSure) return;
-    check.findings.push_back({FindingKind::bits_wrong, false, std::nullopt,
-                              fmt::format("the page is of code {}, not {}: check it with --code {}",
-                                          name(code), name(check.code), name(code))});
+    check.findings = {{FindingKind::bits_wrong, true, std::nullopt,
+                       fmt::format("the page is of code {}, not {}: check it with --code {}",
+                                   name(code), name(check.code), name(code))}};
 }
 
 /// A field, its cells and its measurements.

@@ -179,9 +179,11 @@ TEST_F(AnyCode, a_page_tells_it_to_check_print) {
         ASSERT_EQ(report["fields"].size(), 1U);
         EXPECT_EQ(report["fields"][0]["bits_wrong"], 0);
         const bool is_anoto = code == CodeVariant::anoto;
-        ToolCommand::run(std::string("check-print scan.png --dpi 600 --code ") +
-                         (is_anoto ? "libdots" : "anoto"));
-        EXPECT_THAT(output_, HasSubstr(std::string("the page is of code ") + name(code)));
+        EXPECT_EQ(ToolCommand::run(std::string("check-print scan.png --dpi 600 --code ") +
+                                   (is_anoto ? "libdots" : "anoto")),
+                  3);
+        EXPECT_THAT(output_, HasSubstr(std::string("FAULT: the page is of code ") + name(code)));
+        EXPECT_THAT(output_, Not(HasSubstr("are wrong, because")));
     }
 }
 
