@@ -1,5 +1,5 @@
-/// Writes a file piece by piece. If writing fails, no incomplete file remains under the name of the
-/// target. For whole texts, use write_file.hpp.
+/// Writes a file incrementally. A failed write never leaves an incomplete file under the name of
+/// the target. To write a whole text in one call, use write_file.hpp.
 #pragma once
 
 #include <cstddef>

@@ -23,7 +23,8 @@ struct MapRobot {
     std::vector<std::vector<Point>> strokes_mm;
     Point place_mm;
     std::optional<double> heading_rad;  ///< from +x towards +y of the plane, or empty if unknown
-    std::string problem;  ///< shown after the name, such as "lost", or empty if there is none
+    std::string
+        problem;  ///< problem to show after the name, such as "lost", or empty if there is none
 };
 
 struct Map {

@@ -1,5 +1,5 @@
-// Draws a sweep over the values of a condition: at the top the fraction of located frames, and at
-// the bottom the errors.
+// Plots a sweep over the values of a condition, with the fraction of located frames at the top and
+// the errors at the bottom.
 #include <algorithm>
 #include <cmath>
 #include <limits>

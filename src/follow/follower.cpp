@@ -1,4 +1,4 @@
-// Functions for both single images and sequences: options, sheets, camera file.
+// Functions shared by single images and sequences: options, sheets and camera file.
 #include "dotpose/tools/follower.hpp"
 
 #include <algorithm>
@@ -40,8 +40,8 @@ void Follower::set_sheets(std::vector<SheetEntry> sheets) {
     if (sheets.empty()) throw BadArgument("a follower needs at least one sheet");
     require_pages(options_.print_map, sheets);
     options_.sheets = std::move(sheets);
-    // The track and the prediction are in the coordinates of the previous sheets, so a new track
-    // begins.
+    // Starts a new track, because the track and the prediction are in the coordinates of the
+    // previous sheets.
     start_tracks();
     use_sheets();
 }
@@ -95,7 +95,7 @@ void Follower::set_camera(const Camera& camera) {
     if (options_.fits_space_pose) require_focal_length(camera);
     options_.camera = camera;
     use_flat_field();
-    // The prediction is in the coordinates of the previous lens, so a new track begins.
+    // Starts a new track, because the prediction is in the coordinates of the previous lens.
     start_tracks();
 }
 

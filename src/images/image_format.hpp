@@ -1,6 +1,5 @@
-/// The formats of image files: how a file is recognized and decoded. image_file.hpp describes the
-/// conversions and limits. Errors contain only the reason, and the caller adds the name of the
-/// file.
+/// Detects and decodes the formats of image files. image_file.hpp describes the conversions and
+/// limits. Error messages contain only the reason, and the caller adds the name of the file.
 #pragma once
 
 #include <array>

@@ -46,7 +46,7 @@ class Reader {
     }
 
     /// Reads a decimal number and the white space after it. The white space is required, because
-    /// without it the number may be incomplete.
+    /// the number may otherwise be truncated.
     std::uint32_t number() {
         std::uint32_t value = 0;
         char character = symbol();
@@ -147,8 +147,8 @@ std::uint32_t read_level(Reader& reader, const Header& header) {
     return level;
 }
 
-/// Returns the level of white. `reader` is a copy, because the samples must be read again after the
-/// search for the largest level.
+/// Returns the white level. `reader` is passed by value, because the samples are read again after
+/// the search for the largest level.
 std::uint32_t white_of(Reader reader, const Header& header) {
     if (header.max_level < kMaxLevel) return header.max_level;
     std::uint32_t largest = 0;

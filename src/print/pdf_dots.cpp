@@ -133,7 +133,7 @@ WholeUnits whole_units(const Pattern& pattern) {
     return units;
 }
 
-// Number of columns of a tile, which is a part of a row of dots. Tiles with equal symbols have
+// Number of columns per tile. A tile is a segment of a row of dots. Tiles with equal symbols have
 // equal text, so deflate encodes most tiles as references to earlier rows.
 constexpr int kTileColumns = 8;
 // Number of columns after which the absolute position is written again. Otherwise, the rounding

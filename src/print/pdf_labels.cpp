@@ -109,7 +109,7 @@ std::vector<std::string> wrap(const std::string& text, const Fits& fits) {
     return lines;
 }
 
-/// Sides of the area of dots at which a ruler may be.
+/// Sides of the dot area along which a ruler can be placed.
 enum class Side { top, left };
 double free_margin_mm(const Sheet& sheet, Side side) {
     return (side == Side::top ? sheet.origin_y_mm : sheet.origin_x_mm) - reach_mm(sheet.pattern);

@@ -1,9 +1,9 @@
 // A topic: a value that the program may replace at any time. Clients receive only its newest
 // version.
 //
-// A client receives a value only after it acknowledged earlier values (Subscription). The program
-// therefore produces values at the rate of the fastest client, and produces no values while no
-// client is ready:
+// A client receives a value only after it has acknowledged earlier values (Subscription). The
+// program therefore produces values at the rate of the fastest client, and produces no values while
+// no client is ready:
 //
 //     if (frames.is_wanted()) frames.publish([image = copy_of(image)] { return encode(image); });
 //

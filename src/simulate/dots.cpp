@@ -72,8 +72,8 @@ View::View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperf
                 std::hypot(blurred.motion_px.x, blurred.motion_px.y) / 2) {}
 
 OffsetBox visible_offsets(const View& view) {
-    // Number of steps along each side of the image. If the lens distorts the sides, the extreme
-    // offsets may be anywhere on them.
+    // Number of steps along each side of the image. With lens distortion, the extreme offsets may
+    // be anywhere on a side.
     constexpr int kSteps = 16;
     OffsetBox box{{1e300, 1e300}, {-1e300, -1e300}};
     const auto include = [&](double along_u, double along_v) {

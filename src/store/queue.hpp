@@ -35,7 +35,7 @@ struct QueueStatus {
     std::int64_t stored = 0;
     std::int64_t waiting = 0;
     std::int64_t dropped = 0;
-    bool is_away = false;  ///< true from a failure to the next successful write
+    bool is_away = false;  ///< true after a failed write, until the next successful write
 };
 
 class Queue {

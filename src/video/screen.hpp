@@ -48,9 +48,9 @@ struct CalibrationScene {
 struct Scene {
     ImageView image;
     Trace trace;
-    bool is_good = false;                    ///< if false, captions and place have a warning colour
-    std::vector<std::string> lines;          ///< captions: pose, rate, quality
-    std::span<const PathMark> path;          ///< the path up to this frame
+    bool is_good = false;            ///< false to show captions and place in a warning colour
+    std::vector<std::string> lines;  ///< captions: pose, rate, quality
+    std::span<const PathMark> path;  ///< the path up to this frame
     std::span<const draw::MapSheet> sheets;  ///< the sheets in the plane of the path
     bool y_up = false;                       ///< true if y points up in the plane
     /// Gauges of a calibration. They are shown instead of the sheets and the path.
@@ -77,8 +77,8 @@ class ScreenOutput {
 
 class Screen {
   public:
-    /// The window and the file are opened with the first scene. Throws Error if the module for them
-    /// cannot be loaded.
+    /// The window and the file are opened when the first scene is shown. Throws Error if the module
+    /// for them cannot be loaded.
     explicit Screen(const ScreenOptions& options);
 
     /// Returns true if there is a window or a recording.

@@ -23,7 +23,7 @@ constexpr int kDepth = 100;
 /// Quality of service of a topic, as in ROS.
 struct Quality {
     bool is_reliable = true;
-    bool is_kept = false;  ///< true if messages are stored for later readers
+    bool is_kept = false;  ///< true if messages are kept for readers that connect later
     int depth = kDepth;
 };
 

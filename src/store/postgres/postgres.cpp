@@ -138,7 +138,7 @@ class Postgres : public Database {
     }
 
   private:
-    /// Begins a transaction whose statements all see the database at the same moment.
+    /// Begins a transaction in which all statements see the same snapshot of the database.
     static constexpr const char* kOneMoment = "BEGIN ISOLATION LEVEL REPEATABLE READ";
 
     /// Runs `work` in a transaction. After an exception, closes the connection, which rolls back

@@ -8,8 +8,8 @@
 
 namespace dotpose::video {
 
-/// Tints the parts of the image in which no dots have been seen. `frame` is the part of the picture
-/// with the image.
+/// Tints the parts of the image in which no dots have been seen. `frame` is the region of the
+/// picture that contains the image.
 void draw_coverage(const CalibrationScene& scene, cv::Mat frame);
 
 /// Draws the gauges. Below them, draws the directions in which frames were taken.
