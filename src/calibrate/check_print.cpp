@@ -180,8 +180,8 @@ double PrintField::bad_share() const {
 
 namespace {
 
-/// If the bits contradict the given code variant, checks whether the page has another variant.
-/// Reports the variant that it finds.
+/// If the bits contradict the given code variant, checks whether the page has a different variant,
+/// and reports this variant.
 void check_other_codes(const LocatedTiles& tiles, TileLocator& locator, PrintCheck& check) {
     constexpr double kSuspicious = 0.002;
     constexpr float kSure = 1e-3F;
@@ -242,7 +242,7 @@ void find_repetitions(const std::vector<const CollectedField*>& parts, PrintChec
     }
 }
 
-/// Measures all fields. The largest field decides whether the image is treated as a scan or as a
+/// Measures all fields. The largest field determines whether the image is treated as a scan or as a
 /// photo.
 void measure_fields(const ImageView& scan, std::vector<CollectedField> collected,
                     const CheckPrintOptions& options, PrintCheck& check) {

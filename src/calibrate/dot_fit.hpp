@@ -1,4 +1,4 @@
-// Dot fit: least squares over the dots of one frame, with rejection of outliers.
+// Least-squares fit to the dots of one frame, with rejection of outliers.
 #pragma once
 
 #include <array>

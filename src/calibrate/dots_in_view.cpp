@@ -42,8 +42,8 @@ struct Cells {
     FixedVec last{INT32_MIN, INT32_MIN};
 
     void add(double x, double y) {
-        // The margin contains dots that are displaced into the image, and cells beyond the corners
-        // where the border of the image is curved on the paper.
+        // The margin includes dots that are displaced into the image. It also includes cells where
+        // the curved outline of the image on the paper bulges between the sampled points.
         constexpr int kMargin = 2;
         const auto i = static_cast<std::int32_t>(std::lround(x));
         const auto j = static_cast<std::int32_t>(std::lround(y));

@@ -1,4 +1,4 @@
-// Dots in view: measures all dots of a frame, given an approximate pose of the camera in space.
+// Measures all dots of a frame, given an approximate pose of the camera in space.
 #pragma once
 
 #include <optional>

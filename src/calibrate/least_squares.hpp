@@ -1,5 +1,6 @@
-// Least squares: normal equations, and operations on covariances. All matrix decompositions and
-// products of this layer are in least_squares.cpp, because they are slow to compile.
+// Normal equations for linear least squares, and operations on covariances. All matrix
+// decompositions and products of this layer are in least_squares.cpp, because they are slow to
+// compile.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Located frames: the dots of each frame, with their pixels and their places in the code.
+// The dots of each located frame, with their pixels and their places in the code.
 #pragma once
 
 #include <cmath>

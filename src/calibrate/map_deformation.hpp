@@ -1,7 +1,7 @@
-// Map deformation: the part of the preconditioner that corrects slow deformations of the page. A
-// slow deformation moves all dots in a frame together, so a different pose of the frame nearly
-// cancels its effect on the residuals. With only the diagonal blocks of single frames as a
-// preconditioner, slow deformations therefore converge in many iterations. This part solves for the
+// The part of the preconditioner that corrects slow deformations of the page. A slow deformation
+// moves all dots in a frame together, so a different pose of the frame nearly cancels its effect on
+// the residuals. With only the diagonal blocks of single frames as a preconditioner, slow
+// deformations would need many iterations to converge. This part therefore solves for the
 // deformation and the poses together.
 #pragma once
 

@@ -1,5 +1,4 @@
-// Map start: collects the dots of a page and of its frames, and computes approximate poses of the
-// frames.
+// Collects the dots of a page and of its frames, and computes approximate poses of the frames.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
-// Map system: the linear equations of a print map. The offsets of the dots are eliminated, because
-// each of them is in the equations of one dot only (Schur complement).
+// The linear equations of a print map, from which the offsets of the dots are eliminated (Schur
+// complement). This elimination is cheap, because each offset occurs only in the equations of one
+// dot.
 #pragma once
 
 #include <array>

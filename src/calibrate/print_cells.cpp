@@ -49,8 +49,8 @@ bool is_nearest(const LocatedTile& view, const SeenCell& cell,
     });
 }
 
-/// Returns a grid without measurements. The grid covers the cells of all tiles of a field, which
-/// the maps of the tiles predict, plus a margin of two cells.
+/// Returns a grid without measurements. It covers all cells that the maps of the tiles of a field
+/// predict in these tiles, plus a margin of two cells.
 CellGrid empty_grid(const Tiling& tiling, const Field& field) {
     Vector2d low = Vector2d::Constant(1e18);
     Vector2d high = -low;

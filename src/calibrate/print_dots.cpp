@@ -318,7 +318,7 @@ std::vector<SeenCell> measure_cells(const ImageView& scan, const PixelRect& rect
     std::vector<SeenCell> cells;
     std::vector<Vector2d> offsets;
     if (levels.paper <= 0) return cells;
-    // Ink that is as dark as a dot counts as other print, regardless of the noise.
+    // Ink that is as dark as a dot is considered other print, regardless of the noise.
     const double other_print = std::max(kOtherPrintShare * levels.dot,
                                         std::min(kOtherPrint_sigmas * levels.noise, levels.dot));
     const Meter meter(scan, map, code.displacement, levels.paper);

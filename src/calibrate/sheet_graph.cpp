@@ -205,8 +205,8 @@ PlanePose SheetGraph::image_centre(const SheetView& view) const {
 }
 
 /// Sets initial poses of the sheets by a breadth-first search from the fixed sheet. If several
-/// frames show the same two sheets, the search compares the smaller of the two numbers of dots in
-/// each frame, and uses the frame in which this number is largest.
+/// frames show the same two sheets, uses the frame in which the smaller of the two numbers of dots
+/// is largest.
 void SheetGraph::spread_from_fixed() {
     const auto start = [this](std::size_t sheet, const PlanePose& pose) {
         const AxisScale scale = sheets_[sheet].print_scale();

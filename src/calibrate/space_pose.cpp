@@ -1,5 +1,4 @@
-// Poses in space: fits a pose to the trace of a frame, and converts poses between coordinate
-// frames.
+// Fits a pose in space to the trace of a frame, and converts poses between coordinate frames.
 #include "dotpose/tools/space_pose.hpp"
 
 #include <cmath>

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMaxWeight = 127;  // maximum weight of a bit
 
-/// Returns the likelihood |Px Py| of the symbol, as defined in the paper but scaled to [0, 1].
+/// Returns the likelihood |Px Py| of the symbol, as in the paper, in the range [0, 1].
 double quality(const GridCell& cell) {
     return std::abs(cell.x * cell.y) / (kMaxWeight * kMaxWeight);
 }

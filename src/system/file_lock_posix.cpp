@@ -19,7 +19,7 @@ std::error_code FileLock::try_lock() {
             return {error_number, std::generic_category()};
         }
         // The previous owner removes the lock file when it releases the lock. A lock on a removed
-        // file has no effect, so it must then be taken on a new file.
+        // file has no effect. In this case, the loop tries again with a new file.
         const auto named = numbers_of(path_);
         if (named && named == numbers_of(descriptor)) {
             handle_ = descriptor;
