@@ -10,7 +10,7 @@ namespace {
 
 /// Maximum distance between a dot and its expected place: kReach_sigmas standard deviations of the
 /// fit, clamped to [kMinReach, kMaxReach] spacings. The limit exceeds the errors of the print and
-/// of the fit, and is smaller than the distance of any other dot, which is at least 2/3 of a
+/// of the fit, and is smaller than the distance to any other dot, which is at least 2/3 of a
 /// spacing. The fit that follows rejects outliers.
 constexpr double kReach_sigmas = 6;
 constexpr double kMinReach = 0.1;

@@ -1,4 +1,4 @@
-// Checks a print: locates tiles, joins them to fields, measures the cells of each field, and
+// Checks a print: locates tiles, joins them into fields, measures the cells of each field, and
 // reports scale, sizes and faults.
 #include "dotpose/tools/check_print.hpp"
 

@@ -16,11 +16,11 @@ constexpr int kLensRounds = 3;
 constexpr double kOutlier_sigmas = 4;
 /// Assumed standard deviation of the residuals before the first fit.
 constexpr double kFirstSigma_px = 0.3;
-/// Prior standard deviations of the camera. The distortion centre is within about 5 % of the image
-/// diagonal from the image centre, the field of view is about 55 degrees, and pixels are square to
-/// within 2 %. The priors only matter for parameters that the frames do not determine: the centre
-/// of a lens without distortion, the focal length without tilt, and the shape of the pixels if the
-/// tilt never changes.
+/// Priors of the camera. The distortion centre is within about 5 % of the image diagonal from the
+/// image centre, the field of view is about 55 degrees, and pixels are square to within 2 %. The
+/// priors only matter for parameters that the frames do not determine: the centre of a lens without
+/// distortion, the focal length without tilt, and the shape of the pixels if the tilt never
+/// changes.
 constexpr double kCentrePrior = 0.1;  // in reaches (half diagonals)
 constexpr double kReachPerFocal = 0.5;
 constexpr double kReachPerFocalPrior = 0.5;

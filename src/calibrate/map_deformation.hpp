@@ -62,7 +62,7 @@ class MapDeformation {
                                 const MapSolution& solution, const MapFrame& frame) const;
     void add_frames(const MapGrid& grid, const std::vector<MapObservation>& observations,
                     const MapSolution& solution, Eigen::MatrixXd& matrix);
-    /// Adds the equations of the offsets in the earlier map, and those of the prior of the offsets.
+    /// Adds the equations for the offsets in the earlier map and for the prior of the offsets.
     void add_dots(const MapGrid& grid, const EarlierOffsets& earlier, const MapSolution& solution,
                   Eigen::MatrixXd& matrix) const;
     void add_smoothness(const MapField& field, Eigen::MatrixXd& matrix) const;

@@ -98,7 +98,7 @@ Points robust_start(const std::vector<PivotView>& views) {
     return best;
 }
 
-/// A weighted fit to the views that agree with `start`.
+/// Result of one improvement: a weighted fit to the views that agree with `start`.
 struct Step {
     Points points;
     Matrix6d covariance;  ///< for independent poses

@@ -187,7 +187,7 @@ bool SheetGraph::has_scale() const {
     return std::ranges::any_of(views_, &SheetView::has_scale);
 }
 
-/// Returns the image centre in the camera's coordinate frame that the view uses.
+/// Returns the image centre in the camera coordinate frame of the view.
 Eigen::Vector2d SheetGraph::centre_in_camera(const SheetView& view) const {
     if (!view.has_scale()) return {0, 0};
     const CameraPoint point =

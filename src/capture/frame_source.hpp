@@ -1,4 +1,4 @@
-// Sources of frames: images, folders of images and raw grey frames from a pipe. The layer `video`
+// Sources of frames: images, folders of images and raw grey frames from a pipe. The `video` layer
 // adds cameras and video files.
 #pragma once
 
@@ -56,8 +56,7 @@ class FrameSource {
 };
 
 struct SourceOptions {
-    /// Size of raw frames, which is required, or size requested from a camera, which is optional. 0
-    /// if not given.
+    /// Frame size. Required for raw frames, and optional as a request to a camera. 0 if not given.
     int width_px = 0;
     int height_px = 0;
     /// Frame rate requested from a camera. For other sources, frame timestamps are computed from

@@ -16,8 +16,8 @@ namespace {
 
 using namespace dotpose::draw;
 
-/// Minimum full scale of the panel, in mm. Residuals of pure noise therefore fill only a small part
-/// of the panel.
+/// Minimum full scale of the panel, in mm. It keeps residuals of pure noise in a small part of the
+/// panel.
 constexpr double kMinFullScale_mm = 0.001;
 
 class SpinPicture {

@@ -1,4 +1,4 @@
-// Parses print maps, and writes them as bytes.
+// Parses and serialises print maps.
 #include "dotpose/files/print_map.hpp"
 
 #include <algorithm>

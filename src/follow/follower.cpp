@@ -99,7 +99,7 @@ void Follower::set_camera(const Camera& camera) {
     start_tracks();
 }
 
-/// Returns the image after the flip and the flat-field correction that the options require.
+/// Returns the image, flipped and flat-field corrected if the options require it.
 ImageView Follower::as_located(ImageView image) {
     if (image.pixels == nullptr) return image;
     if (options_.flip || (options_.camera && options_.camera->flip)) {

@@ -118,8 +118,9 @@ Follower::Found Follower::look(ImageView image, const DeviceOptions& options,
 
 /// Locates an image, with the prediction if there is one. The tracked attempt measures dots in
 /// small windows at their nominal places, so the measured centre of a displaced dot is biased
-/// towards its nominal place. This bias matters with a print map, which contains the displacements.
-/// The prediction is then only used for images that have no fix without it.
+/// towards its nominal place. This bias matters with a print map, because the map contains the
+/// displacements. With a print map, the prediction is therefore used only for images that have no
+/// fix without it.
 Fix Follower::locate_near(ImageView image, const DeviceOptions& options,
                           const std::optional<Prediction>& expected) {
     const bool needs_exact_centres = !options_.print_map.pages.empty();

@@ -61,8 +61,8 @@ class Reader {
         return value;
     }
 
-    /// If the lines of the header end with a carriage return and a line feed, skips the line feed
-    /// after the header. It is present if more than `pixel_bytes` bytes are left.
+    /// If lines end with a carriage return and a line feed, skips the line feed after the header.
+    /// This line feed is present if more than `pixel_bytes` bytes are left.
     void finish_line_break(std::size_t pixel_bytes) {
         if (ended_by_return_ && rest_.size() > pixel_bytes && rest_.front() == '\n') byte();
     }

@@ -372,7 +372,7 @@ class Overlay {
     print::UnpackedBytes unpacked_;
     print::ColourConverter colours_;
     OverlayReport report_;
-    /// The pages of the document, followed by those of each further copy (OverlayOptions::copies).
+    /// Pages of the document, followed by the pages of each further copy (OverlayOptions::copies).
     std::vector<QPDFPageObjectHelper> pages_;
     /// Result of `scan_page` for each page of the document that gets dots, by page number.
     std::map<int, print::PageContent> contents_;

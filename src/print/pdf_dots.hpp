@@ -37,7 +37,7 @@ struct RowCount {
 /// glyphs draw the pattern exactly.
 bool is_whole_pixels(const Pattern& pattern, double dpi);
 
-/// Replaces `DotDrawing::automatic` by the best choice for this pattern. Throws BadArgument if
+/// Replaces `DotDrawing::automatic` with the best choice for this pattern. Throws BadArgument if
 /// glyphs are requested but cannot draw the pattern exactly.
 DotDrawing resolve_drawing(DotDrawing asked, const Pattern& pattern, double dpi);
 

@@ -194,7 +194,7 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
     std::vector<std::string> lines = wrap(base::printable(text), fits);
     const std::vector<std::string> command = wrap(base::printable(options.command), fits);
     // The command is printed only if it fits completely, because an incomplete command would print
-    // another sheet.
+    // a different sheet.
     if (!options.command.empty() && lines.size() + command.size() <= max_lines) {
         lines.insert(lines.end(), command.begin(), command.end());
     }

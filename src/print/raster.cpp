@@ -156,8 +156,8 @@ void validate_resolution(const Sheet& sheet, double dpi) {
             dpi, sheet.pattern.displacement_mm, displacement_px,
             std::ceil(print::kInch_mm / sheet.pattern.displacement_mm - print::kTie_px)));
     }
-    // Each dot is rounded to pixels independently, so the distance of two dots may decrease by up
-    // to one pixel.
+    // Each dot is rounded to pixels independently, so the distance between two dots may decrease by
+    // up to one pixel.
     const int dot_px = print::diameter_px(sheet, dpi);
     const double closest_px = sheet.pattern.spacing_mm * px_per_mm - 2 * displacement_px;
     if (closest_px < dot_px + 1 - print::kTie_px) {

@@ -160,9 +160,9 @@ class MqttPublisher : public MqttClient {
     void send_offline();
 
     std::deque<Message> waiting_;
-    /// Messages in libmosquitto: not yet sent (QoS 0) or not yet acknowledged (QoS 1).
+    /// IDs of the messages in flight: not yet sent (QoS 0) or not yet acknowledged (QoS 1).
     std::set<int> under_way_;
-    std::set<int> presence_under_way_;  ///< presence messages that are not yet acknowledged
+    std::set<int> presence_under_way_;  ///< IDs of presence messages that are not yet acknowledged
     bool is_online_published_ = false;  ///< true if `online` was published on this connection
     std::condition_variable done_;
     std::int64_t sent_ = 0;

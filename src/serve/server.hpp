@@ -32,7 +32,7 @@
 
 namespace dotpose::serve {
 
-/// A file of the web page. The file is part of the program.
+/// A file of the web page, embedded in the program.
 struct Page {
     std::string_view path;  ///< path in URLs, such as "/live.js"
     std::string_view type;  ///< MIME type

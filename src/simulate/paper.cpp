@@ -17,8 +17,8 @@ double PageArea::distance(double x, double y) const {
 namespace simulate {
 namespace {
 
-// Rounds down. This is faster than std::floor, which is a function call on the baseline processor.
-// Returns 0 for values outside the range of a 64-bit integer.
+// Rounds down. This is faster than std::floor, which compiles to a function call for the baseline
+// processor. Returns 0 for values outside the range of a 64-bit integer.
 std::int64_t floor_of(double x) {
     // Near the horizon of an extreme tilt, coordinates exceed the range of a 64-bit integer.
     if (!(std::abs(x) < 4e18)) return 0;

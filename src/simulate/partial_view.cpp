@@ -139,8 +139,8 @@ void cover_partly(Shot& shot, const PartialView& view) {
         }
         return;
     }
-    // At the border of the sheet, some dots are only partly visible. The area of the sheet is
-    // therefore sufficient for at least 15 % more than `min_dots` dots.
+    // At the border of the sheet, some dots are only partly visible. The sheet is therefore large
+    // enough for at least 15 % more than `min_dots` dots.
     const double min_share = std::max(view.min_share, 1.15 * view.min_dots / intersections(shot));
     const double share = rng.uniform(min_share, std::max(min_share, view.max_share));
     const PageArea dots = edge_of_sheet(shot, share, rng);

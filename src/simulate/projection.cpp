@@ -97,7 +97,7 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
         constexpr double kStep_px = 1e-3;
         const double slope = (seen_at(row_px + kStep_px).y - seen.y) / kStep_px;
         row_px += (seen.y - row_px) / (1 - slope);
-        // If the scene rotates, a point far beside the image may be visible in several rows or in
+        // If the scene rotates, a point far outside the image may be visible in several rows or in
         // none. Newton's method may then diverge, so the row is clamped.
         if (is_turning) row_px = std::clamp(row_px, -height_px_, height_px_);
         seen = seen_at(row_px);

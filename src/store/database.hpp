@@ -38,8 +38,8 @@ struct State {
     std::int64_t number = 0;       ///< sequence number
     std::int32_t delay_us = 0;     ///< time from sending to receiving
     Motion motion = Motion::lost;  ///< if `lost`, only members up to `reason` are stored
-    Status reason =
-        Status::ok;  ///< why the robot is lost, or `ok` if it is not lost or the reason is unknown
+    /// Why the robot is lost, or `ok` if it is not lost or the reason is unknown.
+    Status reason = Status::ok;
     std::int32_t theta_urad = 0;
     std::int64_t x_nm = 0;
     std::int64_t y_nm = 0;
@@ -81,8 +81,8 @@ class Database {
     virtual void prepare() = 0;
 
     /// Writes all states in one transaction. Skips states that are already stored. If the
-    /// transaction fails, throws Error. Either all states or none are then stored, so the call may
-    /// be repeated.
+    /// transaction fails, throws Error. In this case, either all states or none are stored, so the
+    /// call can safely be repeated.
     virtual void write(std::span<const State> states) = 0;
 
     /// Removes the states of all days before the day of `time_us`. Throws Error if this fails.

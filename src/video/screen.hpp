@@ -39,9 +39,9 @@ struct CalibrationScene {
 
     CalibrationCoverage coverage;
     std::vector<Gauge> gauges;
-    std::optional<double> theta_rad;  ///< angle of the image x axis on the sheet; empty if not
-                                      ///< located
-    bool is_taken = false;            ///< true if this frame was added to the calibration
+    /// Angle of the image x axis on the sheet, or empty if not located.
+    std::optional<double> theta_rad;
+    bool is_taken = false;  ///< true if this frame was added to the calibration
 };
 
 /// Contents of the picture of one frame.
@@ -102,8 +102,8 @@ class Screen {
     std::unique_ptr<ScreenOutput> output_;
 };
 
-/// Returns true if a window can be opened because an X server answers, possibly as a part of a
-/// Wayland session.
+/// Returns true if a window can be opened because an X server answers, possibly within a Wayland
+/// session.
 bool has_display();
 
 }  // namespace dotpose::video

@@ -27,8 +27,7 @@ struct Quality {
     int depth = kDepth;
 };
 
-/// Maximum time for which a reliable message waits for space in the queue. The wait delays the
-/// frame.
+/// Maximum time that a reliable message waits for space in the queue. The wait delays the frame.
 constexpr dds_duration_t kMaxWait_ns = DDS_MSECS(10);
 
 /// Maximum time to wait for slow readers. A reader that ended without disconnecting is dropped

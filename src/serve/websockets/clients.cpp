@@ -1,4 +1,4 @@
-// WebSockets: commands of clients, and the messages that clients receive.
+// WebSockets: handles the commands of clients and sends messages to clients.
 #include <algorithm>
 #include <array>
 #include <cstring>
