@@ -15,9 +15,9 @@ DOTPOSE_BEGIN_EXPORT
 
 namespace dotpose::base {
 
-/// Writes to a temporary file beside the target, which `commit` renames to the target. Without
-/// `commit`, the destructor removes the temporary file. Follows symbolic links and keeps the mode
-/// of an existing target.
+/// Writes to a temporary file in the folder of the target. `commit` renames the temporary file to
+/// the target. Without `commit`, the destructor removes the temporary file. Follows symbolic links
+/// and keeps the mode of an existing target.
 class OutputFile : public ByteSink {
   public:
     /// Creates the temporary file. Throws Error if this fails or if the target is not a regular

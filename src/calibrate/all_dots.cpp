@@ -10,8 +10,8 @@ namespace {
 
 /// Maximum distance between a dot and its expected place: kReach_sigmas standard deviations of the
 /// fit, clamped to [kMinReach, kMaxReach] spacings. The limit exceeds the errors of the print and
-/// of the fit, and is smaller than the distance to any other dot, which is at least 2/3 of a
-/// spacing. The fit that follows rejects outliers.
+/// of the fit. It is smaller than the distance to any other dot, which is at least 2/3 of a
+/// spacing. The subsequent fit rejects outliers.
 constexpr double kReach_sigmas = 6;
 constexpr double kMinReach = 0.1;
 constexpr double kMaxReach = 1.0 / 3;

@@ -21,14 +21,14 @@ constexpr double kFirstSigma_px = 0.3;
 /// priors only matter for parameters that the frames do not determine: the centre of a lens without
 /// distortion, the focal length without tilt, and the shape of the pixels if the tilt never
 /// changes.
-constexpr double kCentrePrior = 0.1;  // in reaches (half diagonals)
+constexpr double kCentrePrior = 0.1;  // in units of half the image diagonal
 constexpr double kReachPerFocal = 0.5;
 constexpr double kReachPerFocalPrior = 0.5;
 constexpr double kSquarePrior = 0.02;
 
 /// A measured dot and the constants of its residual.
 struct Seen {
-    double u;  ///< position relative to the image centre, in reaches
+    double u;  ///< position relative to the image centre, in units of `reach_px`
     double v;
     double reach_px;
     double nominal_x;  ///< nominal position in mm, without the displacement

@@ -41,7 +41,7 @@ struct LocatedFrame {
     double spacing_px = 0;
 };
 
-/// Locates frames. If the lens is not known, tries several lenses.
+/// Locates frames. If the lens is unknown, tries several lenses.
 class FrameReader {
   public:
     /// If `code` is an empty optional, the reader detects the code variant from the frames.

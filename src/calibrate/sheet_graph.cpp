@@ -18,7 +18,7 @@ namespace {
 /// Whitened residual of a view (scaled to a standard deviation of 1) above which the weight of the
 /// view decreases. By chance, one view in 70 exceeds this limit.
 constexpr double kRobust_sigmas = 4;
-/// Standard deviation that practically fixes a parameter.
+/// Standard deviation that is small enough to fix a parameter.
 constexpr double kPinned = 1e-7;
 /// Prior relative standard deviation of the scale of a camera.
 constexpr double kCameraPrior = 0.03;

@@ -145,7 +145,8 @@ double Follower::spacing_mm(const std::optional<SheetPlace>& place) const {
     return place ? place->entry->sheet.pattern.spacing_mm : unplaced_spacing_mm_;
 }
 
-/// Returns the fix with the spacing of its sheet. The spacing is 0 if it is not known.
+/// Returns the fix with `spacing_nm` set to the spacing of its sheet, or to 0 if the spacing is
+/// unknown.
 Fix Follower::with_spacing(const Fix& fix, const std::optional<SheetPlace>& place) const {
     Fix result = fix;
     const double mm = spacing_mm(place);

@@ -374,7 +374,7 @@ class Overlay {
     OverlayReport report_;
     /// Pages of the document, followed by the pages of each further copy (OverlayOptions::copies).
     std::vector<QPDFPageObjectHelper> pages_;
-    /// Result of `scan_page` for each page of the document that gets dots, by page number.
+    /// Result of `scan_page` for each page of the document to which dots are added, by page number.
     std::map<int, print::PageContent> contents_;
     std::vector<int> dotted_;
     std::vector<int> black_;

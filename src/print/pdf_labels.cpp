@@ -292,8 +292,8 @@ std::string label_at(const Sheet& sheet, double x_mm, double baseline_mm, const 
     return fmt::format("1 0 0 1 {} Tm {} Tj\n", point(sheet, x_mm, baseline_mm), shown(text));
 }
 
-/// Returns the PDF content of the x arrow and the y arrow at the corner of the page, and of the
-/// note about the corner if it fits beside the x arrow.
+/// Returns the PDF content of the x arrow and the y arrow at the corner of the page. If the note
+/// about the corner fits beside the x arrow, the content includes the note.
 std::string origin_content(const Sheet& sheet) {
     const auto arrows = arrows_of(sheet);
     if (!arrows) return {};

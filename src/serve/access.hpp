@@ -1,6 +1,6 @@
-// Rules that decide which requests a server answers. They protect a server at a loopback address
-// from the pages of other sites in the same browser, and a server on a network from clients without
-// the token.
+// Rules that determine which requests a server answers. They protect a server at a loopback address
+// from pages of other sites in the same browser. They protect a server on a network from clients
+// without the token.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Draws the progress of a calibration: a tint on the parts of the frame that are not covered yet,
-// and gauges beside the frame.
+// Draws the progress of a calibration: tints the parts of the frame that are not covered yet, and
+// draws gauges beside the frame.
 #pragma once
 
 #include <opencv2/core.hpp>
