@@ -26,7 +26,7 @@ constexpr double kReachPerFocal = 0.5;
 constexpr double kReachPerFocalPrior = 0.5;
 constexpr double kSquarePrior = 0.02;
 
-/// A measured dot and the constants of its residual.
+/// A measured dot and the constants that its residual depends on.
 struct Seen {
     double u;  ///< position relative to the image centre, in units of `reach_px`
     double v;

@@ -146,7 +146,7 @@ void require_page(const Content& content, int page) {
 }
 
 /// Returns true for 72 and 96 dpi. Cameras and programs write these values by default, so they do
-/// not describe the page.
+/// not indicate the real resolution of the page.
 bool is_of_screen(const Resolution& resolution) {
     // PNG and BMP store whole pixels per metre, so the comparison needs a tolerance.
     const auto is = [&](double dpi) {

@@ -98,8 +98,8 @@ void open(QPDF& pdf, const fs::path& path, const std::string& password,
     }
 }
 
-/// Returns the result of `work`. If qpdf throws an exception, throws an Error instead, which
-/// reports that the document is damaged.
+/// Returns the result of `work`. Converts exceptions of qpdf to an Error that reports a damaged
+/// document.
 template <typename Work>
 auto with_damage_errors(const fs::path& path, const Work& work) {
     try {
@@ -236,9 +236,8 @@ class Overlay {
         }
     }
 
-    /// Draws the dots over or under the content of the page. The operators q and Q are added around
-    /// this content to restore the initial graphics state. The streams of the content do not
-    /// change.
+    /// Draws the dots over or under the content of the page. Encloses this content in the operators
+    /// q and Q to restore the initial graphics state, without changing its streams.
     void draw(const OverlaidPage& laid_out) {
         const auto& [number, sheet, document_page] = laid_out;
         validate(sheet);

@@ -33,7 +33,7 @@ constexpr double kRulerRoom_mm = kNumberAway_mm + kNumberHeight_mm + kEdge_mm;
 
 // Distance between the numbers of a ruler and the arrow beside them.
 constexpr double kArrowGap_mm = 0.9;
-constexpr double kArrow_mm = 6;  // length of an arrow beyond the other arrow
+constexpr double kArrow_mm = 6;  // length by which an arrow extends beyond the other arrow
 constexpr double kArrowHead_mm = 1.3;
 constexpr double kNoteAway_mm = 3;  // distance from the x arrow to the note
 

@@ -51,8 +51,8 @@ Vec2 shift_of(const Page& page, Cell cell) {
 }
 
 /// Returns the reflectance of a dot. If `palest_ink` is less than 1, each direction of displacement
-/// is printed with its own ink. The inks from the darkest to the palest are those for right, down,
-/// left and up.
+/// is printed with its own ink. The order of the inks, from the darkest to the palest, is right,
+/// down, left, up.
 double reflectance_of(Vec2 displacement, const Imperfections& imperfections) {
     const double paleness = displacement.x > 0   ? 0
                             : displacement.y > 0 ? 1
@@ -123,9 +123,9 @@ void add_dots(Ink& ink, const View& view, const Page& page, const Imperfections&
     const Pattern& pattern = page.pattern;
     const OffsetBox box = visible_offsets(view);
     const CameraPose& pose = view.pose;
-    // Cells are relative to the cell of the pose, so offsets are exact anywhere on the plane. The
-    // range has one more cell on each side, because displacement or jitter may move dots from
-    // outside the view into it.
+    // Cell indices are relative to the cell of the pose, so offsets are precise anywhere on the
+    // plane. The range includes an additional cell on each side, because displacement or jitter may
+    // move dots from outside the view into it.
     const AxisScale scale = page.print_scale;
     const Vec2 spacing_mm{scale.x * pattern.spacing_mm, scale.y * pattern.spacing_mm};
     const auto first = [](double low, double fraction) {

@@ -1,4 +1,5 @@
-// Generates views that the pattern covers only partly: edges of sheets, and islands of pattern.
+// Generates views that are only partly covered by the pattern: edges of sheets, and islands of
+// pattern.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -82,9 +83,9 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     return area;
 }
 
-/// Draws a random rectangle of pattern that contains enough dots. Its centre is far enough from the
-/// border of the image that most of the rectangle is in view. The caller checks that the whole
-/// rectangle is in view.
+/// Draws a random rectangular island of pattern that contains enough dots. Its centre is far enough
+/// from the border of the image that most of the rectangle is in view. The caller checks that the
+/// whole rectangle is in view.
 PageArea draw_island(const Shot& shot, Rng& rng) {
     constexpr double kMinDots = PartialView::kMinIslandDots * 1.05;
     PageArea area;

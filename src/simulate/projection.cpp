@@ -132,7 +132,7 @@ Vec2 Projection::offset_from_pixel(Vec2 pixel) const {
     return {(d * rx - b * ry) * factor, (a * ry - c * rx) * factor};
 }
 
-// Inlining all calls halves the time of this function.
+// Inlining all calls halves the run time of this function.
 [[gnu::flatten]] void Projection::offsets_from_row(Vec2 first_pixel,
                                                    std::span<Vec2> offsets_mm) const {
     for (std::size_t i = 0; i < offsets_mm.size(); ++i)
