@@ -19,9 +19,9 @@ namespace dotpose::calibrate {
 
 /// The equations for slow deformations. A deformation consists of shifts along x and y, and of a
 /// change of the displacement of the dots. These three values are interpolated bilinearly between
-/// coarse nodes. In a deformation, the field is equal to the shifts, the offset of a dot is the
-/// shift plus the change of its displacement, and the terms of a frame are the least-squares fit to
-/// the offsets of its dots.
+/// coarse nodes and determine all unknowns. The field is equal to the shifts. The offset of a dot
+/// is the shift plus the change of its displacement. The terms of a frame are the least-squares fit
+/// to the offsets of its dots.
 class MapDeformation {
   public:
     MapDeformation(const MapGrid& grid, const EarlierOffsets& earlier,
